@@ -1,0 +1,171 @@
+//! The two forms against each other and against nalgebra.
+
+use super::*;
+use crate::noise::Noise;
+use nalgebra::{DMatrix, DVector};
+
+/// A random positive definite matrix, row-major.
+fn mass(noise: &mut Noise, n: usize) -> Vec<f64> {
+    let a = DMatrix::from_row_slice(n, n, &noise.vector(n * n));
+    (&a * a.transpose() + DMatrix::identity(n, n)).as_slice().to_vec()
+}
+
+/// max |x − y|.
+fn distance(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}
+
+fn largest(x: &[f64]) -> f64 {
+    distance(x, &vec![0.0; x.len()])
+}
+
+#[test]
+fn general_solution_fulfils_both_rows() {
+    let mut noise = Noise(11);
+    for (nv, m) in [(1, 0), (3, 2), (6, 5), (10, 3), (12, 12), (4, 0), (0, 0)] {
+        let (mass, g) = (mass(&mut noise, nv), noise.vector(m * nv));
+        let (f, gamma) = (noise.vector(nv), noise.vector(m));
+        let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
+        let mut kkt = Kkt::new(nv, m);
+        kkt.scale(&mass, &g, &vec![0; nv]);
+        kkt.factor(&mass, &g).unwrap();
+        kkt.solve(&f, &gamma, &mut a, &mut lambda);
+        let (mut r, mut s) = (f.clone(), gamma.clone());
+        for i in 0..nv {
+            r[i] -= (0..nv).map(|j| mass[i * nv + j] * a[j]).sum::<f64>();
+            r[i] -= (0..m).map(|j| g[j * nv + i] * lambda[j]).sum::<f64>();
+        }
+        for i in 0..m {
+            s[i] -= (0..nv).map(|j| g[i * nv + j] * a[j]).sum::<f64>();
+        }
+        assert!(largest(&r) < 1e-12 * (1.0 + largest(&lambda)) && largest(&s) < 1e-12, "{nv}, {m}: {r:?} {s:?}");
+    }
+}
+
+#[test]
+fn determinate_form_equals_the_general_one() {
+    let mut noise = Noise(5);
+    for n in [1, 2, 3, 6, 9, 12] {
+        for _ in 0..20 {
+            let mass = mass(&mut noise, n);
+            let mut g = noise.vector(n * n);
+            (0..n).for_each(|i| g[i * n + i] += 3.0);
+            let (f, gamma) = (noise.vector(n), noise.vector(n));
+            let mut results = Vec::new();
+            for mut kkt in [Kkt::new(n, n), Kkt::determinate(n)] {
+                let (mut a, mut lambda) = (vec![0.0; n], vec![0.0; n]);
+                kkt.scale(&mass, &g, &vec![0; n]);
+                kkt.factor(&mass, &g).unwrap();
+                kkt.solve(&f, &gamma, &mut a, &mut lambda);
+                results.push((a, lambda));
+            }
+            let ((a, lambda), (b, mu)) = (&results[0], &results[1]);
+            assert!(distance(a, b) < 1e-11 * (1.0 + largest(a)));
+            assert!(distance(lambda, mu) < 1e-9 * (1.0 + largest(lambda)));
+        }
+    }
+}
+
+#[test]
+fn four_redundant_rows_of_ten_change_no_acceleration() {
+    let mut noise = Noise(23);
+    let (nv, m, rank) = (12, 10, 6);
+    for trial in 0..20 {
+        let mass = mass(&mut noise, nv);
+        // six independent rows; four combinations of them, in the middle
+        let base = DMatrix::from_row_slice(rank, nv, &noise.vector(rank * nv));
+        let mix = DMatrix::from_row_slice(m, rank, &noise.vector(m * rank));
+        let g = &mix * &base;
+        let gamma = &mix * DVector::from_vec(noise.vector(rank));
+        let f = DVector::from_vec(noise.vector(nv));
+        let g_rows = g.transpose().as_slice().to_vec();
+        // γ with noise: bit-symmetric data hides failures
+        let noisy: Vec<f64> = gamma.iter().map(|x| x + 1e-15 * noise.next()).collect();
+
+        let mut kkt = Kkt::new(nv, m);
+        kkt.scale(&mass, &g_rows, &vec![0; nv]);
+        kkt.factor(&mass, &g_rows).unwrap();
+        let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
+        kkt.solve(f.as_slice(), &noisy, &mut a, &mut lambda);
+
+        // least squares: a from the particular solution plus the null space of G
+        let m_matrix = DMatrix::from_row_slice(nv, nv, &mass);
+        let svd = base.clone().svd(true, true);
+        let particular = svd.solve(&(mix.clone().svd(true, true).solve(&gamma, 1e-10).unwrap()), 1e-10).unwrap();
+        let v_t = svd.v_t.as_ref().unwrap();
+        let projector = DMatrix::identity(nv, nv) - v_t.transpose() * v_t;
+        let reduced = &projector * &m_matrix * &projector;
+        let y = reduced.svd(true, true).solve(&(&projector * (&f - &m_matrix * &particular)), 1e-10).unwrap();
+        let expected = &particular + &projector * y;
+        assert!(distance(&a, expected.as_slice()) < 1e-12 * (1.0 + largest(&a)), "trial {trial}: {:e}", distance(&a, expected.as_slice()));
+
+        // λ of least λᵀEλ: λ = E^−½ (Gᵀ E^−½)⁺ (f − M a)
+        let e = row_scale(&g_rows, &metric(&mass, &vec![0; nv]));
+        let root = DMatrix::from_diagonal(&DVector::from_iterator(m, e.iter().map(|e| e.sqrt().recip())));
+        let rhs = &f - &m_matrix * &expected;
+        let least = &root * (g.transpose() * &root).svd(true, true).solve(&rhs, 1e-10).unwrap();
+        assert!(distance(&lambda, least.as_slice()) < 1e-6 * (1.0 + largest(&lambda)), "trial {trial}");
+    }
+}
+
+#[test]
+fn units_do_not_change_the_solution() {
+    // the same system with lengths in µm: rows and coordinates scaled by six decades
+    let mut noise = Noise(31);
+    let (nv, m) = (6, 4);
+    let (mass, g, f, gamma) = (mass(&mut noise, nv), noise.vector(m * nv), noise.vector(nv), noise.vector(m));
+    let unit = [0, 0, 0, 1, 1, 1];
+    let mut kkt = Kkt::new(nv, m);
+    kkt.scale(&mass, &g, &unit);
+    kkt.factor(&mass, &g).unwrap();
+    let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
+    kkt.solve(&f, &gamma, &mut a, &mut lambda);
+
+    let c: Vec<f64> = unit.iter().map(|u| if *u == 1 { 1e6 } else { 1.0 }).collect();
+    let mass: Vec<f64> = (0..nv * nv).map(|k| mass[k] / (c[k / nv] * c[k % nv])).collect();
+    let g: Vec<f64> = (0..m * nv).map(|k| 1e6 * g[k] / c[k % nv]).collect();
+    let f: Vec<f64> = f.iter().zip(&c).map(|(f, c)| f / c).collect();
+    let gamma: Vec<f64> = gamma.iter().map(|x| 1e6 * x).collect();
+    kkt.scale(&mass, &g, &unit);
+    kkt.factor(&mass, &g).unwrap();
+    let (mut b, mut mu) = (vec![0.0; nv], vec![0.0; m]);
+    kkt.solve(&f, &gamma, &mut b, &mut mu);
+    b.iter_mut().zip(&c).for_each(|(b, c)| *b /= c);
+    mu.iter_mut().for_each(|x| *x *= 1e6);
+    assert!(distance(&a, &b) < 1e-12 * largest(&a) && distance(&lambda, &mu) < 1e-10 * largest(&lambda));
+}
+
+#[test]
+fn nearness_to_a_singular_position_is_estimated() {
+    // two rows that become parallel
+    for angle in [1.0_f64, 0.3, 0.03, 0.003] {
+        let g = [1.0, 0.0, 0.0, angle.cos(), angle.sin(), 0.0];
+        let mass = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let sigma = DMatrix::from_row_slice(2, 3, &g).singular_values().min();
+        let mut kkt = Kkt::new(3, 2);
+        kkt.scale(&mass, &g, &[0; 3]);
+        kkt.factor(&mass, &g).unwrap();
+        let mut row = [0.0; 2];
+        kkt.smallest_singular_value(&mut row);
+        let estimate = kkt.smallest_singular_value(&mut row);
+        assert!(estimate / sigma > 0.99 && estimate / sigma < 2.0, "{estimate:e} for {sigma:e}");
+
+        let mut driven = Kkt::determinate(2);
+        driven.factor(&[1.0, 0.0, 0.0, 1.0], &[1.0, 0.0, angle.cos(), angle.sin()]).unwrap();
+        let mut row = [0.0; 2];
+        driven.smallest_singular_value(&mut row);
+        let estimate = driven.smallest_singular_value(&mut row);
+        assert!(estimate / sigma > 0.99 && estimate / sigma < 2.0, "{estimate:e} for {sigma:e}");
+    }
+}
+
+#[test]
+fn a_singular_determinate_position_is_refused_and_the_general_form_takes_it() {
+    let (mass, g) = ([1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 1.0, 0.0]);
+    assert!(Kkt::determinate(2).factor(&mass, &g).is_err());
+    let mut kkt = Kkt::new(2, 2);
+    kkt.factor(&mass, &g).unwrap();
+    let (mut a, mut lambda) = ([0.0; 2], [0.0; 2]);
+    kkt.solve(&[1.0, 1.0], &[0.0, 0.0], &mut a, &mut lambda);
+    assert!(distance(&a, &[0.0, 1.0]) < 1e-15 && distance(&lambda, &[0.5, 0.5]) < 1e-8);
+}

@@ -1,0 +1,131 @@
+//! Which entries of a system's matrices can be other than zero.
+
+use crate::Dims;
+
+/// The pattern of a matrix, by columns: entries outside of it are zero in every state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sparsity {
+    /// Number of rows.
+    rows: usize,
+    /// Where each column begins in `indices`, and the end (columns + 1).
+    starts: Vec<usize>,
+    /// Rows of the entries, column after column, rising in each.
+    indices: Vec<usize>,
+}
+
+impl Sparsity {
+    /// The pattern with the given (row, column) entries, in any order, repeated or not.
+    ///
+    /// Entries outside of the matrix are ignored.
+    pub fn new(rows: usize, columns: usize, entries: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let mut entries: Vec<_> = entries.into_iter().filter(|&(i, j)| i < rows && j < columns).map(|(i, j)| (j, i)).collect();
+        entries.sort_unstable();
+        entries.dedup();
+        let starts = (0..=columns).map(|j| entries.partition_point(|&(column, _)| column < j)).collect();
+        Self { rows, starts, indices: entries.into_iter().map(|(_, i)| i).collect() }
+    }
+
+    /// A full matrix.
+    pub fn dense(rows: usize, columns: usize) -> Self {
+        Self { rows, starts: (0..=columns).map(|j| j * rows).collect(), indices: (0..columns).flat_map(|_| 0..rows).collect() }
+    }
+
+    /// A matrix of zeros.
+    pub fn empty(rows: usize, columns: usize) -> Self {
+        Self { rows, starts: vec![0; columns + 1], indices: Vec::new() }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of entries.
+    pub fn entries(&self) -> usize {
+        self.indices.len()
+    }
+
+    /// Rows of the entries of a column, rising.
+    pub fn column(&self, j: usize) -> &[usize] {
+        &self.indices[self.starts[j]..self.starts[j + 1]]
+    }
+
+    /// The pattern of the transposed matrix.
+    pub fn transposed(&self) -> Self {
+        let entries = (0..self.columns()).flat_map(|j| self.column(j).iter().map(move |&i| (j, i)));
+        Self::new(self.columns(), self.rows, entries)
+    }
+}
+
+/// Patterns of all blocks of a system, and the scales of its equations; both taken once, at assembly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pattern {
+    /// M (nv × nv).
+    pub mass: Sparsity,
+    /// G (m × nv).
+    pub g: Sparsity,
+    /// K = ∂r/∂q (nv × nv).
+    pub k: Sparsity,
+    /// C = ∂r/∂v (nv × nv).
+    pub c: Sparsity,
+    /// ∂r/∂z (nv × nz).
+    pub r_z: Sparsity,
+    /// ∂r/∂λ beyond Gᵀ (nv × m).
+    pub r_lambda: Sparsity,
+    /// ∂ż/∂q (nz × nv).
+    pub z_q: Sparsity,
+    /// ∂ż/∂v (nz × nv).
+    pub z_v: Sparsity,
+    /// ∂ż/∂z (nz × nz).
+    pub z_z: Sparsity,
+    /// D (nv), see [`kkt::metric`](crate::kkt::metric).
+    pub metric: Vec<f64>,
+    /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::row_scale`](crate::kkt::row_scale); E = 1e-8 of it.
+    pub g_scale: Vec<f64>,
+}
+
+impl Pattern {
+    /// Full blocks of the given sizes, with scales of one.
+    pub fn dense(dims: Dims) -> Self {
+        let (v, z, m) = (dims.v, dims.z, dims.rows());
+        Self {
+            mass: Sparsity::dense(v, v),
+            g: Sparsity::dense(m, v),
+            k: Sparsity::dense(v, v),
+            c: Sparsity::dense(v, v),
+            r_z: Sparsity::dense(v, z),
+            r_lambda: Sparsity::dense(v, m),
+            z_q: Sparsity::dense(z, v),
+            z_v: Sparsity::dense(z, v),
+            z_z: Sparsity::dense(z, z),
+            metric: vec![1.0; v],
+            g_scale: vec![1.0; m],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_are_sorted_and_unique_and_inside() {
+        let pattern = Sparsity::new(3, 2, [(2, 1), (0, 1), (2, 1), (1, 0), (5, 0), (0, 7)]);
+        assert_eq!((pattern.rows(), pattern.columns(), pattern.entries()), (3, 2, 3));
+        assert_eq!(pattern.column(0), [1]);
+        assert_eq!(pattern.column(1), [0, 2]);
+        assert_eq!(pattern.transposed(), Sparsity::new(2, 3, [(0, 1), (1, 0), (1, 2)]));
+        assert_eq!(pattern.transposed().transposed(), pattern);
+    }
+
+    #[test]
+    fn dense_and_empty_are_the_extremes() {
+        assert_eq!(Sparsity::dense(2, 3), Sparsity::new(2, 3, (0..2).flat_map(|i| (0..3).map(move |j| (i, j)))));
+        assert_eq!(Sparsity::empty(2, 3), Sparsity::new(2, 3, []));
+    }
+}

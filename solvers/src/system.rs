@@ -1,0 +1,169 @@
+//! What an integrator asks of a mechanical system.
+
+use crate::{At, Dims, Pattern, State};
+
+/// How much of [`Terms`] is wanted; each stage includes the ones before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Φ, G and M: functions of (t, q).
+    Position,
+    /// Also ν and γ: functions of (t, q, v).
+    Velocity,
+    /// Also f and ż: functions of (t, q, v, z).
+    Dynamics,
+}
+
+/// The terms of the equations of motion at one state; matrices dense and row-major.
+///
+/// Units: a row of M, f and Gᵀλ is a generalised force (N for a slide, N·m for a turn); a row of Φ has its own unit (m or rad),
+/// and λ is force per that unit of the row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Terms {
+    /// M (nv × nv), symmetric, positive semi-definite.
+    pub mass: Vec<f64>,
+    /// f (nv): applied, elastic, damping and gyroscopic forces; positive along v, so that M a = f where nothing constrains.
+    pub force: Vec<f64>,
+    /// Φ (holonomic rows).
+    pub phi: Vec<f64>,
+    /// G (m × nv): ∂Φ̇/∂v, then Ψ. The generalised force of the constraints is −Gᵀλ.
+    pub g: Vec<f64>,
+    /// ν (m): G v = ν; −Φ_t, then ψ.
+    pub nu: Vec<f64>,
+    /// γ (m): G a = γ; minus all of Φ̈ that does not hold a, then the same of the velocity-level rows.
+    pub gamma: Vec<f64>,
+    /// ż (nz).
+    pub zdot: Vec<f64>,
+}
+
+impl Terms {
+    /// Zeros of the right sizes.
+    pub fn new(dims: Dims) -> Self {
+        let (v, m) = (dims.v, dims.rows());
+        Self {
+            mass: vec![0.0; v * v],
+            force: vec![0.0; v],
+            phi: vec![0.0; dims.holonomic],
+            g: vec![0.0; m * v],
+            nu: vec![0.0; m],
+            gamma: vec![0.0; m],
+            zdot: vec![0.0; dims.z],
+        }
+    }
+}
+
+/// Derivatives of the residual r = M a + Gᵀλ − f and of ż; dense and row-major.
+///
+/// A derivative by q is along velocities: K δ = d r(q ⊕ εδ)/dε at ε = 0, so every block by q has nv columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tangent {
+    /// K = ∂r/∂q (nv × nv).
+    pub k: Vec<f64>,
+    /// C = ∂r/∂v (nv × nv).
+    pub c: Vec<f64>,
+    /// ∂r/∂z (nv × nz).
+    pub r_z: Vec<f64>,
+    /// ∂r/∂λ − Gᵀ (nv × m): friction that depends on reactions.
+    pub r_lambda: Vec<f64>,
+    /// ∂ż/∂q (nz × nv).
+    pub z_q: Vec<f64>,
+    /// ∂ż/∂v (nz × nv).
+    pub z_v: Vec<f64>,
+    /// ∂ż/∂z (nz × nz).
+    pub z_z: Vec<f64>,
+}
+
+impl Tangent {
+    /// Zeros of the right sizes.
+    pub fn new(dims: Dims) -> Self {
+        let (v, z, m) = (dims.v, dims.z, dims.rows());
+        Self {
+            k: vec![0.0; v * v],
+            c: vec![0.0; v * v],
+            r_z: vec![0.0; v * z],
+            r_lambda: vec![0.0; v * m],
+            z_q: vec![0.0; z * v],
+            z_v: vec![0.0; z * v],
+            z_z: vec![0.0; z * z],
+        }
+    }
+}
+
+/// What the crossing of a root does to a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Effect {
+    /// It is only noted.
+    Record,
+    /// The run ends here.
+    Stop,
+    /// The right-hand side changes (a mode, a parameter): the scheme starts afresh.
+    Restart,
+    /// Velocities jump along the row that `cross` wrote: row·v⁺ = −restitution · row·v⁻.
+    Impulse {
+        /// Coefficient of restitution, 0 (plastic) to 1 (elastic).
+        restitution: f64,
+    },
+}
+
+/// A constrained mechanical system, as an integrator sees it.
+///
+/// Every evaluation is a pure function of its arguments: calls in any order give the same bits. `&mut self` is for workspace
+/// only. No method allocates, and none knows the index of the equations, the step or the scheme. Slices have the sizes of
+/// [`dims`](Self::dims) and are overwritten, not added to.
+pub trait System {
+    /// Sizes; constant.
+    fn dims(&self) -> Dims;
+
+    /// Patterns of the blocks and scales of the equations; constant.
+    fn pattern(&self) -> &Pattern;
+
+    /// The terms of the equations of motion up to `stage`; what belongs to later stages is left as it is.
+    fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms);
+
+    /// r = M a + Gᵀλ − f (nv), with the forces that depend on the reactions λ.
+    fn residual(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]);
+
+    /// Derivatives of [`residual`](Self::residual) and of ż.
+    fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent);
+
+    /// q̇ = N(q) v (nq).
+    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+
+    /// q := q ⊕ δ, the motion by the finite displacement δ (nv) in the frame of v; the norm of a quaternion is kept.
+    fn retract(&self, q: &mut [f64], delta: &[f64]);
+
+    /// q := the solution of q = q̂ + N(q) u, where `q` comes in as q̂ and u = c_v v (nv): the closed form of an implicit step.
+    fn displace(&self, q: &mut [f64], u: &[f64]);
+
+    /// Powers (W) whose integrals are the work of the energy balance.
+    fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]);
+
+    /// The mode of every switch that belongs to the values at hand; `at.modes` decides on a switch that stands exactly at its edge.
+    fn modes(&mut self, at: At<'_>, modes: &mut [i32]);
+
+    /// Root functions (roots), each positive inside of the present mode.
+    fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]);
+
+    /// Carries the state over a root that has become negative: flips its own mode, changes its own parameters.
+    ///
+    /// `row` (nv) receives the direction of an impulse; without one it is left as it is.
+    fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_system_is_object_safe() {
+        fn takes(_: Option<&mut dyn System>) {}
+        takes(None);
+    }
+
+    #[test]
+    fn blocks_have_the_sizes_of_their_names() {
+        let dims = Dims { q: 4, v: 3, z: 2, holonomic: 1, nonholonomic: 1, ..Dims::default() };
+        let (terms, tangent) = (Terms::new(dims), Tangent::new(dims));
+        assert_eq!((terms.mass.len(), terms.g.len(), terms.phi.len(), terms.nu.len(), terms.zdot.len()), (9, 6, 1, 2, 2));
+        assert_eq!((tangent.k.len(), tangent.r_z.len(), tangent.r_lambda.len(), tangent.z_q.len(), tangent.z_z.len()), (9, 6, 6, 6, 4));
+    }
+}

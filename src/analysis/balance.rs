@@ -1,0 +1,81 @@
+//! Balancing: how far attached masses must stand from their bodies' origins for the centre of mass to stand still.
+//!
+//! The centre of mass is linear in the distances d_j: M c = Σ m_i c_i + Σ m_j (o_j + d_j u_j), u_j the direction of the line in
+//! the world. The distances that make Σ |c − mean c|² over the motion least solve a small linear least-squares problem.
+
+use super::continuous::Curve;
+use super::least_squares::shortest;
+use super::motion::Motion;
+use crate::geometry::Space;
+
+/// A balanced mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Balanced {
+    /// Signed distances from the bodies' origins, m.
+    pub distances: Vec<f64>,
+    /// Largest distance of the centre of mass from its mean, m.
+    pub residual: f64,
+}
+
+/// Balances a motion by moving masses (body, index in its `attached`) along the lines from the bodies' origins through them.
+///
+/// # Errors
+/// In words, if a mass has no line, or the motion is lost on its way.
+pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(usize, usize)], samples: usize) -> Result<Balanced, String> {
+    let mechanism = motion.driven.dynamics.mechanism;
+    let mut lines = Vec::new();
+    for &(body, index) in moved {
+        let attached = &mechanism.bodies[body].attached[index];
+        let length = G::dot(attached.mass.com, attached.mass.com).sqrt();
+        if length == 0.0 {
+            return Err(format!("`{}` is attached at the origin of `{}`: no line to move along", attached.name, mechanism.bodies[body].name));
+        }
+        lines.push((body, attached.mass.mass, attached.mass.com * (1.0 / length), length));
+    }
+    let rows = motion.sample(samples).map_err(|l| format!("the motion is lost at {}", l.at))?;
+    let dimensions = G::VECTOR;
+    // per row and direction: the centre of mass without offsets, and what each distance adds
+    let (mut fixed, mut gains) = (Vec::new(), Vec::new());
+    let mut nothing = vec![0.0; motion.columns()];
+    for (s, piece) in rows.places.iter().zip(&rows.pieces) {
+        motion.eval(*s, *piece, &mut nothing).map_err(|l| format!("the motion is lost at {}", l.at))?;
+        let work = &motion.driven.dynamics.work;
+        let (mass, mut h) = motion.driven.dynamics.first_moment();
+        let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.poses[body].r, u) * m).collect();
+        for (d, (_, _, _, length)) in directions.iter().zip(&lines) {
+            h += *d * -*length;
+        }
+        for axis in 0..dimensions {
+            fixed.push(G::component(h, axis) / mass);
+            gains.extend(directions.iter().map(|d| G::component(*d, axis) / mass));
+        }
+    }
+    let n = lines.len();
+    center(&mut fixed, dimensions, 1);
+    center(&mut gains, dimensions, n);
+    let b: Vec<f64> = fixed.iter().map(|x| -x).collect();
+    let distances = shortest(&gains, &b, &vec![1.0; n], 0.0);
+    let off = |row: usize| -> f64 {
+        (row * dimensions..(row + 1) * dimensions)
+            .map(|i| (fixed[i] + gains[i * n..(i + 1) * n].iter().zip(&distances).map(|(g, d)| g * d).sum::<f64>()).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    let residual = (0..rows.places.len()).map(off).fold(0.0, f64::max);
+    Ok(Balanced { distances, residual })
+}
+
+/// Takes the mean over the rows from each column; rows come in groups of `dimensions`, `width` numbers each.
+fn center(values: &mut [f64], dimensions: usize, width: usize) {
+    let stride = dimensions * width;
+    if stride == 0 {
+        return;
+    }
+    let rows = values.len() / stride;
+    for column in 0..stride {
+        let mean = (0..rows).map(|r| values[r * stride + column]).sum::<f64>() / rows as f64;
+        for r in 0..rows {
+            values[r * stride + column] -= mean;
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Small least-squares solves at assembly, where rows may be redundant or contradict each other.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Part of the largest singular value below which a direction counts as not determined.
+const RANK_TOLERANCE: f64 = 1e-10;
+
+/// The shortest x (in the metric, Σ dᵢ xᵢ²) that makes |A x − b|² + μ (its size)² least; A is rows × metric.len(), row-major.
+///
+/// With μ = 0 it is the pseudo-inverse in the metric; μ > 0 is Levenberg's damping.
+#[must_use]
+pub(crate) fn shortest(a: &[f64], b: &[f64], metric: &[f64], damping: f64) -> Vec<f64> {
+    let n = metric.len();
+    if b.is_empty() || n == 0 {
+        return vec![0.0; n];
+    }
+    let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
+    let scaled = DMatrix::from_fn(b.len(), n, |i, j| a[i * n + j] / root[j]);
+    let Some(svd) = scaled.try_svd(true, true, f64::EPSILON, 1000) else { return vec![0.0; n] };
+    let (Some(u), Some(vt)) = (&svd.u, &svd.v_t) else { return vec![0.0; n] };
+    let mut y = u.transpose() * DVector::from_row_slice(b);
+    let largest = svd.singular_values.max();
+    for (y, s) in y.iter_mut().zip(svd.singular_values.iter()) {
+        *y *= if *s > RANK_TOLERANCE * largest { s / (s * s + damping * largest * largest) } else { 0.0 };
+    }
+    let x = vt.transpose() * y;
+    x.iter().zip(&root).map(|(x, r)| x / r).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn redundant_rows_give_the_shortest_solution() {
+        // x + y = 2 twice; metric (1, 4): the shortest is (1.6, 0.4)
+        let x = shortest(&[1.0, 1.0, 2.0, 2.0], &[2.0, 4.0], &[1.0, 4.0], 0.0);
+        assert!((x[0] - 1.6).abs() < 1e-14 && (x[1] - 0.4).abs() < 1e-14, "{x:?}");
+    }
+}

@@ -1,0 +1,29 @@
+//! Analyses of a mechanism: assembly, mobility, driven motion over a range, inverse dynamics, balancing, sweeps.
+//!
+//! A kinematic study is a [`Curve`](continuous::Curve): columns that can be evaluated at any place of the range. Its grid is
+//! only where rows are written; extremes, integrals and switches are found on the curve itself.
+
+pub mod assemble;
+mod balance;
+pub mod chebyshev;
+pub mod clock;
+pub mod continuous;
+pub mod driven;
+pub mod extremum;
+mod fold;
+mod functional;
+pub mod hermite;
+mod hills;
+mod least_squares;
+pub mod mobility;
+pub mod motion;
+pub mod observe;
+pub mod outcome;
+pub mod path;
+pub mod quadrature;
+pub mod root;
+pub mod run;
+mod scene;
+pub mod survey;
+pub mod sweep;
+pub mod switching;

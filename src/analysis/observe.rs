@@ -1,0 +1,266 @@
+//! Columns: the quantities that expressions name, read from an evaluated mechanism, and the program that turns them into columns.
+
+use super::driven::Driven;
+use crate::dynamics::{Dynamics, Reactions};
+use crate::expression::{Id, Program};
+use crate::geometry::{Motion, Space};
+use crate::mechanism::{EffortLaw, Mechanism, StretchOf};
+use crate::model::{Model, Quantity};
+
+/// A program of columns with the sources of its inputs; its scratch is sized once.
+#[derive(Clone, Debug)]
+pub struct Observer<G: Space> {
+    program: Program,
+    fills: Vec<(usize, Source<G>)>,
+    inputs: Vec<f64>,
+    registers: Vec<f64>,
+    modes: Vec<i32>,
+}
+
+/// Where the value of a quantity is read; everything is resolved to indices and vectors.
+#[derive(Clone, Copy, Debug)]
+enum Source<G: Space> {
+    Time,
+    Point { body: usize, at: G::Vector, axis: usize, order: usize },
+    Angle { body: usize, order: usize },
+    Spin { body: usize, axis: usize, order: usize },
+    Quaternion { body: usize, component: usize },
+    Gauge { gauge: usize, order: usize },
+    Force { joint: usize, axis: usize },
+    Moment { joint: usize, axis: usize },
+    DriverEffort(usize),
+    DriverPower(usize),
+    Stretch { spring: usize, order: usize },
+    SpringForce(usize),
+    SpringEnergy(usize),
+    Effort(usize),
+    Com { axis: usize, order: usize },
+    Kinetic,
+    Potential,
+    Momentum(usize),
+    Shaking(usize),
+    ShakingMoment(usize),
+    Frame(usize),
+    FrameMoment(usize),
+    InertiaEq,
+    InertiaEqSlope,
+    /// Known from outside: given by [`Observer::give`], or not defined.
+    Given(f64),
+}
+
+impl<G: Space<S = f64>> Observer<G> {
+    /// The columns `ids` of a model as a program on its mechanism.
+    #[must_use]
+    pub fn new(model: &Model, mechanism: &Mechanism<G>, parameters: &[f64], ids: &[Id]) -> Self {
+        let program = model.pool.program(ids, parameters, &mechanism.tables);
+        let fills = program.inputs().iter().map(|&i| (i as usize, source(mechanism, model.inputs[i as usize]))).collect();
+        Self {
+            fills,
+            inputs: vec![f64::NAN; model.inputs.len()],
+            registers: vec![0.0; program.registers()],
+            modes: mechanism.modes(),
+            program,
+        }
+    }
+
+    /// Reads all quantities after [`Driven::forces`]; `lent` modes stay as they are.
+    pub fn read(&mut self, driven: &mut Driven<'_, G>, modes: &[i32]) {
+        let Driven { dynamics, a, reactions, v, q, .. } = driven;
+        dynamics.watch(q, v, modes);
+        self.modes.copy_from_slice(modes);
+        for (input, source) in &self.fills {
+            self.inputs[*input] = source.read(dynamics, a, reactions, &mut self.modes);
+        }
+    }
+
+    /// Reads positions, velocities and accelerations alone: what needs forces is not defined.
+    pub fn give(&mut self, value: f64) {
+        for (input, _) in &self.fills {
+            self.inputs[*input] = value;
+        }
+    }
+
+    /// Sets the modes of the columns' switches from the quantities read last.
+    pub fn set_modes(&mut self, modes: &mut [i32]) {
+        self.program.set_modes(&self.inputs, &mut self.registers, modes);
+    }
+
+    /// Columns from the quantities read last.
+    pub fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
+        self.program.eval(&self.inputs, modes, &mut self.registers, out);
+    }
+
+    /// The program of the columns.
+    #[must_use]
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Distances to the switches of the program, in their order.
+    pub fn roots(&mut self, modes: &[i32], roots: &mut [f64]) {
+        self.program.roots(&self.inputs, modes, &mut self.registers, roots);
+    }
+
+    /// The mode behind crossing number `k` of the switches; after [`Observer::roots`].
+    #[must_use]
+    pub fn neighbour(&self, k: usize, modes: &[i32]) -> i32 {
+        self.program.neighbour(k, modes, &self.registers)
+    }
+}
+
+fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> {
+    match quantity {
+        Quantity::Time => Source::Time,
+        Quantity::Point { at, axis, order } => Source::Point { body: at.body, at: m.bodies[at.body].points[at.point].1, axis, order },
+        Quantity::Angle { body, order } => Source::Angle { body, order },
+        Quantity::Spin { body, axis, order } => Source::Spin { body, axis, order },
+        Quantity::Quaternion { body, component } => Source::Quaternion { body, component },
+        Quantity::Joint { joint, slot, order } => match m.joints[joint].slots.get(slot) {
+            Some(&gauge) => Source::Gauge { gauge, order },
+            None => Source::Given(f64::NAN),
+        },
+        Quantity::Force { joint, axis } => Source::Force { joint, axis },
+        Quantity::Moment { joint, axis } => Source::Moment { joint, axis },
+        Quantity::DriverEffort { driver } => Source::DriverEffort(driver),
+        Quantity::DriverPower { driver } => Source::DriverPower(driver),
+        Quantity::Stretch { spring, order } => Source::Stretch { spring, order },
+        Quantity::SpringForce { spring } => Source::SpringForce(m.spring_efforts[spring]),
+        Quantity::SpringEnergy { spring } => Source::SpringEnergy(spring),
+        Quantity::MotorTorque { motor } => match m.motor_efforts[motor] {
+            Some(effort) => Source::Effort(effort),
+            None => Source::Given(0.0),
+        },
+        Quantity::Com { axis, order } => Source::Com { axis, order },
+        Quantity::Kinetic => Source::Kinetic,
+        Quantity::Potential => Source::Potential,
+        Quantity::Momentum { axis } => Source::Momentum(axis),
+        Quantity::Shaking { axis } => Source::Shaking(axis),
+        Quantity::ShakingMoment { axis } => Source::ShakingMoment(axis),
+        Quantity::Frame { axis } => Source::Frame(axis),
+        Quantity::FrameMoment { axis } => Source::FrameMoment(axis),
+        Quantity::InertiaEq => Source::InertiaEq,
+        Quantity::InertiaEqSlope => Source::InertiaEqSlope,
+        Quantity::Functional(_) | Quantity::Result(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
+    }
+}
+
+impl<G: Space<S = f64>> Source<G> {
+    fn read(&self, d: &mut Dynamics<'_, G>, a: &[f64], r: &Reactions<G>, modes: &mut [i32]) -> f64 {
+        let w = &d.work;
+        let m = d.mechanism;
+        match *self {
+            Self::Given(x) => x,
+            Self::Time => d.t,
+            Self::Point { body, at, axis, order } => {
+                let p = w.poses[body].point(at);
+                G::component(trace::<G>(p, w.twists[body], r.accelerations[body], order), axis)
+            }
+            Self::Angle { body, order } => match order {
+                0 => G::angle(w.poses[body].r),
+                1 => G::spin_component(w.twists[body].w, 2),
+                _ => G::spin_component(r.accelerations[body].w, 2),
+            },
+            Self::Spin { body, axis, order } => {
+                G::spin_component(if order == 1 { w.twists[body].w } else { r.accelerations[body].w }, axis)
+            }
+            Self::Quaternion { body, component } => {
+                let r = w.poses[body].r;
+                let matrix = nalgebra::Matrix3::from_fn(|i, k| G::entry(r, i, k));
+                let unit = nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
+                [unit.w, unit.i, unit.j, unit.k][component]
+            }
+            Self::Gauge { gauge, order } => gauge_order(d, gauge, order, a),
+            Self::Force { joint, axis } => G::component(r.joints[joint].f, axis),
+            Self::Moment { joint, axis } => {
+                let (body, at) = m.joints[joint].b;
+                G::spin_component(r.joints[joint].moment_about(w.poses[body].point(at)), axis)
+            }
+            Self::DriverEffort(k) => r.drives[k],
+            Self::DriverPower(k) => r.drives[k] * w.readings[m.drives[k].gauge].rate,
+            Self::Stretch { spring, order } => {
+                let stretch = m.stretches[spring];
+                match order {
+                    0 => d.extent(stretch.of) - stretch.rest,
+                    1 => d.extent_rate(stretch.of),
+                    _ => match stretch.of {
+                        StretchOf::Gauge(g) => gauge_order(d, g, 2, a),
+                        StretchOf::Function(f) => {
+                            let function = &m.functions[f];
+                            let slopes = &w.functions[function.value + 1..];
+                            let along: f64 = function
+                                .gauges
+                                .iter()
+                                .zip(slopes)
+                                .map(|(&g, s)| s * (gauge_order(d, g, 2, a) - w.readings[g].drift))
+                                .sum();
+                            along + w.drifts[function.drift]
+                        }
+                    },
+                }
+            }
+            Self::SpringForce(effort) => -w.efforts[effort],
+            Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
+            Self::Effort(effort) => {
+                debug_assert!(matches!(m.efforts[effort].law, EffortLaw::Drive { .. }));
+                w.efforts[effort]
+            }
+            Self::Com { axis, order } => {
+                let (mass, h) = d.first_moment();
+                let x = match order {
+                    0 => h,
+                    1 => d.momentum().f,
+                    _ => r.shaking.f,
+                };
+                G::component(x, axis) / mass
+            }
+            Self::Kinetic => d.kinetic_energy(),
+            Self::Potential => {
+                let springs: f64 = (0..m.stretches.len()).map(|s| d.spring_energy(s, modes)).sum();
+                d.gravity_energy() + springs
+            }
+            Self::Momentum(axis) => G::component(d.momentum().f, axis),
+            Self::Shaking(axis) => G::component(r.shaking.f, axis),
+            Self::ShakingMoment(axis) => G::spin_component(r.shaking.n, axis),
+            Self::Frame(axis) => G::component(r.frame.f, axis),
+            Self::FrameMoment(axis) => G::spin_component(r.frame.n, axis),
+            Self::InertiaEq => equivalent_inertia(d, a, r).0,
+            Self::InertiaEqSlope => equivalent_inertia(d, a, r).1,
+        }
+    }
+}
+
+/// Position, velocity or acceleration of the body-fixed point now at `p`: p̈ = v̇ + ω̇×p + ω×ṗ.
+fn trace<G: Space>(p: G::Vector, twist: Motion<G>, acceleration: Motion<G>, order: usize) -> G::Vector {
+    match order {
+        0 => p,
+        1 => twist.at(p),
+        _ => acceleration.at(p) + G::turn(twist.w, twist.at(p)),
+    }
+}
+
+fn gauge_order<G: Space<S = f64>>(d: &Dynamics<'_, G>, gauge: usize, order: usize, a: &[f64]) -> f64 {
+    let reading = &d.work.readings[gauge];
+    match order {
+        0 => reading.x,
+        1 => reading.rate,
+        _ => d.mechanism.gauges[gauge].acceleration(reading, &d.work.columns, a),
+    }
+}
+
+/// I = 2T/ω² of the one driver, and dI/dx = (2Ṫ/ω² − 4Tα/ω³)/ω with Ṫ the power of the inertial forces.
+fn equivalent_inertia<G: Space<S = f64>>(d: &Dynamics<'_, G>, a: &[f64], r: &Reactions<G>) -> (f64, f64) {
+    let m = d.mechanism;
+    let [drive] = &m.drives[..] else { return (f64::NAN, f64::NAN) };
+    let omega = d.work.readings[drive.gauge].rate;
+    let alpha = gauge_order(d, drive.gauge, 2, a);
+    let energy = d.kinetic_energy();
+    let mut rate = 0.0;
+    for node in &m.nodes {
+        rate += d.inertial(node.body, r.accelerations[node.body]).power(d.work.twists[node.body]);
+    }
+    for rotor in &m.rotors {
+        rate += rotor.inertia * d.work.readings[rotor.gauge].rate * gauge_order(d, rotor.gauge, 2, a);
+    }
+    let square = omega * omega;
+    (2.0 * energy / square, (2.0 * rate / square - 4.0 * energy * alpha / (square * omega)) / omega)
+}

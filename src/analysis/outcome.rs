@@ -1,0 +1,126 @@
+//! What a study leaves: columns, scalars, extremes, findings; names and numbers, ready for output.
+
+use super::extremum::Extremes;
+
+/// Result of one run of a study.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// Why it stopped on its way, if it did; its rows are kept.
+    pub stopped: Option<String>,
+    /// Values of the parameters, in file order.
+    pub parameters: Vec<(String, f64)>,
+    /// Name of the independent variable: `theta`, `O.angle` or `time`.
+    pub independent: String,
+    /// Independent variable of each row.
+    pub places: Vec<f64>,
+    /// Rows before each located switch; the next row is behind it.
+    pub switches: Vec<usize>,
+    /// Columns of each row, in the order of `study.columns`, then the curves that only figures show.
+    pub rows: Vec<Vec<f64>>,
+    /// Results of the kind, in the order of `study.results`.
+    pub results: Vec<f64>,
+    /// Scalars, in the order of `study.scalars`.
+    pub scalars: Vec<f64>,
+    /// Extremes of each column over the independent variable; none where a column is not defined.
+    pub extremes: Vec<Option<Extremes>>,
+    /// Expectations that were checked: text, found, wanted, tolerance, met.
+    pub expectations: Vec<Checked>,
+    /// What a reader should know.
+    pub findings: Vec<Finding>,
+    /// Figures of the run that certify it.
+    pub certificate: Certificate,
+    /// What the drawing shows.
+    pub scene: Option<Scene>,
+}
+
+/// One checked expectation.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// As written.
+    pub text: String,
+    /// What was found.
+    pub found: f64,
+    /// What was wanted.
+    pub wanted: f64,
+    /// Allowed difference.
+    pub tolerance: f64,
+    /// Whether it is met.
+    pub met: bool,
+    /// Path in the file.
+    pub place: String,
+}
+
+/// Something worth knowing that is not an error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Kebab-case kind.
+    pub code: &'static str,
+    /// In words.
+    pub message: String,
+    /// Path in the file.
+    pub path: String,
+}
+
+/// How well the rows satisfy the equations.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Certificate {
+    /// Positions solved.
+    pub evaluations: usize,
+    /// Located switches.
+    pub switches: usize,
+    /// Largest |Φ| over the rows, m or rad.
+    pub constraint: f64,
+    /// Largest |driver power + power of applied forces − dT/dt| over the rows, relative to the largest of its terms.
+    pub power_balance: f64,
+}
+
+/// Outlines of the mechanism in a few positions, in the plane of the drawing.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Bodies: name and points in each position, m.
+    pub bodies: Vec<(String, Vec<Vec<[f64; 2]>>)>,
+    /// Joints.
+    pub joints: Vec<SceneJoint>,
+    /// Springs: name and ends in each position.
+    pub springs: Vec<(String, Vec<[[f64; 2]; 2]>)>,
+    /// Traces of points: name and positions along the motion.
+    pub traces: Vec<(String, Vec<[f64; 2]>)>,
+}
+
+/// A joint in a scene.
+#[derive(Clone, Debug)]
+pub struct SceneJoint {
+    /// Its name.
+    pub name: String,
+    /// Its kind as in the model file.
+    pub kind: &'static str,
+    /// Whether one of its bodies is the ground.
+    pub grounded: bool,
+    /// Its place in each position.
+    pub at: Vec<[f64; 2]>,
+    /// Direction of its axis in each position, for sliding joints.
+    pub along: Vec<[f64; 2]>,
+}
+
+/// Why a run has no result.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum Failure {
+    /// The model has no mechanism at these parameters.
+    Model(Vec<crate::mechanism::BuildFault>),
+    /// The study asks for what the mechanism cannot give: freedom left over, too many drivers; with the path in the file.
+    Study { code: &'static str, message: String, place: String, help: String },
+    /// It did not begin or end for a numerical reason.
+    Numerical(String),
+}
+
+impl Failure {
+    /// In one sentence, as the `reason` of a sweep's row.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Model(faults) => faults.iter().map(|f| f.message.clone()).collect::<Vec<_>>().join("; "),
+            Self::Study { message, .. } | Self::Numerical(message) => message.clone(),
+        }
+    }
+}

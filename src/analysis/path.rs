@@ -1,0 +1,220 @@
+//! The motion of a driven mechanism over a range of time, by predictor-corrector continuation with step control.
+//!
+//! From one node to the next the position is predicted by v h + ½ a h² and corrected by Newton. A step counts only if the
+//! correction is small against the move and the new velocity is near the predicted one: another branch, or the far side of
+//! a dead point, fails both and the step is cut. Where steps shrink to nothing the driver cannot go on (a dead point); a
+//! change point, where two branches cross at an angle, is stepped over on the smooth branch.
+
+use super::driven::{Driven, NotReached};
+use super::fold::fold;
+use super::hermite::Hermite;
+use crate::geometry::Space;
+use crate::mechanism::{Measured, Step};
+
+/// A solution on the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates (nq).
+    pub q: Vec<f64>,
+    /// Velocities (nv).
+    pub v: Vec<f64>,
+    /// Accelerations (nv).
+    pub a: Vec<f64>,
+    /// Unwrapped angles of cut hinges, by winding number.
+    pub turns: Vec<f64>,
+}
+
+/// The path from the earliest to the latest node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Nodes, t rising.
+    pub nodes: Vec<Node>,
+    /// Dead points at the two ends, if the range was not reached there: time and coordinates.
+    pub dead: [Option<(f64, Vec<f64>)>; 2],
+}
+
+/// The path could not even begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SingularStart;
+
+/// Steps below this part of the range mean that the path has ended.
+const SHORTEST: f64 = 1e-13;
+/// A correction beyond this part of the move is not trusted.
+const TRUSTED: f64 = 0.1;
+/// Largest predicted move of one step, rad or sizes of the mechanism.
+const FARTHEST: f64 = 0.3;
+/// Pivot ratio below which a position counts as singular: rates would keep fewer than half of their digits.
+pub const SINGULAR: f64 = 1e-7;
+
+impl Path {
+    /// Follows the path from t = 0 to `to` (which may be negative), and back as far if it ends at a dead point.
+    ///
+    /// # Errors
+    /// If the start is a singular position, where velocities are not determined.
+    pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], set: &mut impl FnMut(f64, &mut [i32]), to: f64) -> Result<Self, SingularStart> {
+        set(0.0, modes);
+        driven.position(0.0, modes).map_err(|_| SingularStart)?;
+        if driven.condition() < SINGULAR {
+            return Err(SingularStart);
+        }
+        driven.rates(modes);
+        let start = driven.node(0.0, modes);
+        let (mut nodes, dead_to) = march(driven, modes, set, &start, to);
+        let mut dead = [None, dead_to];
+        if dead[1].is_some() {
+            let (back, dead_back) = march(driven, modes, set, &start, -to);
+            dead[0] = dead_back;
+            nodes = back.into_iter().skip(1).rev().chain(nodes).collect();
+            if to < 0.0 {
+                nodes.reverse();
+                dead.reverse();
+            }
+        } else if to < 0.0 {
+            nodes.reverse();
+        }
+        Ok(Self { nodes, dead })
+    }
+
+    /// A guess of the coordinates at `t`: quintic Hermite in axes, cubic in quaternions; and the node nearest before it.
+    pub fn guess<G: Space<S = f64>>(&self, driven: &Driven<'_, G>, t: f64, q: &mut [f64]) -> usize {
+        let m = driven.dynamics.mechanism;
+        let after = self.nodes.partition_point(|n| n.t < t).clamp(1, self.nodes.len().max(2) - 1);
+        let first = &self.nodes[after - 1];
+        let Some(second) = self.nodes.get(after) else {
+            q.copy_from_slice(&first.q);
+            return after - 1;
+        };
+        let h = second.t - first.t;
+        let past = t - first.t;
+        for step in &m.steps {
+            match *step {
+                Step::Axis { q: i, v: k, .. } => {
+                    let end = |n: &Node| [n.q[i], n.v[k], n.a[k]];
+                    q[i] = Hermite::quintic(h, end(first), end(second)).at(past)[0];
+                }
+                Step::Ball { q: i, .. } => {
+                    let near = if past < 0.5 * h { first } else { second };
+                    let mut delta = vec![0.0; m.nv];
+                    let dt = t - near.t;
+                    for (d, (v, a)) in delta.iter_mut().zip(near.v.iter().zip(&near.a)) {
+                        *d = dt * (v + 0.5 * dt * a);
+                    }
+                    let mut moved = near.q.clone();
+                    m.retract(&mut moved, &delta);
+                    q[i..i + 4].copy_from_slice(&moved[i..i + 4]);
+                }
+            }
+        }
+        if past < 0.5 * h { after - 1 } else { after }
+    }
+}
+
+/// Nodes from `start` to time `to`, and the dead point if it ends before.
+fn march<G: Space<S = f64>>(
+    driven: &mut Driven<'_, G>,
+    modes: &mut [i32],
+    set: &mut impl FnMut(f64, &mut [i32]),
+    start: &Node,
+    to: f64,
+) -> (Vec<Node>, Option<(f64, Vec<f64>)>) {
+    let mut nodes = vec![start.clone()];
+    let longest = to / 48.0;
+    let mut h = longest;
+    let mut delta = vec![0.0; start.v.len()];
+    while let Some(last) = nodes.last() {
+        let left = to - last.t;
+        if left.abs() <= 1e-14 * to.abs() {
+            return (nodes, None);
+        }
+        if h.abs() >= left.abs() * (1.0 - 1e-12) {
+            h = left;
+        }
+        let t = if h == left { to } else { last.t + h };
+        match step(driven, modes, set, last, t, &mut delta) {
+            Ok(node) => {
+                nodes.push(node);
+                h = if (1.6 * h).abs() < longest.abs() { 1.6 * h } else { longest };
+            }
+            Err(NotReached) => {
+                h *= 0.6;
+                if h.abs() < SHORTEST * to.abs() {
+                    let end = fold(driven, modes, last, to.signum()).unwrap_or_else(|| (last.t, last.q.clone()));
+                    return (nodes, Some(end));
+                }
+            }
+        }
+    }
+    (nodes, None)
+}
+
+/// One trusted step to time `t`.
+fn step<G: Space<S = f64>>(
+    driven: &mut Driven<'_, G>,
+    modes: &mut [i32],
+    set: &mut impl FnMut(f64, &mut [i32]),
+    last: &Node,
+    t: f64,
+    delta: &mut [f64],
+) -> Result<Node, NotReached> {
+    let h = t - last.t;
+    for (d, (v, a)) in delta.iter_mut().zip(last.v.iter().zip(&last.a)) {
+        *d = h * (v + 0.5 * h * a);
+    }
+    let size = driven.measure(delta);
+    if !(size <= FARTHEST) {
+        return Err(NotReached);
+    }
+    set(t, modes);
+    driven.q.copy_from_slice(&last.q);
+    driven.dynamics.mechanism.retract(&mut driven.q, delta);
+    driven.wind(modes, &last.turns);
+    driven.position(t, modes)?;
+    if driven.correction > TRUSTED * size + 1e-9 {
+        return Err(NotReached);
+    }
+    driven.rates(modes);
+    // the velocity must go on smoothly: |v − (v₀ + h a₀)| against the velocities themselves
+    for ((d, v), (v0, a0)) in delta.iter_mut().zip(&driven.v).zip(last.v.iter().zip(&last.a)) {
+        *d = v - (v0 + h * a0);
+    }
+    let (jump, speed) = (driven.measure(delta), driven.measure(&last.v) + driven.measure(&driven.v));
+    if !(jump <= 0.2 * speed + 1e-9 / h.abs()) {
+        return Err(NotReached);
+    }
+    Ok(driven.node(t, modes))
+}
+
+impl<G: Space<S = f64>> Driven<'_, G> {
+    /// The solution found last as a node.
+    #[must_use]
+    pub fn node(&mut self, t: f64, modes: &[i32]) -> Node {
+        let mut turns = vec![0.0; self.dynamics.mechanism.windings];
+        if !turns.is_empty() {
+            self.dynamics.watch(&self.q, &self.v, modes);
+            for (gauge, reading) in self.dynamics.mechanism.gauges.iter().zip(&self.dynamics.work.readings) {
+                if let Measured::Turn { winding, .. } = gauge.measured {
+                    turns[winding] = reading.x;
+                }
+            }
+        }
+        Node { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns }
+    }
+
+    /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.
+    pub fn wind(&mut self, modes: &mut [i32], expected: &[f64]) {
+        if expected.is_empty() {
+            return;
+        }
+        let m = self.dynamics.mechanism;
+        self.dynamics.position(&self.q, modes);
+        self.dynamics.watch(&self.q, &self.v, modes);
+        for (gauge, reading) in m.gauges.iter().zip(&self.dynamics.work.readings) {
+            if let Measured::Turn { winding, .. } = gauge.measured {
+                let off = (expected[winding] - reading.x) / std::f64::consts::TAU;
+                modes[m.switches + winding] += off.round() as i32;
+            }
+        }
+    }
+}

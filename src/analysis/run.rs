@@ -1,0 +1,385 @@
+//! One run of a kinematic study: build, assemble, trace, sample, extremes, functionals, scalars, expectations.
+
+use super::assemble::{Assembled, assemble};
+use super::clock::Clock;
+use super::continuous::Samples;
+use super::extremum::{Extremes, extrema};
+use super::functional::Functionals;
+use super::mobility::drivers_fit;
+use super::motion::{Lost, Motion, Rows};
+use super::observe::Observer;
+use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
+use super::{balance, scene};
+use crate::dynamics::Dynamics;
+use crate::expression::Id;
+use crate::geometry::{Planar, Space, Spatial};
+use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+
+/// Runs the study of a model once, at given parameter values (in file order).
+///
+/// # Errors
+/// If it never began: the model has no mechanism, it cannot be assembled, or its drivers do not fit. A motion that stops on its
+/// way is an [`Outcome`] with `stopped`.
+pub fn run(model: &Model, study: &Study, parameters: &[f64], coordinates: Coordinates) -> Result<Outcome, Failure> {
+    match model.space {
+        Dimensions::Planar => run_in::<Planar<f64>>(model, study, parameters, coordinates),
+        Dimensions::Spatial => run_in::<Spatial<f64>>(model, study, parameters, coordinates),
+    }
+}
+
+fn run_in<G: Space<S = f64>>(model: &Model, study: &Study, parameters: &[f64], coordinates: Coordinates) -> Result<Outcome, Failure> {
+    let range = match &study.kind {
+        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => range,
+        Kind::Later(kind) => {
+            return Err(Failure::Study {
+                code: "later",
+                message: format!("studies of the kind `{kind}` cannot be computed yet"),
+                place: study.place.clone(),
+                help: "run the others with `--study`, or use `kinematics` or `inverse`".into(),
+            });
+        }
+    };
+    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+    let start = assembled(&mut mechanism)?;
+    drivers_fit(&mechanism, &start, model, study)?;
+    let mut results = Vec::new();
+    if let Kind::Balance { moved, .. } = &study.kind {
+        let observer = Observer::new(model, &mechanism, parameters, &[]);
+        let mut motion = trace(&mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
+        let offsets = balance::balance(&mut motion, moved, range.samples).map_err(|message| Failure::Study {
+            code: "balance",
+            message,
+            place: study.place.clone(),
+            help: "name masses that are attached away from the origin of bodies that move".into(),
+        })?;
+        for (&(body, index), offset) in moved.iter().zip(&offsets.distances) {
+            let at = mechanism.bodies[body].attached[index].mass.com;
+            let along = at * (1.0 / G::dot(at, at).sqrt());
+            mechanism.bodies[body].move_attached(index, along * *offset);
+        }
+        results = offsets.distances;
+        results.push(offsets.residual);
+    }
+    observe(model, study, parameters, &mechanism, &start, range, results)
+}
+
+fn assembled<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assembled, Failure> {
+    assemble(mechanism).map_err(|f| Failure::Study { code: "not-assembled", message: f.message, place: f.place, help: f.help })
+}
+
+fn trace<'m, G: Space<S = f64>>(
+    mechanism: &'m Mechanism<G>,
+    start: &Assembled,
+    clock: Clock,
+    observer: Observer<G>,
+    columns: usize,
+) -> Result<Motion<'m, G>, Failure> {
+    Motion::trace(mechanism, start, clock, observer, columns).map_err(|_| {
+        Failure::Numerical(
+            "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities; start elsewhere"
+                .into(),
+        )
+    })
+}
+
+/// The independent variable of a range.
+fn clock<G: Space<S = f64>>(
+    model: &Model,
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    range: &Range,
+    parameters: &[f64],
+    study: &Study,
+) -> Result<Clock, Failure> {
+    let fault = |message: String, help: &str| Failure::Study {
+        code: "range",
+        message,
+        place: format!("{}.over", study.place),
+        help: help.into(),
+    };
+    match range.over {
+        Over::Time(id) => {
+            let length = model.pool.value(id, parameters);
+            if length.is_finite() && length != 0.0 { Ok(Clock::of_time(length)) } else { Err(fault(format!("the range is {length} s"), "give a time, as `over: 2 s`")) }
+        }
+        Over::Driver(id) => {
+            let length = model.pool.value(id, parameters);
+            let [drive] = &mechanism.drives[..] else {
+                return Err(fault(
+                    format!("the range is one of a driver, and the model has {} drivers", mechanism.drives.len()),
+                    "give the range as a time, as `over: 2 s`",
+                ));
+            };
+            if !length.is_finite() || length == 0.0 {
+                return Err(fault(format!("the range is {length}"), "give a range, as `over: 1 turn`"));
+            }
+            let mut dynamics = Dynamics::new(mechanism);
+            let mut modes = start.modes.clone();
+            let program = &mechanism.time_program;
+            let (mut inputs, mut registers) = (vec![0.0; program.inputs], vec![0.0; program.program.registers()]);
+            let mut set = |t: f64, modes: &mut [i32]| {
+                for &(input, _) in &program.fills {
+                    inputs[input] = t;
+                }
+                program.program.set_modes(&inputs, &mut registers, modes);
+            };
+            dynamics.time(0.0, &modes);
+            dynamics.position(&start.q, &modes);
+            let from = dynamics.work.readings[drive.gauge].x;
+            Clock::of_driver(&mut dynamics, &mut modes, &mut set, drive.output, from, length)
+                .map_err(|e| fault(e.0, "give the range as a time, as `over: 2 s`"))
+        }
+    }
+}
+
+/// The distinct expressions to watch: columns, what functionals are taken of, what only figures show.
+struct Watched {
+    ids: Vec<Id>,
+    /// Index in `ids` of each functional's argument.
+    functionals: Vec<usize>,
+    /// Index in `ids` of each column.
+    columns: Vec<usize>,
+    /// Index in `ids` of curves that figures show beyond the columns.
+    shown: Vec<usize>,
+}
+
+impl Watched {
+    fn of(study: &Study) -> Self {
+        let mut ids: Vec<Id> = Vec::new();
+        let mut index = |id: Id| {
+            ids.iter().position(|x| *x == id).unwrap_or_else(|| {
+                ids.push(id);
+                ids.len() - 1
+            })
+        };
+        let columns = study.columns.iter().map(|c| index(c.value)).collect();
+        let functionals = study.functionals.iter().map(|f| index(f.of)).collect();
+        let shown = extra_curves(study).into_iter().map(&mut index).collect();
+        Self { ids, functionals, columns, shown }
+    }
+}
+
+/// Expressions that only figures show, in the order in which [`Outcome::rows`] carries them behind the columns.
+#[must_use]
+pub fn extra_curves(study: &Study) -> Vec<Id> {
+    let mut extra = Vec::new();
+    for shown in study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over)) {
+        if let ShownWhat::Column(id) = shown.what
+            && study.columns.iter().all(|c| c.value != id)
+            && !extra.contains(&id)
+        {
+            extra.push(id);
+        }
+    }
+    extra
+}
+
+fn observe<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    range: &Range,
+    mut results: Vec<f64>,
+) -> Result<Outcome, Failure> {
+    let watched = Watched::of(study);
+    let observer = Observer::new(model, mechanism, parameters, &watched.ids);
+    let clock = clock(model, mechanism, start, range, parameters, study)?;
+    let mut motion = trace(mechanism, start, clock, observer, watched.ids.len())?;
+    let lost = |l: Lost| Failure::Numerical(format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at));
+    let rows = motion.sample(range.samples).map_err(lost)?;
+    let n = rows.places.len();
+    // column after column, for the search of extremes
+    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
+    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+    let breaks = motion.breaks.clone();
+    let extremes = extrema(&mut motion, samples, &breaks).map_err(lost)?;
+
+    let complete = motion.path.dead == [None, None];
+    let stopped = (!complete).then(|| {
+        let at = clock.value(motion.ends[1]);
+        let (name, unit) = (independent(model, mechanism, clock), if clock.is_driver() && drives_angle(mechanism) { (180.0 / std::f64::consts::PI, "deg") } else if clock.is_driver() { (1.0, "m") } else { (1.0, "s") });
+        format!(
+            "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the driver cannot move them on",
+            at.max(clock.value(motion.ends[0])) * unit.0,
+            unit.1,
+            at.min(clock.value(motion.ends[0])) * unit.0,
+            unit.1
+        )
+    });
+    if results.is_empty() && study.results.iter().any(|r| r == "turns_fully") {
+        results.push(if complete { 1.0 } else { 0.0 });
+    }
+    let mut functionals = Functionals { clock, motion: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
+    let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
+    let scalars = evaluate(model, study, parameters, mechanism, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
+    let expectations = expectations(model, study, parameters, mechanism, &found, &results);
+    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    Ok(Outcome {
+        stopped,
+        parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
+        independent: independent(model, mechanism, clock),
+        places: rows.places.iter().map(|s| clock.value(*s)).collect(),
+        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+        rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+        results,
+        scalars,
+        extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+        expectations,
+        findings: findings(mechanism, &motion),
+        certificate: certificate(&mut motion, &rows),
+        scene: Some(scene::scene(&mut motion)),
+    })
+}
+
+/// Extremes by the independent variable instead of progress.
+fn in_variable(mut e: Extremes, clock: Clock) -> Extremes {
+    e.min.at = clock.value(e.min.at);
+    e.max.at = clock.value(e.max.at);
+    e
+}
+
+fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
+    mechanism.drives.first().is_some_and(|d| d.turns)
+}
+
+/// Name of the independent variable: the first measure that is the driven coordinate, else its path, else `time`.
+fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock: Clock) -> String {
+    if !clock.is_driver() {
+        return "time".into();
+    }
+    let Some(driver) = model.drivers.first() else { return "time".into() };
+    let joint = &model.joints[driver.joint];
+    let turning_body = |q: &Quantity| {
+        matches!(q, Quantity::Joint { joint: j, slot: 0, order: 0 } if *j == driver.joint)
+            || matches!(q, Quantity::Angle { body, order: 0 } if joint.a.body == 0 && *body == joint.b.body)
+    };
+    let measure = model.measures.iter().find(|m| {
+        model.pool.inputs_of(&[m.value])[..].iter().all(|&i| turning_body(&model.inputs[i as usize]))
+            && matches!(model.pool.node(m.value), crate::expression::Node::Input(_))
+    });
+    let word = if drives_angle(mechanism) { "angle" } else { "position" };
+    measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
+}
+
+/// Values of scalar expressions from functionals and results.
+fn evaluate<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    mechanism: &Mechanism<G>,
+    ids: &[Id],
+    functionals: &[f64],
+    results: &[f64],
+) -> Vec<f64> {
+    debug_assert_eq!(functionals.len(), study.functionals.len());
+    let program = model.pool.program(ids, parameters, &mechanism.tables);
+    let mut inputs = vec![f64::NAN; model.inputs.len()];
+    for &i in program.inputs() {
+        inputs[i as usize] = match model.inputs[i as usize] {
+            Quantity::Functional(k) => functionals.get(k).copied().unwrap_or(f64::NAN),
+            Quantity::Result(k) => results.get(k).copied().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        };
+    }
+    let mut modes = vec![0; model.pool.switches().len()];
+    let mut registers = vec![0.0; program.registers()];
+    let mut out = vec![0.0; ids.len()];
+    program.set_modes(&inputs, &mut registers, &mut modes);
+    program.eval(&inputs, &modes, &mut registers, &mut out);
+    out
+}
+
+fn expectations<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    mechanism: &Mechanism<G>,
+    functionals: &[f64],
+    results: &[f64],
+) -> Vec<Checked> {
+    study
+        .expect
+        .iter()
+        .map(|e| {
+            let tolerance_id = match e.tolerance {
+                Tolerance::Within(id) | Tolerance::Relative(id) => id,
+            };
+            let x = evaluate(model, study, parameters, mechanism, &[e.value, e.is, tolerance_id], functionals, results);
+            let tolerance = match e.tolerance {
+                Tolerance::Within(_) => x[2],
+                Tolerance::Relative(_) => x[2] * x[1].abs(),
+            };
+            let met = (x[0] - x[1]).abs() <= tolerance;
+            Checked { text: e.text.clone(), found: x[0], wanted: x[1], tolerance, met, place: e.place.clone() }
+        })
+        .collect()
+}
+
+/// What the motion itself shows: change points on the way.
+fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>) -> Vec<Finding> {
+    let mut out = Vec::new();
+    if mechanism.rows.len() > mechanism.nv {
+        out.push(Finding {
+            code: "redundant-constraints",
+            message: format!(
+                "{} constraint rows for {} unknowns: motions and driver efforts are unique, single reactions may be those of least size",
+                mechanism.rows.len(),
+                mechanism.nv
+            ),
+            path: "joints".into(),
+        });
+    }
+    if let Some(t) = motion.path.dead.iter().flatten().next() {
+        out.push(Finding { code: "dead-point", message: format!("the motion ends at a dead point at t = {} s", t.0), path: "drivers".into() });
+    }
+    out
+}
+
+/// Residuals over the rows.
+fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Certificate {
+    let mut certificate = Certificate { evaluations: rows.places.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
+    let mut nothing = vec![0.0; rows.values.first().map_or(0, Vec::len)];
+    let every = (rows.places.len() / 64).max(1);
+    for (s, piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {
+        use super::continuous::Curve;
+        if motion.eval(*s, *piece, &mut nothing).is_err() {
+            continue;
+        }
+        let d = &motion.driven;
+        let w = &d.dynamics.work;
+        certificate.constraint = w.phi.iter().fold(certificate.constraint, |m, p| m.max(p.abs()));
+        // dT/dt = Σ (I A + V×*I V)·V must be the power of what is applied, of efforts and of drivers
+        let m = d.dynamics.mechanism;
+        let (mut change, mut applied, mut size) = (0.0, 0.0, 0.0);
+        for node in &m.nodes {
+            let twist = w.twists[node.body];
+            let inertial = d.dynamics.inertial(node.body, d.reactions.accelerations[node.body]).power(twist);
+            let force = w.applied[node.body].power(twist);
+            change += inertial;
+            applied += force;
+            size += inertial.abs() + force.abs();
+        }
+        for rotor in &m.rotors {
+            let r = &w.readings[rotor.gauge];
+            change += rotor.inertia * r.rate * m.gauges[rotor.gauge].acceleration(r, &w.columns, &d.a);
+        }
+        for (effort, e) in m.efforts.iter().zip(&w.efforts) {
+            let power = e * d.dynamics.extent_rate(effort.along);
+            applied += power;
+            size += power.abs();
+        }
+        for (drive, e) in m.drives.iter().zip(&d.reactions.drives) {
+            let power = e * w.readings[drive.gauge].rate;
+            applied += power;
+            size += power.abs();
+        }
+        let off = (change - applied).abs() / size;
+        if off.is_finite() {
+            certificate.power_balance = certificate.power_balance.max(off);
+        }
+    }
+    certificate
+}

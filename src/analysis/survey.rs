@@ -1,0 +1,73 @@
+//! What a mechanism is before anything moves: masses, topology, freedom, start.
+
+use super::assemble::{Found, assemble};
+use super::mobility::{Grashof, Mobility, grashof, mobility};
+use super::outcome::Failure;
+use crate::geometry::{Planar, Space, Spatial};
+use crate::mechanism::{Coordinates, build, describe_loop};
+use crate::model::{Dimensions, Model};
+use crate::scalar::Scalar;
+
+/// A mechanism looked over at its start.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// Bodies: name, mass in kg, centre of mass in the body frame in m, inertia about it in kg m² (Ixx, Iyy, Izz; planar Izz alone).
+    pub bodies: Vec<(String, f64, Vec<f64>, Vec<f64>)>,
+    /// Joints: name, kind, first body, second body, and whether it carries the tree (else it is cut and closes a loop).
+    pub joints: Vec<(String, &'static str, String, String, bool)>,
+    /// Loops that cut joints close, as paths of names.
+    pub loops: Vec<String>,
+    /// Coordinates, velocities and constraint rows.
+    pub sizes: (usize, usize, usize),
+    /// Freedom and rank.
+    pub mobility: Mobility,
+    /// The class of a four-bar.
+    pub grashof: Option<Grashof>,
+    /// Start asked and found.
+    pub start: Vec<Found>,
+}
+
+/// Looks a model over at given parameters.
+///
+/// # Errors
+/// If it has no mechanism or cannot be assembled.
+pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
+    match model.space {
+        Dimensions::Planar => survey_in::<Planar<f64>>(model, parameters),
+        Dimensions::Spatial => survey_in::<Spatial<f64>>(model, parameters),
+    }
+}
+
+fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
+    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
+    let start = assemble(&mut mechanism)
+        .map_err(|f| Failure::Study { code: "not-assembled", message: f.message, place: f.place, help: f.help })?;
+    let m = &mechanism;
+    let diagonal = |tensor: G::Tensor| -> Vec<f64> {
+        let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };
+        let along = |&k: &usize| {
+            let mut e = [0.0; 3];
+            e[k] = 1.0;
+            G::spin_component(G::apply(tensor, G::spin(e)), k).value()
+        };
+        axes.iter().map(along).collect()
+    };
+    let name = |b: usize| m.bodies[b].name.clone();
+    Ok(Survey {
+        bodies: m
+            .bodies
+            .iter()
+            .skip(1)
+            .map(|b| {
+                let com = (0..G::VECTOR).map(|i| G::component(b.mass.com, i)).collect();
+                (b.name.clone(), b.mass.mass, com, diagonal(b.mass.inertia))
+            })
+            .collect(),
+        joints: m.joints.iter().map(|j| (j.name.clone(), j.kind, name(j.a.0), name(j.b.0), j.tree.is_some())).collect(),
+        loops: m.joints.iter().filter(|j| j.tree.is_none()).map(|j| describe_loop(m, j)).collect(),
+        sizes: (m.nq, m.nv, m.rows.len()),
+        mobility: mobility(m, &start),
+        grashof: grashof(m),
+        start: start.found,
+    })
+}

@@ -1,0 +1,107 @@
+//! Modes of all expressions of a mechanism and its columns: set from a state, and how far each is from its switch.
+
+use super::driven::Driven;
+use super::observe::Observer;
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, StagedProgram};
+
+/// The switches that a mechanism's programs and its columns hold, with scratch to evaluate them.
+#[derive(Clone, Debug)]
+pub struct Switching {
+    inputs: Vec<f64>,
+    registers: Vec<f64>,
+    roots: Vec<f64>,
+}
+
+/// One switch as evaluated last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// Its number among all switches of the model.
+    pub switch: usize,
+    /// > 0 inside its present mode.
+    pub root: f64,
+    /// The mode behind the crossing.
+    pub neighbour: i32,
+}
+
+impl Switching {
+    /// Scratch for a mechanism and its columns.
+    #[must_use]
+    pub fn new<G: Space<S = f64>>(mechanism: &Mechanism<G>, observer: &Observer<G>) -> Self {
+        let programs = programs(mechanism);
+        let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
+        Self {
+            inputs: vec![0.0; most(|p| p.inputs)],
+            registers: vec![0.0; most(|p| p.program.registers())],
+            roots: vec![0.0; most(|p| p.program.switches().len()).max(observer.program().switches().len())],
+        }
+    }
+
+    /// Modes of the driver laws at time `t`.
+    pub fn set_time<G: Space<S = f64>>(&mut self, mechanism: &Mechanism<G>, t: f64, modes: &mut [i32]) {
+        let program = &mechanism.time_program;
+        if !program.program.switches().is_empty() {
+            for &(input, _) in &program.fills {
+                self.inputs[input] = t;
+            }
+            program.program.set_modes(&self.inputs, &mut self.registers, modes);
+        }
+    }
+
+    /// Modes of functions and forces at the state evaluated last.
+    pub fn set_state<G: Space<S = f64>>(&mut self, dynamics: &Dynamics<'_, G>, modes: &mut [i32]) {
+        let m = dynamics.mechanism;
+        for program in [&m.position_program, &m.velocity_program, &m.force_program] {
+            if !program.program.switches().is_empty() {
+                self.fill(dynamics, program);
+                program.program.set_modes(&self.inputs, &mut self.registers, modes);
+            }
+        }
+    }
+
+    /// Every switch with its distance in the present modes, each number once, at the state evaluated last.
+    pub fn distances<G: Space<S = f64>>(
+        &mut self,
+        driven: &Driven<'_, G>,
+        observer: &mut Observer<G>,
+        modes: &[i32],
+        out: &mut Vec<Distance>,
+    ) {
+        out.clear();
+        for program in programs(driven.dynamics.mechanism) {
+            if program.program.switches().is_empty() {
+                continue;
+            }
+            self.fill(&driven.dynamics, program);
+            let switches = program.program.switches();
+            program.program.roots(&self.inputs, modes, &mut self.registers, &mut self.roots[..switches.len()]);
+            for (k, &switch) in switches.iter().enumerate() {
+                let neighbour = program.program.neighbour(k, modes, &self.registers);
+                push(out, Distance { switch: switch as usize, root: self.roots[k], neighbour });
+            }
+        }
+        let count = observer.program().switches().len();
+        observer.roots(modes, &mut self.roots[..count]);
+        for k in 0..count {
+            let switch = observer.program().switches()[k] as usize;
+            push(out, Distance { switch, root: self.roots[k], neighbour: observer.neighbour(k, modes) });
+        }
+    }
+
+    fn fill<G: Space<S = f64>>(&mut self, dynamics: &Dynamics<'_, G>, program: &StagedProgram) {
+        for &(input, leaf) in &program.fills {
+            self.inputs[input] = dynamics.leaf(leaf);
+        }
+    }
+}
+
+fn programs<G: Space>(m: &Mechanism<G>) -> [&StagedProgram; 4] {
+    [&m.time_program, &m.position_program, &m.velocity_program, &m.force_program]
+}
+
+fn push(out: &mut Vec<Distance>, distance: Distance) {
+    if out.iter().all(|d| d.switch != distance.switch) {
+        out.push(distance);
+    }
+}

@@ -1,0 +1,169 @@
+//! `grashof check`: a look at a model before it moves.
+
+use super::{Common, code, files, say, tell};
+use grashof::analysis::outcome::Failure;
+use grashof::analysis::survey::{Survey, survey};
+use grashof::analysis::sweep::parameters;
+use grashof::model::{Document, Report};
+use grashof::output::{json_number, json_numbers};
+use serde_json::{Value, json};
+
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Model file, or `-` for stdin
+    model: String,
+    /// Exit with 1 if there is any finding
+    #[arg(long)]
+    strict: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Checks a model.
+pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
+    let Some(document) = files::document(&arguments.model, common) else { return code::INPUT };
+    let Some(selection) = files::selection(common, None) else { return code::INPUT };
+    let report = document.check_all(&selection);
+    files::print(&report, common);
+    if report.failed() {
+        return code::INPUT;
+    }
+    let model = match document.model(&selection) {
+        Ok(model) => model,
+        Err(report) => {
+            files::print(&report, common);
+            return code::INPUT;
+        }
+    };
+    let survey = match survey(&model, &parameters(&model)) {
+        Ok(survey) => survey,
+        Err(failure) => return explain(&document, &failure, common),
+    };
+    let mut findings: Vec<String> = report.diagnostics.iter().map(|d| d.message.clone()).collect();
+    findings.extend(remarks(&survey, model.drivers.len()));
+    if arguments.json {
+        say(&serde_json::to_string_pretty(&as_json(&model.name, &survey, &findings)).unwrap_or_default());
+    } else {
+        print(&model.name, &survey, &findings, &document);
+    }
+    if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
+}
+
+fn explain(document: &Document, failure: &Failure, common: &Common) -> u8 {
+    let diagnostics = match failure {
+        Failure::Model(faults) => faults
+            .iter()
+            .map(|f| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone()))
+            .collect(),
+        Failure::Study { code, message, place, help } => vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))],
+        Failure::Numerical(message) => {
+            tell(&format!("error: {message}"));
+            return code::NUMERICAL;
+        }
+    };
+    tell(Report::new(diagnostics).render(common.colored()).trim_end());
+    code::INPUT
+}
+
+/// What is worth a remark about freedom and rows.
+fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
+    let m = &survey.mobility;
+    let mut out = Vec::new();
+    if !m.redundant.is_empty() {
+        out.push(format!("redundant constraints (harmless; single reactions are those of least size): {}", m.redundant.join("; ")));
+    }
+    if m.freedom < drivers {
+        out.push(format!("{drivers} drivers for {} degrees of freedom", m.freedom));
+    }
+    if m.freedom == 0 {
+        out.push("the mechanism has no freedom: it is a structure at its start".into());
+    }
+    out
+}
+
+fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) {
+    let m = &survey.mobility;
+    let (nq, nv, rows) = survey.sizes;
+    say(&format!("{name}: {} bodies, {} joints, {} studies", survey.bodies.len(), survey.joints.len(), document.study_names().len()));
+    say("\nmasses");
+    for (name, mass, com, inertia) in &survey.bodies {
+        say(&format!("  {name:<14} {:>12} kg   com ({}) m   inertia {} kg m^2", short(*mass), list(com), list(inertia)));
+    }
+    say("\ntopology");
+    for (name, kind, a, b, tree) in &survey.joints {
+        say(&format!("  {name:<14} {kind:<12} {a} - {b}{}", if *tree { "" } else { "   (cut: closes a loop)" }));
+    }
+    for path in &survey.loops {
+        say(&format!("  loop: {path}"));
+    }
+    say("\nfreedom");
+    say(&format!("  degrees of freedom        {} (without drivers; Grübler's count: {})", m.freedom, m.grubler));
+    say(&format!("  left by the drivers       {}", m.left));
+    say(&format!("  coordinates, velocities   {nq}, {nv}"));
+    say(&format!("  constraint rows, rank     {rows}, {}", m.rank));
+    if let Some(g) = &survey.grashof {
+        let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", short(*l))).collect();
+        say("\nfour-bar");
+        say(&format!("  Grashof class             {}", g.class));
+        say(&format!("  links [m]                 {}", lengths.join(", ")));
+        say(&match g.range {
+            None => "  range of the input        full turn".to_string(),
+            Some((a, b)) => format!("  range of the input        {} to {} deg from the line of the ground pivots, to either side", short(a.to_degrees()), short(b.to_degrees())),
+        });
+    }
+    if !survey.start.is_empty() {
+        say("\nstart                        asked            found");
+        for f in &survey.start {
+            say(&format!("  {:<22} {}{:>14}   {:>14}", f.name, if f.guess { "~" } else { " " }, short(f.asked), short(f.found)));
+        }
+    }
+    if !findings.is_empty() {
+        say("\nfindings");
+        for finding in findings {
+            say(&format!("  {finding}"));
+        }
+    }
+}
+
+fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
+    let m = &survey.mobility;
+    json!({
+        "name": name,
+        "bodies": survey.bodies.iter().map(|(name, mass, com, inertia)| json!({
+            "name": name, "mass": json_number(*mass), "com": json_numbers(com), "inertia": json_numbers(inertia),
+        })).collect::<Vec<_>>(),
+        "joints": survey.joints.iter().map(|(name, kind, a, b, tree)| json!({
+            "name": name, "kind": kind, "bodies": [a, b], "cut": !tree,
+        })).collect::<Vec<_>>(),
+        "loops": survey.loops,
+        "coordinates": survey.sizes.0,
+        "velocities": survey.sizes.1,
+        "rows": survey.sizes.2,
+        "grubler": m.grubler,
+        "degrees_of_freedom": m.freedom,
+        "left_by_drivers": m.left,
+        "rank": m.rank,
+        "redundant": m.redundant,
+        "grashof": survey.grashof.as_ref().map(|g| json!({
+            "class": g.class,
+            "links": g.links.iter().map(|(n, l)| json!({ "name": n, "length": json_number(*l) })).collect::<Vec<_>>(),
+            "range": g.range.map(|(a, b)| json_numbers(&[a, b])),
+        })),
+        "start": survey.start.iter().map(|f| json!({
+            "name": f.name, "guess": f.guess, "asked": json_number(f.asked), "found": json_number(f.found),
+        })).collect::<Vec<_>>(),
+        "findings": findings,
+    })
+}
+
+fn list(values: &[f64]) -> String {
+    values.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
+}
+
+/// Eight significant digits, without trailing zeros.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.7e}").parse().unwrap_or(x);
+    // round-off of a value that is zero
+    grashof::output::number(if rounded.abs() < 1e-14 { 0.0 } else { rounded })
+}

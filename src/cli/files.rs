@@ -1,0 +1,80 @@
+//! Reading the model file and naming the place of its results.
+
+use super::{Common, tell};
+use grashof::model::{Document, Report, Selection};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
+const MOST: u64 = 2 << 20;
+
+/// Reads a model file, or stdin for `-`; what is wrong has been printed.
+pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
+    let bytes = match bytes(model) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            tell(&format!("error: cannot read `{model}`: {error}"));
+            let help = match error.kind() {
+                std::io::ErrorKind::NotFound => "check the path, or write a new model with `grashof new four-bar`",
+                _ if Path::new(model).is_dir() => "name a file in it",
+                _ => "name a model file that can be read, or `-` for stdin",
+            };
+            tell(&format!("  help: {help}"));
+            return None;
+        }
+    };
+    let name = if model == "-" { "<stdin>" } else { model };
+    match Document::from_bytes(&bytes, name) {
+        Ok(document) => Some(document),
+        Err(report) => {
+            print(&report, common);
+            None
+        }
+    }
+}
+
+fn bytes(model: &str) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if model == "-" {
+        std::io::stdin().lock().take(MOST).read_to_end(&mut bytes)?;
+    } else {
+        if Path::new(model).is_dir() {
+            return Err(std::io::Error::new(std::io::ErrorKind::IsADirectory, "it is a directory"));
+        }
+        std::fs::File::open(model)?.take(MOST).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
+}
+
+/// Prints diagnostics on stderr; warnings are left out when quiet.
+pub(super) fn print(report: &Report, common: &Common) {
+    if report.failed() || !common.quiet {
+        let text = report.render(common.colored());
+        if !text.is_empty() {
+            tell(text.trim_end());
+        }
+    }
+}
+
+/// The selection that `--set` and `--variant` make; none if an assignment has no `=`, which has been printed.
+pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<Selection<'a>> {
+    let mut sets = Vec::new();
+    for text in &common.set {
+        match text.split_once('=') {
+            Some((name, value)) => sets.push((name.trim().to_string(), value.trim().to_string())),
+            None => {
+                tell(&format!("error: `--set {text}` has no `=`\n  help: write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`"));
+                return None;
+            }
+        }
+    }
+    Some(Selection { study, variants: common.variant.clone(), sets })
+}
+
+/// Where results go.
+pub(super) fn directory(model: &str, common: &Common) -> PathBuf {
+    common.output.clone().unwrap_or_else(|| {
+        let stem = if model == "-" { "stdin".into() } else { Path::new(model).file_stem().unwrap_or_default().to_os_string() };
+        Path::new("results").join(stem)
+    })
+}

@@ -1,0 +1,148 @@
+//! The commands: what is printed, what is written, and the exit code. Nothing else of the program prints, reads a clock or exits.
+
+mod check;
+mod completions;
+mod figures;
+mod files;
+mod new;
+mod progress;
+mod report;
+mod run;
+mod schema;
+mod study;
+mod units;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exit codes; several studies: the highest wins.
+pub(crate) mod code {
+    /// All done.
+    pub(crate) const DONE: u8 = 0;
+    /// An expectation is not met, or `check --strict` has findings.
+    pub(crate) const UNMET: u8 = 1;
+    /// Usage, file or model.
+    pub(crate) const INPUT: u8 = 2;
+    /// A numerical failure.
+    pub(crate) const NUMERICAL: u8 = 3;
+    /// Interrupted.
+    pub(crate) const INTERRUPTED: u8 = 130;
+}
+
+const CODES: &str = "Exit codes:
+  0    done (rows of a sweep that failed for a stated reason included)
+  1    an `expect:` is not met, or `check --strict` has findings
+  2    usage, file or model: nothing was computed
+  3    numerical failure of a study, or of all runs of a sweep; rows up to there are kept
+  130  interrupted";
+
+/// Mechanisms from a text file to motion, forces and pictures.
+#[derive(Parser)]
+#[command(name = "grashof", version, about, after_help = CODES, disable_help_subcommand = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What every command understands.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Common {
+    /// Directory for results [default: results/<model file without extension>]
+    #[arg(short, long, global = true, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Set a parameter: a number in SI, or a quantity as "60 cm"
+    #[arg(long, global = true, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Apply a variant of the file, after those of the study
+    #[arg(long, global = true, value_name = "V")]
+    variant: Vec<String>,
+    /// Threads for sweeps and figures [default: all processors]
+    #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Print errors alone on stderr
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Tell on stderr what is done
+    #[arg(short, long, global = true)]
+    verbose: bool,
+    /// Colours on stderr; NO_COLOR is heeded
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: Color,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run the studies of a model and write tables and figures
+    #[command(after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out")]
+    Run(run::Arguments),
+    /// Look a model over: topology, freedom, redundant rows, masses, start
+    #[command(after_help = "Examples:\n  grashof check models/crank_rocker.yaml\n  grashof check my.yaml --strict --json")]
+    Check(check::Arguments),
+    /// Write a commented model that runs
+    #[command(after_help = "Examples:\n  grashof new four-bar my_linkage.yaml\n  grashof new --list")]
+    New(new::Arguments),
+    /// Print the JSON Schema of model files
+    #[command(after_help = "Examples:\n  grashof schema > grashof.schema.json\n  grashof schema | head")]
+    Schema,
+    /// Print a completion script for a shell
+    #[command(after_help = "Examples:\n  grashof completions bash > /etc/bash_completion.d/grashof\n  grashof completions fish > ~/.config/fish/completions/grashof.fish")]
+    Completions(completions::Arguments),
+}
+
+/// Parses the command line and does what it says.
+pub(crate) fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // help and version go to stdout and are no errors
+            let code = if error.use_stderr() { code::INPUT } else { code::DONE };
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let code = match &cli.command {
+        Command::Run(arguments) => run::run(arguments, &cli.common),
+        Command::Check(arguments) => check::check(arguments, &cli.common),
+        Command::New(arguments) => new::new(arguments),
+        Command::Schema => schema::print(),
+        Command::Completions(arguments) => completions::print(arguments),
+    };
+    ExitCode::from(code)
+}
+
+impl Common {
+    /// Whether stderr gets colours.
+    pub(crate) fn colored(&self) -> bool {
+        match self.color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()) && std::io::stderr().is_terminal(),
+        }
+    }
+
+    /// Number of threads.
+    pub(crate) fn threads(&self) -> usize {
+        self.threads.map_or_else(grashof::par::processors, usize::from)
+    }
+}
+
+/// A line on stdout; a closed pipe is no error.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}
+
+/// A line on stderr.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}

@@ -1,0 +1,59 @@
+//! `grashof new`: commented models that run.
+
+use super::{code, say, tell};
+use std::io::Write;
+use std::path::PathBuf;
+
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Kind of model; `--list` shows them
+    #[arg(default_value = "four-bar")]
+    kind: String,
+    /// File to write [default: <kind>.yaml]; `-` for stdout
+    file: Option<PathBuf>,
+    /// List the kinds
+    #[arg(long)]
+    list: bool,
+}
+
+/// Kind, what it is, and its text.
+const TEMPLATES: [(&str, &str, &str); 2] = [
+    ("four-bar", "crank, coupler and rocker, driven at constant speed", include_str!("templates/four_bar.yaml")),
+    ("slider-crank", "crank, rod and piston with a gas force", include_str!("templates/slider_crank.yaml")),
+];
+
+/// Writes a model.
+pub(super) fn new(arguments: &Arguments) -> u8 {
+    if arguments.list {
+        for (kind, about, _) in TEMPLATES {
+            say(&format!("{kind:<14} {about}"));
+        }
+        return code::DONE;
+    }
+    let Some((kind, _, text)) = TEMPLATES.iter().find(|t| t.0 == arguments.kind) else {
+        let known: Vec<&str> = TEMPLATES.iter().map(|t| t.0).collect();
+        tell(&format!("error: no model of the kind `{}`\n  help: the kinds are {}", arguments.kind, known.join(", ")));
+        return code::INPUT;
+    };
+    let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));
+    if file.as_os_str() == "-" {
+        say(text.trim_end());
+        return code::DONE;
+    }
+    // never over somebody's work
+    let written = std::fs::File::create_new(&file).and_then(|mut f| f.write_all(text.as_bytes()));
+    match written {
+        Ok(()) => {
+            tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
+            code::DONE
+        }
+        Err(error) => {
+            let help = match error.kind() {
+                std::io::ErrorKind::AlreadyExists => "name another file, or remove this one",
+                _ => "name a file in a directory that can be written to",
+            };
+            tell(&format!("error: cannot write `{}`: {error}\n  help: {help}", file.display()));
+            code::INPUT
+        }
+    }
+}

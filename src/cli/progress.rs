@@ -1,0 +1,57 @@
+//! A progress bar on stderr for what takes over half a second, and Ctrl-C.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// From here on Ctrl-C is noted and ends the program between two runs; a second one ends it at once.
+pub(super) fn watch_interrupts() {
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPTED.swap(true, Ordering::SeqCst) {
+            std::process::exit(i32::from(super::code::INTERRUPTED));
+        }
+    });
+}
+
+/// Whether Ctrl-C was pressed.
+pub(super) fn interrupted() -> bool {
+    INTERRUPTED.load(Ordering::SeqCst)
+}
+
+/// A bar that shows itself when the work has taken half a second, on a terminal alone.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    begun: Instant,
+    wanted: bool,
+    shown: AtomicBool,
+}
+
+impl Progress {
+    /// A bar over `steps` steps of a study.
+    pub(super) fn new(study: &str, steps: usize, quiet: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} {eta}") {
+            bar.set_style(style);
+        }
+        bar.set_message(study.to_string());
+        Self { bar, begun: Instant::now(), wanted: !quiet && std::io::stderr().is_terminal(), shown: AtomicBool::new(false) }
+    }
+
+    /// One step is done.
+    pub(super) fn step(&self) {
+        let late = self.begun.elapsed() > Duration::from_millis(500);
+        if self.wanted && late && !self.shown.swap(true, Ordering::Relaxed) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.bar.inc(1);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

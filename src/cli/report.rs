@@ -1,0 +1,204 @@
+//! Outcomes as tables, JSON and summaries.
+
+use super::units::unit;
+use grashof::analysis::extremum::Extremum;
+use grashof::analysis::outcome::Outcome;
+use grashof::analysis::sweep::Run;
+use grashof::expression::Dimension;
+use grashof::model::{Model, Study};
+use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
+use serde_json::Value;
+
+/// The rows of one run, in the columns of the study.
+pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
+    let n = study.columns.len();
+    Table {
+        columns: study.columns.iter().map(|c| Header::new(c.name.clone(), unit(model, c.value, c.dimension))).collect(),
+        rows: outcome.rows.iter().map(|r| r[..n].to_vec()).collect(),
+        switches: outcome.switches.clone(),
+        reasons: None,
+    }
+}
+
+/// Names, units and values of the results of the kind and of the scalars.
+fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
+    let results = study.results.iter().zip(&outcome.results).map(|(name, value)| Scalar {
+        name: name.clone(),
+        value: *value,
+        unit: result_unit(name),
+    });
+    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar {
+        name: s.name.clone(),
+        value: *value,
+        unit: unit(model, s.value, s.dimension),
+    });
+    results.chain(own).collect()
+}
+
+/// Results of kinematic kinds are lengths (balance) or counts.
+fn result_unit(name: &str) -> String {
+    if name == "turns_fully" { String::new() } else { Dimension::LENGTH.si() }
+}
+
+/// The table of scalars for stdout, or the number of rows where there is none.
+pub(super) fn summary(model: &Model, study: &Study, outcome: &Outcome) -> String {
+    let scalars = scalars(model, study, outcome);
+    let head = format!(
+        "  {} rows over {} from {} to {}{}\n",
+        outcome.rows.len(),
+        outcome.independent,
+        shown(outcome.places.first()),
+        shown(outcome.places.last()),
+        match outcome.switches.len() {
+            0 => String::new(),
+            1 => ", 1 switch".into(),
+            n => format!(", {n} switches"),
+        }
+    );
+    head + &output::summary(&scalars)
+}
+
+fn shown(x: Option<&f64>) -> String {
+    x.map_or_else(String::new, |x| output::number((x * 1e6).round() / 1e6))
+}
+
+/// The JSON of one run.
+pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
+    let extreme = |e: Extremum| Some(Extreme { value: e.value, at: e.at });
+    let extrema = study
+        .columns
+        .iter()
+        .zip(&outcome.extremes)
+        .map(|(c, e)| (c.name.clone(), e.map_or_else(Extrema::default, |e| Extrema { min: extreme(e.min), max: extreme(e.max) })))
+        .collect();
+    let mut findings: Vec<Finding> = outcome
+        .findings
+        .iter()
+        .map(|f| Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() })
+        .collect();
+    if let Some(reason) = &outcome.stopped {
+        findings.push(Finding { code: "stopped".into(), message: reason.clone(), path: study.place.clone() });
+    }
+    for e in outcome.expectations.iter().filter(|e| !e.met) {
+        let message = format!("{} is {}, not {} within {}", e.text, e.found, e.wanted, e.tolerance);
+        findings.push(Finding { code: "expectation".into(), message, path: e.place.clone() });
+    }
+    output::write_json(&Report {
+        study: study.name.clone(),
+        status: if outcome.stopped.is_some() { "failed" } else { "done" }.into(),
+        parameters: outcome.parameters.clone(),
+        scalars: scalars(model, study, outcome).into_iter().map(|s| (s.name, json_number(s.value))).collect(),
+        extrema,
+        certificate: certificate(outcome),
+        findings,
+    })
+}
+
+fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
+    let c = outcome.certificate;
+    vec![
+        ("rows".into(), json_number(c.evaluations as f64)),
+        ("switches".into(), json_number(c.switches as f64)),
+        ("constraint_residual".into(), json_number(c.constraint)),
+        ("power_balance".into(), json_number(c.power_balance)),
+    ]
+}
+
+/// One row a run: swept parameters, results, scalars, reason.
+pub(super) fn sweep_rows(model: &Model, study: &Study, runs: &[Run]) -> Table {
+    let swept = study.sweep.iter().map(|s| &model.parameters[s.parameter]);
+    let mut columns: Vec<Header> = swept.map(|p| Header::new(p.name.clone(), p.dimension.si())).collect();
+    columns.extend(study.results.iter().map(|name| Header::new(name.clone(), result_unit(name))));
+    columns.extend(study.scalars.iter().map(|s| Header::new(s.name.clone(), unit(model, s.value, s.dimension))));
+    let (results, scalars) = (study.results.len(), study.scalars.len());
+    let mut rows = Vec::new();
+    let mut reasons = Vec::new();
+    for run in runs {
+        let mut row = run.at.clone();
+        match &run.result {
+            Ok(outcome) => {
+                row.extend(&outcome.results);
+                row.extend(&outcome.scalars);
+                reasons.push(outcome.stopped.clone().unwrap_or_default());
+            }
+            Err(failure) => {
+                // a range that could not be begun is not a full turn
+                row.extend(study.results.iter().map(|name| if name == "turns_fully" { 0.0 } else { f64::NAN }));
+                row.extend(std::iter::repeat_n(f64::NAN, scalars));
+                reasons.push(failure.reason());
+            }
+        }
+        row.resize(run.at.len() + results + scalars, f64::NAN);
+        rows.push(row);
+    }
+    Table { columns, rows, switches: vec![], reasons: Some(reasons) }
+}
+
+/// The JSON of a sweep: lists over its runs.
+pub(super) fn sweep_json(model: &Model, study: &Study, runs: &[Run]) -> String {
+    let table = sweep_rows(model, study, runs);
+    let lists = (0..table.columns.len()).map(|i| {
+        let values: Vec<f64> = table.rows.iter().map(|r| r[i]).collect();
+        (table.columns[i].name.clone(), json_numbers(&values))
+    });
+    let findings = table.reasons.iter().flatten().enumerate().filter(|(_, r)| !r.is_empty()).map(|(i, reason)| Finding {
+        code: "run-stopped".into(),
+        message: format!("run {} ({}): {reason}", i + 1, label(model, study, &runs[i].at)),
+        path: study.place.clone(),
+    });
+    let parameters = grashof::analysis::sweep::parameters(model);
+    let whole = runs.iter().any(|r| r.result.as_ref().is_ok_and(|o| o.stopped.is_none()));
+    output::write_json(&Report {
+        study: study.name.clone(),
+        status: if whole { "done" } else { "failed" }.into(),
+        parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), x)).collect(),
+        scalars: lists.collect(),
+        extrema: vec![],
+        certificate: vec![("runs".into(), json_number(runs.len() as f64))],
+        findings: findings.collect(),
+    })
+}
+
+/// The swept values of a run, as a label: `l3 = 0.3 m`.
+pub(super) fn label(model: &Model, study: &Study, at: &[f64]) -> String {
+    study
+        .sweep
+        .iter()
+        .zip(at)
+        .map(|(s, x)| {
+            let p = &model.parameters[s.parameter];
+            format!("{} = {} {}", p.name, output::number(*x), p.dimension.si()).trim_end().to_string()
+        })
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+/// A sweep's table for stdout, columns aligned.
+pub(super) fn sweep_summary(table: &Table) -> String {
+    let head = table.columns.iter().map(|c| if c.unit.is_empty() { c.name.clone() } else { format!("{} [{}]", c.name, c.unit) });
+    let mut lines: Vec<Vec<String>> = vec![head.collect()];
+    for row in &table.rows {
+        lines.push(row.iter().map(|x| if x.is_nan() { "-".into() } else { significant(*x) }).collect());
+    }
+    let widths: Vec<usize> = (0..table.columns.len()).map(|i| lines.iter().map(|l| l[i].chars().count()).max().unwrap_or(0)).collect();
+    let mut out = String::new();
+    for (i, line) in lines.iter().enumerate() {
+        out.push(' ');
+        for (cell, width) in line.iter().zip(&widths) {
+            out.push_str(&format!(" {cell:>width$}"));
+        }
+        if let Some(reason) = i.checked_sub(1).and_then(|i| table.reasons.as_ref()?.get(i))
+            && !reason.is_empty()
+        {
+            out.push_str(&format!("  {reason}"));
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// Ten significant digits, without trailing zeros.
+fn significant(x: f64) -> String {
+    let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
+    output::number(rounded)
+}

@@ -1,0 +1,235 @@
+//! One study from model to files.
+
+use super::progress::{Progress, interrupted};
+use super::{Common, code, figures, report, tell};
+use grashof::analysis::outcome::{Failure, Outcome};
+use grashof::analysis::run::run;
+use grashof::analysis::sweep::{self, Run};
+use grashof::mechanism::Coordinates;
+use grashof::model::{Document, Kind, Model, Report, Study};
+use grashof::output::{Picture, Staging, write_csv};
+use grashof::par;
+use std::path::Path;
+
+/// A study to run, and where its results go.
+pub(super) struct Job<'a> {
+    pub(super) document: &'a Document,
+    pub(super) model: &'a Model,
+    pub(super) study: &'a str,
+    pub(super) studies: &'a [String],
+    pub(super) directory: &'a Path,
+    pub(super) plots: bool,
+    pub(super) common: &'a Common,
+}
+
+/// What came of it.
+pub(super) struct Finished {
+    pub(super) code: u8,
+    /// None if nothing was computed.
+    pub(super) output: Option<Output>,
+}
+
+/// What is printed of a study.
+pub(super) struct Output {
+    /// Scalars for stdout.
+    pub(super) table: String,
+    /// The JSON report.
+    pub(super) report: serde_json::Value,
+    /// Columns with their units.
+    pub(super) columns: Vec<(String, String)>,
+}
+
+impl Job<'_> {
+    /// Runs, writes and reports; faults have been printed.
+    pub(super) fn run(&self) -> Finished {
+        let nothing = |code| Finished { code, output: None };
+        let Some(study) = &self.model.study else { return nothing(code::INPUT) };
+        if let Some(failure) = later(study) {
+            self.explain(&failure);
+            return nothing(code::INPUT);
+        }
+        if study.sweep.is_empty() { self.single(study) } else { self.sweep(study) }
+    }
+
+    /// A study of one run.
+    fn single(&self, study: &Study) -> Finished {
+        let outcome = match run(self.model, study, &sweep::parameters(self.model), Coordinates::Joint) {
+            Ok(outcome) => outcome,
+            Err(failure) => {
+                let code = self.explain(&failure);
+                return Finished { code, output: None };
+            }
+        };
+        let mut code = code::DONE;
+        if let Some(reason) = &outcome.stopped {
+            tell(&format!("error: study `{}` stopped on its way: {reason}\n  help: start elsewhere, change the lengths, or give a shorter range", self.study));
+            code = code::NUMERICAL;
+        } else {
+            code = code.max(self.expectations(&outcome));
+        }
+        let table = report::rows(self.model, study, &outcome);
+        let mut staging = Staging::new();
+        staging.add(format!("{}.csv", self.study), write_csv(&table));
+        let report = report::json(self.model, study, &outcome);
+        staging.add(format!("{}.json", self.study), report.clone());
+        if self.plots {
+            self.draw(&mut staging, figures::figures(self.model, study, &[(None, &outcome)]), &outcome);
+        }
+        let output = Output {
+            table: report::summary(self.model, study, &outcome),
+            report: serde_json::from_str(&report).unwrap_or_default(),
+            columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
+        };
+        self.write(&staging, code, output)
+    }
+
+    /// A sweep.
+    fn sweep(&self, study: &Study) -> Finished {
+        let count = sweep::grid(self.model, study).len();
+        let progress = Progress::new(self.study, count, self.common.quiet);
+        let runs: Vec<Run> = sweep::sweep(self.model, study, self.common.threads(), interrupted, || progress.step());
+        drop(progress);
+        if interrupted() {
+            return Finished { code: code::INTERRUPTED, output: None };
+        }
+        // rows that failed for a stated reason are results, unless there is no other
+        if runs.iter().all(|r| r.result.is_err()) {
+            if let Some(Err(failure)) = runs.first().map(|r| &r.result) {
+                self.explain(failure);
+            }
+            tell(&format!("error: none of the {count} runs of study `{}` began\n  help: the first reason stands above", self.study));
+            return Finished { code: code::NUMERICAL, output: None };
+        }
+        let mut code = code::DONE;
+        if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
+            tell(&format!("error: no run of study `{}` got through its range\n  help: the reasons stand in its last column", self.study));
+            code = code::NUMERICAL;
+        }
+        for outcome in runs.iter().filter_map(|r| r.result.as_ref().ok()) {
+            code = code.max(self.expectations(outcome));
+        }
+        let mut staging = Staging::new();
+        let table = report::sweep_rows(self.model, study, &runs);
+        staging.add(format!("{}.csv", self.study), write_csv(&table));
+        let report = report::sweep_json(self.model, study, &runs);
+        staging.add(format!("{}.json", self.study), report.clone());
+        for (i, run) in runs.iter().enumerate() {
+            if let Ok(outcome) = &run.result {
+                staging.add(format!("{}-{:03}.csv", self.study, i + 1), write_csv(&report::rows(self.model, study, outcome)));
+            }
+        }
+        let labelled: Vec<(Option<String>, &Outcome)> = runs
+            .iter()
+            .filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?)))
+            .collect();
+        if let (true, Some((_, first))) = (self.plots, labelled.first()) {
+            let mut drawn = figures::figures(self.model, study, &labelled);
+            drawn.extend(figures::sweep_figures(self.model, study, &runs));
+            self.draw(&mut staging, drawn, first);
+        }
+        let output = Output {
+            table: report::sweep_summary(&table),
+            report: serde_json::from_str(&report).unwrap_or_default(),
+            columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
+        };
+        self.write(&staging, code, output)
+    }
+
+    /// Renders figures and the drawing of the mechanism, several at a time.
+    fn draw(&self, staging: &mut Staging, figures: Vec<(String, grashof::output::Figure)>, outcome: &Outcome) {
+        let drawing = outcome.scene.as_ref().map(|s| figures::drawing(self.model, s));
+        let count = figures.len() + usize::from(drawing.is_some());
+        let progress = Progress::new(self.study, count, self.common.quiet);
+        let pictures = par::map(
+            count,
+            self.common.threads(),
+            |i| match figures.get(i) {
+                Some((name, figure)) => (name.clone(), grashof::output::render_figure(figure)),
+                None => (
+                    "mechanism".to_string(),
+                    grashof::output::render_drawing(drawing.as_ref().unwrap_or(&grashof::output::Drawing::default())),
+                ),
+            },
+            || progress.step(),
+        );
+        for (name, picture) in pictures {
+            match picture {
+                Ok(Picture { svg, png }) => {
+                    staging.add(format!("{}-{name}.svg", self.study), svg);
+                    staging.add(format!("{}-{name}.png", self.study), png);
+                }
+                Err(error) => tell(&format!("warning: figure `{name}` of study `{}` cannot be drawn: {error}", self.study)),
+            }
+        }
+    }
+
+    fn write(&self, staging: &Staging, code: u8, output: Output) -> Finished {
+        match staging.commit(self.directory, self.study, self.studies) {
+            Ok(paths) => {
+                if self.common.verbose {
+                    for path in paths {
+                        tell(&format!("wrote {}", path.display()));
+                    }
+                }
+                Finished { code, output: Some(output) }
+            }
+            Err(error) => {
+                tell(&format!("error: {error}\n  help: choose another directory with `-o DIR`"));
+                Finished { code: code.max(code::INPUT), output: None }
+            }
+        }
+    }
+
+    /// Tells which expectations are not met.
+    fn expectations(&self, outcome: &Outcome) -> u8 {
+        let mut code = code::DONE;
+        for e in outcome.expectations.iter().filter(|e| !e.met) {
+            code = code::UNMET;
+            let message = format!("`{}` is {}, not {} within {:e}", e.text, e.found, e.wanted, e.tolerance);
+            let report = Report::new(vec![self.document.diagnostic(
+                "expectation",
+                &e.place,
+                message,
+                "the value that the file expects",
+                Some("find out which of the two is right".into()),
+            )]);
+            tell(report.render(self.common.colored()).trim_end());
+        }
+        code
+    }
+
+    /// Prints why a run did not begin, and gives its exit code.
+    fn explain(&self, failure: &Failure) -> u8 {
+        let diagnostics = match failure {
+            Failure::Model(faults) => faults
+                .iter()
+                .map(|f| self.document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone()))
+                .collect(),
+            Failure::Study { code, message, place, help } => {
+                vec![self.document.diagnostic(code, place, message.clone(), "", Some(help.clone()))]
+            }
+            Failure::Numerical(message) => {
+                tell(&format!("error: study `{}`: {message}", self.study));
+                return code::NUMERICAL;
+            }
+        };
+        tell(Report::new(diagnostics).render(self.common.colored()).trim_end());
+        code::INPUT
+    }
+}
+
+/// What the model language has and this version does not compute.
+fn later(study: &Study) -> Option<Failure> {
+    let what = match study.kind {
+        Kind::Later(kind) => format!("studies of the kind `{kind}`"),
+        _ if study.solve.is_some() => "`solve`".to_string(),
+        _ if !study.take.is_empty() => "`take`".to_string(),
+        _ => return None,
+    };
+    Some(Failure::Study {
+        code: "later",
+        message: format!("{what} cannot be computed yet"),
+        place: study.place.clone(),
+        help: "name the studies to run with `--study`; `kinematics`, `inverse`, `balance` and sweeps of them are there".into(),
+    })
+}

@@ -1,0 +1,107 @@
+//! Energies, momenta and the centre of mass of the state evaluated last.
+
+use super::Dynamics;
+use crate::geometry::{Force, Motion, Space};
+use crate::mechanism::{Effort, EffortLaw};
+use crate::scalar::Scalar;
+
+impl<G: Space> Dynamics<'_, G> {
+    /// T = ½ Σ V·I V + ½ Σ J ẋ², J; after [`Dynamics::forces`].
+    #[must_use]
+    pub fn kinetic_energy(&self) -> G::S {
+        let w = &self.work;
+        let mut twice = G::S::default();
+        for node in &self.mechanism.nodes {
+            let v = w.twists[node.body];
+            twice += (w.inertias[node.body] * v).power(v);
+        }
+        for rotor in &self.mechanism.rotors {
+            let rate = w.readings[rotor.gauge].rate;
+            twice += rotor.inertia * rate * rate;
+        }
+        twice.scale(0.5)
+    }
+
+    /// Potential energy of gravity, J; zero at the world origin.
+    #[must_use]
+    pub fn gravity_energy(&self) -> G::S {
+        let mut sum = G::S::default();
+        for node in &self.mechanism.nodes {
+            sum -= G::dot(self.mechanism.gravity, self.work.inertias[node.body].h);
+        }
+        sum
+    }
+
+    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫ F ds by Gauss-Legendre on 32 panels for a law.
+    #[must_use]
+    pub fn spring_energy(&mut self, spring: usize, modes: &mut [i32]) -> G::S {
+        let m = self.mechanism;
+        let stretch = m.stretches[spring];
+        let s = self.extent(stretch.of) - stretch.rest;
+        let effort: Effort<G> = m.efforts[m.spring_efforts[spring]].clone();
+        match effort.law {
+            EffortLaw::Linear { stiffness, preload, .. } => (stiffness * s).scale(0.5) * s + preload * s,
+            EffortLaw::Law { output, preload, .. } => self.law_energy(spring, output, s, modes) + preload * s,
+            EffortLaw::Drive { .. } => G::S::default(),
+        }
+    }
+
+    /// ∫₀ˢ F ds of a spring's law.
+    fn law_energy(&mut self, spring: usize, output: usize, s: G::S, modes: &mut [i32]) -> G::S {
+        const NODES: [(f64, f64); 3] = [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
+        const PANELS: usize = 32;
+        let program = &self.mechanism.force_program;
+        self.fill(program);
+        let input = program.fills.iter().find(|(_, l)| *l == crate::mechanism::Leaf::Stretch { spring, order: 0 });
+        let Some(&(input, _)) = input else { return self.work.force_outputs[output] * s };
+        let w = &mut self.work;
+        let mut values = vec![0.0; program.inputs];
+        let mut registers = vec![0.0; program.program.registers()];
+        let saved = modes.to_vec();
+        let mut sum = G::S::default();
+        for panel in 0..PANELS {
+            for (node, weight) in NODES {
+                let place = (panel as f64 + 0.5 * (1.0 + node)) / PANELS as f64;
+                w.inputs[input] = s.scale(place);
+                for (value, x) in values.iter_mut().zip(&w.inputs) {
+                    *value = x.value();
+                }
+                program.program.set_modes(&values, &mut registers, modes);
+                program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
+                sum += w.force_outputs[output].scale(weight / PANELS as f64);
+            }
+        }
+        modes.copy_from_slice(&saved);
+        w.inputs[input] = s;
+        program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
+        sum * s
+    }
+
+    /// Total mass, kg, and first moment Σ m c, kg m.
+    #[must_use]
+    pub fn first_moment(&self) -> (G::S, G::Vector) {
+        let (mut m, mut h) = (G::S::default(), G::Vector::default());
+        for node in &self.mechanism.nodes {
+            m += self.work.inertias[node.body].m;
+            h += self.work.inertias[node.body].h;
+        }
+        (m, h)
+    }
+
+    /// Momentum wrench Σ I V: angular about the world origin, linear. kg m²/s, kg m/s.
+    #[must_use]
+    pub fn momentum(&self) -> Force<G> {
+        let mut sum = Force::default();
+        for node in &self.mechanism.nodes {
+            sum += self.work.inertias[node.body] * self.work.twists[node.body];
+        }
+        sum
+    }
+
+    /// Rate of the momentum of one body with acceleration `a`: I A + V ×* I V.
+    #[must_use]
+    pub fn inertial(&self, body: usize, a: Motion<G>) -> Force<G> {
+        let w = &self.work;
+        w.inertias[body] * a + w.twists[body].cross_force(w.inertias[body] * w.twists[body])
+    }
+}

@@ -1,0 +1,145 @@
+//! Applied forces, f and M.
+//!
+//! With P_b = I_b bias_b + V_b ×* I_b V_b − (applied wrench) summed over all that hangs on column k, f_k = −s_k · P
+//! (Newton-Euler), and efforts along gauges add τ ∂x/∂q_k. The mass matrix comes from composite inertias:
+//! M_jk = s_j · I^c s_k for every ancestor column j of k (Featherstone 2008, section 6.2), and rotors add J gᵀg.
+
+use super::{Dynamics, Workspace};
+use crate::geometry::{Force, Space};
+use crate::mechanism::{EffortLaw, StretchOf};
+
+impl<G: Space> Dynamics<'_, G> {
+    /// World inertias, applied wrenches, efforts and f; after [`Dynamics::velocity`].
+    pub fn forces(&mut self, modes: &[i32]) {
+        let m = self.mechanism;
+        if m.force_program.outputs > 0 {
+            self.fill(&m.force_program);
+            let w = &mut self.work;
+            m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
+        }
+        self.applied();
+        self.efforts();
+        // P_b, summed from the leaves
+        let w = &mut self.work;
+        for node in &m.nodes {
+            let (b, i) = (node.body, w.inertias[node.body]);
+            w.sums[b] = i * w.bias[b] + w.twists[b].cross_force(i * w.twists[b]) - w.applied[b];
+        }
+        for node in m.nodes.iter().rev() {
+            let sum = w.sums[node.body];
+            for k in node.columns.clone() {
+                w.force[k] = -sum.power(w.columns[k]);
+            }
+            if node.parent != 0 {
+                w.sums[node.parent] += sum;
+            }
+        }
+        let Workspace { force, efforts, readings, columns, functions, .. } = w;
+        let along_gauge = |gauge: usize, size: G::S, force: &mut [G::S]| {
+            m.gauges[gauge].project(&readings[gauge], columns, |k, x| force[k] += size * x);
+        };
+        for (effort, &size) in m.efforts.iter().zip(efforts.iter()) {
+            match effort.along {
+                StretchOf::Gauge(i) => along_gauge(i, size, force),
+                StretchOf::Function(f) => {
+                    let function = &m.functions[f];
+                    for (i, &gauge) in function.gauges.iter().enumerate() {
+                        along_gauge(gauge, size * functions[function.value + 1 + i], force);
+                    }
+                }
+            }
+        }
+        for rotor in &m.rotors {
+            along_gauge(rotor.gauge, -(rotor.inertia * readings[rotor.gauge].drift), force);
+        }
+    }
+
+    /// World inertias, and gravity and loads at points as wrenches.
+    fn applied(&mut self) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        for node in &m.nodes {
+            let b = node.body;
+            let inertia = m.bodies[b].mass.in_world(w.poses[b]);
+            w.inertias[b] = inertia;
+            w.applied[b] = Force { n: G::moment(inertia.h, m.gravity), f: m.gravity * inertia.m };
+        }
+        for pull in &m.pulls {
+            let axes = w.poses[pull.frame].r;
+            let mut wrench = Force::default();
+            if !pull.force.is_empty() {
+                let mut f = G::Vector::default();
+                for (axis, &output) in pull.force.iter().enumerate() {
+                    f += crate::geometry::basis::<G>(axis) * w.force_outputs[output];
+                }
+                wrench = Force::at(G::rotate(axes, f), w.poses[pull.body].point(pull.at));
+            }
+            for (axis, &output) in pull.torque.iter().enumerate() {
+                let mut e = [0.0; 3];
+                e[if G::SPIN == 1 { 2 } else { axis }] = 1.0;
+                wrench.n += G::rotate_spin(axes, G::spin(e)) * w.force_outputs[output];
+            }
+            w.applied[pull.body] += wrench;
+        }
+    }
+
+    /// Size of each effort.
+    fn efforts(&mut self) {
+        for (i, effort) in self.mechanism.efforts.iter().enumerate() {
+            let outputs = &self.work.force_outputs;
+            let size = match effort.law {
+                EffortLaw::Linear { stiffness, rest, damping, preload } => {
+                    -(stiffness * (self.extent(effort.along) - rest) + preload) - damping * self.extent_rate(effort.along)
+                }
+                EffortLaw::Law { output, damping, preload } => {
+                    -(outputs[output] + preload) - damping * self.extent_rate(effort.along)
+                }
+                EffortLaw::Drive { output } => outputs[output],
+            };
+            self.work.efforts[i] = size;
+        }
+    }
+
+    /// M; after [`Dynamics::forces`].
+    pub fn mass(&mut self) {
+        let m = self.mechanism;
+        let nv = m.nv;
+        let Workspace { composite, inertias, columns, mass, readings, .. } = &mut self.work;
+        composite.copy_from_slice(inertias);
+        for node in m.nodes.iter().rev() {
+            let whole = composite[node.body];
+            for k in node.columns.clone() {
+                let momentum = whole * columns[k];
+                for &j in &m.ancestors[k] {
+                    let x = momentum.power(columns[j]);
+                    mass[j * nv + k] = x;
+                    mass[k * nv + j] = x;
+                }
+            }
+            if node.parent != 0 {
+                composite[node.parent] += whole;
+            }
+        }
+        for rotor in &m.rotors {
+            let (gauge, reading) = (&m.gauges[rotor.gauge], &readings[rotor.gauge]);
+            gauge.project(reading, columns, |j, x| {
+                gauge.project(reading, columns, |k, y| mass[j * nv + k] += rotor.inertia * x * y);
+            });
+        }
+    }
+
+    /// M a + Gᵀλ − f (shapes nv, rows → nv); after [`Dynamics::mass`].
+    pub fn residual(&self, a: &[G::S], lambda: &[G::S], r: &mut [G::S]) {
+        let w = &self.work;
+        let nv = self.mechanism.nv;
+        for (i, r) in r.iter_mut().enumerate() {
+            *r = -w.force[i];
+            for (m, a) in w.mass[i * nv..(i + 1) * nv].iter().zip(a) {
+                *r += *m * *a;
+            }
+            for (row, l) in lambda.iter().enumerate() {
+                *r += w.g[row * nv + i] * *l;
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Position and velocity: poses, columns, gauges and constraint rows, from the root of the tree outwards.
+//!
+//! A column is the twist s_k = ∂V/∂v_k of its body in the world. Because a joint's axis is carried by what it hangs on,
+//! ṡ_k = V × s_k with V the twist before the step, and the acceleration at a = 0 is the sum of ṡ_k v_k along the path
+//! (Featherstone 2008, equation 5.7 in world coordinates).
+
+use super::{Dynamics, Workspace};
+use crate::geometry::{Motion, Pose, Space, basis};
+use crate::mechanism::{Leaf, RowKind, StagedProgram, Step, StretchOf};
+use crate::scalar::Scalar;
+
+impl<G: Space> Dynamics<'_, G> {
+    /// Driver laws f, f', f'' at time `t`, s.
+    pub fn time(&mut self, t: G::S, modes: &[i32]) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        self.t = t;
+        if m.time_program.outputs > 0 {
+            for &(input, _) in &m.time_program.fills {
+                w.inputs[input] = t;
+            }
+            m.time_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.motions);
+        }
+    }
+
+    /// Poses, columns, gauges, Φ and G at the coordinates `q` (nq); after [`Dynamics::time`].
+    pub fn position(&mut self, q: &[G::S], modes: &[i32]) {
+        self.poses(q);
+        let m = self.mechanism;
+        for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut self.work.readings) {
+            gauge.position(&self.work.poses, q, &self.work.columns, &modes[m.switches..], reading);
+        }
+        self.functions(modes);
+        self.rows();
+    }
+
+    /// Poses and columns alone.
+    fn poses(&mut self, q: &[G::S]) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        for node in &m.nodes {
+            let mut x = w.poses[node.parent] * node.before;
+            for step in &m.steps[node.steps.clone()] {
+                match *step {
+                    Step::Axis { u, d, turns, slides, q: i, v } => {
+                        let mut column = Motion::default();
+                        if turns {
+                            column = Motion::about(G::rotate_spin(x.r, u), x.p);
+                        }
+                        if slides {
+                            let d = G::rotate(x.r, d);
+                            column.v += d;
+                            x.p += d * q[i];
+                        }
+                        if turns {
+                            x.r = G::multiply(x.r, G::hinge(u, q[i]));
+                        }
+                        w.columns[v] = column;
+                    }
+                    Step::Ball { q: i, v, reversed } => {
+                        let turn = G::quaternion([q[i], q[i + 1], q[i + 2], q[i + 3]]);
+                        let after = G::multiply(x.r, if reversed { G::inverse(turn) } else { turn });
+                        // ω is in the axes of the joint's second body: those after the step, or before it when reversed
+                        let (axes, sign) = if reversed { (x.r, -1.0) } else { (after, 1.0) };
+                        for k in 0..G::SPIN {
+                            let mut e = [0.0; 3];
+                            e[if G::SPIN == 1 { 2 } else { k }] = sign;
+                            w.columns[v + k] = Motion::about(G::rotate_spin(axes, G::spin(e)), x.p);
+                        }
+                        x.r = after;
+                    }
+                }
+            }
+            w.poses[node.body] = match node.after {
+                Some(after) => x * after,
+                None => x,
+            };
+        }
+    }
+
+    /// Values and partial derivatives of functions of gauges.
+    fn functions(&mut self, modes: &[i32]) {
+        let program = &self.mechanism.position_program;
+        if program.outputs > 0 {
+            self.fill(program);
+            let w = &mut self.work;
+            program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.functions);
+        }
+    }
+
+    /// Φ and G from the gauges; entries outside of the pattern stay 0.
+    fn rows(&mut self) {
+        let m = self.mechanism;
+        let nv = m.nv;
+        let Workspace { readings, columns, functions, motions, phi, g, .. } = &mut self.work;
+        for ((row, phi), g) in m.rows.iter().zip(phi.iter_mut()).zip(g.chunks_exact_mut(nv.max(1))) {
+            match row.kind {
+                RowKind::Gauge(i) => {
+                    *phi = readings[i].x - row.offset;
+                    m.gauges[i].project(&readings[i], columns, |k, x| g[k] = x);
+                }
+                RowKind::Driver { gauge: i, driver } => {
+                    *phi = readings[i].x - row.offset - motions[m.drives[driver].output];
+                    m.gauges[i].project(&readings[i], columns, |k, x| g[k] = x);
+                }
+                RowKind::Ratio { first, second, ratio } => {
+                    *phi = readings[second].x - row.offset - readings[first].x.scale(ratio);
+                    g.fill(G::S::default());
+                    m.gauges[second].project(&readings[second], columns, |k, x| g[k] += x);
+                    m.gauges[first].project(&readings[first], columns, |k, x| g[k] -= x.scale(ratio));
+                }
+                RowKind::Function(f) => {
+                    let function = &m.functions[f];
+                    *phi = functions[function.value];
+                    g.fill(G::S::default());
+                    for (i, &gauge) in function.gauges.iter().enumerate() {
+                        let slope = functions[function.value + 1 + i];
+                        m.gauges[gauge].project(&readings[gauge], columns, |k, x| g[k] += slope * x);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Twists, rates, ν and γ at the velocities `v` (nv); after [`Dynamics::position`].
+    pub fn velocity(&mut self, v: &[G::S], modes: &[i32]) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        for node in &m.nodes {
+            let (mut twist, mut bias) = (w.twists[node.parent], w.bias[node.parent]);
+            for k in node.columns.clone() {
+                let moved = w.columns[k] * v[k];
+                bias += twist.cross(moved);
+                twist += moved;
+            }
+            (w.twists[node.body], w.bias[node.body]) = (twist, bias);
+        }
+        for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut w.readings) {
+            gauge.velocity(&w.poses, &w.twists, &w.bias, v, reading);
+        }
+        if m.velocity_program.outputs > 0 {
+            self.fill(&m.velocity_program);
+            let w = &mut self.work;
+            m.velocity_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.drifts);
+        }
+        let w = &mut self.work;
+        for (i, row) in m.rows.iter().enumerate() {
+            (w.nu[i], w.gamma[i]) = match row.kind {
+                RowKind::Gauge(k) => (G::S::default(), -w.readings[k].drift),
+                RowKind::Driver { gauge, driver } => {
+                    let output = m.drives[driver].output;
+                    (w.motions[output + 1], w.motions[output + 2] - w.readings[gauge].drift)
+                }
+                RowKind::Ratio { first, second, ratio } => {
+                    (G::S::default(), w.readings[first].drift.scale(ratio) - w.readings[second].drift)
+                }
+                RowKind::Function(f) => (G::S::default(), -w.drifts[m.functions[f].drift]),
+            };
+        }
+    }
+
+    /// Puts the inputs of a program in their places.
+    pub(super) fn fill(&mut self, program: &StagedProgram) {
+        for &(input, leaf) in &program.fills {
+            self.work.inputs[input] = self.leaf(leaf);
+        }
+    }
+
+    /// The value of a program's input at the state evaluated last.
+    #[must_use]
+    pub fn leaf(&self, leaf: Leaf) -> G::S {
+        let w = &self.work;
+        match leaf {
+            Leaf::Time => self.t,
+            Leaf::Gauge { gauge, order: 0 } => w.readings[gauge].x,
+            Leaf::Gauge { gauge, order: 1 } => w.readings[gauge].rate,
+            Leaf::Gauge { gauge, .. } => w.readings[gauge].drift,
+            Leaf::Stretch { spring, order: 0 } => self.extent(self.mechanism.stretches[spring].of) - self.mechanism.stretches[spring].rest,
+            Leaf::Stretch { spring, .. } => self.extent_rate(self.mechanism.stretches[spring].of),
+            Leaf::Spin { body, axis } => G::spin_component(w.twists[body].w, axis),
+        }
+    }
+
+    /// x of a gauge or function.
+    #[must_use]
+    pub fn extent(&self, of: StretchOf) -> G::S {
+        match of {
+            StretchOf::Gauge(i) => self.work.readings[i].x,
+            StretchOf::Function(f) => self.work.functions[self.mechanism.functions[f].value],
+        }
+    }
+
+    /// ẋ of a gauge or function.
+    #[must_use]
+    pub fn extent_rate(&self, of: StretchOf) -> G::S {
+        match of {
+            StretchOf::Gauge(i) => self.work.readings[i].rate,
+            StretchOf::Function(f) => {
+                let function = &self.mechanism.functions[f];
+                let mut rate = G::S::default();
+                for (i, &gauge) in function.gauges.iter().enumerate() {
+                    rate += self.work.functions[function.value + 1 + i] * self.work.readings[gauge].rate;
+                }
+                rate
+            }
+        }
+    }
+
+    /// World position of a point of a body, m.
+    #[must_use]
+    pub fn point(&self, body: usize, at: G::Vector) -> G::Vector {
+        self.work.poses[body].point(at)
+    }
+
+    /// Pose of a body.
+    #[must_use]
+    pub fn pose(&self, body: usize) -> Pose<G> {
+        self.work.poses[body]
+    }
+
+    /// Reads the gauges that no row or force needs (joint coordinates for output); after the velocity stage.
+    pub fn watch(&mut self, q: &[G::S], v: &[G::S], modes: &[i32]) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        for (gauge, reading) in m.gauges.iter().zip(&mut w.readings).skip(self.active) {
+            gauge.position(&w.poses, q, &w.columns, &modes[m.switches..], reading);
+            gauge.velocity(&w.poses, &w.twists, &w.bias, v, reading);
+        }
+    }
+
+    /// Unit vector along a world axis.
+    #[must_use]
+    pub fn axis(axis: usize) -> G::Vector {
+        basis::<G>(axis)
+    }
+}

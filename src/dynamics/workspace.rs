@@ -1,0 +1,97 @@
+//! The scratch of one evaluator, grouped by the stage that fills it. Sized once; no evaluation allocates.
+
+use crate::geometry::{Force, Inertia, Motion, Pose, Space};
+use crate::mechanism::{Mechanism, Reading, StagedProgram};
+use crate::scalar::Scalar;
+
+/// What evaluations leave behind, for the state that was evaluated last.
+#[derive(Clone, Debug)]
+pub struct Workspace<G: Space> {
+    // ---- time: written by `Dynamics::time`
+    /// f, f', f'' of each driver (3 × drivers).
+    pub motions: Vec<G::S>,
+
+    // ---- position: written by `Dynamics::position`
+    /// Pose of each body in the world.
+    pub poses: Vec<Pose<G>>,
+    /// Unit twist of each velocity column in the world (nv).
+    pub columns: Vec<Motion<G>>,
+    /// Gauge readings; `x` and `wrench` from here on.
+    pub readings: Vec<Reading<G>>,
+    /// Functions and their partial derivatives (outputs of the position program).
+    pub functions: Vec<G::S>,
+    /// Φ (rows).
+    pub phi: Vec<G::S>,
+    /// G, row by row (rows × nv).
+    pub g: Vec<G::S>,
+
+    // ---- velocity: written by `Dynamics::velocity`
+    /// Twist of each body.
+    pub twists: Vec<Motion<G>>,
+    /// Acceleration of each body at a = 0: Σ ṡ_k v_k.
+    pub bias: Vec<Motion<G>>,
+    /// Drifts of the functions.
+    pub drifts: Vec<G::S>,
+    /// ν (rows).
+    pub nu: Vec<G::S>,
+    /// γ (rows).
+    pub gamma: Vec<G::S>,
+
+    // ---- dynamics: written by `Dynamics::forces` and `Dynamics::mass`
+    /// Inertia of each body about the world origin.
+    pub inertias: Vec<Inertia<G>>,
+    /// Inertia of each body with all that hangs on it.
+    pub composite: Vec<Inertia<G>>,
+    /// Applied wrench of each body: gravity and loads at points.
+    pub applied: Vec<Force<G>>,
+    /// Size of each effort, along its gauge or function.
+    pub efforts: Vec<G::S>,
+    /// Outputs of the force program.
+    pub force_outputs: Vec<G::S>,
+    /// Right-hand side f (nv).
+    pub force: Vec<G::S>,
+    /// Mass matrix M, row by row (nv × nv).
+    pub mass: Vec<G::S>,
+    /// Wrench sums along the tree.
+    pub(super) sums: Vec<Force<G>>,
+
+    // ---- scratch of the programs
+    pub(super) inputs: Vec<G::S>,
+    pub(super) registers: Vec<G::S>,
+}
+
+impl<G: Space> Workspace<G> {
+    /// Scratch for a mechanism.
+    #[must_use]
+    pub fn new(mechanism: &Mechanism<G>) -> Self {
+        let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
+        let zeros = |n: usize| vec![G::S::constant(0.0); n];
+        let programs =
+            [&mechanism.time_program, &mechanism.position_program, &mechanism.velocity_program, &mechanism.force_program];
+        let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
+        Self {
+            motions: zeros(mechanism.time_program.outputs),
+            poses: vec![Pose::identity(); bodies],
+            columns: vec![Motion::default(); nv],
+            readings: vec![Reading::default(); mechanism.gauges.len()],
+            functions: zeros(mechanism.position_program.outputs),
+            phi: zeros(rows),
+            g: zeros(rows * nv),
+            twists: vec![Motion::default(); bodies],
+            bias: vec![Motion::default(); bodies],
+            drifts: zeros(mechanism.velocity_program.outputs),
+            nu: zeros(rows),
+            gamma: zeros(rows),
+            inertias: vec![Inertia::default(); bodies],
+            composite: vec![Inertia::default(); bodies],
+            applied: vec![Force::default(); bodies],
+            efforts: zeros(mechanism.efforts.len()),
+            force_outputs: zeros(mechanism.force_program.outputs),
+            force: zeros(nv),
+            mass: zeros(nv * nv),
+            sums: vec![Force::default(); bodies],
+            inputs: zeros(most(|p| p.inputs)),
+            registers: zeros(most(|p| p.program.registers())),
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Text → checked program: numbers with units, names, functions and switches, compiled once and evaluated on any scalar.
+//!
+//! [`parse`] gives a syntax tree with byte spans; [`lower`] resolves names through a [`Scope`], checks dimensions and puts
+//! hash-consed nodes into a [`Pool`]; [`Pool::program`] extracts a straight-line [`Program`] with parameters folded to
+//! numbers. Every switch (comparison, `abs`, `sign`, `min`, `max`, `clamp`, table segment) has a number and an integer
+//! *mode*; a program never branches on a value: it selects by mode. This module knows no mechanics and no file format.
+
+mod compile;
+mod construct;
+mod evaluate;
+mod function;
+mod lexer;
+mod lower;
+mod parser;
+mod pool;
+mod program;
+mod quantity;
+mod rate;
+mod scope;
+mod simplify;
+mod spline;
+mod switch;
+mod table;
+mod units;
+
+pub use lower::lower;
+pub use parser::{Expr, Kind, SyntaxError, parse};
+pub use pool::{Id, Node, Pool};
+pub use program::Program;
+pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
+pub use switch::{Compare, Switch, Test};
+pub use table::{Between, Beyond, Table, TableError};
+pub use units::{Dimension, parse_unit, unit};

@@ -1,0 +1,209 @@
+//! Straight-line code: the form in which expressions are evaluated, on any scalar.
+
+use super::switch::{Compare, Test};
+use super::table::Table;
+use crate::scalar::Scalar;
+use std::sync::Arc;
+
+/// One instruction; operands are registers. Its result goes to the next free register (`SinCos`: two).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Op {
+    Const(f64),
+    Input(u32),
+    Neg(u32),
+    Add(u32, u32),
+    /// a + c
+    Shift(u32, f64),
+    Sub(u32, u32),
+    Mul(u32, u32),
+    /// c a
+    Scale(u32, f64),
+    Div(u32, u32),
+    Powi(u32, i32),
+    Powf(u32, f64),
+    /// e^(b ln a)
+    Pow(u32, u32),
+    SinCos(u32),
+    Tan(u32),
+    Asin(u32),
+    Acos(u32),
+    Atan(u32),
+    Atan2(u32, u32),
+    Sqrt(u32),
+    Exp(u32),
+    Ln(u32),
+    Compare(Compare, u32),
+    And(u32, u32),
+    Or(u32, u32),
+    Not(u32),
+    /// Condition, value if 1, value if 0.
+    If(u32, u32, u32),
+    /// Operand times the mode of a switch.
+    Signed(u32, u32),
+    /// The mode of a switch.
+    Sign(u32),
+    /// Value in modes but 0, value in mode 0, switch.
+    Select(u32, u32, u32),
+    /// Table, order, argument, switch.
+    Table(u16, u8, u32, u32),
+}
+
+/// A switch of a program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Decision {
+    /// The mode must be known before this instruction.
+    pub(super) before: u32,
+    /// Operands are registers.
+    pub(super) test: Test<u32>,
+}
+
+/// Expressions compiled for evaluation: [`super::Pool::program`] makes them.
+///
+/// `modes` are indexed by the pool's switch numbers, `inputs` by its input numbers. `registers` is scratch space of
+/// [`Self::registers`] numbers. Nothing is allocated.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    pub(super) ops: Vec<Op>,
+    pub(super) registers: usize,
+    pub(super) outputs: Vec<u32>,
+    pub(super) inputs: Vec<u32>,
+    /// Pool's numbers of the switches, in the order of `decisions`.
+    pub(super) switches: Vec<u32>,
+    pub(super) decisions: Vec<Decision>,
+    pub(super) tables: Arc<[Table]>,
+}
+
+/// Runs one instruction whose result belongs into register `k`; returns the next free register.
+#[inline(always)]
+fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
+    let at = |i: u32| r[i as usize];
+    // conditions are constants that modes decided, so reading their value is no branch on a scalar
+    let truth = |i: u32| r[i as usize].value() != 0.0;
+    let boolean = |b: bool| S::constant(f64::from(u8::from(b)));
+    let mode = |switch: u32| modes[switch as usize];
+    let result = match op {
+        Op::Const(c) => S::constant(c),
+        Op::Input(i) => inputs[i as usize],
+        Op::Neg(a) => -at(a),
+        Op::Add(a, b) => at(a) + at(b),
+        Op::Shift(a, c) => at(a) + S::constant(c),
+        Op::Sub(a, b) => at(a) - at(b),
+        Op::Mul(a, b) => at(a) * at(b),
+        Op::Scale(a, c) => at(a).scale(c),
+        Op::Div(a, b) => at(a) / at(b),
+        Op::Powi(a, n) => at(a).powi(n),
+        Op::Powf(a, n) => at(a).powf(n),
+        Op::Pow(a, b) => (at(b) * at(a).ln()).exp(),
+        Op::SinCos(a) => {
+            let (sin, cos) = at(a).sin_cos();
+            r[k] = sin;
+            r[k + 1] = cos;
+            return k + 2;
+        }
+        Op::Tan(a) => at(a).tan(),
+        Op::Asin(a) => at(a).asin(),
+        Op::Acos(a) => at(a).acos(),
+        Op::Atan(a) => at(a).atan(),
+        Op::Atan2(a, b) => at(a).atan2(at(b)),
+        Op::Sqrt(a) => at(a).sqrt(),
+        Op::Exp(a) => at(a).exp(),
+        Op::Ln(a) => at(a).ln(),
+        Op::Compare(op, switch) => boolean(op.holds(mode(switch))),
+        Op::And(a, b) => boolean(truth(a) && truth(b)),
+        Op::Or(a, b) => boolean(truth(a) || truth(b)),
+        Op::Not(a) => boolean(!truth(a)),
+        Op::If(c, a, b) => at(if truth(c) { a } else { b }),
+        Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
+        Op::Sign(switch) => S::constant(f64::from(mode(switch))),
+        Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
+        Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
+            Some(table) => table.eval(at(x), mode(switch), order),
+            None => S::constant(f64::NAN),
+        },
+    };
+    r[k] = result;
+    k + 1
+}
+
+impl Program {
+    /// Number of scratch registers that evaluation needs.
+    #[must_use]
+    pub fn registers(&self) -> usize {
+        self.registers
+    }
+
+    /// Number of outputs.
+    #[must_use]
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The inputs that are really used, ascending; the others may hold anything.
+    #[must_use]
+    pub fn inputs(&self) -> &[u32] {
+        &self.inputs
+    }
+
+    /// The pool's numbers of the switches in the program, in the order in which they are decided.
+    #[must_use]
+    pub fn switches(&self) -> &[u32] {
+        &self.switches
+    }
+
+    /// The outputs at `inputs` in the branch that `modes` select.
+    pub fn eval<S: Scalar>(&self, inputs: &[S], modes: &[i32], registers: &mut [S], outputs: &mut [S]) {
+        self.run(inputs, modes, registers);
+        for (output, register) in outputs.iter_mut().zip(&self.outputs) {
+            *output = registers[*register as usize];
+        }
+    }
+
+    fn run<S: Scalar>(&self, inputs: &[S], modes: &[i32], registers: &mut [S]) {
+        let registers = &mut registers[..self.registers];
+        let mut k = 0;
+        for op in &self.ops {
+            k = step(*op, k, inputs, modes, &self.tables, registers);
+        }
+    }
+
+    /// Sets the mode of every switch in the program from the values, evaluating as it goes. A value that lies exactly on a
+    /// comparison takes the literal truth.
+    pub fn set_modes(&self, inputs: &[f64], registers: &mut [f64], modes: &mut [i32]) {
+        if self.decisions.is_empty() {
+            return;
+        }
+        let registers = &mut registers[..self.registers];
+        let (mut k, mut done) = (0, 0);
+        for (decision, switch) in self.decisions.iter().zip(&self.switches) {
+            while done < decision.before as usize {
+                k = step(self.ops[done], k, inputs, modes, &self.tables, registers);
+                done += 1;
+            }
+            modes[*switch as usize] = decision.test.mode(|i| registers[i as usize], &self.tables);
+        }
+    }
+
+    /// Distance of each switch of [`Self::switches`] from the end of its present mode: positive inside, 0 on the switch,
+    /// negative outside. ±(a − b) for comparisons, min and max; ±x for abs and sign; to the nearest end of a table's segment.
+    pub fn roots(&self, inputs: &[f64], modes: &[i32], registers: &mut [f64], roots: &mut [f64]) {
+        if self.decisions.is_empty() {
+            return;
+        }
+        self.run(inputs, modes, registers);
+        for ((root, decision), switch) in roots.iter_mut().zip(&self.decisions).zip(&self.switches) {
+            *root = decision.test.root(modes[*switch as usize], |i| registers[i as usize], &self.tables);
+        }
+    }
+
+    /// The mode behind the switch that is number `k` of [`Self::switches`], across the end of its present mode that is nearest.
+    ///
+    /// `registers` are those that [`Self::roots`] left at the crossing.
+    #[must_use]
+    pub fn neighbour(&self, k: usize, modes: &[i32], registers: &[f64]) -> i32 {
+        self.decisions[k].test.neighbour(modes[self.switches[k] as usize], |i| registers[i as usize], &self.tables)
+    }
+}
+
+#[cfg(test)]
+#[path = "program_tests.rs"]
+mod tests;

@@ -1,0 +1,181 @@
+//! Switches: the places where an expression changes its formula, each with an integer mode.
+//!
+//! | switch | modes |
+//! |---|---|
+//! | `a < b`, `a <= b` | 1 true, 0 false |
+//! | `a == b`, `a != b` | sign of a − b: −1, 0, 1 |
+//! | `abs(a)`, `sign(a)` | sign of a: −1, 0, 1 |
+//! | `min(a, b)`, `max(a, b)` | 1 if a ≤ b, else 0 |
+//! | table | number of the segment; −1 below, n above the n segments; periodic tables count on without bound |
+
+use super::pool::Id;
+use super::table::Table;
+
+/// A comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Compare {
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`; a pool holds it as `<` of exchanged operands.
+    Greater,
+    /// `>=`; a pool holds it as `<=` of exchanged operands.
+    GreaterEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+}
+
+impl Compare {
+    /// Whether the comparison is true in a mode of its switch.
+    #[must_use]
+    #[inline]
+    pub fn holds(self, mode: i32) -> bool {
+        match self {
+            Self::Equal => mode == 0,
+            _ => mode != 0,
+        }
+    }
+}
+
+/// What a switch compares; `I` names an operand (a node in a pool, a register in a program).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Test<I = Id> {
+    /// A comparison; never `Greater` or `GreaterEqual`.
+    Compare(Compare, I, I),
+    /// Sign of an operand, for `abs` and `sign`.
+    Sign(I),
+    /// Which of two is smaller, for `min` and `max`.
+    Order(I, I),
+    /// Segment of a table.
+    Segment {
+        /// Number of the table.
+        table: u32,
+        /// Its argument.
+        x: I,
+    },
+}
+
+/// A place where an expression changes its formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Switch {
+    /// What is compared.
+    pub test: Test,
+    /// As written first, for messages: `phi3 <= load_angle`.
+    pub text: String,
+}
+
+fn sign(x: f64) -> i32 {
+    // not a number counts as unequal and positive, so that a mode exists whatever the value
+    if x < 0.0 { -1 } else { i32::from(x != 0.0) }
+}
+
+impl<I: Copy> Test<I> {
+    /// The same test of other operands.
+    pub(super) fn map<J>(self, mut f: impl FnMut(I) -> J) -> Test<J> {
+        match self {
+            Self::Compare(op, a, b) => Test::Compare(op, f(a), f(b)),
+            Self::Sign(a) => Test::Sign(f(a)),
+            Self::Order(a, b) => Test::Order(f(a), f(b)),
+            Self::Segment { table, x } => Test::Segment { table, x: f(x) },
+        }
+    }
+
+    /// The mode that the operands' values ask for; a tie takes the literal truth.
+    pub(super) fn mode(self, value: impl Fn(I) -> f64, tables: &[Table]) -> i32 {
+        match self {
+            Self::Compare(Compare::Less, a, b) => i32::from(value(a) < value(b)),
+            Self::Compare(Compare::LessEqual, a, b) | Self::Order(a, b) => i32::from(value(a) <= value(b)),
+            Self::Compare(Compare::Greater, a, b) => i32::from(value(a) > value(b)),
+            Self::Compare(Compare::GreaterEqual, a, b) => i32::from(value(a) >= value(b)),
+            Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => sign(value(a) - value(b)),
+            Self::Sign(a) => sign(value(a)),
+            Self::Segment { table, x } => tables.get(table as usize).map_or(0, |t| t.segment(value(x))),
+        }
+    }
+
+    /// Distance of the operands from the end of `mode`: positive inside, 0 on the switch, negative outside.
+    ///
+    /// Where an operand is not a number (a value that an `if` does not take) nothing can be crossed: 1.
+    pub(super) fn root(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> f64 {
+        let two_sided = |x: f64| match mode {
+            0 => -x.abs(),
+            m if m > 0 => x,
+            _ => -x,
+        };
+        let ordered = |less: f64, more: f64| if mode != 0 { more - less } else { less - more };
+        let root = match self {
+            Self::Compare(Compare::Less | Compare::LessEqual, a, b) | Self::Order(a, b) => ordered(value(a), value(b)),
+            Self::Compare(Compare::Greater | Compare::GreaterEqual, a, b) => ordered(value(b), value(a)),
+            Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => two_sided(value(a) - value(b)),
+            Self::Sign(a) => two_sided(value(a)),
+            Self::Segment { table, x } => tables.get(table as usize).map_or(1.0, |t| t.inside(value(x), mode)),
+        };
+        if root.is_nan() { 1.0 } else { root }
+    }
+
+    /// The mode on the other side of the end of `mode` that is nearest.
+    ///
+    /// From the middle mode 0 of a sign it is the side where the value lies, positive on a tie.
+    pub(super) fn neighbour(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> i32 {
+        let across = |x: f64| match mode {
+            0 => sign(x) + i32::from(x == 0.0),
+            m => -m,
+        };
+        match self {
+            Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => across(value(a) - value(b)),
+            Self::Compare(..) | Self::Order(..) => i32::from(mode == 0),
+            Self::Sign(a) => across(value(a)),
+            Self::Segment { table, x } => tables.get(table as usize).map_or(mode, |t| t.neighbour(value(x), mode)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TESTS: [Test<usize>; 6] = [
+        Test::Compare(Compare::Less, 0, 1),
+        Test::Compare(Compare::LessEqual, 0, 1),
+        Test::Compare(Compare::Equal, 0, 1),
+        Test::Compare(Compare::NotEqual, 0, 1),
+        Test::Sign(0),
+        Test::Order(0, 1),
+    ];
+
+    #[test]
+    fn roots_are_positive_in_the_mode_that_the_values_ask_for() {
+        for test in TESTS {
+            for values in [[-2.0, 0.0], [2.0, 0.0]] {
+                let value = |i: usize| values[i];
+                let mode = test.mode(value, &[]);
+                assert_eq!(test.root(mode, value, &[]), 2.0, "{test:?} {values:?}");
+                let other = test.neighbour(mode, value, &[]);
+                assert_ne!(mode, other);
+                assert!(test.root(other, value, &[]) < 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tie_takes_the_literal_truth() {
+        let modes = TESTS.map(|test| test.mode(|_| 0.0, &[]));
+        assert_eq!(modes, [0, 1, 0, 0, 0, 1]);
+        assert!(!Compare::Less.holds(0) && Compare::LessEqual.holds(1) && Compare::Equal.holds(0) && !Compare::NotEqual.holds(0));
+        for (test, mode) in TESTS.into_iter().zip(modes) {
+            assert_eq!(test.root(mode, |_| 0.0, &[]), 0.0, "{test:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_crosses_nothing() {
+        for test in TESTS {
+            let mode = test.mode(|_| f64::NAN, &[]);
+            assert!(test.root(mode, |_| f64::NAN, &[]) > 0.0);
+        }
+        assert!(!Compare::Equal.holds(TESTS[2].mode(|_| f64::NAN, &[])));
+    }
+}

@@ -1,0 +1,330 @@
+//! Dimensions and units. Every number of the program is SI; rad = 1, so an angle is a plain number and N m/rad is N m.
+
+use super::parser::{Kind, parse};
+use std::f64::consts::{PI, TAU};
+use std::ops::{Div, Mul};
+
+/// The dimension of a quantity: exponents of m, kg, s and A.
+///
+/// Counted in halves, so that √m has a dimension too. Products saturate at exponents of ±63, which no mechanics reaches.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, PartialOrd, Ord)]
+pub struct Dimension {
+    /// Twice the exponents of m, kg, s and A.
+    halves: [i8; 4],
+}
+
+/// Dimensions that have a name: dimension, its name, its unit as people write it. The first match counts.
+const NAMED: [(Dimension, &str, &str); 26] = [
+    (Dimension::LENGTH, "length", "m"),
+    (Dimension::MASS, "mass", "kg"),
+    (Dimension::TIME, "time", "s"),
+    (Dimension::SPEED, "speed", "m/s"),
+    (Dimension::ACCELERATION, "acceleration", "m/s^2"),
+    (Dimension::FORCE, "force", "N"),
+    (Dimension::TORQUE, "torque", "N m"),
+    (Dimension::POWER, "power", "W"),
+    (Dimension::INERTIA, "inertia", "kg m^2"),
+    (Dimension::FREQUENCY, "angular speed", "rad/s"),
+    (Dimension::ANGULAR_ACCELERATION, "angular acceleration", "rad/s^2"),
+    (Dimension::STIFFNESS, "stiffness", "N/m"),
+    (Dimension::DAMPING, "damping", "N s/m"),
+    (Dimension::ANGULAR_DAMPING, "angular damping", "N m s"),
+    (Dimension::AREA, "area", "m^2"),
+    (Dimension::VOLUME, "volume", "m^3"),
+    (Dimension::DENSITY, "density", "kg/m^3"),
+    (Dimension::MOMENTUM, "momentum", "kg m/s"),
+    (Dimension::MASS_MOMENT, "mass times length", "kg m"),
+    (Dimension::PRESSURE, "pressure", "Pa"),
+    (Dimension::CURRENT, "current", "A"),
+    (Dimension::VOLTAGE, "voltage", "V"),
+    (Dimension::RESISTANCE, "resistance", "ohm"),
+    (Dimension::INDUCTANCE, "inductance", "H"),
+    (Dimension::TORQUE_CONSTANT, "torque constant", "N m/A"),
+    (Dimension::CURVATURE, "curvature", "1/m"),
+];
+
+impl Dimension {
+    /// A plain number, also an angle.
+    pub const NONE: Self = Self::new(0, 0, 0, 0);
+    /// m.
+    pub const LENGTH: Self = Self::new(1, 0, 0, 0);
+    /// kg.
+    pub const MASS: Self = Self::new(0, 1, 0, 0);
+    /// s.
+    pub const TIME: Self = Self::new(0, 0, 1, 0);
+    /// A.
+    pub const CURRENT: Self = Self::new(0, 0, 0, 1);
+    /// m/s.
+    pub const SPEED: Self = Self::new(1, 0, -1, 0);
+    /// m/s².
+    pub const ACCELERATION: Self = Self::new(1, 0, -2, 0);
+    /// N.
+    pub const FORCE: Self = Self::new(1, 1, -2, 0);
+    /// N m; also N m/rad.
+    pub const TORQUE: Self = Self::new(2, 1, -2, 0);
+    /// J = N m.
+    pub const ENERGY: Self = Self::TORQUE;
+    /// W.
+    pub const POWER: Self = Self::new(2, 1, -3, 0);
+    /// kg m².
+    pub const INERTIA: Self = Self::new(2, 1, 0, 0);
+    /// 1/s = rad/s.
+    pub const FREQUENCY: Self = Self::new(0, 0, -1, 0);
+    /// rad/s: the same as [`Self::FREQUENCY`].
+    pub const ANGULAR_SPEED: Self = Self::FREQUENCY;
+    /// rad/s².
+    pub const ANGULAR_ACCELERATION: Self = Self::new(0, 0, -2, 0);
+    /// N/m.
+    pub const STIFFNESS: Self = Self::new(0, 1, -2, 0);
+    /// N m/rad = N m.
+    pub const ANGULAR_STIFFNESS: Self = Self::TORQUE;
+    /// N s/m.
+    pub const DAMPING: Self = Self::new(0, 1, -1, 0);
+    /// N m s.
+    pub const ANGULAR_DAMPING: Self = Self::new(2, 1, -1, 0);
+    /// m².
+    pub const AREA: Self = Self::new(2, 0, 0, 0);
+    /// m³.
+    pub const VOLUME: Self = Self::new(3, 0, 0, 0);
+    /// kg/m³.
+    pub const DENSITY: Self = Self::new(-3, 1, 0, 0);
+    /// kg m/s.
+    pub const MOMENTUM: Self = Self::new(1, 1, -1, 0);
+    /// kg m.
+    pub const MASS_MOMENT: Self = Self::new(1, 1, 0, 0);
+    /// Pa.
+    pub const PRESSURE: Self = Self::new(-1, 1, -2, 0);
+    /// V.
+    pub const VOLTAGE: Self = Self::new(2, 1, -3, -1);
+    /// Ω.
+    pub const RESISTANCE: Self = Self::new(2, 1, -3, -2);
+    /// H.
+    pub const INDUCTANCE: Self = Self::new(2, 1, -2, -2);
+    /// N m/A = V s.
+    pub const TORQUE_CONSTANT: Self = Self::new(2, 1, -2, -1);
+    /// 1/m.
+    pub const CURVATURE: Self = Self::new(-1, 0, 0, 0);
+
+    /// The dimension m^`m` kg^`kg` s^`s` A^`a`.
+    #[must_use]
+    pub const fn new(m: i8, kg: i8, s: i8, a: i8) -> Self {
+        Self { halves: [m.saturating_mul(2), kg.saturating_mul(2), s.saturating_mul(2), a.saturating_mul(2)] }
+    }
+
+    /// Dimension of a product; `*` does the same.
+    #[must_use]
+    #[expect(clippy::should_implement_trait, reason = "it is implemented; the method needs no import")]
+    pub fn mul(self, other: Self) -> Self {
+        let mut halves = self.halves;
+        for (a, b) in halves.iter_mut().zip(other.halves) {
+            *a = a.saturating_add(b);
+        }
+        Self { halves }
+    }
+
+    /// Dimension of a quotient; `/` does the same.
+    #[must_use]
+    #[expect(clippy::should_implement_trait, reason = "it is implemented; the method needs no import")]
+    pub fn div(self, other: Self) -> Self {
+        self.mul(other.pow(-1))
+    }
+
+    /// Dimension of an integer power.
+    #[must_use]
+    pub fn pow(self, n: i32) -> Self {
+        let n = n.clamp(-127, 127);
+        Self { halves: self.halves.map(|h| (i32::from(h) * n).clamp(-127, 127) as i8) }
+    }
+
+    /// Dimension of a real power; `None` if an exponent would not be a whole number of halves.
+    #[must_use]
+    pub fn power(self, n: f64) -> Option<Self> {
+        let mut halves = [0; 4];
+        for (to, from) in halves.iter_mut().zip(self.halves) {
+            let h = f64::from(from) * n;
+            if h.fract() != 0.0 || h.abs() > 127.0 {
+                return None;
+            }
+            *to = h as i8;
+        }
+        Some(Self { halves })
+    }
+
+    /// Dimension of a square root; `None` if an exponent would not be a whole number of halves.
+    #[must_use]
+    pub fn sqrt(self) -> Option<Self> {
+        self.power(0.5)
+    }
+
+    /// Text for messages: `length (m)`, `torque (N m)`, `a number`; the unit alone where the dimension has no name.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match NAMED.iter().find(|(dimension, ..)| dimension == self) {
+            _ if *self == Self::NONE => "a number".to_owned(),
+            Some((_, name, unit)) => format!("{name} ({unit})"),
+            None => self.si(),
+        }
+    }
+
+    /// The SI unit, short, for axis labels: `N m`, `m/s^2`; empty for a plain number.
+    #[must_use]
+    pub fn si(&self) -> String {
+        if let Some((.., unit)) = NAMED.iter().find(|(dimension, ..)| dimension == self) {
+            return (*unit).to_owned();
+        }
+        let [m, kg, s, a] = self.halves;
+        let factors = [("kg", kg), ("m", m), ("s", s), ("A", a)];
+        let power = |(symbol, halves): (&str, i8)| match halves.unsigned_abs() {
+            2 => symbol.to_owned(),
+            n => format!("{symbol}^{}", f64::from(n) / 2.0),
+        };
+        let above: Vec<_> = factors.into_iter().filter(|f| f.1 > 0).map(power).collect();
+        let below: Vec<_> = factors.into_iter().filter(|f| f.1 < 0).map(|f| format!("/{}", power(f))).collect();
+        match (above.is_empty(), below.is_empty()) {
+            (true, true) => String::new(),
+            (true, false) => format!("1{}", below.concat()),
+            _ => above.join(" ") + &below.concat(),
+        }
+    }
+
+    /// `number` with this dimension's unit, as a model file accepts it: `0.1 m`, `3 m^-1`.
+    pub(super) fn written(&self, number: &str) -> String {
+        let unit = self.si();
+        match unit.strip_prefix("1/") {
+            _ if unit.is_empty() => number.to_owned(),
+            None => format!("{number} {unit}"),
+            Some(below) => {
+                // no unit can begin with a slash: 1/m^2 is written m^-2
+                let (first, rest) = below.split_at(below.find('/').unwrap_or(below.len()));
+                let (symbol, n) = first.split_once('^').unwrap_or((first, "1"));
+                format!("{number} {symbol}^-{n}{rest}")
+            }
+        }
+    }
+}
+
+impl Mul for Dimension {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self::mul(self, other)
+    }
+}
+
+impl Div for Dimension {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self::div(self, other)
+    }
+}
+
+/// Size in SI and dimension of one unit word of the format; `None` for any other word (`Hz` among them: a turn or a radian?).
+#[must_use]
+pub fn unit(word: &str) -> Option<(f64, Dimension)> {
+    use Dimension as D;
+    Some(match word {
+        "m" => (1.0, D::LENGTH),
+        "km" => (1e3, D::LENGTH),
+        "cm" => (1e-2, D::LENGTH),
+        "mm" => (1e-3, D::LENGTH),
+        "um" => (1e-6, D::LENGTH),
+        "in" => (0.0254, D::LENGTH),
+        "ft" => (0.3048, D::LENGTH),
+        "kg" => (1.0, D::MASS),
+        "g" => (1e-3, D::MASS),
+        "s" => (1.0, D::TIME),
+        "ms" => (1e-3, D::TIME),
+        "us" => (1e-6, D::TIME),
+        "min" => (60.0, D::TIME),
+        "rad" => (1.0, D::NONE),
+        "mrad" => (1e-3, D::NONE),
+        "deg" => (PI / 180.0, D::NONE),
+        "turn" => (TAU, D::NONE),
+        "rpm" => (TAU / 60.0, D::FREQUENCY),
+        "%" => (1e-2, D::NONE),
+        "N" => (1.0, D::FORCE),
+        "kN" => (1e3, D::FORCE),
+        "MN" => (1e6, D::FORCE),
+        "J" => (1.0, D::ENERGY),
+        "kJ" => (1e3, D::ENERGY),
+        "W" => (1.0, D::POWER),
+        "kW" => (1e3, D::POWER),
+        "Pa" => (1.0, D::PRESSURE),
+        "kPa" => (1e3, D::PRESSURE),
+        "MPa" => (1e6, D::PRESSURE),
+        "GPa" => (1e9, D::PRESSURE),
+        "bar" => (1e5, D::PRESSURE),
+        "V" => (1.0, D::VOLTAGE),
+        "A" => (1.0, D::CURRENT),
+        "ohm" => (1.0, D::RESISTANCE),
+        "H" => (1.0, D::INDUCTANCE),
+        _ => return None,
+    })
+}
+
+/// Size in SI and dimension of a composite unit such as `N m s/rad`, by the rules of the format.
+#[must_use]
+pub fn parse_unit(text: &str) -> Option<(f64, Dimension)> {
+    let first = text.trim_start();
+    // a quantity of size one is the unit; the first word must be one, else `1` would stand alone
+    if !first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '%') {
+        return None;
+    }
+    match parse(&format!("1 {first}")).ok()?.kind {
+        Kind::Quantity(size, dimension) => Some((size, dimension)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn named_dimensions_agree_with_their_units() {
+        for (dimension, name, text) in NAMED {
+            let (size, found) = parse_unit(text.strip_prefix("1/").map_or(text, |_| "m^-1")).expect(name);
+            assert_eq!((size, found), (1.0, dimension), "{name}");
+            assert_eq!(NAMED.iter().filter(|n| n.0 == dimension).count(), 1, "{name}");
+        }
+    }
+
+    #[test]
+    fn written_quantities_are_read_back() {
+        for halves in [[2, 0, 0, 0], [-2, 0, 0, 0], [-4, 0, -6, 0], [4, 2, -2, 0], [2, -2, -4, 2], [10, 0, 0, -2], [0, 0, -6, 0]] {
+            let dimension = Dimension { halves };
+            let text = dimension.written("2.5");
+            assert_eq!(parse(&text).unwrap().kind, Kind::Quantity(2.5, dimension), "{text}");
+        }
+    }
+
+    #[test]
+    fn names_for_messages() {
+        assert_eq!(Dimension::LENGTH.name(), "length (m)");
+        assert_eq!(Dimension::TORQUE.name(), "torque (N m)");
+        assert_eq!(Dimension::NONE.name(), "a number");
+        assert_eq!(Dimension::NONE.si(), "");
+        assert_eq!(Dimension::INERTIA.mul(Dimension::LENGTH).name(), "kg m^3");
+        assert_eq!(Dimension::LENGTH.sqrt().unwrap().si(), "m^0.5");
+        assert_eq!(Dimension::ANGULAR_DAMPING, Dimension::INERTIA.div(Dimension::TIME));
+    }
+
+    #[test]
+    fn composite_units() {
+        assert_eq!(parse_unit("N m s/rad"), Some((1.0, Dimension::ANGULAR_DAMPING)));
+        assert_eq!(parse_unit("N*m*s"), Some((1.0, Dimension::ANGULAR_DAMPING)));
+        assert_eq!(parse_unit("N/mm"), Some((1000.0, Dimension::STIFFNESS)));
+        assert_eq!(parse_unit("turn/s").unwrap().0, TAU);
+        assert_eq!(parse_unit("%"), Some((0.01, Dimension::NONE)));
+        for wrong in ["", "N/m s", "Hz", "m + 2 m", "2 m", "(m)", "m^2.5", "/s", "e5 m", "m 3", "k"] {
+            assert_eq!(parse_unit(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn exponents_never_overflow() {
+        let huge = Dimension::LENGTH.pow(i32::MAX).mul(Dimension::LENGTH.pow(i32::MAX));
+        assert!(!huge.div(Dimension::LENGTH.pow(i32::MIN)).name().is_empty());
+        assert_eq!(Dimension::LENGTH.power(f64::NAN), None);
+        assert_eq!(Dimension::LENGTH.sqrt().and_then(Dimension::sqrt), None);
+    }
+}

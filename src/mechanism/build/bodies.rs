@@ -1,0 +1,153 @@
+//! Tables, masses and points.
+
+use super::super::inertia;
+use super::super::{Attached, Body};
+use super::Builder;
+use crate::expression::{Id, Table, TableError};
+use crate::geometry::{MassProperties, Space};
+use crate::model::{PointAt, PointRef, Shape};
+use crate::scalar::Scalar;
+use std::sync::Arc;
+
+impl<G: Space> Builder<'_, G> {
+    /// Tables as numbers.
+    pub(super) fn tables(&mut self) {
+        let mut tables = Vec::new();
+        for table in &self.model.tables {
+            let points: Vec<(f64, f64)> =
+                table.points.iter().map(|&(x, y)| (self.number(x, &table.place), self.number(y, &table.place))).collect();
+            match Table::new(&points, table.between, table.beyond) {
+                Ok(table) => tables.push(table),
+                Err(error) => self.table_fault(&table.place, &error),
+            }
+        }
+        self.tables = Arc::from(tables);
+    }
+
+    fn table_fault(&mut self, place: &str, error: &TableError) {
+        self.fault("table", place, error.to_string(), "points with strictly rising x", Some("sort the points by x".into()));
+    }
+
+    /// Bodies with their masses and points.
+    pub(super) fn bodies(&mut self) {
+        for (index, body) in self.model.bodies.iter().enumerate() {
+            let (mut bare, bar) = self.shape(index);
+            let place = body.place.as_str();
+            if let Some(id) = body.mass {
+                bare.mass = G::S::constant(self.not_negative(id, place, "the mass is"));
+            }
+            if let Some(com) = &body.com {
+                bare.com = G::vector(&self.triple(com, place));
+            }
+            if !body.inertia.is_empty() {
+                let figures = self.figures(&body.inertia, place);
+                bare.inertia = G::tensor(figures);
+            }
+            let mut points = Vec::new();
+            for point in &body.points {
+                let at = match &point.at {
+                    PointAt::Origin => G::Vector::default(),
+                    PointAt::Com => bare.com,
+                    PointAt::Start => bar.0,
+                    PointAt::End => bar.1,
+                    PointAt::Given(ids) => G::vector(&self.triple(ids, place)),
+                };
+                points.push((point.name.clone(), at));
+            }
+            let mut attached = Vec::new();
+            for extra in &body.attached {
+                let mass = extra.mass.map_or(0.0, |id| self.not_negative(id, &extra.place, "the mass is"));
+                let figures = self.figures(&extra.inertia, &extra.place);
+                attached.push(Attached {
+                    name: extra.name.clone(),
+                    mass: MassProperties { mass: G::S::constant(mass), com: points[extra.at].1, inertia: G::tensor(figures) },
+                });
+            }
+            let mass = attached.iter().fold(bare, |sum: MassProperties<G>, a| sum.join(a.mass));
+            for (point, model) in points.iter_mut().zip(&body.points) {
+                if matches!(model.at, PointAt::Com) {
+                    point.1 = mass.com;
+                }
+            }
+            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, path: vec![] });
+        }
+    }
+
+    /// Inertia figures Ixx, Iyy, Izz, Ixy, Ixz, Iyz from 1, 3 or 6 numbers, checked: a real body's principal values obey the
+    /// triangle inequality.
+    fn figures(&mut self, ids: &[Id], place: &str) -> [f64; 6] {
+        let x: Vec<f64> = ids.iter().map(|id| self.number(*id, place)).collect();
+        let figures = match x[..] {
+            [i] => [i, i, i, 0.0, 0.0, 0.0],
+            [xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
+            [xx, yy, zz, xy, xz, yz] => [xx, yy, zz, xy, xz, yz],
+            _ => [0.0; 6],
+        };
+        let [xx, yy, zz, xy, xz, yz] = figures;
+        let principal = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
+        let (sum, largest) = (principal.sum(), principal.max());
+        // round-off of the eigenvalues and of figures given to a few digits
+        if principal.min() < -1e-12 * largest.abs() || 2.0 * largest > sum * (1.0 + 1e-6) {
+            let shown = principal.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
+            self.fault(
+                "impossible-inertia",
+                place,
+                format!("principal moments of inertia {shown} kg m^2"),
+                "none negative, and each at most the sum of the other two",
+                Some("no body of positive mass has such moments: check the figures and their order".into()),
+            );
+        }
+        figures
+    }
+
+    /// Mass properties of the shape, and the ends of its bar.
+    fn shape(&mut self, body: usize) -> (MassProperties<G>, (G::Vector, G::Vector)) {
+        let model = self.model;
+        let body = &model.bodies[body];
+        let place = body.place.as_str();
+        let origin = G::Vector::default();
+        let Some(shape) = &body.shape else { return (MassProperties::default(), (origin, origin)) };
+        match shape {
+            Shape::Bar { length, mass, width, height } => {
+                let l = self.length(*length, place, "the length is");
+                let [m, b, h] = [*mass, *width, *height].map(|x| self.optional(x, place));
+                (inertia::bar(m, l, b, h), (origin, G::vector(&[l])))
+            }
+            Shape::BarBetween { from, to, mass, width, height } => {
+                let (from, to) = (self.triple(from, place), self.triple(to, place));
+                let [m, b, h] = [*mass, *width, *height].map(|x| self.optional(x, place));
+                if from == to {
+                    self.fault("no-length", place, "the bar begins and ends at one point".into(), "two points", Some("move `to`".into()));
+                    return (MassProperties::default(), (origin, origin));
+                }
+                (inertia::bar_between(m, from, to, b, h), (G::vector(&from), G::vector(&to)))
+            }
+            Shape::Disc { radius, mass, thickness } => {
+                let r = self.length(*radius, place, "the radius is");
+                let [m, t] = [*mass, *thickness].map(|x| self.optional(x, place));
+                (inertia::disc(m, r, t), (origin, origin))
+            }
+            Shape::Plate { size, mass } => {
+                let size = self.triple(size, place);
+                (inertia::block(self.optional(*mass, place), size), (origin, origin))
+            }
+            Shape::Ball { radius, mass } => {
+                let r = self.length(*radius, place, "the radius is");
+                (inertia::ball(self.optional(*mass, place), r), (origin, origin))
+            }
+        }
+    }
+
+    fn length(&mut self, id: Id, place: &str, what: &str) -> f64 {
+        let x = self.number(id, place);
+        if x <= 0.0 && self.faults.is_empty() {
+            self.fault("no-length", place, format!("{what} {x} m"), "more than 0 m", Some("give a positive length".into()));
+        }
+        x
+    }
+
+    /// A named point: its body and place in the body frame.
+    pub(super) fn at(&self, point: PointRef) -> (usize, G::Vector) {
+        (point.body, self.mechanism.bodies[point.body].points[point.point].1)
+    }
+}

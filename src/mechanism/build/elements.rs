@@ -1,0 +1,231 @@
+//! Drivers, couplings, springs, loads and motors as rows and efforts along gauges.
+
+use super::super::gauge::Measured;
+use super::super::{Drive, Effort, EffortLaw, Pull, Row, RowKind, RowOwner, Rotor, Stretch};
+use super::super::force::StretchOf;
+use super::Builder;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::model::{CouplingKind, Law, LoadOn, Motion, Quantity, SpringLaw, SpringOn};
+use crate::scalar::Scalar;
+
+impl<G: Space> Builder<'_, G> {
+    /// Rows: cut joints, couplings, drivers.
+    pub(super) fn constraints(&mut self) {
+        self.cut_rows();
+        for index in 0..self.model.couplings.len() {
+            self.coupling(index);
+        }
+        for index in 0..self.model.drivers.len() {
+            self.driver(index);
+        }
+    }
+
+    /// Forces: springs, joint damping, loads, motors.
+    pub(super) fn forces(&mut self) {
+        for index in 0..self.model.springs.len() {
+            self.spring(index);
+        }
+        for index in 0..self.model.joints.len() {
+            self.joint_damping(index);
+        }
+        for index in 0..self.model.loads.len() {
+            self.load(index);
+        }
+        for index in 0..self.model.motors.len() {
+            self.motor(index);
+        }
+    }
+
+    /// The gauge of a joint's first coordinate; a fault if it has none.
+    fn coordinate(&mut self, joint: usize, place: &str) -> Option<usize> {
+        let gauge = self.slot(joint, 0);
+        if gauge.is_none() {
+            let (name, kind) = (&self.model.joints[joint].name, self.shapes[joint].word());
+            let message = format!("joint `{name}` is {kind}");
+            self.fault("no-coordinate", place, message, "a joint with a coordinate", Some("name a revolute or a slider".into()));
+        }
+        gauge
+    }
+
+    fn coupling(&mut self, index: usize) {
+        let coupling = &self.model.couplings[index];
+        let place = coupling.place.as_str();
+        let row = |kind, anchored, angular| Row {
+            kind,
+            owner: RowOwner::Coupling,
+            label: coupling.name.clone(),
+            offset: G::S::constant(0.0),
+            anchored,
+            angular,
+        };
+        match &coupling.kind {
+            &CouplingKind::Gear { a, b, ratio } => {
+                let ratio = self.number(ratio, place);
+                if let (Some(first), Some(second)) = (self.coordinate(a, place), self.coordinate(b, place)) {
+                    self.row(row(RowKind::Ratio { first, second, ratio }, true, true));
+                }
+            }
+            &CouplingKind::Rack { pinion, slide, radius } => {
+                let ratio = self.number(radius, place);
+                if let (Some(first), Some(second)) = (self.coordinate(pinion, place), self.coordinate(slide, place)) {
+                    self.row(row(RowKind::Ratio { first, second, ratio }, true, false));
+                }
+            }
+            CouplingKind::Zero(id) => {
+                if let Some(function) = self.function_of(*id, place) {
+                    self.row(row(RowKind::Function(function), false, false));
+                }
+            }
+        }
+    }
+
+    fn driver(&mut self, index: usize) {
+        let driver = &self.model.drivers[index];
+        let place = driver.place.as_str();
+        let Some(gauge) = self.coordinate(driver.joint, place) else { return };
+        let t = self.input(Quantity::Time);
+        let f = match driver.motion {
+            Motion::Speed(speed) => self.pool.mul(speed, t),
+            Motion::Position(f) => f,
+            Motion::Rise { by, during, law } => self.rise(t, by, during, law),
+        };
+        let output = self.time.len();
+        let mut order = f;
+        for _ in 0..3 {
+            self.time.push(order);
+            let Some(next) = self.rate_by_time(order, place) else { return };
+            order = next;
+        }
+        let relative = !matches!(driver.motion, Motion::Position(_));
+        let turns = match self.mechanism.gauges[gauge].measured {
+            Measured::Coordinate { along, .. } => along.turns,
+            Measured::Slide { .. } | Measured::Distance { .. } => false,
+            _ => true,
+        };
+        self.row(Row {
+            kind: RowKind::Driver { gauge, driver: index },
+            owner: RowOwner::Driver(index),
+            label: String::new(),
+            offset: G::S::constant(0.0),
+            anchored: relative,
+            angular: turns,
+        });
+        self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row: self.mechanism.rows.len() - 1, output, relative, turns });
+    }
+
+    /// by · law(τ), τ = t/during held in [0, 1].
+    fn rise(&mut self, t: Id, by: Id, during: Id, law: Law) -> Id {
+        let p = &mut self.pool;
+        let (zero, one) = (p.constant(0.0), p.constant(1.0));
+        let tau = p.div(t, during);
+        let tau = p.clamp(tau, zero, one, "rise");
+        let shape = match law {
+            Law::Cycloidal => {
+                let turn = p.constant(std::f64::consts::TAU);
+                let angle = p.mul(turn, tau);
+                let sine = p.sin(angle);
+                let wave = p.div(sine, turn);
+                p.sub(tau, wave)
+            }
+            Law::Poly5 => {
+                // ((6τ − 15) τ + 10) τ³
+                let (six, fifteen, ten) = (p.constant(6.0), p.constant(15.0), p.constant(10.0));
+                let a = p.mul(six, tau);
+                let a = p.sub(a, fifteen);
+                let a = p.mul(a, tau);
+                let a = p.add(a, ten);
+                let cube = p.powi(tau, 3);
+                p.mul(a, cube)
+            }
+        };
+        p.mul(by, shape)
+    }
+
+    fn spring(&mut self, index: usize) {
+        let spring = &self.model.springs[index];
+        let place = spring.place.as_str();
+        let along = match spring.on {
+            SpringOn::Between(a, b) => {
+                let ((a, pa), (b, pb)) = (self.at(a), self.at(b));
+                Some(StretchOf::Gauge(self.gauge(a, b, Measured::Distance { pa, pb }, 0.0)))
+            }
+            SpringOn::Joint(joint) => self.coordinate(joint, place).map(StretchOf::Gauge),
+            SpringOn::Stretch(id) => self.function_of(id, place).map(StretchOf::Function),
+        };
+        let Some(along) = along else { return };
+        let [rest, damping, preload] = [spring.rest, spring.damping, spring.preload].map(|x| self.optional(x, place));
+        let (damping, preload) = (G::S::constant(damping), G::S::constant(preload));
+        let law = match spring.law {
+            SpringLaw::Force(id) => {
+                self.force.push(id);
+                EffortLaw::Law { output: self.force.len() - 1, damping, preload }
+            }
+            SpringLaw::Stiffness(id) => {
+                let stiffness = G::S::constant(self.number(id, place));
+                EffortLaw::Linear { stiffness, rest: G::S::constant(rest), damping, preload }
+            }
+            SpringLaw::None => {
+                EffortLaw::Linear { stiffness: G::S::constant(0.0), rest: G::S::constant(rest), damping, preload }
+            }
+        };
+        self.mechanism.stretches.push(Stretch { of: along, rest: G::S::constant(rest) });
+        self.mechanism.spring_efforts.push(self.mechanism.efforts.len());
+        self.mechanism.efforts.push(Effort { along, law });
+    }
+
+    fn joint_damping(&mut self, index: usize) {
+        let joint = &self.model.joints[index];
+        let Some(damping) = joint.damping else { return };
+        let place = joint.place.as_str();
+        let damping = self.number(damping, place);
+        let Some(gauge) = self.coordinate(index, place) else { return };
+        let zero = G::S::constant(0.0);
+        let law = EffortLaw::Linear { stiffness: zero, rest: zero, damping: G::S::constant(damping), preload: zero };
+        self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
+    }
+
+    fn load(&mut self, index: usize) {
+        let load = &self.model.loads[index];
+        match &load.on {
+            LoadOn::Point { at, force, torque, frame } => {
+                let (body, at) = self.at(*at);
+                let mut outputs = |ids: &[Id]| -> Vec<usize> {
+                    ids.iter()
+                        .map(|id| {
+                            self.force.push(*id);
+                            self.force.len() - 1
+                        })
+                        .collect()
+                };
+                let (force, torque) = (outputs(force), outputs(torque));
+                self.mechanism.pulls.push(Pull { body, at, force, torque, frame: *frame });
+            }
+            &LoadOn::Joint { joint, effort } => {
+                if let Some(gauge) = self.coordinate(joint, &load.place) {
+                    self.drive_effort(gauge, effort);
+                }
+            }
+        }
+    }
+
+    fn motor(&mut self, index: usize) {
+        let motor = &self.model.motors[index];
+        let place = motor.place.as_str();
+        let Some(gauge) = self.coordinate(motor.joint, place) else { return };
+        let effort = motor.torque.map(|torque| self.drive_effort(gauge, torque));
+        self.mechanism.motor_efforts.push(effort);
+        if let Some(inertia) = motor.inertia {
+            let inertia = self.not_negative(inertia, place, "the rotor inertia is");
+            let gear = motor.gear.map_or(1.0, |g| self.number(g, place));
+            self.mechanism.rotors.push(Rotor { gauge, inertia: G::S::constant(gear * gear * inertia) });
+        }
+    }
+
+    fn drive_effort(&mut self, gauge: usize, size: Id) -> usize {
+        self.force.push(size);
+        let law = EffortLaw::Drive { output: self.force.len() - 1 };
+        self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
+        self.mechanism.efforts.len() - 1
+    }
+}

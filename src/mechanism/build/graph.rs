@@ -1,0 +1,260 @@
+//! Joint geometry, the spanning tree and the rows of cut joints.
+
+use super::super::gauge::Measured;
+use super::super::joint::{self, Shape};
+use super::super::tree::{self, Branch, Edge, Step};
+use super::super::{Joint, Node, Row, RowKind, RowOwner};
+use super::{Builder, Coordinates, along};
+use crate::expression::Id;
+use crate::geometry::{Pose, Space};
+use crate::model::{JointKind, Quantity};
+use crate::scalar::Scalar;
+
+impl<G: Space> Builder<'_, G> {
+    /// Shapes of joints, tree, nodes and cut rows.
+    pub(super) fn graph(&mut self, coordinates: Coordinates) {
+        for index in 0..self.model.joints.len() {
+            let shape = self.joint_shape(index);
+            self.shapes.push(shape);
+        }
+        if !self.faults.is_empty() {
+            return;
+        }
+        let bodies = self.model.bodies.len();
+        let branches = match coordinates {
+            Coordinates::Cartesian => tree::star(bodies),
+            Coordinates::Joint => {
+                let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j)).collect();
+                tree::span(bodies, &edges)
+            }
+        };
+        for (index, joint) in self.model.joints.iter().enumerate() {
+            let shape = &self.shapes[index];
+            self.mechanism.joints.push(Joint {
+                name: joint.name.clone(),
+                kind: shape.word(),
+                a: self.at(joint.a),
+                b: self.at(joint.b),
+                axis: shape.triad[if self.planar { 0 } else { 2 }],
+                tree: None,
+                slots: vec![],
+                rows: 0..0,
+                freedom: shape.freedom(self.planar),
+                facing: shape.facing::<G>(self.planar),
+            });
+        }
+        for branch in branches {
+            self.node(branch);
+        }
+        self.mechanism.joint_of_node = (0..self.mechanism.nodes.len())
+            .map(|n| self.mechanism.joints.iter().position(|j| j.tree.is_some_and(|t| t.0 == n)))
+            .collect();
+        for index in 0..self.shapes.len() {
+            self.slots.push(vec![]);
+            self.slot_measures.push(vec![]);
+            self.measures_of_slots(index);
+        }
+    }
+
+    /// A joint as an edge of the graph. Preferred on the tree: what carries drivers, motors and exact start values, for their
+    /// coordinates are then unknowns of the mechanism; then hinges and sliders; last what frees most.
+    fn edge(&self, joint: usize) -> Edge {
+        let j = &self.model.joints[joint];
+        let driven = self.model.drivers.iter().any(|d| d.joint == joint)
+            || self.model.motors.iter().any(|m| m.joint == joint)
+            || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
+        let freedom = self.shapes[joint].freedom(self.planar);
+        let rank = if driven { 0 } else { 1 + freedom };
+        Edge { a: j.a.body, b: j.b.body, rank: (!j.cut && self.shapes[joint].spans()).then_some(rank) }
+    }
+
+    /// Axes, alignment and sizes of a joint as numbers.
+    fn joint_shape(&mut self, index: usize) -> Shape {
+        let joint = &self.model.joints[index];
+        let place = joint.place.as_str();
+        let (pa, pb) = (self.at(joint.a).1, self.at(joint.b).1);
+        let numbers = |p: G::Vector| std::array::from_fn(|i| if i < G::VECTOR { G::component(p, i).value() } else { 0.0 });
+        let axis = self.direction(joint.axis.as_deref(), if self.planar { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] }, place);
+        let (mut triad, mut align, mut second) = (joint::triad(axis), joint::axis_rotation(axis, axis), axis);
+        if self.planar {
+            triad = [axis, [-axis[1], axis[0], 0.0], [0.0, 0.0, 1.0]];
+        } else if let Some(to) = &joint.to {
+            align = joint::axis_rotation(self.direction(Some(to), axis, place), axis);
+        }
+        if let JointKind::Universal { axes: [first, other] } = &joint.kind {
+            let first = self.direction(Some(first), axis, place);
+            second = self.direction(Some(other), axis, place);
+            triad = joint::triad(first);
+            if joint::dot(first, second).abs() > 1e-9 {
+                self.fault(
+                    "axes-not-crossed",
+                    place,
+                    "the two axes of the universal joint are not at right angles".into(),
+                    "axes whose scalar product is 0 with both bodies as drawn",
+                    Some("make the second axis perpendicular to the first, as `axes: [[0, 0, 1], [1, 0, 0]]`".into()),
+                );
+            }
+        }
+        let pitch = match joint.kind {
+            JointKind::Screw { pitch } => self.number(pitch, place) / std::f64::consts::TAU,
+            _ => 0.0,
+        };
+        let length = match joint.kind {
+            JointKind::Distance { length: Some(length) } => {
+                let l = self.number(length, place);
+                if l <= 0.0 {
+                    self.fault("no-length", place, format!("the distance is {l} m"), "more than 0 m", Some("a distance of 0 is a `revolute` or `spherical` joint".into()));
+                }
+                l
+            }
+            _ => 0.0,
+        };
+        let zero = self.optional(joint.zero, place);
+        if joint.friction.is_some() {
+            self.fault("later", &format!("{place}.friction"), "joint friction".into(), "nothing: dry friction is not computed yet", Some("use `damping` for viscous friction, or remove it".into()));
+        }
+        Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }
+    }
+
+    /// A unit direction.
+    fn direction(&mut self, ids: Option<&[Id]>, default: [f64; 3], place: &str) -> [f64; 3] {
+        let Some(ids) = ids else { return default };
+        let d = self.triple(ids, place);
+        if joint::dot(d, d) == 0.0 {
+            self.fault("no-direction", place, "the axis is zero".into(), "a direction", Some("for example `axis: [1, 0]`".into()));
+            return default;
+        }
+        joint::unit(d)
+    }
+
+    /// Adds a body to the tree.
+    fn node(&mut self, branch: Branch) {
+        let planar = self.planar;
+        let free;
+        let (shape, reversed) = match branch.joint {
+            Some((j, reversed)) => (&self.shapes[j], reversed),
+            None => {
+                free = free_shape();
+                (&free, false)
+            }
+        };
+        let (before, axes, after) = tree::placed::<G>(shape, reversed, planar);
+        let m = &mut self.mechanism;
+        let (first_step, first_column) = (m.steps.len(), m.nv);
+        let mut path = m.bodies[branch.parent].path.clone();
+        for axis in axes {
+            m.steps.push(Step::new(axis, reversed, m.nq, m.nv));
+            let (nq, nv) = axis.sizes();
+            for _ in 0..nv {
+                path.push(m.nv);
+                m.nv += 1;
+                m.ancestors.push(path.clone());
+            }
+            // columns of a ball are ancestors of each other: one block
+            for k in m.nv - nv..m.nv {
+                m.ancestors[k] = path.clone();
+            }
+            m.nq += nq;
+        }
+        m.bodies[branch.body].path = path;
+        let after = (after != Pose::identity()).then_some(after);
+        m.nodes.push(Node {
+            body: branch.body,
+            parent: branch.parent,
+            before,
+            steps: first_step..m.steps.len(),
+            after,
+            columns: first_column..m.nv,
+        });
+        if let Some((j, reversed)) = branch.joint {
+            m.joints[j].tree = Some((m.nodes.len() - 1, reversed));
+        }
+    }
+
+    /// What measures the coordinates of a joint: tree coordinates, or gauges between the bodies.
+    fn measures_of_slots(&mut self, index: usize) {
+        let shape = self.shapes[index].clone();
+        let joint = &self.mechanism.joints[index];
+        let measures = match joint.tree {
+            None => {
+                let windings = &mut self.mechanism.windings;
+                shape.slots::<G>(self.planar, || {
+                    *windings += 1;
+                    *windings - 1
+                })
+            }
+            Some((node, reversed)) => {
+                let pb = joint.b.1;
+                let steps = self.mechanism.nodes[node].steps.clone();
+                let mut measures: Vec<Measured<G>> = shape
+                    .axes(self.planar)
+                    .iter()
+                    .zip(if reversed { steps.clone().rev().collect::<Vec<_>>() } else { steps.collect() })
+                    .filter_map(|(axis, step)| match self.mechanism.steps[step] {
+                        Step::Axis { q, v, .. } => Some(Measured::Coordinate { along: along(q, v, axis.turns(), reversed), pb }),
+                        Step::Ball { .. } => None,
+                    })
+                    .collect();
+                if matches!(shape.kind, JointKind::Screw { .. }) {
+                    measures.truncate(1);
+                }
+                measures
+            }
+        };
+        self.slots[index] = vec![None; measures.len()];
+        self.slot_measures[index] = measures;
+    }
+
+    /// Rows of the joints that the tree left over.
+    pub(super) fn cut_rows(&mut self) {
+        for index in 0..self.shapes.len() {
+            if self.mechanism.joints[index].tree.is_some() {
+                continue;
+            }
+            let shape = self.shapes[index].clone();
+            let (a, b) = (self.mechanism.joints[index].a.0, self.mechanism.joints[index].b.0);
+            let first = self.mechanism.rows.len();
+            for asked in shape.rows::<G>(self.planar) {
+                let gauge = self.gauge(a, b, asked.measured, 0.0);
+                self.row(Row {
+                    kind: RowKind::Gauge(gauge),
+                    owner: RowOwner::Joint(index),
+                    label: asked.label.to_string(),
+                    offset: G::S::constant(asked.target),
+                    anchored: matches!(shape.kind, JointKind::Distance { length: None }),
+                    angular: asked.angular,
+                });
+            }
+            if let (JointKind::Screw { .. }, Some(turn)) = (&shape.kind, self.slot(index, 0)) {
+                let v = |x: [f64; 3]| G::vector(&x);
+                let advance = Measured::Slide { pa: v(shape.pa), n: v(shape.triad[2]), pb: v(shape.pb) };
+                let second = self.gauge(a, b, advance, shape.pitch * shape.zero);
+                self.row(Row {
+                    kind: RowKind::Ratio { first: turn, second, ratio: shape.pitch },
+                    owner: RowOwner::Joint(index),
+                    label: "advance".into(),
+                    offset: G::S::constant(0.0),
+                    anchored: false,
+                    angular: false,
+                });
+            }
+            self.mechanism.joints[index].rows = first..self.mechanism.rows.len();
+        }
+    }
+}
+
+/// The free joint of a body's own, from the ground.
+fn free_shape() -> Shape {
+    let z = [0.0, 0.0, 1.0];
+    Shape {
+        kind: JointKind::Free,
+        pa: [0.0; 3],
+        pb: [0.0; 3],
+        triad: joint::triad(z),
+        align: joint::axis_rotation(z, z),
+        second: z,
+        pitch: 0.0,
+        length: 0.0,
+        zero: 0.0,
+    }
+}

@@ -1,0 +1,214 @@
+//! Expressions as programs: which gauge or rate each input is, derivatives of functions and drivers, and the final assembly.
+
+use super::super::force::{Leaf, StagedProgram};
+use super::super::gauge::Measured;
+use super::super::{Function, Mechanism};
+use super::Builder;
+use crate::expression::{Id, Pool};
+use crate::geometry::{Space, basis};
+use crate::model::{Dimensions, Model, Quantity};
+use std::sync::Arc;
+
+impl<'m, G: Space> Builder<'m, G> {
+    pub(super) fn new(model: &'m Model, parameters: &'m [f64]) -> Self {
+        let none = || StagedProgram {
+            program: Pool::new().program(&[], &[], &Arc::from([])),
+            fills: vec![],
+            inputs: 0,
+            outputs: 0,
+        };
+        let mut builder = Self {
+            model,
+            parameters,
+            planar: model.space == Dimensions::Planar,
+            mechanism: Mechanism {
+                bodies: vec![],
+                nodes: vec![],
+                steps: vec![],
+                nq: 0,
+                nv: 0,
+                ancestors: vec![],
+                joints: vec![],
+                joint_of_node: vec![],
+                gauges: vec![],
+                active_gauges: 0,
+                rows: vec![],
+                functions: vec![],
+                drives: vec![],
+                stretches: vec![],
+                starts: vec![],
+                orientations: vec![],
+                efforts: vec![],
+                spring_efforts: vec![],
+                motor_efforts: vec![],
+                rotors: vec![],
+                pulls: vec![],
+                position_program: none(),
+                velocity_program: none(),
+                time_program: none(),
+                force_program: none(),
+                tables: Arc::from([]),
+                gravity: G::Vector::default(),
+                switches: 0,
+                windings: 0,
+            },
+            shapes: vec![],
+            slots: vec![],
+            slot_measures: vec![],
+            pool: model.pool.clone(),
+            inputs: model.inputs.clone(),
+            tables: Arc::from([]),
+            position: vec![],
+            velocity: vec![],
+            time: vec![],
+            force: vec![],
+            faults: vec![],
+        };
+        let gravity = builder.triple(&model.gravity, "gravity");
+        builder.mechanism.gravity = G::vector(&gravity);
+        builder
+    }
+
+    /// Makes the gauges that the inputs of programs are read from, so that they count among the active ones.
+    pub(super) fn gauges_of_programs(&mut self) {
+        let outputs = [&self.position, &self.velocity, &self.time, &self.force].map(|ids| self.pool.inputs_of(ids));
+        for input in outputs.into_iter().flatten() {
+            self.leaf(self.inputs[input as usize]);
+        }
+    }
+
+    /// Programs and counts; the mechanism is complete.
+    pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::BuildFault>> {
+        let outputs = [&self.position, &self.velocity, &self.time, &self.force].map(Clone::clone);
+        let mut programs = outputs.map(|ids| self.program(&ids)).into_iter();
+        if !self.faults.is_empty() {
+            return Err(self.faults);
+        }
+        for slot in [
+            &mut self.mechanism.position_program,
+            &mut self.mechanism.velocity_program,
+            &mut self.mechanism.time_program,
+            &mut self.mechanism.force_program,
+        ] {
+            if let Some(program) = programs.next() {
+                *slot = program;
+            }
+        }
+        // the drift of a function reads the same input vector, extended by rates: sizes are known only now
+        self.mechanism.tables = self.tables;
+        self.mechanism.switches = self.pool.switches().len();
+        Ok(self.mechanism)
+    }
+
+    fn program(&mut self, outputs: &[Id]) -> StagedProgram {
+        let program = self.pool.program(outputs, self.parameters, &self.tables);
+        let mut fills = Vec::new();
+        for &input in program.inputs() {
+            let quantity = self.inputs[input as usize];
+            match self.leaf(quantity) {
+                Some(leaf) => fills.push((input as usize, leaf)),
+                None => self.fault(
+                    "not-usable",
+                    "loads",
+                    format!("a load, spring, coupling or motor uses {quantity:?}"),
+                    "positions and velocities of bodies and joints",
+                    Some("use coordinates or rates of bodies and joints instead".into()),
+                ),
+            }
+        }
+        StagedProgram { program, fills, inputs: self.inputs.len(), outputs: outputs.len() }
+    }
+
+    /// Where the value of a quantity comes from while the mechanism is evaluated.
+    fn leaf(&mut self, quantity: Quantity) -> Option<Leaf> {
+        match quantity {
+            Quantity::Time => Some(Leaf::Time),
+            Quantity::Stretch { spring, order } if order < 2 => Some(Leaf::Stretch { spring, order }),
+            Quantity::Spin { body, axis, order: 1 } => Some(Leaf::Spin { body, axis }),
+            _ => self.gauge_of(quantity).map(|(gauge, order)| Leaf::Gauge { gauge, order }),
+        }
+    }
+
+    /// The gauge that measures a quantity of position level, and the order of its rate.
+    pub(super) fn gauge_of(&mut self, quantity: Quantity) -> Option<(usize, usize)> {
+        match quantity {
+            Quantity::Joint { joint, slot, order } => self.slot(joint, slot).map(|gauge| (gauge, order)),
+            Quantity::Point { at, axis, order } => {
+                let (body, pb) = self.at(at);
+                let measured = Measured::Slide { pa: G::Vector::default(), n: basis::<G>(axis), pb };
+                Some((self.shared_gauge(body, measured), order))
+            }
+            Quantity::Angle { body, order } => Some((self.shared_gauge(body, Measured::Angle), order)),
+            _ => None,
+        }
+    }
+
+    /// A gauge from the ground, made once.
+    fn shared_gauge(&mut self, body: usize, measured: Measured<G>) -> usize {
+        let found = self.mechanism.gauges.iter().position(|g| g.a == 0 && g.b == body && g.measured == measured && g.shift == 0.0);
+        found.unwrap_or_else(|| self.gauge(0, body, measured, 0.0))
+    }
+
+    /// The next rate of an expression of time alone.
+    pub(super) fn rate_by_time(&mut self, id: Id, place: &str) -> Option<Id> {
+        let one = self.pool.constant(1.0);
+        let inputs = self.inputs.clone();
+        let rate = self.pool.rate(id, &mut |_, input| (inputs.get(input as usize) == Some(&Quantity::Time)).then_some(one));
+        if rate.is_err() {
+            self.fault("not-of-time", place, "the motion uses a quantity of the mechanism".into(), "an expression of t and parameters", None);
+        }
+        rate.ok()
+    }
+
+    /// An expression of gauges with its partial derivatives and its second rate at a = 0.
+    pub(super) fn function_of(&mut self, id: Id, place: &str) -> Option<usize> {
+        let inputs = self.pool.inputs_of(&[id]);
+        let mut gauges = Vec::new();
+        for &input in &inputs {
+            let quantity = self.inputs[input as usize];
+            match self.gauge_of(quantity) {
+                Some((gauge, 0)) => gauges.push(gauge),
+                _ => {
+                    self.fault("not-a-position", place, format!("the expression uses {quantity:?}"), "coordinates of bodies and joints alone", None);
+                    return None;
+                }
+            }
+        }
+        let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
+        let value = self.position.len();
+        self.position.push(id);
+        for &wanted in &inputs {
+            let slope = self.pool.rate(id, &mut |_, input| Some(if input == wanted { one } else { zero }));
+            self.position.push(slope.ok()?);
+        }
+        let first = self.rate_of(id)?;
+        let second = self.rate_of(first)?;
+        self.velocity.push(second);
+        Some(self.function(Function { gauges, value, drift: self.velocity.len() - 1 }))
+    }
+
+    /// The time rate of an expression of positions and velocities.
+    fn rate_of(&mut self, id: Id) -> Option<Id> {
+        let mut inputs = std::mem::take(&mut self.inputs);
+        let rate = self.pool.rate(id, &mut |pool, input| {
+            let next = next_order(*inputs.get(input as usize)?)?;
+            let index = inputs.iter().position(|q| *q == next).unwrap_or_else(|| {
+                inputs.push(next);
+                inputs.len() - 1
+            });
+            Some(pool.input(index as u32))
+        });
+        self.inputs = inputs;
+        rate.ok()
+    }
+}
+
+/// The rate of a quantity of a body or joint.
+fn next_order(quantity: Quantity) -> Option<Quantity> {
+    Some(match quantity {
+        Quantity::Point { at, axis, order } => Quantity::Point { at, axis, order: order + 1 },
+        Quantity::Angle { body, order } => Quantity::Angle { body, order: order + 1 },
+        Quantity::Joint { joint, slot, order } => Quantity::Joint { joint, slot, order: order + 1 },
+        _ => return None,
+    })
+}

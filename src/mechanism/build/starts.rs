@@ -1,0 +1,74 @@
+//! Start values as gauges.
+
+use super::super::gauge::Measured;
+use super::super::joint::{apply, axis_rotation, dot, transpose, unit};
+use super::super::{Asked, Start};
+use super::Builder;
+use crate::geometry::Space;
+use crate::model::{Quantity, StartValue};
+
+impl<G: Space> Builder<'_, G> {
+    /// The asked start values; after all gauges of rows and forces.
+    pub(super) fn starts(&mut self) {
+        for index in 0..self.model.start.len() {
+            let start = &self.model.start[index];
+            let place = start.place.as_str();
+            let name = place.strip_prefix("start.").unwrap_or(place).to_string();
+            match &start.value {
+                StartValue::Rotation { axis, angle } => self.rotation(index, axis, *angle, &name),
+                StartValue::Number(id) => {
+                    let value = self.number(*id, place);
+                    let asked = match start.quantity {
+                        Quantity::Spin { body, axis, order: 1 } => Some(Asked::Spin { body, axis }),
+                        quantity => match self.gauge_of(quantity) {
+                            Some((gauge, order)) if order < 2 => Some(Asked::Gauge { gauge, order }),
+                            _ => None,
+                        },
+                    };
+                    match asked {
+                        Some(asked) => {
+                            self.mechanism.starts.push(Start { name, asked, value, guess: start.guess, place: start.place.clone() });
+                        }
+                        None => self.fault(
+                            "not-a-start",
+                            place,
+                            format!("`{name}` cannot be set"),
+                            "a position or velocity of a joint or body",
+                            Some("for example `O.angle`, `S.position`, `body.x`, `O.omega`".into()),
+                        ),
+                    }
+                }
+            }
+        }
+    }
+
+    /// An orientation as three cosines that vanish: each axis of the body is normal to the next one of the wanted triad.
+    fn rotation(&mut self, index: usize, axis: &[crate::expression::Id], angle: crate::expression::Id, name: &str) {
+        let start = &self.model.start[index];
+        let (place, guess) = (start.place.clone(), start.guess);
+        let Quantity::Quaternion { body, .. } = start.quantity else { return };
+        let axis = self.triple(axis, &place);
+        let angle = self.number(angle, &place);
+        if dot(axis, axis) == 0.0 {
+            self.fault("no-direction", &place, "the axis is zero".into(), "a direction", Some("for example `axis: [0, 0, 1]`".into()));
+            return;
+        }
+        // R = T R_z Tᵀ with T taking z to the axis
+        let t = axis_rotation([0.0, 0.0, 1.0], unit(axis));
+        let (s, c) = angle.sin_cos();
+        let column = |k: usize| {
+            let mut e = [0.0; 3];
+            e[k] = 1.0;
+            let [x, y, z] = apply(&transpose(&t), e);
+            apply(&t, [c * x - s * y, s * x + c * y, z])
+        };
+        for (k, next) in [(0, 1), (1, 2), (2, 0)] {
+            let mut w = [0.0; 3];
+            w[next] = 1.0;
+            let gauge = self.gauge(0, body, Measured::Dot { u: G::vector(&column(k)), w: G::vector(&w) }, 0.0);
+            let asked = Asked::Gauge { gauge, order: 0 };
+            self.mechanism.starts.push(Start { name: name.to_string(), asked, value: 0.0, guess, place: place.clone() });
+        }
+        self.mechanism.orientations.push((body, std::array::from_fn(|i| std::array::from_fn(|k| column(k)[i]))));
+    }
+}

@@ -1,0 +1,175 @@
+//! What pulls and drives: efforts along gauges, loads at points, rotors, drivers, and the programs that give their sizes.
+
+use crate::expression::Program;
+use crate::geometry::Space;
+use crate::scalar::Scalar;
+
+/// Where a program's input comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaf {
+    /// Time.
+    Time,
+    /// Gauge value (order 0), rate (1) or drift (2).
+    Gauge {
+        /// The gauge.
+        gauge: usize,
+        /// 0, 1 or 2.
+        order: usize,
+    },
+    /// Stretch of a spring (order 0) or its rate (1).
+    Stretch {
+        /// The spring.
+        spring: usize,
+        /// 0 or 1.
+        order: usize,
+    },
+    /// Component of a body's angular velocity.
+    Spin {
+        /// The body.
+        body: usize,
+        /// 0 x, 1 y, 2 z.
+        axis: usize,
+    },
+}
+
+/// A program with the sources of its inputs.
+#[derive(Clone, Debug)]
+pub struct StagedProgram {
+    /// The code; its inputs are indexed as in the model.
+    pub program: Program,
+    /// (input, source) for each input that the code reads.
+    pub fills: Vec<(usize, Leaf)>,
+    /// Size of the input vector.
+    pub inputs: usize,
+    /// Number of outputs.
+    pub outputs: usize,
+}
+
+/// A driver: its gauge, and the outputs f, f', f'' of the time program.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// Its name.
+    pub name: String,
+    /// The gauge that follows.
+    pub gauge: usize,
+    /// Its row.
+    pub row: usize,
+    /// Output of the time program that is f; f' and f'' follow.
+    pub output: usize,
+    /// True if the start fixes its anchor (a speed or a rise).
+    pub relative: bool,
+    /// True if an angle is driven.
+    pub turns: bool,
+}
+
+/// What a spring stretches: x − rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch<G: Space> {
+    /// What is measured.
+    pub of: StretchOf,
+    /// Free length or rest angle.
+    pub rest: G::S,
+}
+
+/// What a spring or an effort works along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StretchOf {
+    /// A gauge.
+    Gauge(usize),
+    /// A function of gauges.
+    Function(usize),
+}
+
+/// A force along a gauge or a function of gauges, positive where it drives x up.
+#[derive(Clone, Debug)]
+pub struct Effort<G: Space> {
+    /// What it works along.
+    pub along: StretchOf,
+    /// Its size.
+    pub law: EffortLaw<G>,
+}
+
+/// Size of an effort.
+#[derive(Clone, Copy, Debug)]
+pub enum EffortLaw<G: Space> {
+    /// −(k (x − rest) + preload) − d ẋ.
+    Linear {
+        /// k, N/m or N m/rad.
+        stiffness: G::S,
+        /// Free length.
+        rest: G::S,
+        /// d, N s/m or N m s/rad.
+        damping: G::S,
+        /// Force at zero stretch.
+        preload: G::S,
+    },
+    /// −(output + preload) − d ẋ: a spring with a law.
+    Law {
+        /// Output of the force program.
+        output: usize,
+        /// d.
+        damping: G::S,
+        /// Force at zero stretch.
+        preload: G::S,
+    },
+    /// +output: a load or motor on a joint.
+    Drive {
+        /// Output of the force program.
+        output: usize,
+    },
+}
+
+/// A rotor that turns with a gauge: ½ J ẋ².
+#[derive(Clone, Copy, Debug)]
+pub struct Rotor<G: Space> {
+    /// The gauge.
+    pub gauge: usize,
+    /// J, kg m².
+    pub inertia: G::S,
+}
+
+/// A load at a point of a body.
+#[derive(Clone, Debug)]
+pub struct Pull<G: Space> {
+    /// The body.
+    pub body: usize,
+    /// The point in the body frame, m.
+    pub at: G::Vector,
+    /// Outputs of the force program: components of the force, then of the torque, in the axes of `frame`; absent ones are 0.
+    pub force: Vec<usize>,
+    /// Outputs that are the torque: planar z, spatial x, y, z.
+    pub torque: Vec<usize>,
+    /// The body whose axes the components are in; 0 is the world.
+    pub frame: usize,
+}
+
+impl<G: Space> Stretch<G> {
+    pub(super) fn lift<D: Scalar>(&self, constant: impl Fn(G::S) -> D) -> Stretch<G::Lift<D>> {
+        Stretch { of: self.of, rest: constant(self.rest) }
+    }
+}
+
+impl<G: Space> Effort<G> {
+    pub(super) fn lift<D: Scalar>(&self, c: impl Fn(G::S) -> D) -> Effort<G::Lift<D>> {
+        let law = match self.law {
+            EffortLaw::Linear { stiffness, rest, damping, preload } => {
+                EffortLaw::Linear { stiffness: c(stiffness), rest: c(rest), damping: c(damping), preload: c(preload) }
+            }
+            EffortLaw::Law { output, damping, preload } => EffortLaw::Law { output, damping: c(damping), preload: c(preload) },
+            EffortLaw::Drive { output } => EffortLaw::Drive { output },
+        };
+        Effort { along: self.along, law }
+    }
+}
+
+impl<G: Space> Pull<G> {
+    pub(super) fn lift<D: Scalar>(&self) -> Pull<G::Lift<D>> {
+        Pull {
+            body: self.body,
+            at: G::lift_vector::<D>(self.at),
+            force: self.force.clone(),
+            torque: self.torque.clone(),
+            frame: self.frame,
+        }
+    }
+}

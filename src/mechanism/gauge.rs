@@ -1,0 +1,250 @@
+//! A gauge: a scalar x that is measured between two bodies a and b, and the unit wrench that works on it.
+//!
+//! Everything that constrains, drives or pulls does so through gauges: a joint row is a gauge that stays at its target, a
+//! driver one that follows a function of time, a spring one with a force. With twists V and accelerations A of the bodies,
+//!
+//!     ẋ = W · (V_b − V_a),      ẍ = W · (A_b − A_a) + c,
+//!
+//! where W is the unit wrench on b (−W acts on a: every gauge's force is a pair in one line) and the drift c collects
+//! what the velocities alone contribute. With points p, d = p_b − p_a, directions carried by their bodies, ṗ = v + ω×p and
+//! p̈ = v̇ + ω̇×p + ω×ṗ:
+//!
+//! | gauge | x | W on b (moment about the origin, force) | c |
+//! |---|---|---|---|
+//! | slide | n·d, n in a | (p_b×n, n) | n·(ω_b×ṗ_b − ω_a×ṗ_a) + 2ṅ·ḋ + (ω_a×ṅ)·d |
+//! | distance | \|d\| | (p_b×n, n), n = d/\|d\| | n·(ω_b×ṗ_b − ω_a×ṗ_a) + (ḋ² − (n·ḋ)²)/\|d\| |
+//! | dot | u·w, u in a, w in b | (w×u, 0) | (ω_a×u̇)·w + 2u̇·ẇ + u·(ω_b×ẇ) |
+//! | angle (planar) | difference of angles | (1, 0) | 0 |
+//! | turn (spatial) | atan2(f·e₂, f·e₁) + 2πk, e in a, f in b | of both dots | of both dots |
+//! | coordinate | a tree coordinate q_k | that of its axis | 0 |
+
+use crate::geometry::{Force, Motion, Pose, Space};
+use crate::scalar::Scalar;
+
+/// A coordinate axis of a tree joint: which coordinate, and whether it turns or slides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Along {
+    /// Index in q.
+    pub q: usize,
+    /// Index in v.
+    pub v: usize,
+    /// True if the coordinate is an angle.
+    pub turns: bool,
+    /// −1 if the child of the tree is the joint's first body, so that the column moves the child the other way.
+    pub sign: f64,
+}
+
+/// What a gauge measures; points and directions in the frame of the body named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured<G: Space> {
+    /// Component of p_b − p_a along n, all of a but p_b.
+    Slide {
+        /// Point of a.
+        pa: G::Vector,
+        /// Unit direction in a.
+        n: G::Vector,
+        /// Point of b.
+        pb: G::Vector,
+    },
+    /// Distance of two points, m.
+    Distance {
+        /// Point of a.
+        pa: G::Vector,
+        /// Point of b.
+        pb: G::Vector,
+    },
+    /// Cosine between a direction of a and one of b.
+    Dot {
+        /// Unit direction in a.
+        u: G::Vector,
+        /// Unit direction in b.
+        w: G::Vector,
+    },
+    /// Planar: unwrapped angle of b relative to a, rad.
+    Angle,
+    /// Spatial: angle of the direction f of b in the plane (e₁, e₂) of a, rad; `winding` is the mode that counts turns.
+    Turn {
+        /// First direction in a.
+        e1: G::Vector,
+        /// Second direction in a, the axis being e₁ × e₂.
+        e2: G::Vector,
+        /// Direction in b.
+        f: G::Vector,
+        /// Index of its winding number.
+        winding: usize,
+    },
+    /// A coordinate of the tree, with the joint's point of b.
+    Coordinate {
+        /// Which, and how it moves.
+        along: Along,
+        /// Point of b where a sliding axis is worked on.
+        pb: G::Vector,
+    },
+}
+
+/// A gauge between two bodies.
+#[derive(Clone, Debug)]
+pub struct Gauge<G: Space> {
+    /// First body; 0 is the ground.
+    pub a: usize,
+    /// Second body.
+    pub b: usize,
+    /// What is measured.
+    pub measured: Measured<G>,
+    /// Added to a geometric value (not to a coordinate, whose joint frames hold it): the joint's `zero`.
+    pub shift: f64,
+    /// Velocity columns it depends on, with +1 for those that move b and −1 for those that move a; common ones cancel.
+    pub columns: Vec<(usize, f64)>,
+}
+
+/// Value and wrench of a gauge, and from the velocity stage on its rate and drift.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reading<G: Space> {
+    /// x.
+    pub x: G::S,
+    /// Unit wrench on b.
+    pub wrench: Force<G>,
+    /// ẋ.
+    pub rate: G::S,
+    /// ẍ at a = 0: c and what the bias of the bodies adds.
+    pub drift: G::S,
+}
+
+impl<G: Space> Gauge<G> {
+    /// x and W from the poses (`poses[body]`), the tree coordinates `q` and columns `s`.
+    #[inline]
+    pub fn position(&self, poses: &[Pose<G>], q: &[G::S], s: &[Motion<G>], windings: &[i32], out: &mut Reading<G>) {
+        let (xa, xb) = (poses[self.a], poses[self.b]);
+        match self.measured {
+            Measured::Coordinate { along, pb } => {
+                out.x = q[along.q];
+                let column = s[along.v] * G::S::constant(along.sign);
+                // a turning axis is worked on by a moment about it, a sliding one by a force along it at the second point
+                out.wrench = if along.turns { Force::couple(column.w) } else { Force::at(column.v, xb.point(pb)) };
+            }
+            Measured::Slide { pa, n, pb } => {
+                let (pa, pb, n) = (xa.point(pa), xb.point(pb), G::rotate(xa.r, n));
+                out.x = G::dot(n, pb - pa) + G::S::constant(self.shift);
+                out.wrench = Force::at(n, pb);
+            }
+            Measured::Distance { pa, pb } => {
+                let (pa, pb) = (xa.point(pa), xb.point(pb));
+                let d = pb - pa;
+                out.x = G::dot(d, d).sqrt();
+                // coinciding points have no line of action: no force rather than no number
+                let k = if out.x.value() == 0.0 { G::S::default() } else { G::S::constant(1.0) / out.x };
+                out.wrench = Force::at(d * k, pb);
+            }
+            Measured::Dot { u, w } => {
+                let (u, w) = (G::rotate(xa.r, u), G::rotate(xb.r, w));
+                out.x = G::dot(u, w);
+                out.wrench = Force::couple(G::moment(w, u));
+            }
+            Measured::Angle => {
+                out.x = G::angle(xb.r) - G::angle(xa.r) + G::S::constant(self.shift);
+                out.wrench = Force::couple(G::spin([0.0, 0.0, 1.0]));
+            }
+            Measured::Turn { e1, e2, f, winding } => {
+                let (e1, e2, f) = (G::rotate(xa.r, e1), G::rotate(xa.r, e2), G::rotate(xb.r, f));
+                let (c, s) = (G::dot(f, e1), G::dot(f, e2));
+                out.x = s.atan2(c) + G::S::constant(self.shift + std::f64::consts::TAU * f64::from(windings[winding]));
+                // θ̇ = (c ṡ − s ċ)/(c² + s²)
+                let k = G::S::constant(1.0) / (c * c + s * s);
+                out.wrench = Force::couple((G::moment(f, e2) * c - G::moment(f, e1) * s) * k);
+            }
+        }
+    }
+
+    /// ẋ and c from the twists; after [`Gauge::position`].
+    #[inline]
+    pub fn velocity(&self, poses: &[Pose<G>], twists: &[Motion<G>], bias: &[Motion<G>], v: &[G::S], out: &mut Reading<G>) {
+        let (va, vb) = (twists[self.a], twists[self.b]);
+        let two = G::S::constant(2.0);
+        match self.measured {
+            Measured::Coordinate { along, .. } => {
+                out.rate = v[along.v];
+                out.drift = G::S::default();
+                return;
+            }
+            Measured::Angle => out.drift = G::S::default(),
+            Measured::Slide { pa, n, pb } => {
+                let (pa, pb, n) = (poses[self.a].point(pa), poses[self.b].point(pb), G::rotate(poses[self.a].r, n));
+                let (da, db) = (va.at(pa), vb.at(pb));
+                let dn = G::turn(va.w, n);
+                out.drift = G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da))
+                    + two * G::dot(dn, db - da)
+                    + G::dot(G::turn(va.w, dn), pb - pa);
+            }
+            Measured::Distance { pa, pb } => {
+                let (pa, pb) = (poses[self.a].point(pa), poses[self.b].point(pb));
+                let (da, db) = (va.at(pa), vb.at(pb));
+                let (n, rate) = (out.wrench.f, db - da);
+                let along = G::dot(n, rate);
+                let across = G::dot(rate, rate) - along * along;
+                let turning = if out.x.value() == 0.0 { G::S::default() } else { across / out.x };
+                out.drift = G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + turning;
+            }
+            Measured::Dot { u, w } => {
+                let (u, w) = (G::rotate(poses[self.a].r, u), G::rotate(poses[self.b].r, w));
+                out.drift = dot_rates::<G>(va, vb, u, w).1;
+            }
+            Measured::Turn { e1, e2, f, .. } => {
+                let (r, f) = (poses[self.a].r, G::rotate(poses[self.b].r, f));
+                let (e1, e2) = (G::rotate(r, e1), G::rotate(r, e2));
+                let (c, s) = (G::dot(f, e1), G::dot(f, e2));
+                let ((dc, ddc), (ds, dds)) = (dot_rates::<G>(va, vb, e1, f), dot_rates::<G>(va, vb, e2, f));
+                let k = G::S::constant(1.0) / (c * c + s * s);
+                let rate = (c * ds - s * dc) * k;
+                // θ̈ = (c s̈ − s c̈)/r² − 2 θ̇ (c ċ + s ṡ)/r²
+                out.drift = (c * dds - s * ddc) * k - two * rate * (c * dc + s * ds) * k;
+            }
+        }
+        out.rate = out.wrench.power(vb - va);
+        // the bodies accelerate by their bias even at a = 0
+        out.drift += out.wrench.power(bias[self.b] - bias[self.a]);
+    }
+
+    /// ẍ from the accelerations a (nv); after [`Gauge::velocity`].
+    #[must_use]
+    pub fn acceleration(&self, reading: &Reading<G>, s: &[Motion<G>], a: &[G::S]) -> G::S {
+        let mut sum = reading.drift;
+        self.project(reading, s, |k, x| sum += x * a[k]);
+        sum
+    }
+
+    /// ∂ẋ/∂v_k for the columns of the gauge, written by `put(k, value)`.
+    #[inline]
+    pub fn project(&self, reading: &Reading<G>, s: &[Motion<G>], mut put: impl FnMut(usize, G::S)) {
+        if let Measured::Coordinate { along, .. } = self.measured {
+            put(along.v, G::S::constant(1.0));
+            return;
+        }
+        for &(k, sign) in &self.columns {
+            put(k, reading.wrench.power(s[k]).scale(sign));
+        }
+    }
+
+    /// The same gauge on another scalar.
+    #[must_use]
+    pub fn lift<D: Scalar>(&self) -> Gauge<G::Lift<D>> {
+        let v = |x| G::lift_vector::<D>(x);
+        let measured = match self.measured {
+            Measured::Slide { pa, n, pb } => Measured::Slide { pa: v(pa), n: v(n), pb: v(pb) },
+            Measured::Distance { pa, pb } => Measured::Distance { pa: v(pa), pb: v(pb) },
+            Measured::Dot { u, w } => Measured::Dot { u: v(u), w: v(w) },
+            Measured::Angle => Measured::Angle,
+            Measured::Turn { e1, e2, f, winding } => Measured::Turn { e1: v(e1), e2: v(e2), f: v(f), winding },
+            Measured::Coordinate { along, pb } => Measured::Coordinate { along, pb: v(pb) },
+        };
+        Gauge { a: self.a, b: self.b, measured, shift: self.shift, columns: self.columns.clone() }
+    }
+}
+
+/// d/dt (u·w) and its drift for u carried by a and w by b.
+#[inline]
+fn dot_rates<G: Space>(va: Motion<G>, vb: Motion<G>, u: G::Vector, w: G::Vector) -> (G::S, G::S) {
+    let (du, dw) = (G::turn(va.w, u), G::turn(vb.w, w));
+    let rate = G::dot(du, w) + G::dot(u, dw);
+    let drift = G::dot(G::turn(va.w, du), w) + G::S::constant(2.0) * G::dot(du, dw) + G::dot(u, G::turn(vb.w, dw));
+    (rate, drift)
+}

@@ -1,0 +1,279 @@
+//! The frozen mechanism: bodies on a spanning tree, gauges, constraint rows and forces, all indexed, nothing named twice.
+//!
+//! [`build`](mod@build) makes it from a model; afterwards indices are valid, parents come before children and masses are
+//! not negative, so that `dynamics` holds no checks. It is immutable and shared by threads.
+
+pub mod build;
+mod force;
+mod gauge;
+mod inertia;
+mod joint;
+mod row;
+mod start;
+mod tree;
+
+pub use build::{BuildFault, Coordinates, build};
+pub use force::{Drive, Effort, EffortLaw, Leaf, Pull, Rotor, StagedProgram, Stretch, StretchOf};
+pub use gauge::{Along, Gauge, Measured, Reading};
+pub use joint::{Joint, axis_rotation};
+pub use row::{Function, Row, RowKind, RowOwner};
+pub use start::{Asked, Start};
+pub use tree::{Step, describe_loop};
+
+use crate::expression::Table;
+use crate::geometry::{MassProperties, Pose, Space};
+use crate::scalar::Scalar;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A body: its mass, its points and where it hangs in the tree.
+#[derive(Clone, Debug)]
+pub struct Body<G: Space> {
+    /// Its name; `ground` for the first.
+    pub name: String,
+    /// With all that is attached.
+    pub mass: MassProperties<G>,
+    /// Without what is attached.
+    pub bare: MassProperties<G>,
+    /// Point masses and rotors.
+    pub attached: Vec<Attached<G>>,
+    /// Named points in the body frame, m; as in the model.
+    pub points: Vec<(String, G::Vector)>,
+    /// Velocity columns that move it, from the root.
+    pub path: Vec<usize>,
+}
+
+/// A mass on a body.
+#[derive(Clone, Debug)]
+pub struct Attached<G: Space> {
+    /// Its name.
+    pub name: String,
+    /// Mass, place and inertia about its own centre.
+    pub mass: MassProperties<G>,
+}
+
+/// A body's place in the tree.
+#[derive(Clone, Debug)]
+pub struct Node<G: Space> {
+    /// The body.
+    pub body: usize,
+    /// Its parent body, earlier in the order.
+    pub parent: usize,
+    /// Joint frame in the parent.
+    pub before: Pose<G>,
+    /// The joint's moving steps, in `Mechanism::steps`.
+    pub steps: Range<usize>,
+    /// Body frame in the moved joint frame, if it is another.
+    pub after: Option<Pose<G>>,
+    /// Velocity columns of the joint.
+    pub columns: Range<usize>,
+}
+
+/// A mechanism over the space `G`.
+#[derive(Clone, Debug)]
+pub struct Mechanism<G: Space> {
+    /// Bodies in file order; 0 is the ground.
+    pub bodies: Vec<Body<G>>,
+    /// Moving bodies, parents first.
+    pub nodes: Vec<Node<G>>,
+    /// Moving steps of all tree joints.
+    pub steps: Vec<Step<G>>,
+    /// Number of coordinates.
+    pub nq: usize,
+    /// Number of velocities.
+    pub nv: usize,
+    /// For each velocity column: the columns of its ancestors and itself, from the root.
+    pub ancestors: Vec<Vec<usize>>,
+    /// Joints in file order.
+    pub joints: Vec<Joint<G>>,
+    /// The joint that each node carries; none for a body that is free of its own.
+    pub joint_of_node: Vec<Option<usize>>,
+    /// All gauges; the first `active_gauges` are those that rows and forces need.
+    pub gauges: Vec<Gauge<G>>,
+    /// See `gauges`.
+    pub active_gauges: usize,
+    /// Constraint rows.
+    pub rows: Vec<Row<G>>,
+    /// Relations and stretches given by expressions.
+    pub functions: Vec<Function>,
+    /// Drivers in file order.
+    pub drives: Vec<Drive>,
+    /// Springs in file order: what they stretch.
+    pub stretches: Vec<Stretch<G>>,
+    /// Asked start values.
+    pub starts: Vec<Start>,
+    /// Bodies whose start orientation is asked for, as matrices: where the search begins.
+    pub orientations: Vec<(usize, [[f64; 3]; 3])>,
+    /// Forces along gauges.
+    pub efforts: Vec<Effort<G>>,
+    /// Which effort is a spring's elastic and damping force: `spring_efforts[spring]`.
+    pub spring_efforts: Vec<usize>,
+    /// Which effort is a motor's: `motor_efforts[motor]`, if it has a curve.
+    pub motor_efforts: Vec<Option<usize>>,
+    /// Rotors that turn with gauges.
+    pub rotors: Vec<Rotor<G>>,
+    /// Loads at points.
+    pub pulls: Vec<Pull<G>>,
+    /// Programs by stage: functions, drifts, drivers, forces.
+    pub position_program: StagedProgram,
+    /// Drifts of the functions.
+    pub velocity_program: StagedProgram,
+    /// Driver laws: f, f', f'' of each.
+    pub time_program: StagedProgram,
+    /// Forces of loads, springs with laws and motors.
+    pub force_program: StagedProgram,
+    /// Tables of the model as numbers, shared with the programs of outputs.
+    pub tables: Arc<[Table]>,
+    /// Gravity, m/s².
+    pub gravity: G::Vector,
+    /// Number of switches of the model's expressions (`modes` begins with them) and of winding numbers (they follow).
+    pub switches: usize,
+    /// Number of winding numbers.
+    pub windings: usize,
+}
+
+impl<G: Space> Mechanism<G> {
+    /// The coordinates as drawn: zeros, quaternions (1, 0, 0, 0).
+    #[must_use]
+    pub fn drawn(&self) -> Vec<f64> {
+        let mut q = vec![0.0; self.nq];
+        for step in &self.steps {
+            if let Step::Ball { q: k, .. } = step {
+                q[*k] = 1.0;
+            }
+        }
+        q
+    }
+
+    /// Modes before anything is known of the state: all 0.
+    #[must_use]
+    pub fn modes(&self) -> Vec<i32> {
+        vec![0; self.switches + self.windings]
+    }
+
+    /// q ⊕ δ: moves the coordinates by a velocity times time, δ in the frame of v (shape nv).
+    pub fn retract(&self, q: &mut [f64], delta: &[f64]) {
+        for step in &self.steps {
+            match step {
+                Step::Axis { q: i, v, .. } => q[*i] += delta[*v],
+                Step::Ball { q: i, v, .. } => {
+                    let w = [delta[*v], delta[v + 1], delta[v + 2]];
+                    retract_quaternion(&mut q[*i..i + 4], w);
+                }
+            }
+        }
+    }
+
+    /// q̇ = N(q) v (shapes nq, nv).
+    pub fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        for step in &self.steps {
+            match step {
+                Step::Axis { q: i, v: k, .. } => qdot[*i] = v[*k],
+                Step::Ball { q: i, v: k, .. } => {
+                    let half = multiply_quaternion([q[*i], q[i + 1], q[i + 2], q[i + 3]], [0.0, v[*k], v[k + 1], v[k + 2]]);
+                    for (out, x) in qdot[*i..i + 4].iter_mut().zip(half) {
+                        *out = 0.5 * x;
+                    }
+                }
+            }
+        }
+    }
+
+    /// What a constraint row belongs to, in words: "joint `B`, x".
+    #[must_use]
+    pub fn name_of_row(&self, row: usize) -> String {
+        let row = &self.rows[row];
+        match row.owner {
+            RowOwner::Joint(j) => format!("joint `{}`, {}", self.joints[j].name, row.label),
+            RowOwner::Driver(d) => format!("driver `{}`", self.drives[d].name),
+            RowOwner::Coupling => format!("coupling `{}`", row.label),
+        }
+    }
+
+    /// The same mechanism on another scalar.
+    #[must_use]
+    pub fn lift<D: Scalar>(&self) -> Mechanism<G::Lift<D>> {
+        let c = |x: G::S| D::constant(x.value());
+        Mechanism {
+            bodies: self.bodies.iter().map(Body::lift).collect(),
+            nodes: self
+                .nodes
+                .iter()
+                .map(|n| Node {
+                    body: n.body,
+                    parent: n.parent,
+                    before: n.before.lift(),
+                    steps: n.steps.clone(),
+                    after: n.after.map(Pose::lift),
+                    columns: n.columns.clone(),
+                })
+                .collect(),
+            steps: self.steps.iter().map(Step::lift).collect(),
+            nq: self.nq,
+            nv: self.nv,
+            ancestors: self.ancestors.clone(),
+            joints: self.joints.iter().map(Joint::lift).collect(),
+            joint_of_node: self.joint_of_node.clone(),
+            gauges: self.gauges.iter().map(Gauge::lift).collect(),
+            active_gauges: self.active_gauges,
+            rows: self.rows.iter().map(|r| r.lift(c)).collect(),
+            functions: self.functions.clone(),
+            drives: self.drives.clone(),
+            stretches: self.stretches.iter().map(|s| s.lift(c)).collect(),
+            starts: self.starts.clone(),
+            orientations: self.orientations.clone(),
+            efforts: self.efforts.iter().map(|e| e.lift(c)).collect(),
+            spring_efforts: self.spring_efforts.clone(),
+            motor_efforts: self.motor_efforts.clone(),
+            rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
+            pulls: self.pulls.iter().map(Pull::lift).collect(),
+            position_program: self.position_program.clone(),
+            velocity_program: self.velocity_program.clone(),
+            time_program: self.time_program.clone(),
+            force_program: self.force_program.clone(),
+            tables: Arc::clone(&self.tables),
+            gravity: G::lift_vector::<D>(self.gravity),
+            switches: self.switches,
+            windings: self.windings,
+        }
+    }
+}
+
+impl<G: Space> Body<G> {
+    /// Puts an attached mass elsewhere on the body, `at` in the body frame, m, and sums the mass anew.
+    pub fn move_attached(&mut self, index: usize, at: G::Vector) {
+        self.attached[index].mass.com = at;
+        self.mass = self.attached.iter().fold(self.bare, |sum, a| sum.join(a.mass));
+    }
+
+    fn lift<D: Scalar>(&self) -> Body<G::Lift<D>> {
+        Body {
+            name: self.name.clone(),
+            mass: self.mass.lift(),
+            bare: self.bare.lift(),
+            attached: self.attached.iter().map(|a| Attached { name: a.name.clone(), mass: a.mass.lift() }).collect(),
+            points: self.points.iter().map(|(n, p)| (n.clone(), G::lift_vector::<D>(*p))).collect(),
+            path: self.path.clone(),
+        }
+    }
+}
+
+/// q ∘ exp(w/2): body-frame rotation vector w, rad; the result has the length of q.
+fn retract_quaternion(q: &mut [f64], w: [f64; 3]) {
+    let half = 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]).sqrt();
+    // sin(x)/x to second order near 0
+    let k = 0.5 * if half < 1e-6 { 1.0 - half * half / 6.0 } else { half.sin() / half };
+    let product = multiply_quaternion([q[0], q[1], q[2], q[3]], [half.cos(), k * w[0], k * w[1], k * w[2]]);
+    q.copy_from_slice(&product);
+}
+
+/// Hamilton's product, (w, x, y, z).
+fn multiply_quaternion(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
+}
+

@@ -1,0 +1,88 @@
+//! Constraint rows: a gauge at a target, a gauge that follows a driver, two gauges in a ratio, an expression that stays 0.
+//!
+//! | row | Φ | ν (G v = ν) | γ (G a = γ) |
+//! |---|---|---|---|
+//! | gauge | x − target | 0 | −c |
+//! | driver | x − anchor − f(t) | f' | f'' − c |
+//! | ratio | x₂ − anchor − ratio x₁ | 0 | −(c₂ − ratio c₁) |
+//! | function | e(x) | 0 | −(Σ e_i c_i + Σ e_ik ẋ_i ẋ_k) |
+
+use crate::geometry::Space;
+use crate::scalar::Scalar;
+
+/// One scalar constraint.
+#[derive(Clone, Debug)]
+pub struct Row<G: Space> {
+    /// What it asks.
+    pub kind: RowKind,
+    /// What it belongs to.
+    pub owner: RowOwner,
+    /// Which of its owner's rows: "x", "axis"; the name of a coupling.
+    pub label: String,
+    /// Target, or the anchor that a start fixes (drivers with a speed or a rise, gears, racks).
+    pub offset: G::S,
+    /// True if the start fixes the offset, so that the row asks nothing of the start itself.
+    pub anchored: bool,
+    /// True if the row is an angle or a cosine, false if a length.
+    pub angular: bool,
+}
+
+/// What a row asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RowKind {
+    /// Gauge at the offset.
+    Gauge(usize),
+    /// Gauge at offset + f(t) of a driver.
+    Driver {
+        /// The gauge.
+        gauge: usize,
+        /// The driver.
+        driver: usize,
+    },
+    /// `second` at offset + ratio · `first`.
+    Ratio {
+        /// Gauge whose multiple is taken.
+        first: usize,
+        /// Gauge that follows.
+        second: usize,
+        /// The ratio.
+        ratio: f64,
+    },
+    /// A function at 0.
+    Function(usize),
+}
+
+/// What a row belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowOwner {
+    /// A joint cut off the tree.
+    Joint(usize),
+    /// A driver.
+    Driver(usize),
+    /// A coupling; the row's label is its name.
+    Coupling,
+}
+
+/// An expression e of gauges, with its derivatives as outputs of the position and velocity programs.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// The gauges it depends on.
+    pub gauges: Vec<usize>,
+    /// Output of the position program that is e; the partial derivatives by the gauges follow it.
+    pub value: usize,
+    /// Output of the velocity program that is Σ e_i c_i + Σ e_ik ẋ_i ẋ_k.
+    pub drift: usize,
+}
+
+impl<G: Space> Row<G> {
+    pub(super) fn lift<D: Scalar>(&self, constant: impl Fn(G::S) -> D) -> Row<G::Lift<D>> {
+        Row {
+            kind: self.kind,
+            owner: self.owner,
+            label: self.label.clone(),
+            offset: constant(self.offset),
+            anchored: self.anchored,
+            angular: self.angular,
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! Columns of a study and figures of them.
+
+use super::studies::Frame;
+use super::{Decoder, Origin};
+use crate::expression::{self, Dimension};
+use crate::model::fault::At;
+use crate::model::merge::Node;
+use crate::model::names::Entity;
+use crate::model::scope::{Allow, Local};
+use crate::model::shape::clip;
+use crate::model::study::{Column, Plot, Shown, ShownWhat};
+use crate::model::vocabulary::Quantity;
+
+impl<'n> Decoder<'n> {
+    fn column_allow(frame: &Frame<'_>) -> Allow {
+        Allow { reactions: frame.offer.reactions, what: frame.offer.word, ..Allow::MEASURE }
+    }
+
+    pub(super) fn columns(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Column> {
+        let here = at.key("columns");
+        let mut columns: Vec<Column> = Vec::new();
+        let Some(list) = node.get("columns") else { return self.default_columns(frame) };
+        for (i, item) in list.items().iter().enumerate() {
+            let Some(text) = item.as_str() else { continue };
+            for column in self.expand(text, &here.index(i), frame) {
+                if let Some(twin) = columns.iter().find(|c| c.name == column.name) {
+                    let message = format!("`{}` is a column already", twin.name);
+                    self.fault("duplicate-column", &here.index(i), message, "each column once").help =
+                        Some("remove one of the two".to_owned());
+                } else {
+                    columns.push(column);
+                }
+            }
+        }
+        columns
+    }
+
+    /// Independent variable, time, measures, drivers.
+    fn default_columns(&mut self, frame: &Frame<'_>) -> Vec<Column> {
+        if frame.offer.independent.is_none() {
+            return Vec::new();
+        }
+        let mut columns: Vec<Column> = Vec::new();
+        if let Some(first) = &frame.offer.first
+            && let Some(column) = self.quiet(first)
+        {
+            columns.push(column);
+        }
+        let time = self.world.input(&mut self.pool, Quantity::Time);
+        columns.push(Column { name: "time".to_owned(), dimension: Dimension::TIME, value: time });
+        for (i, (name, _)) in self.section("measures").into_iter().enumerate() {
+            if let Some((symbol, reach)) = self.world.measures.get(i).copied().flatten()
+                && (frame.offer.reactions || !reach.reactions)
+                && columns.iter().all(|c| c.name != name)
+            {
+                columns.push(Column { name: name.to_owned(), dimension: symbol.dimension, value: symbol.id });
+            }
+        }
+        if frame.offer.reactions {
+            let drivers: Vec<String> = self.world.model.drivers.iter().map(|d| d.name.clone()).collect();
+            for name in drivers.iter().flat_map(|driver| self.parts(driver)).collect::<Vec<_>>() {
+                columns.extend(self.quiet(&name));
+            }
+        }
+        columns
+    }
+
+    /// The column of a path that is known to be sound.
+    fn quiet(&mut self, path: &str) -> Option<Column> {
+        if let Some(Entity::Measure(i)) = self.world.names.get(path) {
+            let (symbol, _) = self.world.measures.get(*i).copied().flatten()?;
+            return Some(Column { name: path.to_owned(), dimension: symbol.dimension, value: symbol.id });
+        }
+        let found = self.world.quantity(&mut self.pool, path).ok()?;
+        let (symbol, _) = self.world.symbol(&mut self.pool, found);
+        Some(Column { name: path.to_owned(), dimension: symbol.dimension, value: symbol.id })
+    }
+
+    /// The quantities that a name stands for in a list of columns; the name itself if it stands for none.
+    fn parts(&self, name: &str) -> Vec<String> {
+        let planar = self.world.components() == 2;
+        let with = |parts: &[&str]| parts.iter().map(|part| format!("{name}.{part}")).collect();
+        let single = |name: &str| vec![name.to_owned()];
+        match name {
+            "com" if planar => return with(&["x", "y", "vx", "vy", "ax", "ay"]),
+            "com" => return with(&["x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"]),
+            "shaking" | "frame" if planar => return with(&["fx", "fy", "f"]),
+            "shaking" | "frame" => return with(&["fx", "fy", "fz", "f"]),
+            "energy" => return with(&["kinetic", "potential", "total"]),
+            _ => {}
+        }
+        let (head, rest) = name.split_once('.').unwrap_or((name, ""));
+        match self.world.names.get(head) {
+            Some(Entity::Joint(_)) if rest.is_empty() && planar => with(&["fx", "fy", "f"]),
+            Some(Entity::Joint(_)) if rest.is_empty() => with(&["fx", "fy", "fz", "mx", "my", "mz"]),
+            Some(Entity::Driver(i)) if rest.is_empty() => {
+                let driver = self.world.sound.drivers.get(*i).copied().flatten().and_then(|i| self.world.model.drivers.get(i));
+                let angle = driver.and_then(|d| self.world.single(d.joint)).is_none_or(|c| c.angle);
+                with(&[if angle { "torque" } else { "force" }, "power"])
+            }
+            entity => {
+                let body = match entity {
+                    Some(Entity::Body(i)) => self.world.model.bodies.get(*i),
+                    _ if head == "ground" => self.world.model.bodies.first(),
+                    _ => None,
+                };
+                match body {
+                    Some(body) if body.points.iter().any(|p| p.name == rest) => with(if planar { &["x", "y"] } else { &["x", "y", "z"] }),
+                    _ => single(name),
+                }
+            }
+        }
+    }
+
+    /// The columns that a text stands for; faults are reported.
+    fn expand(&mut self, text: &str, at: &At<'_, 'n>, frame: &Frame<'n>) -> Vec<Column> {
+        match self.parse(text) {
+            Ok(expr) if expr.path().is_some() => {}
+            Ok(_) => {
+                let message = format!("`{}` is an expression", clip(text));
+                let fault = self.fault("wrong-column", at, message, "the name of a measure or a quantity such as `rocker.tip.x`");
+                fault.help = Some(format!("make it a measure: `measures: {{ name: {} }}`", clip(text)));
+                return Vec::new();
+            }
+            Err(error) => {
+                let fault = self.fault(
+                    "expression",
+                    at,
+                    format!("found {}", error.found),
+                    "the name of a measure or a quantity such as `rocker.tip.x`",
+                );
+                fault.help = error.help;
+                return Vec::new();
+            }
+        }
+        match self.world.names.get(text) {
+            Some(Entity::Parameter(_)) => {
+                let fault = self.fault("wrong-column", at, format!("`{text}` is a parameter"), "something that varies during the study");
+                fault.help = Some("parameters stand in the JSON; as a curve make it a measure".to_owned());
+                return Vec::new();
+            }
+            Some(Entity::Body(_)) => {
+                let fault = self.fault("wrong-column", at, format!("`{text}` is a body"), "a quantity or a point of a body");
+                fault.help = Some(format!("for example `{text}.origin` or `{text}.x`"));
+                return Vec::new();
+            }
+            _ => {}
+        }
+        let allow = Self::column_allow(frame);
+        let mut columns = Vec::new();
+        for name in self.parts(text) {
+            let lowered = self.lower(&name, Origin::Value(text, 0), at, allow, &mut Local::default());
+            let Some((lowered, _)) = lowered else { break };
+            columns.push(Column { name, dimension: lowered.dimension, value: lowered.id });
+        }
+        columns
+    }
+
+    pub(super) fn plots(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Plot> {
+        let section = at.key("plot");
+        let mut plots = Vec::new();
+        for (name, value) in node.get("plot").map(Node::entries).unwrap_or_default() {
+            let here = section.key(name);
+            let (list, list_at) = if value.is_list() { (Some(value), here) } else { (value.get("show"), here.key("show")) };
+            let mut show = Vec::new();
+            for (i, item) in list.map(Node::items).unwrap_or_default().iter().enumerate() {
+                let Some(text) = item.as_str() else { continue };
+                show.extend(self.shown(text, &list_at.index(i), frame));
+            }
+            let over_at = here.key("over");
+            let mut over = None;
+            if let Some(text) = value.get("over").and_then(Node::text) {
+                let found = self.shown(text, &over_at, frame);
+                if found.len() > 1 {
+                    let message = format!("`{}` stands for {} quantities", clip(text), found.len());
+                    self.fault("wrong-plot", &over_at, message, "one quantity for the horizontal axis").help =
+                        Some(format!("for example `{}`", found[0].name));
+                }
+                over = found.into_iter().next();
+            }
+            self.alike(&show, over.as_ref(), &list_at, &over_at, frame);
+            let axis = match &over {
+                Some(over) => Some(over.dimension),
+                None if show.iter().any(|s| !matches!(s.what, ShownWhat::Column(_))) => {
+                    frame.swept.first().and_then(|i| self.world.parameters.get(*i).copied().flatten())
+                }
+                None => frame.offer.independent,
+            };
+            let unit = self.plot_unit(value, &here, axis);
+            plots.push(Plot { name: name.to_owned(), show, over, unit });
+        }
+        plots
+    }
+
+    /// Curves and values of whole runs cannot share a figure.
+    fn alike(&mut self, show: &[Shown], over: Option<&Shown>, list_at: &At<'_, 'n>, over_at: &At<'_, 'n>, frame: &Frame<'n>) {
+        let curve = |shown: &Shown| matches!(shown.what, ShownWhat::Column(_));
+        if let Some(i) = show.iter().position(|s| curve(s) != curve(&show[0])) {
+            let message = format!("`{}` and `{}` in one figure: one is a curve, the other one number per run", show[0].name, show[i].name);
+            self.fault("wrong-plot", list_at, message, "only curves, or only scalars");
+            return;
+        }
+        let Some(first) = show.first() else { return };
+        if let Some(over) = over {
+            if curve(first) != curve(over) {
+                let message = if curve(over) {
+                    format!("`{}` is a curve, `{}` one number per run", over.name, first.name)
+                } else {
+                    format!("`{}` is one number per run, `{}` a curve", over.name, first.name)
+                };
+                self.fault("wrong-plot", over_at, message, "a horizontal axis of the same kind");
+            }
+        } else if !curve(first) && frame.swept.is_empty() {
+            let message = format!("`{}` has one value: the study has no `sweep`", first.name);
+            self.fault("wrong-plot", list_at, message, "curves, or scalars of a sweep");
+        }
+    }
+
+    fn plot_unit(&mut self, value: Node<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
+        let text = value.get("in")?.text()?;
+        let here = at.key("in");
+        match expression::parse_unit(text) {
+            Some((factor, dimension)) => {
+                if axis.is_some_and(|axis| axis != dimension) {
+                    let expected = axis.map(|axis| axis.name()).unwrap_or_default();
+                    self.fault("wrong-dimension", &here, format!("`{}` is a unit of {}", clip(text), dimension.name()), expected);
+                    return None;
+                }
+                Some((text.to_owned(), factor))
+            }
+            None => {
+                self.fault("unknown-unit", &here, format!("`{}` is no unit", clip(text)), "a unit such as `rpm`, `deg`, `mm`, `N m`");
+                None
+            }
+        }
+    }
+
+    /// What a name in a figure refers to; several where it stands for several quantities.
+    fn shown(&mut self, text: &str, at: &At<'_, 'n>, frame: &Frame<'n>) -> Vec<Shown> {
+        let one = |what, dimension| vec![Shown { name: text.to_owned(), what, dimension }];
+        if let Some(i) = frame.scalars.iter().position(|(name, _)| name == text) {
+            return one(ShownWhat::Scalar(i), frame.scalars[i].1);
+        }
+        if let Some(i) = frame.offer.results.iter().position(|(name, _)| name == text) {
+            return one(ShownWhat::Result(i), frame.offer.results[i].1);
+        }
+        if frame.local.symbols.iter().any(|(name, symbol)| *name == text && symbol.is_none()) {
+            return Vec::new();
+        }
+        if let Some(Entity::Parameter(i)) = self.world.names.get(text) {
+            let i = *i;
+            if frame.swept.contains(&i) {
+                return one(ShownWhat::Parameter(i), self.world.parameters.get(i).copied().flatten().unwrap_or_default());
+            }
+            self.fault("wrong-plot", at, format!("`{text}` is a parameter that is not swept"), "a column, a scalar or a swept parameter");
+            return Vec::new();
+        }
+        self.expand(text, at, frame)
+            .into_iter()
+            .map(|c| Shown { name: c.name, what: ShownWhat::Column(c.value), dimension: c.dimension })
+            .collect()
+    }
+}

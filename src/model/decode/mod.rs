@@ -1,0 +1,333 @@
+//! Merged values → typed entities. Form was checked along the tables of fields; here names are resolved, expressions
+//! lowered, dimensions checked. A value whose form is wrong is passed over in silence: it was reported already.
+
+mod bodies;
+mod checks;
+mod columns;
+mod forces;
+mod joints;
+mod kinds;
+mod order;
+mod scalars;
+mod springs;
+mod start;
+mod studies;
+mod values;
+
+pub(crate) use order::{order, tell};
+pub(crate) use studies::{Scalars, Taken};
+
+use super::entities::{Dimensions, Model};
+use super::fault::{At, Fault, Spot};
+use super::fields::Want;
+use super::merge::{Layers, Node};
+use super::names;
+use super::quantities::{Sound, World};
+use super::scope::{Allow, Local, Reach, View};
+use super::shape::clip;
+use crate::expression::{self, Dimension, Expr, Id, Lowered, Pool, SyntaxError};
+use checks::{Check, Rule};
+use serde_yaml::Value;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// A model on its way from the file.
+pub(crate) struct Decoder<'n> {
+    layers: &'n Layers<'n>,
+    root: Node<'n>,
+    pub(crate) pool: Pool,
+    pub(crate) world: World<'n>,
+    pub(crate) faults: Vec<Fault>,
+    checks: Vec<Check<'n>>,
+    /// Expressions parsed so far: the same texts come again in every variant and study.
+    pub(crate) parsed: Parsed,
+}
+
+/// Syntax trees by their text.
+pub(crate) type Parsed = HashMap<String, Rc<Expr>>;
+
+/// Where the text of an expression comes from, so that a fault in it is shown at its own characters.
+#[derive(Clone, Copy)]
+pub(crate) enum Origin<'t> {
+    /// A value of the file; the expression begins at a byte of it.
+    Value(&'t str, usize),
+    /// A key of the file.
+    Key(&'t str),
+    /// A text given from outside; the expression begins at a byte of it.
+    Outside(&'t str, usize),
+}
+
+impl Origin<'_> {
+    fn spot(self, at: std::ops::Range<usize>) -> Spot {
+        match self {
+            Self::Value(full, offset) => Spot::Within(full.to_owned(), at.start + offset..at.end + offset),
+            Self::Key(full) => Spot::WithinKey(full.to_owned(), at),
+            Self::Outside(full, offset) => Spot::Outside(full.to_owned(), at.start + offset..at.end + offset),
+        }
+    }
+}
+
+impl<'n> Decoder<'n> {
+    /// Decodes a merged model with all but its studies.
+    pub(crate) fn new(layers: &'n Layers<'n>, root: Node<'n>, parsed: Parsed) -> Self {
+        let text = |key: &str| root.get(key).and_then(Node::text).unwrap_or_default().to_owned();
+        let space = if root.get("space").and_then(Node::text) == Some("spatial") { Dimensions::Spatial } else { Dimensions::Planar };
+        let mut faults = Vec::new();
+        let names = names::collect(root, layers, &mut faults);
+        let model = Model {
+            name: text("name"),
+            about: text("about"),
+            space,
+            pool: Pool::new(),
+            inputs: Vec::new(),
+            parameters: Vec::new(),
+            tables: Vec::new(),
+            gravity: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            drivers: Vec::new(),
+            loads: Vec::new(),
+            springs: Vec::new(),
+            motors: Vec::new(),
+            measures: Vec::new(),
+            start: Vec::new(),
+            study: None,
+            variants: layers.patches.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            set: Vec::new(),
+        };
+        let world = World {
+            model,
+            names,
+            parameters: Vec::new(),
+            tables: Vec::new(),
+            measures: Vec::new(),
+            stretches: Vec::new(),
+            sound: Sound::default(),
+            input_of: HashMap::new(),
+        };
+        let mut decoder = Self { layers, root, pool: Pool::new(), world, faults, checks: Vec::new(), parsed };
+        decoder.parameters();
+        decoder.tables();
+        decoder.gravity();
+        decoder.bodies();
+        decoder.joints();
+        // drivers and motors need no measure, measures may need them
+        decoder.drivers();
+        decoder.motors();
+        decoder.springs_by_name();
+        decoder.measures();
+        decoder.springs();
+        decoder.couplings();
+        decoder.loads();
+        decoder.start();
+        decoder.events();
+        decoder
+    }
+
+    /// Entries of a section, with their places.
+    fn section(&self, key: &str) -> Vec<(&'n str, Node<'n>)> {
+        self.root.get(key).map(Node::entries).unwrap_or_default()
+    }
+
+    fn place(&self, at: &At<'_, '_>) -> String {
+        self.layers.source(&at.steps())
+    }
+
+    fn fault(&mut self, code: &'static str, at: &At<'_, '_>, message: impl Into<String>, expected: impl Into<String>) -> &mut Fault {
+        let place = self.place(at);
+        self.faults.push(Fault::new(code, place, message, expected));
+        let last = self.faults.len() - 1;
+        &mut self.faults[last]
+    }
+
+    fn check(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
+        self.checks.push(Check { rule, ids: ids.to_vec(), steps: at.steps() });
+    }
+
+    /// The syntax tree of a text.
+    fn parse(&mut self, text: &str) -> Result<Rc<Expr>, SyntaxError> {
+        if let Some(expr) = self.parsed.get(text) {
+            return Ok(Rc::clone(expr));
+        }
+        let expr = Rc::new(expression::parse(text)?);
+        self.parsed.insert(text.to_owned(), Rc::clone(&expr));
+        Ok(expr)
+    }
+
+    /// Parses and lowers a text; faults are shown inside of it.
+    fn lower(&mut self, text: &str, origin: Origin<'_>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+        match self.parse(text) {
+            Ok(expr) => self.lower_parsed(&expr, text, origin, at, allow, local),
+            Err(error) => {
+                let place = self.place(at);
+                let fault = Fault::new("expression", place, format!("found {}", error.found), error.expected);
+                self.faults.push(fault.maybe_help(error.help).at(origin.spot(error.at)));
+                None
+            }
+        }
+    }
+
+    fn lower_parsed(
+        &mut self,
+        expr: &Expr,
+        text: &str,
+        origin: Origin<'_>,
+        at: &At<'_, '_>,
+        allow: Allow,
+        local: &mut Local<'_>,
+    ) -> Option<(Lowered, Reach)> {
+        let mut view =
+            View { world: &mut self.world, local, allow, reach: Reach::CONSTANT, codes: Vec::new(), refused_table: false, outside: None };
+        let result = expression::lower(&mut self.pool, expr, text, &mut view);
+        let (reach, codes, refused_table) = (view.reach, view.codes, view.refused_table);
+        match result {
+            Ok(lowered) => {
+                // `rate` raises the level of what it is taken of
+                let forbidden = reach.level > allow.level || reach.reactions && !allow.reactions;
+                if forbidden && reach.level < super::vocabulary::Level::Study {
+                    let words = if reach.level == super::vocabulary::Level::Acceleration { "an acceleration" } else { "a velocity" };
+                    let place = self.place(at);
+                    let fault = Fault::new("wrong-level", place, format!("this rate is {words}"), format!("{} may not use it", allow.what));
+                    self.faults.push(fault.at(origin.spot(0..text.len())));
+                    return None;
+                }
+                Some((lowered, reach))
+            }
+            Err(faults) => {
+                let place = self.place(at);
+                for fault in faults.into_iter().filter(|fault| !fault.found.is_empty()) {
+                    let code = codes.iter().find(|(found, _)| *found == fault.found).map(|(_, code)| *code);
+                    let refused = refused_table && fault.expected == "a function or a table";
+                    let made = if refused {
+                        Fault::new(
+                            "wrong-level",
+                            place.clone(),
+                            format!("found {}", fault.found),
+                            format!("{} may not call a table", allow.what),
+                        )
+                    } else {
+                        // what the scope refused is a sentence, what lowering refused a thing
+                        let message = if code.is_some() { fault.found } else { format!("found {}", fault.found) };
+                        let code = code.unwrap_or(if fault.expected.starts_with(['`', 'a']) { "expression" } else { "wrong-dimension" });
+                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(fault.help)
+                    };
+                    self.faults.push(made.at(origin.spot(fault.at)));
+                }
+                None
+            }
+        }
+    }
+
+    /// A number, a quantity or an expression of any dimension.
+    fn any(&mut self, node: Node<'_>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+        match node {
+            Node::Plain(Value::Number(n)) => {
+                let x = n.as_f64().filter(|x| x.is_finite())?;
+                let id = self.pool.constant(x);
+                let lowered = Lowered { id, dimension: Dimension::NONE, any: x == 0.0, bare: true, boolean: false };
+                Some((lowered, Reach::CONSTANT))
+            }
+            Node::Plain(Value::String(text)) => self.lower(text, Origin::Value(text, 0), at, allow, local),
+            _ => None,
+        }
+    }
+
+    /// Whether a value fits what is wanted; the fault is reported.
+    fn fits(&mut self, lowered: &Lowered, want: Want, node: Node<'_>, origin: Option<Origin<'_>>, at: &At<'_, '_>) -> bool {
+        let dimension = match want {
+            Want::Of(dimension) => dimension,
+            Want::Angle => Dimension::NONE,
+            Want::Varies(_) | Want::Any => return true,
+        };
+        if let Err(found) = lowered.expect(dimension) {
+            let place = self.place(at);
+            let text = node.text().unwrap_or_default();
+            let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
+            if lowered.dimension == Dimension::NONE {
+                fault.help = Some(format!("give it a unit: {}", dimension.si()));
+            }
+            if let Some(origin) = origin {
+                fault.spot = origin.spot(0..text.len());
+            }
+            self.faults.push(fault);
+            return false;
+        }
+        if want == Want::Angle
+            && lowered.bare
+            && let Some(x) = self.pool.constant_value(lowered.id)
+            && x.abs() > std::f64::consts::TAU
+        {
+            let place = self.place(at);
+            let text = match node {
+                Node::Plain(Value::Number(n)) => n.to_string(),
+                _ => clip(node.text().unwrap_or_default()),
+            };
+            self.faults.push(
+                Fault::new("bare-angle", place, format!("{text} rad is more than a turn"), "an angle in rad, or with its unit")
+                    .help(format!("if degrees are meant, write `{} deg`", text.trim_start_matches('~')))
+                    .warn(),
+            );
+        }
+        true
+    }
+
+    /// A value of a wanted dimension that may use what `allow` says.
+    fn value(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>, want: Want, allow: Allow) -> Option<(Id, Reach)> {
+        let node = node?;
+        let (lowered, reach) = self.any(node, at, allow, &mut Local::default())?;
+        self.fits(&lowered, want, node, None, at).then_some((lowered.id, reach))
+    }
+
+    /// A value of parameters that must be finite.
+    fn number(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Want) -> Option<Id> {
+        let (id, _) = self.value(node, at, want, Allow::CONSTANT)?;
+        self.check(Rule::Finite, &[id], at);
+        Some(id)
+    }
+
+    /// A value of parameters that may not be negative; the words say what it is.
+    fn size(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension, what: &'static str) -> Option<Id> {
+        let (id, _) = self.value(node, at, Want::Of(want), Allow::CONSTANT)?;
+        self.check(Rule::NotNegative(what), &[id], at);
+        Some(id)
+    }
+
+    /// A list of values of parameters.
+    fn vector(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension) -> Option<Vec<Id>> {
+        let items = node.filter(|node| node.is_list())?.items();
+        let mut ids = Vec::with_capacity(items.len());
+        for (i, item) in items.iter().enumerate() {
+            ids.push(self.number(Some(Node::Plain(item)), &at.index(i), Want::Of(want)));
+        }
+        ids.into_iter().collect()
+    }
+
+    /// A vector with as many components as the space has.
+    fn space_vector(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension) -> Option<Vec<Id>> {
+        let components = self.world.components();
+        self.vector(node, at, want).filter(|ids| ids.len() == components)
+    }
+
+    /// A direction: a vector that is not zero.
+    fn direction(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>) -> Option<Vec<Id>> {
+        let ids = self.space_vector(node, at, Dimension::NONE)?;
+        self.check(Rule::Direction, &ids, at);
+        Some(ids)
+    }
+
+    fn gravity(&mut self) {
+        let at = At::ROOT.key("gravity");
+        let node = self.root.get("gravity");
+        let given = self.space_vector(node, &at, Dimension::ACCELERATION);
+        let zero = self.pool.constant(0.0);
+        self.world.model.gravity = given.unwrap_or_else(|| vec![zero; self.world.components()]);
+    }
+
+    /// The finished model; the decoder goes on without it.
+    pub(crate) fn into_model(self) -> Model {
+        let mut model = self.world.model;
+        model.pool = self.pool;
+        model
+    }
+}

@@ -1,0 +1,129 @@
+//! Scalars and expectations: numbers of a whole study.
+
+use super::order::{order, tell};
+use super::studies::Frame;
+use super::values::needs;
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Symbol};
+use crate::model::fault::{At, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::Node;
+use crate::model::scope::{Allow, Reach};
+use crate::model::study::{Expectation, Scalar, Tolerance};
+use crate::model::vocabulary::Quantity;
+
+/// Outside of functionals a scalar may use parameters and other numbers of the whole study.
+const SCALAR: Allow = Allow { what: "a scalar", ..Allow::CONSTANT };
+
+impl<'n> Decoder<'n> {
+    pub(super) fn scalars(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Scalar> {
+        Self::open_functionals(frame);
+        let section = at.key("scalars");
+        let entries = node.get("scalars").map(Node::entries).unwrap_or_default();
+        let drafts: Vec<_> = entries.iter().map(|(name, value)| self.draft(Some(*value), &section.key(name))).collect();
+        for (name, _) in &entries {
+            let here = section.key(name);
+            self.free_name(name, &here, "a scalar");
+            let double =
+                frame.local.symbols.iter().any(|(known, _)| known == name) || frame.offer.results.iter().any(|(known, _)| known == name);
+            if double {
+                let message = format!("`{name}` is a scalar of this study already");
+                let fault = self.fault("duplicate-name", &here, message, "another name for the scalar");
+                fault.spot = Spot::Key;
+                fault.help = Some("results of the kind and taken scalars are scalars too".to_owned());
+            }
+        }
+        // results are known first: the names are the decoder's own, so they are looked up by position
+        let results: Vec<(String, Dimension)> = frame.offer.results.clone();
+        for (i, (name, dimension)) in results.iter().enumerate() {
+            let id = self.world.input(&mut self.pool, Quantity::Result(i));
+            frame.results.push((name.clone(), Symbol { id, dimension: *dimension }));
+        }
+        let find = |name: &str| entries.iter().position(|(known, _)| *known == name);
+        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, find)).collect();
+        let (order, cycles) = order(&needs);
+        let mut in_cycle = vec![false; entries.len()];
+        for cycle in &cycles {
+            if let Some(first) = cycle.first() {
+                let told = tell(cycle, |i| entries[i].0.to_owned());
+                let fault = self.fault("cycle", &section.key(entries[*first].0), told, "scalars that do not need themselves");
+                fault.spot = Spot::Key;
+            }
+            cycle.iter().for_each(|i| in_cycle[*i] = true);
+        }
+        let mut found = vec![None; entries.len()];
+        for i in order {
+            let (name, _) = entries[i];
+            let lowered = if in_cycle[i] { None } else { self.finish_scalar(&drafts[i], &section.key(name), frame) };
+            // a scalar is a number once the study is done, and may be used by others like a parameter
+            let symbol = lowered.map(|symbol| (symbol, Reach::CONSTANT));
+            frame.local.symbols.push((name, symbol));
+            found[i] = lowered;
+        }
+        let mut scalars = Vec::new();
+        for (i, (name, _)) in entries.iter().enumerate() {
+            if let Some(symbol) = found[i] {
+                let place = self.place(&section.key(name));
+                frame.scalars.push(((*name).to_owned(), symbol.dimension));
+                scalars.push(Scalar { name: (*name).to_owned(), dimension: symbol.dimension, value: symbol.id, place });
+            }
+        }
+        scalars
+    }
+
+    fn finish_scalar(&mut self, draft: &super::values::Draft<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Option<Symbol> {
+        let results = std::mem::take(&mut frame.results);
+        let lowered = {
+            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Reach::CONSTANT))));
+            let mut local = crate::model::scope::Local {
+                symbols: frame.local.symbols.iter().copied().chain(known).collect(),
+                functionals: frame.local.functionals.take(),
+            };
+            let lowered = self.finish(draft, at, SCALAR, &mut local);
+            frame.local.functionals = local.functionals;
+            lowered
+        };
+        frame.results = results;
+        lowered.map(|(lowered, _)| Symbol { id: lowered.id, dimension: lowered.dimension })
+    }
+
+    pub(super) fn expectations(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Expectation> {
+        let section = at.key("expect");
+        let mut all = Vec::new();
+        for (text, inner) in node.get("expect").map(Node::entries).unwrap_or_default() {
+            let here = section.key(text);
+            let value = self.expected_value(text, &here, frame);
+            let Some((value, dimension)) = value else { continue };
+            let want = Want::Of(dimension);
+            let is = self.number(inner.get("is"), &here.key("is"), want);
+            let tolerance = if inner.get("within").is_some() {
+                self.size(inner.get("within"), &here.key("within"), dimension, "the tolerance").map(Tolerance::Within)
+            } else {
+                self.size(inner.get("relative"), &here.key("relative"), Dimension::NONE, "the tolerance").map(Tolerance::Relative)
+            };
+            if let (Some(is), Some(tolerance)) = (is, tolerance) {
+                let place = self.place(&here);
+                all.push(Expectation { text: text.to_owned(), value, is, tolerance, dimension, place });
+            }
+        }
+        all
+    }
+
+    /// The value that a key of `expect` stands for.
+    fn expected_value(&mut self, text: &'n str, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Option<(crate::expression::Id, Dimension)> {
+        let results = std::mem::take(&mut frame.results);
+        let lowered = {
+            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Reach::CONSTANT))));
+            let mut local = crate::model::scope::Local {
+                symbols: frame.local.symbols.iter().copied().chain(known).collect(),
+                functionals: frame.local.functionals.take(),
+            };
+            let allow = Allow { what: "an expectation", ..SCALAR };
+            let lowered = self.lower(text, Origin::Key(text), at, allow, &mut local);
+            frame.local.functionals = local.functionals;
+            lowered
+        };
+        frame.results = results;
+        lowered.map(|(lowered, _)| (lowered.id, lowered.dimension))
+    }
+}

@@ -1,0 +1,97 @@
+//! Springs: what they measure and their laws.
+
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Id, Symbol};
+use crate::model::entities::{Spring, SpringLaw, SpringOn};
+use crate::model::fault::{At, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::Node;
+use crate::model::names::Entity;
+use crate::model::scope::{Allow, Local, Reach};
+use crate::model::vocabulary::Quantity;
+
+impl<'n> Decoder<'n> {
+    /// Enters springs so that measures may name them; what they measure by an expression is filled in with the measures.
+    pub(super) fn springs_by_name(&mut self) {
+        let section = At::ROOT.key("springs");
+        for (name, node) in self.section("springs") {
+            let at = section.key(name);
+            let on = if node.get("between").is_some() {
+                self.ends(node, "between", &at).map(|(a, b)| SpringOn::Between(a, b))
+            } else if node.get("joint").is_some() {
+                self.driven(node.get("joint"), &at.key("joint")).map(|(joint, _)| SpringOn::Joint(joint))
+            } else if node.get("stretch").is_some() {
+                Some(SpringOn::Stretch(self.pool.constant(0.0)))
+            } else {
+                None
+            };
+            let index = on.map(|on| {
+                self.world.stretches.push(self.world.stretch_dimension(&on));
+                let place = self.place(&at);
+                let (rest, law, damping, preload) = (None, SpringLaw::None, None, None);
+                self.world.model.springs.push(Spring { name: name.to_owned(), on, rest, law, damping, preload, place });
+                self.world.model.springs.len() - 1
+            });
+            self.world.sound.springs.push(index);
+        }
+    }
+
+    pub(super) fn springs(&mut self) {
+        let section = At::ROOT.key("springs");
+        for (i, (name, node)) in self.section("springs").into_iter().enumerate() {
+            let at = section.key(name);
+            let Some(index) = self.world.sound.springs.get(i).copied().flatten() else { continue };
+            let Some(stretch) = self.world.stretches.get(index).copied().flatten() else { continue };
+            let (word, rest, wrong) = match self.world.model.springs[index].on {
+                SpringOn::Between(..) => ("between", "length", "rest"),
+                SpringOn::Joint(_) => ("joint", "rest", "length"),
+                SpringOn::Stretch(_) => ("stretch", "rest", "length"),
+            };
+            if node.get(wrong).is_some() {
+                let fault = self.fault("unknown-key", &at.key(wrong), format!("`{wrong}` beside `{word}`"), format!("`{rest}`"));
+                fault.spot = Spot::Key;
+                fault.help = Some(format!("write `{rest}:`"));
+            }
+            let force = Dimension::ENERGY.div(stretch);
+            let stiffness = force.div(stretch);
+            let rest = match self.world.model.springs[index].on {
+                SpringOn::Between(..) => self.size(node.get(rest), &at.key(rest), stretch, "the free length"),
+                SpringOn::Joint(joint) => {
+                    let coordinate = self.world.single(joint);
+                    self.coordinate(node, rest, &at, coordinate)
+                }
+                SpringOn::Stretch(_) => self.of(node, rest, &at, stretch),
+            };
+            let damping = self.of(node, "damping", &at, stiffness.mul(Dimension::TIME));
+            let preload = self.of(node, "preload", &at, force);
+            let law = if node.get("stiffness").is_some() {
+                self.of(node, "stiffness", &at, stiffness).map(SpringLaw::Stiffness)
+            } else if let Some(law) = node.get("force") {
+                self.spring_law(index, law, &at.key("force"), stretch, force).map(SpringLaw::Force)
+            } else {
+                if node.get("damping").is_none() && node.get("preload").is_none() {
+                    self.fault("missing-key", &at, "a spring without a law", "`stiffness`, `force`, `damping` or `preload`").spot =
+                        Spot::Key;
+                }
+                None
+            };
+            let spring = &mut self.world.model.springs[index];
+            (spring.rest, spring.damping, spring.preload) = (rest, damping, preload);
+            spring.law = law.unwrap_or(SpringLaw::None);
+        }
+    }
+
+    /// A table by its name, or an expression of `stretch`.
+    fn spring_law(&mut self, spring: usize, node: Node<'n>, at: &At<'_, 'n>, stretch: Dimension, force: Dimension) -> Option<Id> {
+        let id = self.world.input(&mut self.pool, Quantity::Stretch { spring, order: 0 });
+        let symbol = Symbol { id, dimension: stretch };
+        let mut local = Local { symbols: vec![("stretch", Some((symbol, Reach::CONSTANT)))], functionals: None };
+        let allow = Allow { what: "a law of `stretch`", ..Allow::CONSTANT };
+        let table = node.text().filter(|text| matches!(self.world.names.get(text), Some(Entity::Table(_))));
+        let (lowered, _) = match table {
+            Some(table) => self.lower(&format!("{table}(stretch)"), Origin::Value(table, 0), at, allow, &mut local)?,
+            None => self.any(node, at, allow, &mut local)?,
+        };
+        self.fits(&lowered, Want::Of(force), node, None, at).then_some(lowered.id)
+    }
+}

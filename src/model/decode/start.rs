@@ -1,0 +1,124 @@
+//! `start`: one rule for positions and velocities, exact values and guesses.
+
+use super::checks::Rule;
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Id, Lowered};
+use crate::model::entities::{Start, StartValue};
+use crate::model::fault::{At, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::Node;
+use crate::model::names::Entity;
+use crate::model::quantities::Found;
+use crate::model::scope::{Allow, Local};
+use crate::model::vocabulary::Quantity;
+
+impl<'n> Decoder<'n> {
+    pub(super) fn start(&mut self) {
+        let section = At::ROOT.key("start");
+        for (path, node) in self.section("start") {
+            let at = section.key(path);
+            let Some((quantity, want)) = self.start_quantity(path, &at) else { continue };
+            if let Some(other) = self.world.model.start.iter().find(|s| s.quantity == quantity) {
+                let message = format!("this quantity is given already, in `{}`", other.place);
+                let fault = self.fault("duplicate-start", &at, message, "one value for a quantity");
+                fault.spot = Spot::Key;
+                fault.help = Some("remove one of the two".to_owned());
+                continue;
+            }
+            let value = match want {
+                Some(want) if !node.is_map() => self.start_number(node, &at, want).map(|(id, guess)| (StartValue::Number(id), guess)),
+                None if node.is_map() => {
+                    let axis_at = at.key("axis");
+                    let axis = self.vector(node.get("axis"), &axis_at, Dimension::NONE);
+                    if let Some(axis) = &axis {
+                        self.check(Rule::Direction, axis, &axis_at);
+                    }
+                    let angle = node.get("angle").and_then(|angle| self.start_number(angle, &at.key("angle"), Want::Angle));
+                    axis.zip(angle).map(|(axis, (angle, guess))| (StartValue::Rotation { axis, angle }, guess))
+                }
+                Some(_) => {
+                    self.fault("wrong-type", &at, "a map", "a number, a quantity or an expression");
+                    None
+                }
+                None => {
+                    self.fault("wrong-type", &at, "one value", "`{ axis: [x, y, z], angle: ... }`");
+                    None
+                }
+            };
+            if let Some((value, guess)) = value {
+                let place = self.place(&at);
+                self.world.model.start.push(Start { name: path.to_owned(), quantity, value, guess, place });
+            }
+        }
+    }
+
+    /// A value, perhaps with `~` in front.
+    fn start_number(&mut self, node: Node<'n>, at: &At<'_, 'n>, want: Want) -> Option<(Id, bool)> {
+        let text = node.text().unwrap_or_default();
+        let Some(rest) = text.strip_prefix('~') else {
+            return self.number(Some(node), at, want).map(|id| (id, false));
+        };
+        let inner = rest.trim_start();
+        let offset = text.len() - inner.len();
+        let (lowered, _): (Lowered, _) = self.lower(inner, Origin::Value(text, offset), at, Allow::CONSTANT, &mut Local::default())?;
+        if !self.fits(&lowered, want, node, None, at) {
+            return None;
+        }
+        self.check(Rule::Finite, &[lowered.id], at);
+        Some((lowered.id, true))
+    }
+
+    /// The quantity that a key names, and what its value must be; `None` for a rotation. The fault is reported.
+    fn start_quantity(&mut self, path: &str, at: &At<'_, '_>) -> Option<(Quantity, Option<Want>)> {
+        const EXPECTED: &str = "a position or velocity of a joint or body, as `O.angle`, `S.velocity`, `crank.x`";
+        let (head, rest) = path.split_once('.').unwrap_or((path, ""));
+        if let Some(Entity::Body(body)) = self.world.names.get(head)
+            && rest == "rotation"
+        {
+            if self.world.components() == 2 {
+                let fault = self.fault("spatial-only", at, "`rotation` does not exist in the plane", EXPECTED);
+                fault.spot = Spot::Key;
+                fault.help = Some(format!("write `{head}.angle`"));
+                return None;
+            }
+            return Some((Quantity::Quaternion { body: *body, component: 0 }, None));
+        }
+        let found = match self.world.quantity(&mut self.pool, path) {
+            Ok(found) => found,
+            Err(why) if why.found.is_empty() => return None,
+            Err(why) => {
+                let fault = self.fault("unknown-name", at, why.found, why.expected);
+                fault.spot = Spot::Key;
+                fault.help = why.help;
+                return None;
+            }
+        };
+        let refused = |why: String| (why, EXPECTED.to_owned());
+        let (message, expected) = match found {
+            Found::Leaf(quantity, dimension) => match quantity {
+                Quantity::Joint { order: 0 | 1, .. }
+                | Quantity::Angle { order: 0 | 1, body: 1.. }
+                | Quantity::Spin { order: 1, body: 1.., .. } => {
+                    let angle = dimension == Dimension::NONE;
+                    return Some((quantity, Some(if angle { Want::Angle } else { Want::Of(dimension) })));
+                }
+                Quantity::Point { at: point, order: 0 | 1, .. } if point.body > 0 && point.point == 0 => {
+                    return Some((quantity, Some(Want::Of(dimension))));
+                }
+                Quantity::Point { at: point, .. } if point.body > 0 && point.point > 0 => {
+                    refused(format!("`{path}` belongs to a point; only a body's origin can be given"))
+                }
+                Quantity::Point { at: point, .. } if point.body == 0 => refused("the ground does not move".to_owned()),
+                Quantity::Angle { body: 0, .. } | Quantity::Spin { body: 0, .. } => refused("the ground does not move".to_owned()),
+                Quantity::Joint { .. } | Quantity::Angle { .. } | Quantity::Point { .. } | Quantity::Spin { .. } => {
+                    refused(format!("`{path}` is an acceleration"))
+                }
+                _ => refused(format!("`{path}` cannot be given at the start")),
+            },
+            Found::Made(..) => refused(format!("`{path}` is computed from several quantities")),
+        };
+        let fault = self.fault("wrong-start", at, message, expected);
+        fault.spot = Spot::Key;
+        None
+    }
+}

@@ -1,0 +1,391 @@
+//! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
+
+use super::checks::Rule;
+use super::kinds::count;
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Id, Symbol};
+use crate::model::fault::{At, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::Node;
+use crate::model::names::Entity;
+use crate::model::scope::{Allow, Functionals, Local, Reach};
+use crate::model::shape::clip;
+use crate::model::study::{Solve, Study, Sweep, Take, Values};
+use crate::model::suggest;
+use crate::model::tables::{MOST_RUNS, STUDY_KINDS};
+use crate::model::vocabulary::Quantity;
+
+/// What a study has that others may take.
+pub(crate) enum Taken {
+    /// There is no such study.
+    NoStudy,
+    /// It is part of a cycle, which was reported.
+    Waiting,
+    /// Its scalars.
+    Known(Scalars),
+}
+
+/// Scalars of a study that others may take: name and dimension, `None` where faulty.
+pub(crate) type Scalars = Vec<(String, Option<Dimension>)>;
+
+/// A decoded study, as far as it is sound.
+pub(crate) struct Decoded {
+    /// The study; `None` if its kind is faulty.
+    pub(crate) study: Option<Study>,
+    /// Parameters that it sets.
+    pub(crate) set: Vec<(usize, Id)>,
+    /// What others may take.
+    pub(crate) scalars: Scalars,
+}
+
+/// What a kind of study offers.
+pub(super) struct Offer {
+    pub(super) word: &'static str,
+    /// Dimension of the independent variable.
+    pub(super) independent: Option<Dimension>,
+    /// The independent variable as a path, if it is not the time.
+    pub(super) first: Option<String>,
+    /// Whether reactions are found.
+    pub(super) reactions: bool,
+    /// Results with their dimensions.
+    pub(super) results: Vec<(String, Dimension)>,
+}
+
+/// Names of a study while it is decoded.
+pub(super) struct Frame<'s> {
+    pub(super) local: Local<'s>,
+    pub(super) offer: Offer,
+    /// Swept parameters.
+    pub(super) swept: Vec<usize>,
+    /// Names of scalars in order, for figures.
+    pub(super) scalars: Vec<(String, Dimension)>,
+    /// Results of the kind.
+    pub(super) results: Vec<(String, Symbol)>,
+}
+
+impl<'n> Decoder<'n> {
+    /// Parameters given from outside as `NAME`, `VALUE`.
+    pub(crate) fn outside(&mut self, sets: &[(String, String)]) -> Vec<(usize, Id)> {
+        let mut found: Vec<(usize, Id)> = Vec::new();
+        for (name, value) in sets {
+            let shown = format!("--set {name}={value}");
+            let offset = shown.len() - value.len();
+            let before = self.faults.len();
+            let at = At::ROOT;
+            if let Some(i) = self.parameter_named(name, &at, true) {
+                let inner = value.trim_start();
+                let skipped = value.len() - inner.len();
+                let origin = Origin::Outside(&shown, offset + skipped);
+                let wanted = self.world.parameters.get(i).copied().flatten();
+                if let (Some((lowered, _)), Some(wanted)) =
+                    (self.lower(inner, origin, &at, Allow::PARAMETER, &mut Local::default()), wanted)
+                {
+                    if let Err(other) = lowered.expect(wanted) {
+                        let help = format!("`{name}` is given in {}", unit_words(wanted));
+                        let fault = self.fault("wrong-dimension", &at, format!("found {other}"), wanted.name());
+                        fault.spot = origin.spot(0..inner.len());
+                        fault.help = Some(help);
+                    } else {
+                        found.retain(|(j, _)| *j != i);
+                        found.push((i, lowered.id));
+                        // what was wrong with the file's value does not matter any more
+                    }
+                }
+            }
+            for fault in &mut self.faults[before..] {
+                if fault.spot == Spot::Key {
+                    let start = shown.len() - value.len() - 1 - name.len();
+                    fault.spot = Spot::Outside(shown.clone(), start..start + name.len());
+                }
+            }
+        }
+        found
+    }
+
+    /// Decodes a study of the file. `taken` gives the scalars of the studies that it takes from.
+    pub(crate) fn study(&mut self, name: &'n str, node: Node<'n>, taken: &dyn Fn(&str) -> Taken, outside: &[(usize, Id)]) -> Decoded {
+        let section = At::ROOT.key("studies");
+        let at = section.key(name);
+        let mut local = Local::default();
+        let take = self.take(node, &at, taken, &mut local);
+        let mut waiting = Vec::new();
+        let set = self.set(node, &at, &mut local, outside, &mut waiting);
+        let mut all = set.clone();
+        all.extend(outside.iter().copied());
+        let first_check = self.checks_so_far();
+        let kind = self.kind(node, &at);
+        let (kind, offer) = match kind {
+            Some((kind, offer)) => (Some(kind), offer),
+            None => {
+                // so that the rest is still read
+                let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some()).unwrap_or("study");
+                (None, Offer { word, independent: Some(Dimension::NONE), first: None, reactions: true, results: Vec::new() })
+            }
+        };
+        let sweep = self.sweep(node, &at, &mut local);
+        let mut frame =
+            Frame { local, offer, swept: sweep.iter().map(|s| s.parameter).collect(), scalars: Vec::new(), results: Vec::new() };
+        let results: Vec<String> = frame.offer.results.iter().map(|(name, _)| name.clone()).collect();
+        let columns_given = node.get("columns").is_some();
+        let columns = self.columns(node, &at, &mut frame);
+        let scalars = self.scalars(node, &at, &mut frame);
+        let solve = self.solve(node, &at, &mut frame, &sweep);
+        let plots = self.plots(node, &at, &mut frame);
+        let expect = self.expectations(node, &at, &mut frame);
+        let before = self.faults.len();
+        let values = self.evaluate(&all, &waiting);
+        for fault in &mut self.faults[before..] {
+            if fault.place.is_empty() {
+                fault.place = format!("studies.{name}.set");
+            }
+        }
+        // a study that changes parameters changes what the model's own checks find
+        let from = if all.is_empty() && waiting.is_empty() { first_check } else { 0 };
+        let before = self.faults.len();
+        self.run_checks(&values, from);
+        if from == 0 {
+            // said so that the reader knows which study made it so
+            for fault in &mut self.faults[before..] {
+                if !fault.place.starts_with("studies.") && fault.help.is_none() {
+                    fault.help = Some(format!("the parameters are those of study `{name}`"));
+                }
+            }
+        }
+        self.forget_checks(first_check);
+        let mut offered: Scalars = frame.offer.results.iter().map(|(name, dimension)| (name.clone(), Some(*dimension))).collect();
+        for (scalar, symbol) in &frame.local.symbols {
+            if !offered.iter().any(|(name, _)| name == scalar) {
+                offered.push(((*scalar).to_owned(), symbol.map(|(symbol, _)| symbol.dimension)));
+            }
+        }
+        let functionals = frame.local.functionals.map(|f| f.all).unwrap_or_default();
+        let text = |key: &str| node.get(key).and_then(Node::text).unwrap_or_default().to_owned();
+        let study = kind.map(|kind| Study {
+            name: name.to_owned(),
+            about: text("about"),
+            kind,
+            sweep,
+            solve,
+            take,
+            columns,
+            columns_given,
+            scalars,
+            results,
+            functionals,
+            plots,
+            expect,
+            place: self.place(&at),
+        });
+        Decoded { study, set: all, scalars: offered }
+    }
+
+    fn take(&mut self, node: Node<'n>, at: &At<'_, 'n>, taken: &dyn Fn(&str) -> Taken, local: &mut Local<'n>) -> Vec<Take> {
+        let section = at.key("take");
+        let mut takes = Vec::new();
+        for (name, value) in node.get("take").map(Node::entries).unwrap_or_default() {
+            let here = section.key(name);
+            self.free_name(name, &here, "a taken scalar");
+            let Some(text) = value.text() else { continue };
+            let mut symbol = None;
+            if let Some((study, scalar)) = text.split_once('.') {
+                match taken(study) {
+                    Taken::Waiting => {}
+                    Taken::NoStudy => {
+                        let help = Some("write `STUDY.SCALAR` with a study of this file".to_owned());
+                        self.fault("unknown-study", &here, format!("unknown study `{}`", clip(study)), "a study of this file").help = help;
+                    }
+                    Taken::Known(scalars) => match scalars.iter().find(|(known, _)| known == scalar) {
+                        Some((_, Some(dimension))) => {
+                            let id = self.world.input(&mut self.pool, Quantity::Taken(takes.len()));
+                            symbol = Some((Symbol { id, dimension: *dimension }, Reach::CONSTANT));
+                        }
+                        Some((_, None)) => {}
+                        None => {
+                            let known: Vec<&str> = scalars.iter().map(|(name, _)| name.as_str()).collect();
+                            let list = suggest::known(known.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
+                            let near = suggest::nearest(scalar, known).map(|near| format!("did you mean `{study}.{near}`?"));
+                            let message = format!("`{study}` has no scalar `{}`", clip(scalar));
+                            self.fault("unknown-scalar", &here, message, format!("one of its scalars {list}")).help = near;
+                        }
+                    },
+                }
+                takes.push(Take { name: name.to_owned(), study: study.to_owned(), scalar: scalar.to_owned() });
+            } else {
+                self.fault("wrong-type", &here, format!("found `{}`", clip(text)), "a scalar of another study, `STUDY.SCALAR`");
+            }
+            local.symbols.push((name, symbol));
+        }
+        takes
+    }
+
+    /// Refuses a local name that means something else in the model.
+    pub(super) fn free_name(&mut self, name: &str, at: &At<'_, '_>, what: &str) {
+        let why = match self.world.names.get(name) {
+            Some(entity @ (Entity::Parameter(_) | Entity::Measure(_) | Entity::Table(_))) => Some(format!("the name of {}", entity.what())),
+            _ => crate::model::names::taken(name).map(str::to_owned),
+        };
+        let why = why.or_else(|| crate::expression::unit(name).map(|_| "a unit".to_owned()));
+        if let Some(why) = why {
+            let fault = self.fault("reserved-name", at, format!("`{name}` is {why}"), format!("another name for {what}"));
+            fault.spot = Spot::Key;
+            fault.help = Some(format!("for example `{name}_1`"));
+        }
+    }
+
+    fn set(
+        &mut self,
+        node: Node<'n>,
+        at: &At<'_, 'n>,
+        local: &mut Local<'n>,
+        outside: &[(usize, Id)],
+        waiting: &mut Vec<usize>,
+    ) -> Vec<(usize, Id)> {
+        let section = at.key("set");
+        let mut set = Vec::new();
+        for (name, value) in node.get("set").map(Node::entries).unwrap_or_default() {
+            let here = section.key(name);
+            let Some(i) = self.parameter_named(name, &here, true) else { continue };
+            let Some(dimension) = self.world.parameters.get(i).copied().flatten() else { continue };
+            let allow = Allow { tables: false, what: "`set`", ..Allow::PARAMETER };
+            let Some((lowered, _)) = self.any(value, &here, allow, local) else { continue };
+            if !self.fits(&lowered, Want::Of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
+                continue;
+            }
+            if !self.pool.inputs_of(&[lowered.id]).is_empty() {
+                waiting.push(i);
+            }
+            set.push((i, lowered.id));
+        }
+        set
+    }
+
+    fn sweep(&mut self, node: Node<'n>, at: &At<'_, 'n>, local: &mut Local<'n>) -> Vec<Sweep> {
+        let section = at.key("sweep");
+        let mut sweep: Vec<Sweep> = Vec::new();
+        let mut runs: u64 = 1;
+        for (name, value) in node.get("sweep").map(Node::entries).unwrap_or_default() {
+            let here = section.key(name);
+            let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
+            let Some(dimension) = self.world.parameters.get(parameter).copied().flatten() else { continue };
+            let want = Want::Of(dimension);
+            let values = if value.is_list() {
+                let mut ids = Vec::new();
+                for (i, item) in value.items().iter().enumerate() {
+                    ids.push(self.setting(Node::Plain(item), &here.index(i), want, local));
+                }
+                runs = runs.saturating_mul(ids.len() as u64);
+                match ids.into_iter().collect() {
+                    Some(ids) => Values::List(ids),
+                    None => continue,
+                }
+            } else {
+                let count = count(value, "count").unwrap_or(1);
+                runs = runs.saturating_mul(count as u64);
+                let log = value.get("spacing").and_then(Node::text) == Some("log");
+                let end = |decoder: &mut Self, key: &'n str, local: &mut Local<'n>| {
+                    value.get(key).and_then(|node| decoder.setting(node, &here.key(key), want, local))
+                };
+                let (from, to) = (end(self, "from", local), end(self, "to", local));
+                let (Some(from), Some(to)) = (from, to) else { continue };
+                if log && self.pool.inputs_of(&[from, to]).is_empty() {
+                    self.check(Rule::Ratio, &[from, to], &here);
+                }
+                Values::Span { from, to, count, log }
+            };
+            sweep.push(Sweep { parameter, values, place: self.place(&here) });
+        }
+        if runs > MOST_RUNS {
+            self.fault("too-many-runs", &section, format!("a sweep of {runs} runs"), format!("at most {MOST_RUNS} runs")).spot = Spot::Key;
+        }
+        sweep
+    }
+
+    /// A value for a parameter: it may use parameters and taken scalars.
+    fn setting(&mut self, node: Node<'n>, at: &At<'_, 'n>, want: Want, local: &mut Local<'n>) -> Option<Id> {
+        let allow = Allow { what: "a value for a parameter", ..Allow::PARAMETER };
+        let (lowered, _) = self.any(node, at, allow, local)?;
+        if !self.fits(&lowered, want, node, None, at) {
+            return None;
+        }
+        if self.pool.inputs_of(&[lowered.id]).is_empty() {
+            self.check(Rule::Finite, &[lowered.id], at);
+        }
+        Some(lowered.id)
+    }
+
+    fn solve(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>, sweep: &[Sweep]) -> Option<Solve> {
+        let inner = node.get("solve")?;
+        let here = at.key("solve");
+        let name = inner.get("vary")?.text()?;
+        let vary_at = here.key("vary");
+        let parameter = self.parameter_named(name, &vary_at, false)?;
+        if sweep.iter().any(|s| s.parameter == parameter) {
+            self.fault("swept-and-solved", &vary_at, format!("`{name}` is swept too"), "another parameter");
+        }
+        let dimension = self.world.parameters.get(parameter).copied().flatten()?;
+        let between_at = here.key("between");
+        let [from, to] = inner.get("between")?.items() else { return None };
+        let from = self.setting(Node::Plain(from), &between_at.index(0), Want::Of(dimension), &mut frame.local);
+        let to = self.setting(Node::Plain(to), &between_at.index(1), Want::Of(dimension), &mut frame.local);
+        let target_at = here.key("target");
+        let targets = inner.get("target")?.entries();
+        let [(scalar, value)] = targets[..] else {
+            let message = format!("{} targets", targets.len());
+            self.fault("wrong-size", &target_at, message, "one scalar and its value, `{ delta: 0.01 }`").spot = Spot::Key;
+            return None;
+        };
+        let scalar_at = target_at.key(scalar);
+        let of = match frame.scalar(scalar) {
+            Some(dimension) => dimension,
+            None => {
+                self.unknown_scalar(scalar, &scalar_at, frame);
+                return None;
+            }
+        };
+        let value = self.setting(value, &scalar_at, Want::Of(of?), &mut frame.local);
+        Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?) })
+    }
+
+    pub(super) fn unknown_scalar(&mut self, name: &str, at: &At<'_, '_>, frame: &Frame<'_>) {
+        let known = frame.known_scalars();
+        let list = suggest::known(known.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
+        let near = suggest::nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+        let fault = self.fault("unknown-scalar", at, format!("unknown scalar `{}`", clip(name)), format!("a scalar of this study: {list}"));
+        fault.spot = Spot::Key;
+        fault.help = near;
+    }
+
+    /// Local names and functionals for the scalars of a study.
+    pub(super) fn open_functionals(frame: &mut Frame<'_>) {
+        frame.local.functionals = Some(Functionals {
+            all: Vec::new(),
+            independent: frame.offer.independent,
+            reactions: frame.offer.reactions,
+            kind: frame.offer.word,
+        });
+    }
+}
+
+impl Frame<'_> {
+    /// Dimension of a scalar or result by its name; the inner `None` where it is faulty.
+    pub(super) fn scalar(&self, name: &str) -> Option<Option<Dimension>> {
+        self.local
+            .symbols
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, symbol)| symbol.map(|(s, _)| s.dimension))
+            .or_else(|| self.offer.results.iter().find(|(known, _)| known == name).map(|(_, dimension)| Some(*dimension)))
+    }
+
+    /// Names of all scalars and results.
+    pub(super) fn known_scalars(&self) -> Vec<&str> {
+        self.local.symbols.iter().map(|(name, _)| *name).chain(self.offer.results.iter().map(|(name, _)| name.as_str())).collect()
+    }
+}
+
+fn unit_words(dimension: Dimension) -> String {
+    match dimension.si() {
+        si if si.is_empty() => "plain numbers or angles".to_owned(),
+        si => format!("{si}; a bare number counts as {si}"),
+    }
+}

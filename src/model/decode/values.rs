@@ -1,0 +1,265 @@
+//! Parameters, tables and measures: named values that may need one another in any order.
+
+use super::checks::Rule;
+use super::order::{order, tell};
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Expr, Kind, Lowered};
+use crate::model::entities::{Between, Beyond, Measure, Parameter, SpringOn, Table};
+use crate::model::fault::{At, Spot};
+use crate::model::merge::Node;
+use crate::model::names::Entity;
+use crate::model::scope::{Allow, Local, Reach};
+use serde_yaml::Value;
+use std::rc::Rc;
+
+/// A value before it is lowered.
+pub(super) enum Draft<'n> {
+    /// A number.
+    Number(f64),
+    /// A parsed expression and its text.
+    Parsed(Rc<Expr>, &'n str),
+    /// Something that was reported.
+    Faulty,
+}
+
+impl<'n> Decoder<'n> {
+    /// Parses a value; faults of syntax are reported.
+    pub(super) fn draft(&mut self, node: Option<Node<'n>>, at: &At<'_, '_>) -> Draft<'n> {
+        match node {
+            Some(Node::Plain(Value::Number(n))) => match n.as_f64() {
+                Some(x) if x.is_finite() => Draft::Number(x),
+                _ => Draft::Faulty,
+            },
+            Some(Node::Plain(Value::String(text))) => match self.parse(text) {
+                Ok(expr) => Draft::Parsed(expr, text),
+                Err(error) => {
+                    let origin = Origin::Value(text, 0);
+                    let fault = self.fault("expression", at, format!("found {}", error.found), error.expected);
+                    fault.help = error.help;
+                    fault.spot = origin.spot(error.at);
+                    Draft::Faulty
+                }
+            },
+            _ => Draft::Faulty,
+        }
+    }
+
+    /// Lowers a draft.
+    pub(super) fn finish(&mut self, draft: &Draft<'n>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+        match draft {
+            Draft::Number(x) => {
+                let id = self.pool.constant(*x);
+                Some((Lowered { id, dimension: Dimension::NONE, any: *x == 0.0, bare: true, boolean: false }, Reach::CONSTANT))
+            }
+            Draft::Parsed(expr, text) => self.lower_parsed(expr, text, Origin::Value(text, 0), at, allow, local),
+            Draft::Faulty => None,
+        }
+    }
+
+    pub(super) fn parameters(&mut self) {
+        let section = At::ROOT.key("parameters");
+        let entries = self.section("parameters");
+        let drafts: Vec<Draft<'n>> = entries.iter().map(|(name, node)| self.draft(Some(*node), &section.key(name))).collect();
+        let find = |world: &crate::model::quantities::World<'_>, name: &str| match world.names.get(name) {
+            Some(Entity::Parameter(i)) => Some(*i),
+            _ => None,
+        };
+        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, |name| find(&self.world, name))).collect();
+        let (order, cycles) = order(&needs);
+        self.world.parameters = vec![None; entries.len()];
+        let zero = self.pool.constant(0.0);
+        let mut values = vec![zero; entries.len()];
+        let mut in_cycle = vec![false; entries.len()];
+        for cycle in &cycles {
+            self.cycle(cycle, |i| (entries[i].0.to_owned(), "parameters"));
+            cycle.iter().for_each(|i| in_cycle[*i] = true);
+        }
+        for i in order {
+            let at = section.key(entries[i].0);
+            if in_cycle[i] {
+                continue;
+            }
+            if let Some((lowered, _)) = self.finish(&drafts[i], &at, Allow::PARAMETER, &mut Local::default()) {
+                self.world.parameters[i] = Some(lowered.dimension);
+                values[i] = lowered.id;
+            }
+        }
+        for (i, (name, _)) in entries.iter().enumerate() {
+            let place = self.place(&section.key(name));
+            let dimension = self.world.parameters[i].unwrap_or_default();
+            self.world.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], place });
+        }
+    }
+
+    fn cycle(&mut self, cycle: &[usize], name: impl Fn(usize) -> (String, &'static str)) {
+        let Some(first) = cycle.first() else { return };
+        let (entry, section) = name(*first);
+        let told = tell(cycle, |i| name(i).0);
+        let at = At::ROOT.key(section);
+        let expected = if section == "parameters" { "parameters" } else { "expressions" };
+        let fault = self.fault("cycle", &at.key(&entry), told, format!("{expected} that do not need themselves"));
+        fault.spot = Spot::Key;
+        fault.help = Some("give one of them a value of its own".to_owned());
+    }
+
+    pub(super) fn tables(&mut self) {
+        let section = At::ROOT.key("tables");
+        for (i, (name, node)) in self.section("tables").into_iter().enumerate() {
+            let at = section.key(name);
+            let points_at = at.key("points");
+            let mut points = Vec::new();
+            let mut sides: [Option<Lowered>; 2] = [None, None];
+            let mut sound = true;
+            for (k, item) in node.get("points").map(Node::items).unwrap_or_default().iter().enumerate() {
+                let item_at = points_at.index(k);
+                let mut pair = Vec::new();
+                for (side, value) in Node::Plain(item).items().iter().enumerate().take(2) {
+                    let here = item_at.index(side);
+                    let Some((lowered, _)) = self.any(Node::Plain(value), &here, Allow::PARAMETER, &mut Local::default()) else { continue };
+                    // the first value with a unit decides; bare numbers and 0 follow it
+                    match sides[side] {
+                        Some(first) if !first.any && !first.bare => {
+                            if let Err(found) = lowered.expect(first.dimension) {
+                                self.fault(
+                                    "wrong-dimension",
+                                    &here,
+                                    format!("found {found}"),
+                                    format!("{}, as above", first.dimension.name()),
+                                );
+                            }
+                        }
+                        Some(first) if !lowered.any && !lowered.bare && !first.any && lowered.dimension != first.dimension => {
+                            let message = format!("found {}", lowered.dimension.name());
+                            self.fault("wrong-dimension", &here, message, "a number, as above: give all points of a side their unit");
+                        }
+                        Some(first) if !first.any && (lowered.any || lowered.bare) => {}
+                        _ => sides[side] = Some(lowered),
+                    }
+                    pair.push(lowered.id);
+                }
+                match pair[..] {
+                    [x, y] => points.push((x, y)),
+                    _ => sound = false,
+                }
+            }
+            let [x, y] = sides.map(|side| side.map_or(Dimension::NONE, |s| s.dimension));
+            self.world.tables.push(Some((x, y)));
+            let word = |key: &str| node.get(key).and_then(Node::text);
+            let between = if word("between") == Some("cubic") { Between::Cubic } else { Between::Linear };
+            let beyond = match word("beyond") {
+                Some("linear") => Beyond::Linear,
+                Some("error") => Beyond::Error,
+                Some("periodic") => Beyond::Periodic,
+                _ => Beyond::Constant,
+            };
+            if sound && points.len() >= 2 {
+                let ids: Vec<_> = points.iter().flat_map(|(x, y)| [*x, *y]).collect();
+                self.check(Rule::Table(i), &ids, &points_at);
+            }
+            let place = self.place(&at);
+            self.world.model.tables.push(Table { name: name.to_owned(), points, x, y, between, beyond, place });
+        }
+    }
+
+    /// Measures, and the stretches of springs that are expressions: both may name each other.
+    pub(super) fn measures(&mut self) {
+        let measures = self.section("measures");
+        let springs = self.section("springs");
+        let section = [At::ROOT.key("measures"), At::ROOT.key("springs")];
+        let mut drafts = Vec::new();
+        for (name, node) in &measures {
+            drafts.push(self.draft(Some(*node), &section[0].key(name)));
+        }
+        // index of the spring of each later draft
+        let mut stretched = Vec::new();
+        for (i, (name, node)) in springs.iter().enumerate() {
+            if let Some(stretch) = node.get("stretch") {
+                let spring = section[1].key(name);
+                drafts.push(self.draft(Some(stretch), &spring.key("stretch")));
+                stretched.push(i);
+            }
+        }
+        let count = measures.len();
+        let names = &self.world.names;
+        let find = |name: &str| match names.get(name) {
+            Some(Entity::Measure(i)) => Some(*i),
+            Some(Entity::Spring(i)) => stretched.iter().position(|s| s == i).map(|k| count + k),
+            _ => None,
+        };
+        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, find)).collect();
+        let (order, cycles) = order(&needs);
+        let mut in_cycle = vec![false; drafts.len()];
+        for cycle in &cycles {
+            self.cycle(cycle, |i| match i.checked_sub(count) {
+                None => (measures[i].0.to_owned(), "measures"),
+                Some(k) => (springs[stretched[k]].0.to_owned(), "springs"),
+            });
+            cycle.iter().for_each(|i| in_cycle[*i] = true);
+        }
+        self.world.measures = vec![None; count];
+        let mut dimensions = vec![Dimension::NONE; count];
+        for i in order {
+            if in_cycle[i] {
+                continue;
+            }
+            if i < count {
+                let at = section[0].key(measures[i].0);
+                if let Some((lowered, reach)) = self.finish(&drafts[i], &at, Allow::MEASURE, &mut Local::default()) {
+                    dimensions[i] = lowered.dimension;
+                    let symbol = crate::expression::Symbol { id: lowered.id, dimension: lowered.dimension };
+                    self.world.measures[i] = Some((symbol, reach));
+                }
+            } else {
+                let file = stretched[i - count];
+                let spring_at = section[1].key(springs[file].0);
+                let at = spring_at.key("stretch");
+                let allow = Allow { what: "a spring's `stretch`", ..Allow::POSITION };
+                let lowered = self.finish(&drafts[i], &at, allow, &mut Local::default());
+                if let (Some((lowered, _)), Some(index)) = (lowered, self.world.sound.springs.get(file).copied().flatten()) {
+                    self.world.stretches[index] = Some(lowered.dimension);
+                    self.world.model.springs[index].on = SpringOn::Stretch(lowered.id);
+                }
+            }
+        }
+        for (i, (name, _)) in measures.iter().enumerate() {
+            if let Some((symbol, _)) = self.world.measures[i] {
+                let place = self.place(&section[0].key(name));
+                self.world.model.measures.push(Measure { name: (*name).to_owned(), dimension: dimensions[i], value: symbol.id, place });
+            }
+        }
+    }
+}
+
+/// Indices of what a draft names, each once. `find` gives the index of a first name.
+pub(super) fn needs(draft: &Draft<'_>, find: impl Fn(&str) -> Option<usize>) -> Vec<usize> {
+    let mut found = Vec::new();
+    if let Draft::Parsed(expr, _) = draft {
+        paths(expr, &mut |path| {
+            let head = path.split('.').next().unwrap_or(path);
+            if let Some(i) = find(head)
+                && !found.contains(&i)
+            {
+                found.push(i);
+            }
+        });
+    }
+    found
+}
+
+/// Every path of an expression. Its height is bounded by the parser.
+pub(super) fn paths(expr: &Expr, f: &mut impl FnMut(&str)) {
+    match &expr.kind {
+        Kind::Number(_) | Kind::Quantity(..) => {}
+        Kind::Path(path) => f(path),
+        Kind::Call(_, _, all) | Kind::And(all) | Kind::Or(all) => all.iter().for_each(|e| paths(e, f)),
+        Kind::Negate(a) | Kind::Not(a) => paths(a, f),
+        Kind::Sum(first, rest) | Kind::Product(first, rest) => {
+            paths(first, f);
+            rest.iter().for_each(|(_, e)| paths(e, f));
+        }
+        Kind::Power(a, b) | Kind::Compare(_, a, b) => {
+            paths(a, f);
+            paths(b, f);
+        }
+    }
+}

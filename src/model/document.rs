@@ -1,0 +1,198 @@
+//! A model file in memory, and the models that can be made of it.
+
+use super::diagnostics::{Diagnostic, Report};
+use super::entities::Model;
+use super::fault::{Fault, Spot};
+use super::merge::Node;
+use super::session::Session;
+use super::spans::Spans;
+use super::suggest;
+use super::yaml;
+use serde_yaml::Value;
+use std::collections::HashSet;
+
+/// What is asked of a model file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection<'a> {
+    /// The study that the model is merged for.
+    pub study: Option<&'a str>,
+    /// Variants from outside, applied after those of the study.
+    pub variants: Vec<String>,
+    /// Parameters from outside, as name and value; over everything.
+    pub sets: Vec<(String, String)>,
+}
+
+/// A model file.
+#[derive(Clone, Debug)]
+pub struct Document {
+    file: String,
+    text: String,
+    /// A map.
+    pub(super) root: Value,
+}
+
+impl Document {
+    /// Reads a model file; `file` is its name for messages. Nothing but its YAML is judged yet.
+    ///
+    /// # Errors
+    /// What is not YAML, or is YAML that the format refuses (aliases, tags, two documents, more than 1 MiB, ...).
+    pub fn read(text: &str, file: &str) -> Result<Self, Report> {
+        match yaml::read(text) {
+            Ok(root) => Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned() }),
+            Err(faults) => Err(report(file, text, &faults)),
+        }
+    }
+
+    /// As [`Self::read`], from bytes that may be no text.
+    ///
+    /// # Errors
+    /// As [`Self::read`], and at the first byte that is not UTF-8.
+    pub fn from_bytes(bytes: &[u8], file: &str) -> Result<Self, Report> {
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Self::read(text, file),
+            Err(error) => {
+                let good = error.valid_up_to();
+                let text = String::from_utf8_lossy(&bytes[..bytes.len().min(yaml::MOST_BYTES)]);
+                let fault = Fault::new("not-utf8", String::new(), format!("byte {} is not UTF-8", good + 1), "a text file in UTF-8")
+                    .at(Spot::Bytes(good..good + 1))
+                    .help("save the file as UTF-8");
+                Err(report(file, &text, &[fault]))
+            }
+        }
+    }
+
+    /// The file's name as given.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The file's text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Names of the studies, in file order.
+    #[must_use]
+    pub fn study_names(&self) -> Vec<String> {
+        self.named("studies").into_iter().map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// Names of the variants, in file order.
+    #[must_use]
+    pub fn variant_names(&self) -> Vec<String> {
+        self.named("variants").into_iter().map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// Entries of a section of the file.
+    pub(super) fn named(&self, section: &str) -> Vec<(&str, Node<'_>)> {
+        self.root.get(section).map(|value| Node::Plain(value).entries()).unwrap_or_default()
+    }
+
+    pub(super) fn study_node(&self, name: &str) -> Option<Node<'_>> {
+        let node = Node::Plain(self.root.get("studies")?).get(name)?;
+        node.is_map().then_some(node)
+    }
+
+    /// The model for a selection: variants merged, everything decoded and checked, the study too if one is named.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it. Warnings alone are no error; [`Self::check_all`] shows them.
+    pub fn model(&self, selection: &Selection<'_>) -> Result<Model, Report> {
+        let mut session = Session::new(self, selection);
+        let mut faults = session.form();
+        if faults.is_empty() {
+            match selection.study {
+                Some(name) if self.study_node(name).is_none() => faults.push(self.unknown_study(name)),
+                Some(name) => return session.model_for(Some(name)),
+                None => return session.model_for(None),
+            }
+        }
+        Err(self.report(&faults))
+    }
+
+    /// Everything that is wrong with the file: its form, the model as it stands, and the model of every study with the study.
+    /// Each finding once.
+    #[must_use]
+    pub fn check_all(&self, selection: &Selection<'_>) -> Report {
+        let mut session = Session::new(self, selection);
+        let mut faults = session.form();
+        let meaning = session.meaning();
+        // what follows from a fault of form is not said again
+        let form: HashSet<String> = faults.iter().map(Fault::cause).collect();
+        faults.extend(
+            meaning.into_iter().filter(|fault| fault.spot == Spot::Key || !form.contains(&fault.cause()) && !form.contains(&fault.place)),
+        );
+        self.report(&faults)
+    }
+
+    /// A finding of a later phase (building, assembly) at a path of this file, as entities carry it in `place`.
+    #[must_use]
+    pub fn diagnostic(
+        &self,
+        code: &'static str,
+        place: &str,
+        message: impl Into<String>,
+        expected: impl Into<String>,
+        help: Option<String>,
+    ) -> Diagnostic {
+        let spans = Spans::new(&self.text);
+        let place = self.real_place(&spans, place);
+        Fault::new(code, place, message, expected).maybe_help(help).diagnostic(&self.file, &self.text, &spans)
+    }
+
+    /// The place itself, or the same place in a variant (an entity of the file may have got the key from there).
+    fn real_place(&self, spans: &Spans, place: &str) -> String {
+        if spans.has(place) {
+            return place.to_owned();
+        }
+        let merged = match place.strip_prefix("variants.") {
+            Some(rest) => self
+                .variant_names()
+                .iter()
+                .find_map(|name| rest.strip_prefix(name.as_str())?.strip_prefix('.').map(str::to_owned))
+                .unwrap_or_else(|| place.to_owned()),
+            None => place.to_owned(),
+        };
+        let found = std::iter::once(merged.clone())
+            .chain(self.variant_names().iter().map(|name| format!("variants.{name}.{merged}")))
+            .find(|candidate| spans.has(candidate));
+        found.unwrap_or_else(|| place.to_owned())
+    }
+
+    pub(super) fn report(&self, faults: &[Fault]) -> Report {
+        report(&self.file, &self.text, faults)
+    }
+
+    pub(super) fn unknown_study(&self, name: &str) -> Fault {
+        let known = self.study_names();
+        let help = suggest::help(name, known.iter().map(String::as_str));
+        let shown = format!("--study {name}");
+        let start = shown.len() - name.len();
+        Fault::new("unknown-study", String::new(), format!("unknown study `{name}`"), "a study of this file")
+            .maybe_help(help)
+            .at(Spot::Outside(shown.clone(), start..shown.len()))
+    }
+}
+
+/// Most findings of one report.
+const MOST_SHOWN: usize = 200;
+
+fn report(file: &str, text: &str, faults: &[Fault]) -> Report {
+    if faults.is_empty() {
+        return Report::default();
+    }
+    let spans = Spans::new(text);
+    let mut seen = HashSet::new();
+    let distinct: Vec<&Fault> = faults.iter().filter(|fault| seen.insert(*fault)).collect();
+    let mut found: Vec<Diagnostic> = distinct.iter().take(MOST_SHOWN).map(|fault| fault.diagnostic(file, text, &spans)).collect();
+    if let Some(rest) = distinct.len().checked_sub(MOST_SHOWN).filter(|rest| *rest > 0) {
+        // an error among the hidden ones stays an error
+        let warning = distinct.iter().skip(MOST_SHOWN).all(|fault| fault.warning);
+        let mut more = Fault::new("more", String::new(), format!("{rest} more findings are not shown"), "");
+        (more.warning, more.spot) = (warning, Spot::Nowhere);
+        found.push(more.diagnostic(file, text, &spans));
+    }
+    Report::new(found)
+}

@@ -1,0 +1,426 @@
+//! What a model file says, decoded: names resolved to indices, every value an expression of the model's [`Pool`].
+//!
+//! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
+//! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
+
+use super::{study::Study, vocabulary::Quantity};
+use crate::expression::{Dimension, Id, Pool};
+
+/// A path of keys in the model file, as `bodies.crank.bar.length` or `joints.O.revolute[1]`; the source place is looked up when a fault is shown.
+pub type Place = String;
+
+/// Whether bodies move in the x-y plane or in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimensions {
+    /// x, y and one angle.
+    Planar,
+    /// x, y, z and rotations.
+    Spatial,
+}
+
+/// A model with its variants merged: everything that a mechanism and one study are built from.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The file's `name`.
+    pub name: String,
+    /// The file's `about`.
+    pub about: String,
+    /// `space`.
+    pub space: Dimensions,
+    /// Every expression of the model.
+    pub pool: Pool,
+    /// What each input leaf of the pool stands for: `Node::Input(i)` is `inputs[i]`.
+    pub inputs: Vec<Quantity>,
+    /// Parameters in file order; `Node::Parameter(i)` is `parameters[i]`.
+    pub parameters: Vec<Parameter>,
+    /// Tables in file order; a table node's index points here.
+    pub tables: Vec<Table>,
+    /// 2 or 3 components, m/s².
+    pub gravity: Vec<Id>,
+    /// Bodies in file order; the first is the ground.
+    pub bodies: Vec<Body>,
+    /// Joints in file order.
+    pub joints: Vec<Joint>,
+    /// Couplings in file order.
+    pub couplings: Vec<Coupling>,
+    /// Drivers in file order.
+    pub drivers: Vec<Driver>,
+    /// Loads in file order.
+    pub loads: Vec<Load>,
+    /// Springs in file order.
+    pub springs: Vec<Spring>,
+    /// Motors in file order.
+    pub motors: Vec<Motor>,
+    /// Measures in file order.
+    pub measures: Vec<Measure>,
+    /// Entries of `start` in file order.
+    pub start: Vec<Start>,
+    /// The study that the model was merged for, if any.
+    pub study: Option<Study>,
+    /// The variants that were applied, in order.
+    pub variants: Vec<String>,
+    /// Names of the parameters that were set from outside (`--set`), in the order given.
+    pub set: Vec<String>,
+}
+
+/// A named number that can be set from outside.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its dimension, found from its expression.
+    pub dimension: Dimension,
+    /// Its value, an expression of other parameters; acyclic. Overrides (`set`, `--set`) have replaced it already.
+    pub value: Id,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A function given by points.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Its name.
+    pub name: String,
+    /// Points as pairs of expressions of parameters.
+    pub points: Vec<(Id, Id)>,
+    /// Dimension of the argument.
+    pub x: Dimension,
+    /// Dimension of the value.
+    pub y: Dimension,
+    /// `between`.
+    pub between: Between,
+    /// `beyond`.
+    pub beyond: Beyond,
+    /// Where it stands.
+    pub place: Place,
+}
+pub use crate::expression::{Between, Beyond};
+
+/// A point of a body: `points[point]` of `bodies[body]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PointRef {
+    /// Index in [`Model::bodies`]; 0 is the ground.
+    pub body: usize,
+    /// Index in [`Body::points`].
+    pub point: usize,
+}
+
+/// A rigid body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name; `ground` for the first.
+    pub name: String,
+    /// The one shape, if any.
+    pub shape: Option<Shape>,
+    /// Explicit mass, kg.
+    pub mass: Option<Id>,
+    /// Explicit inertia about `com` in body axes, kg m²: 1 figure (planar, or a sphere), 3 (Ixx, Iyy, Izz) or 6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz).
+    pub inertia: Vec<Id>,
+    /// Explicit centre of mass, body frame, m.
+    pub com: Option<Vec<Id>>,
+    /// Points: 0 `origin`, 1 `com`, then those of the shape (`start`, `end` of a bar), then the user's.
+    pub points: Vec<Point>,
+    /// Point masses and rotors.
+    pub attached: Vec<Attached>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A shape with its sizes, m, and mass, kg.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum Shape {
+    /// Uniform straight bar from the body's origin along x; `width` (y) and `height` (z) 0 when thin.
+    Bar { length: Id, mass: Option<Id>, width: Option<Id>, height: Option<Id> },
+    /// Uniform straight bar drawn in place between two points of the world; the body frame is the world frame at the drawn position.
+    BarBetween { from: Vec<Id>, to: Vec<Id>, mass: Option<Id>, width: Option<Id>, height: Option<Id> },
+    /// Uniform disc about z through the origin.
+    Disc { radius: Id, mass: Option<Id>, thickness: Option<Id> },
+    /// Uniform plate (planar: two sizes) or box (three sizes) centred at the origin.
+    Plate { size: Vec<Id>, mass: Option<Id> },
+    /// Uniform ball centred at the origin.
+    Ball { radius: Id, mass: Option<Id> },
+}
+
+/// A named point fixed in a body.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Its name.
+    pub name: String,
+    /// Its position in the body frame, m.
+    pub at: PointAt,
+}
+
+/// Where a point of a body lies.
+#[derive(Clone, Debug)]
+pub enum PointAt {
+    /// The body's origin.
+    Origin,
+    /// The centre of mass of the body with all that is attached.
+    Com,
+    /// The start of the bar.
+    Start,
+    /// The end of the bar.
+    End,
+    /// 2 or 3 coordinates in the body frame, m.
+    Given(Vec<Id>),
+}
+
+/// A point mass or rotor on a body.
+#[derive(Clone, Debug)]
+pub struct Attached {
+    /// Its name.
+    pub name: String,
+    /// The point of the body where it sits (0, the origin, if not given).
+    pub at: usize,
+    /// Its mass, kg.
+    pub mass: Option<Id>,
+    /// Its inertia about its own centre, kg m²: empty, 1, 3 or 6 figures as in [`Body::inertia`].
+    pub inertia: Vec<Id>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A connection of two points.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Its kind with what belongs to that kind alone.
+    pub kind: JointKind,
+    /// First-named point; its body carries the axis.
+    pub a: PointRef,
+    /// Second-named point.
+    pub b: PointRef,
+    /// `axis` in the first body's frame: 2 or 3 components, not yet of unit length. Spatial default z; planar default x.
+    pub axis: Option<Vec<Id>>,
+    /// `to`: the same axis in the second body's frame; default the numbers of `axis`.
+    pub to: Option<Vec<Id>>,
+    /// `zero`: the angle or position that counts as the drawn one: coordinate = drawn coordinate + zero.
+    pub zero: Option<Id>,
+    /// `damping`, N m s/rad or N s/m.
+    pub damping: Option<Id>,
+    /// `friction: { coulomb, stick_speed }`.
+    pub friction: Option<(Id, Option<Id>)>,
+    /// `limits: { from, to, stiffness, damping }`.
+    pub limits: Option<Limits>,
+    /// `cut: true`: keep this joint off the spanning tree.
+    pub cut: bool,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// End stops of a joint.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// Lower end.
+    pub from: Option<Id>,
+    /// Upper end.
+    pub to: Option<Id>,
+    /// Stiffness of the stop.
+    pub stiffness: Option<Id>,
+    /// Damping of the stop.
+    pub damping: Option<Id>,
+}
+
+/// Kind of a joint.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum JointKind {
+    /// Hinge.
+    Revolute,
+    /// Sliding along `axis` (alias `prismatic`).
+    Slider,
+    /// Planar: the second's point slides along `axis` in the first's slot.
+    PinInSlot,
+    /// All held.
+    Fixed,
+    /// Distance held; `length` m, or as drawn.
+    Distance { length: Option<Id> },
+    /// Spatial: hinge and slide about the same axis.
+    Cylindrical,
+    /// Spatial: the plane normal to `axis`.
+    Planar,
+    /// Spatial: hinge and slide coupled; m per turn.
+    Screw { pitch: Id },
+    /// Spatial: two crossed hinges, `axes: [first body's, second body's]`.
+    Universal { axes: [Vec<Id>; 2] },
+    /// Spatial: ball.
+    Spherical,
+    /// No constraint; carries the coordinates of a free body.
+    Free,
+}
+
+/// A relation between coordinates.
+#[derive(Clone, Debug)]
+pub struct Coupling {
+    /// Its name.
+    pub name: String,
+    /// The relation.
+    pub kind: CouplingKind,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Kinds of couplings.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum CouplingKind {
+    /// Joint `b` turns `ratio` times as far as joint `a` (from the start position).
+    Gear { a: usize, b: usize, ratio: Id },
+    /// `slide` moves `radius` times as far as `pinion` turns (from the start position), m.
+    Rack { pinion: usize, slide: usize, radius: Id },
+    /// An expression of position-level quantities that stays 0.
+    Zero(Id),
+}
+
+/// A prescribed motion of a joint's coordinate.
+#[derive(Clone, Debug)]
+pub struct Driver {
+    /// Its name.
+    pub name: String,
+    /// The driven joint.
+    pub joint: usize,
+    /// The motion.
+    pub motion: Motion,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Motion of a driver.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum Motion {
+    /// Constant speed from the start position, rad/s or m/s.
+    Speed(Id),
+    /// The coordinate as an expression of `t`.
+    Position(Id),
+    /// A rise from the start position: `by`, `during` seconds, then rest.
+    Rise { by: Id, during: Id, law: Law },
+}
+
+/// Law of a rise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// τ − sin(2πτ)/2π.
+    Cycloidal,
+    /// 10τ³ − 15τ⁴ + 6τ⁵.
+    Poly5,
+}
+
+/// An applied force or torque.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Its name.
+    pub name: String,
+    /// What it acts on.
+    pub on: LoadOn,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What a load acts on.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum LoadOn {
+    /// At a point of a body: force (2 or 3 components; empty if none) and torque (planar 1, spatial 3 components; empty if none), in the axes of body `frame` (0 is the world).
+    Point { at: PointRef, force: Vec<Id>, torque: Vec<Id>, frame: usize },
+    /// On a joint's coordinate: on the second body, reaction on the first; N m or N.
+    Joint { joint: usize, effort: Id },
+}
+
+/// A spring, damper or both.
+#[derive(Clone, Debug)]
+pub struct Spring {
+    /// Its name.
+    pub name: String,
+    /// What it stretches.
+    pub on: SpringOn,
+    /// Free length, rest angle or rest position; stretch = measured − rest. 0 if none.
+    pub rest: Option<Id>,
+    /// Law of the force by stretch.
+    pub law: SpringLaw,
+    /// Damping, force per rate of stretch. 0 if none.
+    pub damping: Option<Id>,
+    /// Constant added to the force. 0 if none.
+    pub preload: Option<Id>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What a spring measures.
+#[derive(Clone, Debug)]
+pub enum SpringOn {
+    /// The distance of two points.
+    Between(PointRef, PointRef),
+    /// A joint's coordinate.
+    Joint(usize),
+    /// Any position-level expression.
+    Stretch(Id),
+}
+
+/// Force of a spring by its stretch (positive pulls together).
+#[derive(Clone, Debug)]
+pub enum SpringLaw {
+    /// No elastic force.
+    None,
+    /// Proportional.
+    Stiffness(Id),
+    /// Any expression of the spring's own `stretch` (the input `Quantity::Spring { item: Stretch }`).
+    Force(Id),
+}
+
+/// A motor with a torque-speed curve.
+#[derive(Clone, Debug)]
+pub struct Motor {
+    /// Its name.
+    pub name: String,
+    /// The driven joint.
+    pub joint: usize,
+    /// Torque at the joint: gear · curve(gear · omega), an expression of the joint's rate, N m. None if only a rotor inertia.
+    pub torque: Option<Id>,
+    /// Gear ratio: motor turns per turn of the joint; 1 if none.
+    pub gear: Option<Id>,
+    /// Rotor inertia before the gear, kg m²; gear² · inertia acts on the joint's coordinate.
+    pub inertia: Option<Id>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A named expression.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    /// Its name.
+    pub name: String,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its value.
+    pub value: Id,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// One entry of `start`.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// As written: `O.angle`.
+    pub name: String,
+    /// The quantity, position or velocity level (`O.angle`, `body.x`, `body.wx`).
+    pub quantity: Quantity,
+    /// What it is set to.
+    pub value: StartValue,
+    /// `~` in front: where the search begins; else exact.
+    pub guess: bool,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Value of a start entry.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum StartValue {
+    /// A number.
+    Number(Id),
+    /// Spatial orientation of a body: axis (world) and angle.
+    Rotation { axis: Vec<Id>, angle: Id },
+}

@@ -1,0 +1,160 @@
+//! The words in which the format describes itself: shapes of values, fields and tables of fields.
+//!
+//! The reader (`shape`), the schema and the messages are made from the same tables (`tables`), so that they cannot disagree.
+
+use crate::expression::Dimension;
+
+/// What a number is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Want {
+    /// A quantity of this dimension.
+    Of(Dimension),
+    /// An angle: a plain number, but a bare one over a turn is suspect.
+    Angle,
+    /// Depends on its neighbours; the words say how.
+    Varies(&'static str),
+    /// Any dimension.
+    Any,
+}
+
+impl Want {
+    /// For messages and the schema: `length (m)`.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Of(dimension) if dimension == Dimension::NONE => "plain number".to_owned(),
+            Self::Of(dimension) => dimension.name(),
+            Self::Angle => "angle (rad)".to_owned(),
+            Self::Varies(words) => words.to_owned(),
+            Self::Any => "any quantity".to_owned(),
+        }
+    }
+}
+
+/// How many items a list has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Size {
+    /// At least this many.
+    AtLeast(usize),
+    /// Just this many.
+    Exactly(usize),
+    /// 2 in the plane, 3 in space.
+    Space,
+    /// One of these.
+    OneOf(&'static [usize]),
+}
+
+/// What the keys of a map with free names are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keys {
+    /// A new name: `[A-Za-z][A-Za-z0-9_]*`.
+    Name,
+    /// A new name of a study or variant, which may also have `-`.
+    Title,
+    /// Something that exists already, or an expression: checked when it is decoded.
+    Reference,
+}
+
+/// The shape of a value.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape {
+    /// A number, a quantity or an expression.
+    Value(Want),
+    /// A condition or expression of any dimension; never a bare number in the examples, but one is accepted.
+    Formula(&'static str),
+    /// Any text.
+    Text,
+    /// One of these words; the first is the default if the field is optional.
+    Word(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+    /// A whole number in a range.
+    Count(u64, u64),
+    /// A name of something; the words say of what.
+    Name(&'static str),
+    /// A list.
+    List(&'static Shape, Size),
+    /// A map with known keys.
+    Map(&'static Table),
+    /// A map with free keys; the words name one entry.
+    Named(Keys, &'static str, &'static Shape),
+    /// One of several shapes, told apart by being a map, a list or a scalar.
+    Either(&'static [Shape]),
+    /// A variant: a merge patch of the file's sections.
+    Patch,
+    /// Reserved for later.
+    Later,
+}
+
+/// One key of a map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Field {
+    /// The key.
+    pub(crate) key: &'static str,
+    /// The shape of its value.
+    pub(crate) shape: Shape,
+    /// Whether it must be there.
+    pub(crate) required: bool,
+    /// One line for the schema and for messages.
+    pub(crate) doc: &'static str,
+}
+
+/// Keys that exclude each other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    /// The keys.
+    pub(crate) keys: &'static [&'static str],
+    /// Whether one of them must be there.
+    pub(crate) required: bool,
+}
+
+/// A map with known keys.
+#[derive(Debug)]
+pub(crate) struct Table {
+    /// What it describes, with its article: `a joint`.
+    pub(crate) what: &'static str,
+    /// Its keys.
+    pub(crate) fields: &'static [Field],
+    /// Keys that exclude each other: "one kind per entry".
+    pub(crate) choices: &'static [Choice],
+}
+
+impl Table {
+    /// The field of a key.
+    pub(crate) fn field(&self, key: &str) -> Option<&'static Field> {
+        self.fields.iter().find(|field| field.key == key)
+    }
+}
+
+impl Shape {
+    /// For messages: what is expected here.
+    pub(crate) fn expected(&self) -> String {
+        match self {
+            Self::Value(want) => format!("{}: a number, a quantity such as `15 cm`, or an expression", want.name()),
+            Self::Formula(words) => (*words).to_owned(),
+            Self::Text => "text".to_owned(),
+            Self::Word(words) => format!("one of {}", words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")),
+            Self::Flag => "`true` or `false`".to_owned(),
+            Self::Count(least, most) if least == most => format!("the number {least}"),
+            Self::Count(least, most) => format!("a whole number from {least} to {most}"),
+            Self::Name(words) => (*words).to_owned(),
+            Self::List(item, size) => match size {
+                Size::AtLeast(_) => format!("a list `[ , ]` of: {}", item.expected()),
+                Size::Exactly(n) => format!("a list of {n} items: {}", item.expected()),
+                Size::Space => format!("a vector `[x, y]` (in space `[x, y, z]`) of: {}", item.expected()),
+                Size::OneOf(sizes) => {
+                    let sizes: Vec<String> = sizes.iter().map(ToString::to_string).collect();
+                    format!("a list of {} items: {}", sizes.join(" or "), item.expected())
+                }
+            },
+            Self::Map(table) => {
+                let keys: Vec<String> = table.fields.iter().take(8).map(|f| format!("`{}`", f.key)).collect();
+                let more = if table.fields.len() > 8 { ", ..." } else { "" };
+                format!("{}: a map `{{ key: value }}` with the keys {}{more}", table.what, keys.join(", "))
+            }
+            Self::Named(_, what, _) => format!("a map `{{ name: ... }}`, one entry for {what}"),
+            Self::Either(shapes) => shapes.iter().map(Shape::expected).collect::<Vec<_>>().join("; or "),
+            Self::Patch => "a map of sections with what changes".to_owned(),
+            Self::Later => "nothing yet".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The model file: YAML, its places and diagnostics, the tables of its fields, variants, and the typed entities that the
+//! rest of the program is built from.
+//!
+//! The way of a file: `yaml` (guard and parse) → [`Document`]; `merge` (variants, by reference) → `shape` (form, along the
+//! tables of fields in `tables`) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
+//! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
+
+mod decode;
+mod diagnostics;
+mod document;
+mod entities;
+mod fault;
+mod fields;
+mod merge;
+mod names;
+mod quantities;
+mod schema;
+mod scope;
+mod session;
+mod shape;
+mod spans;
+mod study;
+mod suggest;
+mod tables;
+mod vocabulary;
+mod yaml;
+
+pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
+pub use document::{Document, Selection};
+pub use entities::*;
+pub use schema::schema;
+pub use study::*;
+pub use vocabulary::{Level, Quantity};
+
+#[cfg(test)]
+mod tests;

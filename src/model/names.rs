@@ -1,0 +1,204 @@
+//! The one name space of a model: what may be a name, what is taken, who is who.
+
+use super::fault::{At, Fault, Spot};
+use super::merge::{Layers, Node};
+use crate::expression::unit;
+use std::collections::HashMap;
+
+/// Names that mean something everywhere.
+const RESERVED: [&str; 15] = [
+    "ground",
+    "world",
+    "t",
+    "time",
+    "com",
+    "energy",
+    "momentum",
+    "shaking",
+    "frame",
+    "inertia_eq",
+    "inertia_eq_slope",
+    "pi",
+    "and",
+    "or",
+    "not",
+];
+
+/// The functions and functionals of expressions.
+const FUNCTIONS: [&str; 22] = [
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "exp", "log", "abs", "sign", "min", "max", "clamp", "if", "rate", "mean",
+    "integral", "last", "value", "first",
+];
+
+/// What a name stands for: index in the model's list of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Entity {
+    Parameter(usize),
+    Table(usize),
+    Body(usize),
+    Joint(usize),
+    Coupling(usize),
+    Driver(usize),
+    Load(usize),
+    Spring(usize),
+    Motor(usize),
+    Measure(usize),
+    Event(usize),
+}
+
+impl Entity {
+    /// With its article, for messages.
+    pub(crate) fn what(self) -> &'static str {
+        match self {
+            Self::Parameter(_) => "a parameter",
+            Self::Table(_) => "a table",
+            Self::Body(_) => "a body",
+            Self::Joint(_) => "a joint",
+            Self::Coupling(_) => "a coupling",
+            Self::Driver(_) => "a driver",
+            Self::Load(_) => "a load",
+            Self::Spring(_) => "a spring",
+            Self::Motor(_) => "a motor",
+            Self::Measure(_) => "a measure",
+            Self::Event(_) => "an event",
+        }
+    }
+}
+
+/// A section of the file and how its entries are counted.
+type Section = (&'static str, fn(usize) -> Entity);
+
+/// The sections whose keys share the name space. Body 0 is the ground.
+const SECTIONS: [Section; 11] = [
+    ("parameters", Entity::Parameter),
+    ("tables", Entity::Table),
+    ("bodies", |i| Entity::Body(i + 1)),
+    ("joints", Entity::Joint),
+    ("couplings", Entity::Coupling),
+    ("drivers", Entity::Driver),
+    ("loads", Entity::Load),
+    ("springs", Entity::Spring),
+    ("motors", Entity::Motor),
+    ("measures", Entity::Measure),
+    ("events", Entity::Event),
+];
+
+/// Every name of a model, with faults for those that are taken twice or reserved.
+pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<Fault>) -> HashMap<&'n str, Entity> {
+    let mut names: HashMap<&str, (Entity, &str)> = HashMap::new();
+    for (section, entity) in SECTIONS {
+        let Some(node) = root.get(section) else { continue };
+        let at = At::ROOT.key(section);
+        for (i, (name, _)) in node.entries().into_iter().enumerate() {
+            let entity = entity(i);
+            let place = || layers.source(&at.key(name).steps());
+            let article = entity.what();
+            if let Some(why) = taken(name) {
+                let help = format!("for example `{name}1`");
+                faults.push(
+                    Fault::new("reserved-name", place(), format!("`{name}` is {why}"), format!("another name for {article}"))
+                        .at(Spot::Key)
+                        .help(help),
+                );
+            } else if matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::Measure(_)) && unit(name).is_some() {
+                let message = format!("`{name}` is a unit");
+                faults.push(
+                    Fault::new(
+                        "reserved-name",
+                        place(),
+                        message,
+                        format!("another name for {article}: `2*{name}` and `2 {name}` would differ"),
+                    )
+                    .at(Spot::Key)
+                    .help(format!("for example {}", instead(name))),
+                );
+            }
+            if let Some((first, where_)) = names.get(name) {
+                let message = format!("`{name}` is already the name of {} in `{where_}`", first.what());
+                faults.push(
+                    Fault::new("duplicate-name", place(), message, "one name for one thing: all sections share their names")
+                        .at(Spot::Key)
+                        .help("rename one of the two"),
+                );
+            } else {
+                names.insert(name, (entity, section));
+            }
+        }
+    }
+    names.into_iter().map(|(name, (entity, _))| (name, entity)).collect()
+}
+
+/// Why a name is not free, if it is not.
+pub(crate) fn taken(name: &str) -> Option<&'static str> {
+    if RESERVED.contains(&name) {
+        Some("a reserved word")
+    } else if FUNCTIONS.contains(&name) {
+        Some("a function")
+    } else {
+        None
+    }
+}
+
+/// Names to take instead of a unit word.
+fn instead(unit: &str) -> String {
+    let word = match unit {
+        "m" => "mass",
+        "g" => "gravity",
+        "s" => "stroke",
+        "min" => "least",
+        "in" => "inner",
+        "N" => "force",
+        "W" => "power",
+        "V" => "voltage",
+        "A" => "area",
+        "H" => "height",
+        "J" => "inertia",
+        _ => return format!("`{unit}1`"),
+    };
+    format!("`{unit}1` or `{word}`")
+}
+
+/// `[A-Za-z][A-Za-z0-9_]*`
+pub(crate) fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
+}
+
+/// A name that may also have `-`.
+pub(crate) fn is_title(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_' || c == b'-')
+}
+
+/// The name that was probably meant, if it can be repaired.
+pub(crate) fn repaired(text: &str, title: bool) -> Option<String> {
+    let mut name = String::new();
+    for c in text.trim().chars().take(60) {
+        match c {
+            'ä' | 'á' | 'à' => name.push('a'),
+            'ö' | 'ó' => name.push('o'),
+            'ü' => name.push('u'),
+            'é' | 'è' => name.push('e'),
+            c if c.is_ascii_alphanumeric() || c == '_' => name.push(c),
+            '-' if title => name.push('-'),
+            ' ' | '-' | '.' | '/' => name.push(if title { '-' } else { '_' }),
+            _ => {}
+        }
+    }
+    if name.starts_with(|c: char| c.is_ascii_digit()) {
+        name.insert(0, 'n');
+    }
+    is_title(&name).then_some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names() {
+        assert!(is_name("l_tip2") && !is_name("2l") && !is_name("a-b") && !is_name("") && !is_name("ä"));
+        assert!(is_title("one-turn") && !is_title("-x"));
+        assert_eq!(repaired("2nd bar", false).as_deref(), Some("n2nd_bar"));
+        assert_eq!(repaired("länge", false).as_deref(), Some("lange"));
+        assert_eq!(repaired("??", false), None);
+    }
+}

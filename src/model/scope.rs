@@ -1,0 +1,288 @@
+//! What a name in an expression stands for, and whether it may stand there.
+
+use super::names::Entity;
+use super::quantities::{World, silent, unknown};
+use super::suggest;
+use super::vocabulary::{Level, Quantity};
+use crate::expression::{Dimension, Id, Lowered, Pool, Scope, Symbol, Unknown};
+
+/// What an expression needs to be known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Reach {
+    /// The highest level of a name in it.
+    pub(crate) level: Level,
+    /// Whether reactions are in it.
+    pub(crate) reactions: bool,
+    /// Whether springs are in it.
+    pub(crate) springs: bool,
+}
+
+impl Reach {
+    /// Of a number.
+    pub(crate) const CONSTANT: Self = Self { level: Level::Constant, reactions: false, springs: false };
+
+    /// Of a leaf.
+    pub(crate) fn of(quantity: Quantity) -> Self {
+        Self { level: quantity.level(), reactions: quantity.is_reaction(), springs: quantity.needs_springs() }
+    }
+
+    /// Of an expression of both.
+    pub(crate) fn join(self, other: Self) -> Self {
+        Self { level: self.level.max(other.level), reactions: self.reactions || other.reactions, springs: self.springs || other.springs }
+    }
+}
+
+/// What may be named in a field.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Allow {
+    /// Highest level.
+    pub(crate) level: Level,
+    /// Whether tables may be called.
+    pub(crate) tables: bool,
+    /// Whether reactions may be named.
+    pub(crate) reactions: bool,
+    /// Whether quantities of springs may be named.
+    pub(crate) springs: bool,
+    /// The field, for messages: `a load`.
+    pub(crate) what: &'static str,
+}
+
+impl Allow {
+    /// Parameters only.
+    pub(crate) const PARAMETER: Self =
+        Self { level: Level::Constant, tables: false, reactions: false, springs: false, what: "a parameter" };
+    /// Parameters and tables.
+    pub(crate) const CONSTANT: Self = Self { tables: true, what: "this value", ..Self::PARAMETER };
+    /// `t`, parameters and tables.
+    pub(crate) const DRIVER: Self = Self { level: Level::Time, what: "a driver", ..Self::CONSTANT };
+    /// Positions, without those of springs.
+    pub(crate) const POSITION: Self = Self { level: Level::Position, what: "this expression", ..Self::CONSTANT };
+    /// Positions and velocities.
+    pub(crate) const LOAD: Self = Self { level: Level::Velocity, springs: true, what: "a load", ..Self::CONSTANT };
+    /// Everything that a state has.
+    pub(crate) const MEASURE: Self =
+        Self { level: Level::Acceleration, reactions: true, springs: true, what: "a measure", ..Self::CONSTANT };
+}
+
+/// Names that only one study knows.
+#[derive(Default)]
+pub(crate) struct Local<'s> {
+    /// Name, node, reach; `None` for one whose own fault was reported.
+    pub(crate) symbols: Vec<(&'s str, Option<(Symbol, Reach)>)>,
+    /// Functionals of the study so far; `None` where none are allowed.
+    pub(crate) functionals: Option<Functionals>,
+}
+
+/// Functionals over a study.
+#[derive(Default)]
+pub(crate) struct Functionals {
+    /// Those found so far.
+    pub(crate) all: Vec<super::study::Functional>,
+    /// Dimension of the independent variable; `None` if the study has none.
+    pub(crate) independent: Option<Dimension>,
+    /// Whether the study finds reactions.
+    pub(crate) reactions: bool,
+    /// The study's kind, for messages.
+    pub(crate) kind: &'static str,
+}
+
+/// The names as one field sees them.
+pub(crate) struct View<'v, 'a, 's> {
+    pub(crate) world: &'v mut World<'a>,
+    pub(crate) local: &'v mut Local<'s>,
+    pub(crate) allow: Allow,
+    /// What the expression needs, so far.
+    pub(crate) reach: Reach,
+    /// Codes of the refusals, found again by their text.
+    pub(crate) codes: Vec<(String, &'static str)>,
+    /// A table was called where none may be.
+    pub(crate) refused_table: bool,
+    /// What is allowed and was needed outside of the functional that is being lowered.
+    pub(crate) outside: Option<(Allow, Reach)>,
+}
+
+impl View<'_, '_, '_> {
+    fn refuse(&mut self, code: &'static str, why: Unknown) -> Unknown {
+        self.codes.push((why.found.clone(), code));
+        why
+    }
+
+    fn admit(&mut self, path: &str, (symbol, reach): (Symbol, Reach)) -> Result<Symbol, Unknown> {
+        let allow = self.allow;
+        let in_scalar = self.local.functionals.is_some() && self.outside.is_none();
+        if reach.level > allow.level {
+            let is = match reach.level {
+                Level::Constant | Level::Time => format!("`{path}` varies in time"),
+                Level::Position => format!("`{path}` is a position"),
+                Level::Velocity => format!("`{path}` is a velocity, or needs one"),
+                Level::Acceleration if reach.reactions => format!("`{path}` is a reaction, or needs one"),
+                Level::Acceleration => format!("`{path}` is an acceleration, or needs one"),
+                Level::Study => format!("`{path}` is known only after the study"),
+            };
+            if in_scalar && reach.level < Level::Study {
+                let help = Some(format!("take one number of it: `mean({path})`, `max({path})`, `last({path})`, `value({path}, at)`"));
+                return Err(
+                    self.refuse("varies", unknown(format!("`{path}` varies during the study"), "one number for the whole study", help))
+                );
+            }
+            let may = match allow.level {
+                Level::Constant => "parameters",
+                Level::Time => "`t` and parameters",
+                Level::Position => "positions, `t` and parameters",
+                Level::Velocity => "positions, velocities, `t` and parameters",
+                _ => "quantities of the mechanism, `t` and parameters",
+            };
+            let what = allow.what;
+            let help = (reach.reactions).then(|| "reactions enter forces through joint `friction` alone".to_owned());
+            return Err(self.refuse("wrong-level", unknown(is, format!("{what} may use only {may}"), help)));
+        }
+        if reach.reactions && !allow.reactions {
+            let help = Some("use `inverse`, which finds forces too".to_owned());
+            return Err(self.refuse(
+                "wrong-level",
+                unknown(format!("`{path}` is a reaction, or needs one"), format!("{} finds no forces", allow.what), help),
+            ));
+        }
+        if reach.springs && !allow.springs {
+            let expected = format!("{} may not use springs or their energy, which depend on it", allow.what);
+            return Err(self.refuse("wrong-level", unknown(format!("`{path}` needs the springs"), expected, None)));
+        }
+        self.reach = self.reach.join(reach);
+        Ok(symbol)
+    }
+}
+
+impl Scope for View<'_, '_, '_> {
+    fn name(&mut self, pool: &mut Pool, path: &str) -> Result<Symbol, Unknown> {
+        if let Some((_, symbol)) = self.local.symbols.iter().find(|(name, _)| *name == path) {
+            return match *symbol {
+                Some(symbol) => self.admit(path, symbol),
+                None => Err(silent()),
+            };
+        }
+        match self.world.names.get(path).copied() {
+            Some(Entity::Parameter(i)) => {
+                return match self.world.parameters.get(i).copied().flatten() {
+                    Some(dimension) => Ok(Symbol { id: pool.parameter(i as u32), dimension }),
+                    None => Err(silent()),
+                };
+            }
+            Some(Entity::Measure(i)) => {
+                return match self.world.measures.get(i).copied().flatten() {
+                    Some(measure) => self.admit(path, measure),
+                    // before the measures are lowered only parameters may be named
+                    None if self.allow.level <= Level::Time => {
+                        let may = if self.allow.level == Level::Time { "`t` and parameters" } else { "parameters" };
+                        let expected = format!("{} may use only {may}", self.allow.what);
+                        Err(self.refuse("wrong-level", unknown(format!("`{path}` is a measure"), expected, None)))
+                    }
+                    None => Err(silent()),
+                };
+            }
+            Some(Entity::Table(_)) => {
+                let help = Some(format!("write `{path}(x)`"));
+                return Err(self.refuse("unknown-name", unknown(format!("`{path}` is a table"), "a quantity", help)));
+            }
+            _ => {}
+        }
+        // inside of a parameter nothing of the mechanism is known yet
+        if self.allow.level == Level::Constant && self.local.functionals.is_none() && self.world.known_head(path) {
+            let expected = format!("{} may use only parameters", self.allow.what);
+            return Err(self.refuse("wrong-level", unknown(format!("`{path}` is no parameter"), expected, None)));
+        }
+        match self.world.quantity(pool, path) {
+            Ok(found) => {
+                let found = self.world.symbol(pool, found);
+                self.admit(path, found)
+            }
+            Err(mut why) => {
+                if why.help.is_none() && !path.contains('.') && why.found.starts_with("unknown name") {
+                    let local = self.local.symbols.iter().map(|(name, _)| *name);
+                    why.help = suggest::nearest(path, local).map(|near| format!("did you mean `{near}`?"));
+                }
+                Err(self.refuse("unknown-name", why))
+            }
+        }
+    }
+
+    fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
+        let Some(Entity::Table(i)) = self.world.names.get(name).copied() else { return None };
+        if !self.allow.tables {
+            self.refused_table = true;
+            return None;
+        }
+        let (x, y) = self.world.tables.get(i).copied().flatten().unwrap_or((Dimension::NONE, Dimension::NONE));
+        Some((i as u32, x, y))
+    }
+
+    fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {
+        let quantity = *self.world.model.inputs.get(input as usize)?;
+        if quantity == Quantity::Time {
+            return Some(pool.constant(1.0));
+        }
+        let rate = quantity.rate()?;
+        self.reach = self.reach.join(Reach::of(rate));
+        Some(self.world.input(pool, rate))
+    }
+
+    fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
+        let Some(functionals) = &self.local.functionals else {
+            let help = (name == "max" || name == "min").then(|| format!("`{name}(a, b)` of two values needs two"));
+            let why = unknown(format!("`{name}(..)` is taken of a whole study"), "it may stand only in `scalars` and `expect`", help);
+            return Err(self.refuse("wrong-level", why));
+        };
+        if self.outside.is_some() {
+            return Err(self.refuse("wrong-level", unknown(format!("`{name}(..)` inside of another"), "an expression of the moment", None)));
+        }
+        if functionals.independent.is_none() {
+            let expected = "a study with an independent variable: `kinematics`, `inverse`, `dynamics`, `periodic`";
+            let found = format!("`{name}(..)` in a `{}` study", functionals.kind);
+            return Err(self.refuse("wrong-level", unknown(found, expected, None)));
+        }
+        let inside = Allow { reactions: functionals.reactions, what: functionals.kind, ..Allow::MEASURE };
+        self.outside = Some((self.allow, self.reach));
+        self.allow = inside;
+        Ok(())
+    }
+
+    fn leave_functional(&mut self) {
+        if let Some((allow, reach)) = self.outside.take() {
+            self.allow = allow;
+            self.reach = reach.join(Reach { level: Level::Study, ..Reach::CONSTANT });
+        }
+    }
+
+    fn functional(&mut self, pool: &mut Pool, name: &str, of: Lowered, at: Option<Lowered>, text: &str) -> Result<Symbol, Unknown> {
+        use super::study::{Functional, FunctionalKind as Kind};
+        let Some(functionals) = &mut self.local.functionals else { return Err(silent()) };
+        let independent = functionals.independent.unwrap_or(Dimension::NONE);
+        let (kind, dimension) = match name {
+            "mean" => (Kind::Mean, of.dimension),
+            "integral" => (Kind::Integral, of.dimension.mul(independent)),
+            "max" => (Kind::Max, of.dimension),
+            "min" => (Kind::Min, of.dimension),
+            "last" => (Kind::Last, of.dimension),
+            "value" => (Kind::Value, of.dimension),
+            _ => (Kind::First, independent),
+        };
+        if let Some(at) = at {
+            if let Err(found) = at.expect(independent) {
+                let expected = format!(
+                    "a place of the independent variable: {}",
+                    if independent == Dimension::NONE { "angle (rad)".to_owned() } else { independent.name() }
+                );
+                return Err(self.refuse("wrong-dimension", unknown(format!("found {found} as a place"), expected, None)));
+            }
+            if !pool.inputs_of(&[at.id]).is_empty() {
+                return Err(self.refuse("varies", unknown("this place varies or is a result", "a number or parameters as place", None)));
+            }
+        }
+        let at = at.map(|at| at.id);
+        let same = |f: &Functional| f.kind == kind && f.of == of.id && f.at == at;
+        let number = functionals.all.iter().position(same).unwrap_or_else(|| {
+            functionals.all.push(Functional { kind, of: of.id, at, text: text.to_owned(), dimension });
+            functionals.all.len() - 1
+        });
+        Ok(Symbol { id: self.world.input(pool, Quantity::Functional(number)), dimension })
+    }
+}

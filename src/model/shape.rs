@@ -1,0 +1,406 @@
+//! The generic reader: walks a value along the tables of fields and collects every fault of form. What passes here has the
+//! right keys and the right kinds of values; their meaning is checked where they are decoded.
+
+use super::fault::{At, Fault, Spot};
+use super::fields::{Keys, Shape, Size, Table};
+use super::merge::{Layers, Node};
+use super::suggest;
+use super::tables::{FILE, NOT_IN_VARIANTS};
+use serde_yaml::Value;
+
+/// A walk along the tables.
+pub(crate) struct Shapes<'a> {
+    /// Where merged values come from.
+    pub(crate) layers: &'a Layers<'a>,
+    /// Components of a vector; `None` if the file does not say.
+    pub(crate) components: Option<usize>,
+    /// True inside of a patch: nothing is required and `null` removes.
+    pub(crate) patch: bool,
+    /// What was found.
+    pub(crate) faults: Vec<Fault>,
+}
+
+impl Shapes<'_> {
+    fn place(&self, at: &At<'_, '_>) -> String {
+        self.layers.source(&at.steps())
+    }
+
+    fn fault(&mut self, code: &'static str, at: &At<'_, '_>, message: impl Into<String>, expected: impl Into<String>) -> &mut Fault {
+        let place = self.place(at);
+        self.faults.push(Fault::new(code, place, message, expected));
+        let last = self.faults.len() - 1;
+        &mut self.faults[last]
+    }
+
+    fn wrong_type(&mut self, node: Node<'_>, at: &At<'_, '_>, expected: &Shape) {
+        let found = describe(node);
+        let fault = self.fault("wrong-type", at, format!("found {found}"), expected.expected());
+        fault.help = match (expected, node) {
+            (Shape::Text, Node::Plain(Value::Number(n))) => Some(format!("write it in quotes: \"{n}\"")),
+            (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "yes" | "on") => Some("write `true`".to_owned()),
+            (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "no" | "off") => Some("write `false`".to_owned()),
+            _ => None,
+        };
+    }
+
+    /// Checks `node` against `shape`; `outer` says what is expected where the shape is one of several.
+    pub(crate) fn check(&mut self, node: Node<'_>, shape: &Shape, at: &At<'_, '_>) {
+        self.check_as(node, shape, at, shape);
+    }
+
+    fn check_as(&mut self, node: Node<'_>, shape: &Shape, at: &At<'_, '_>, outer: &Shape) {
+        if let Node::Plain(Value::Null) = node {
+            if !self.patch {
+                let help = "give a value, or remove the key";
+                self.fault("empty-value", at, "no value", outer.expected()).help = Some(help.to_owned());
+                if let Some(fault) = self.faults.last_mut() {
+                    fault.spot = Spot::Key;
+                }
+            }
+            return;
+        }
+        match (shape, node) {
+            (Shape::Either(shapes), _) => {
+                let fits = |shape: &&Shape| match shape {
+                    Shape::Map(_) | Shape::Named(..) | Shape::Patch => node.is_map(),
+                    Shape::List(..) => node.is_list(),
+                    _ => !node.is_map() && !node.is_list(),
+                };
+                match shapes.iter().find(fits) {
+                    Some(fitting) => self.check_as(node, fitting, at, outer),
+                    None => self.wrong_type(node, at, outer),
+                }
+            }
+            (Shape::Later, _) => {
+                let fault = self.fault("not-yet", at, "this key is reserved for a later version", "");
+                fault.spot = Spot::Key;
+                fault.help = Some("remove it".to_owned());
+            }
+            (Shape::Value(_) | Shape::Formula(_), Node::Plain(Value::Number(n))) => {
+                if !n.as_f64().is_some_and(f64::is_finite) {
+                    let help = "a value is a finite number; leave out what has none".to_owned();
+                    self.fault("bad-number", at, "not a finite number", outer.expected()).help = Some(help);
+                }
+            }
+            (Shape::Value(_) | Shape::Formula(_), Node::Plain(Value::String(_))) => {}
+            (Shape::Text | Shape::Name(_), Node::Plain(Value::String(_))) => {}
+            (Shape::Word(words), Node::Plain(Value::String(word))) => {
+                if !words.contains(&word.as_str()) {
+                    let help = suggest::nearest(word, words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                    self.fault("unknown-word", at, format!("`{}` is not known here", clip(word)), outer.expected()).help = help;
+                }
+            }
+            (Shape::Flag, Node::Plain(Value::Bool(_))) => {}
+            (Shape::Count(least, most), Node::Plain(Value::Number(n))) => {
+                if !n.as_u64().is_some_and(|n| (*least..=*most).contains(&n)) {
+                    self.fault("bad-count", at, format!("found {n}"), outer.expected());
+                }
+            }
+            (Shape::List(item, size), Node::Plain(Value::Sequence(items))) => self.list(items, item, *size, at, outer),
+            (Shape::Map(table), _) if node.is_map() => self.map(node, table, at),
+            (Shape::Named(keys, what, inner), _) if node.is_map() => self.named(node, *keys, what, inner, at),
+            (Shape::Patch, Node::Plain(Value::Mapping(_))) => self.variant(node, at),
+            _ => self.wrong_type(node, at, outer),
+        }
+    }
+
+    fn list(&mut self, items: &[Value], item: &Shape, size: Size, at: &At<'_, '_>, outer: &Shape) {
+        if let Some(i) = items.iter().position(open_parenthesis)
+            && let Some(joined) = rejoin(&items[i], items[i + 1..].iter())
+        {
+            let place = self.place(&at.index(i));
+            self.faults.push(comma(place, &joined, None));
+            return;
+        }
+        let right = match size {
+            Size::AtLeast(n) => items.len() >= n,
+            Size::Exactly(n) => items.len() == n,
+            Size::Space => self.components.is_none_or(|n| items.len() == n),
+            Size::OneOf(sizes) => sizes.contains(&items.len()),
+        };
+        if !right {
+            let expected = match (size, self.components) {
+                (Size::Space, Some(2)) => "2 components `[x, y]`: the model is planar".to_owned(),
+                (Size::Space, Some(3)) => "3 components `[x, y, z]`: the model is spatial".to_owned(),
+                _ => outer.expected(),
+            };
+            let n = items.len();
+            self.fault("wrong-size", at, format!("a list of {n} item{}", if n == 1 { "" } else { "s" }), expected);
+        }
+        // an empty value in a list is never "remove"
+        let patch = std::mem::replace(&mut self.patch, false);
+        for (i, value) in items.iter().enumerate() {
+            self.check(Node::Plain(value), item, &at.index(i));
+        }
+        self.patch = patch;
+    }
+
+    /// Faults of keys as such; true if the entry is to be read no further.
+    fn strange_key(&mut self, key: &Value, value: Node<'_>, at: &At<'_, '_>) -> bool {
+        let empty = matches!(value, Node::Plain(Value::Null));
+        let Some(text) = key.as_str() else {
+            let found = describe(Node::Plain(key));
+            self.fault("bad-name", at, format!("a key that is {found}"), "a name as key").help =
+                Some("write it in quotes, or rename it".to_owned());
+            return true;
+        };
+        if text == "<<" {
+            let fault = self.fault("yaml-merge-key", &at.key(text), "a merge key", "keys of the format");
+            fault.spot = Spot::Key;
+            fault.help = Some("write the keys out, or use `variants`".to_owned());
+            return true;
+        }
+        if empty && let Some((name, rest)) = text.split_once(':') {
+            let help = format!("write `{name}: {rest}`");
+            let fault = self.fault("missing-space", &at.key(text), "a colon without a space behind it", "`key: value`");
+            fault.spot = Spot::Key;
+            fault.help = Some(help);
+            return true;
+        }
+        false
+    }
+
+    /// Values that a comma has cut: their indices and those of the pieces.
+    fn commas(&mut self, node: Node<'_>, at: &At<'_, '_>) -> Vec<usize> {
+        let Node::Plain(Value::Mapping(map)) = node else { return Vec::new() };
+        let mut cut = Vec::new();
+        for (i, (key, value)) in map.iter().enumerate() {
+            let Some(name) = key.as_str().filter(|_| open_parenthesis(value)) else { continue };
+            let pieces = map.iter().skip(i + 1).take_while(|(_, value)| value.is_null()).map(|(key, _)| key);
+            if let Some(joined) = rejoin(value, pieces) {
+                let place = self.place(&at.key(name));
+                self.faults.push(comma(place, &joined, Some(name)));
+                cut.push(i);
+                cut.extend((i + 1..map.len()).zip(map.iter().skip(i + 1)).take_while(|(_, (_, v))| v.is_null()).map(|(j, _)| j));
+            }
+        }
+        cut
+    }
+
+    fn map(&mut self, node: Node<'_>, table: &'static Table, at: &At<'_, '_>) {
+        let cut = self.commas(node, at);
+        let mut unknown: Vec<Option<&'static str>> = Vec::new();
+        if let Node::Plain(Value::Mapping(map)) = node {
+            // `length:l1` is meant as `length`
+            let glued = map.iter().filter(|(_, value)| value.is_null()).filter_map(|(key, _)| key.as_str()?.split_once(':'));
+            unknown.extend(glued.map(|(name, _)| table.field(name).map(|f| f.key)));
+        }
+        let mut present: Vec<&'static str> = Vec::new();
+        self.each(node, at, &cut, |shapes, key, value| {
+            let here = at.key(key);
+            match table.field(key) {
+                Some(field) => {
+                    present.push(field.key);
+                    shapes.check(value, &field.shape, &here);
+                }
+                None => {
+                    let near = suggest::nearest(key, table.fields.iter().map(|f| f.key));
+                    unknown.push(near.and_then(|near| table.field(near)).map(|f| f.key));
+                    let help = suggest::help(key, table.fields.iter().map(|f| f.key).filter(|k| near.is_none() || Some(*k) == near));
+                    let expected = format!("a key of {}", table.what);
+                    let fault = shapes.fault("unknown-key", &here, format!("unknown key `{}`", clip(key)), expected);
+                    fault.spot = Spot::Key;
+                    fault.help = help;
+                }
+            }
+        });
+        if self.patch {
+            return;
+        }
+        let meant = |key: &str| unknown.iter().flatten().any(|near| *near == key) || !cut.is_empty();
+        for field in table.fields.iter().filter(|f| f.required && !present.contains(&f.key) && !meant(f.key)) {
+            let fault = self.fault("missing-key", at, format!("`{}` is missing in {}", field.key, table.what), field.shape.expected());
+            fault.spot = Spot::Key;
+            fault.help = Some(format!("add `{}:` {}", field.key, lower_first(field.doc)));
+        }
+        for choice in table.choices {
+            let found: Vec<&str> = present.iter().copied().filter(|key| choice.keys.contains(key)).collect();
+            let list = || suggest::known(choice.keys.iter().copied()).unwrap_or_default();
+            if found.is_empty() && choice.required && !choice.keys.iter().any(|key| meant(key)) {
+                self.fault("missing-key", at, format!("{} needs one more key", table.what), format!("one of {}", list())).spot = Spot::Key;
+            }
+            if let [first, second, ..] = found[..] {
+                let fault =
+                    self.fault("two-kinds", &at.key(second), format!("`{second}` beside `{first}`"), format!("only one of {}", list()));
+                fault.spot = Spot::Key;
+                fault.help = Some("remove one of the two".to_owned());
+            }
+        }
+    }
+
+    fn named(&mut self, node: Node<'_>, keys: Keys, what: &str, inner: &Shape, at: &At<'_, '_>) {
+        let cut = self.commas(node, at);
+        self.each(node, at, &cut, |shapes, key, value| {
+            let here = at.key(key);
+            let good = match keys {
+                Keys::Name => super::names::is_name(key),
+                Keys::Title => super::names::is_title(key),
+                Keys::Reference => true,
+            };
+            if !good {
+                let dash = if keys == Keys::Title { ", `_` and `-`" } else { " and `_`" };
+                let expected = format!("a name: a letter a-z or A-Z, then letters, digits{dash}");
+                let help = super::names::repaired(key, keys == Keys::Title);
+                let fault = shapes.fault("bad-name", &here, format!("`{}` cannot be the name of {what}", clip(key)), expected);
+                fault.spot = Spot::Key;
+                fault.help = help.map(|name| format!("for example `{name}`"));
+            }
+            shapes.check(value, inner, &here);
+        });
+    }
+
+    /// Every entry with a sound key.
+    fn each<'n>(&mut self, node: Node<'n>, at: &At<'_, '_>, cut: &[usize], mut f: impl FnMut(&mut Self, &'n str, Node<'n>)) {
+        if let Node::Plain(Value::Mapping(map)) = node {
+            for (i, (key, value)) in map.iter().enumerate() {
+                if !cut.contains(&i)
+                    && !self.strange_key(key, Node::Plain(value), at)
+                    && let Some(key) = key.as_str()
+                {
+                    f(self, key, Node::Plain(value));
+                }
+            }
+        } else {
+            // keys of merged maps were looked at in the file and in the patch
+            for (key, value) in node.entries() {
+                f(self, key, value);
+            }
+        }
+    }
+
+    /// A patch: the same tables, nothing required.
+    fn variant(&mut self, node: Node<'_>, at: &At<'_, '_>) {
+        self.patch = true;
+        let cut = self.commas(node, at);
+        self.each(node, at, &cut, |shapes, key, value| {
+            let here = at.key(key);
+            match FILE.field(key).filter(|field| !NOT_IN_VARIANTS.contains(&field.key)) {
+                Some(field) => shapes.check(value, &field.shape, &here),
+                None => {
+                    let keys = FILE.fields.iter().map(|f| f.key).filter(|key| !NOT_IN_VARIANTS.contains(key));
+                    let help = suggest::nearest(key, keys).map(|near| format!("did you mean `{near}`?"));
+                    let message = if FILE.field(key).is_some() {
+                        format!("a variant cannot change `{key}`")
+                    } else {
+                        format!("unknown section `{}`", clip(key))
+                    };
+                    let fault =
+                        shapes.fault("unknown-key", &here, message, "a section of the file, such as `parameters`, `bodies`, `start`");
+                    fault.spot = Spot::Key;
+                    fault.help = help;
+                }
+            }
+        });
+        self.patch = false;
+    }
+}
+
+/// What a value is, for messages.
+pub(crate) fn describe(node: Node<'_>) -> String {
+    match node {
+        Node::Merged(_) | Node::Plain(Value::Mapping(_)) => "a map".to_owned(),
+        Node::Plain(Value::Sequence(_)) => "a list".to_owned(),
+        Node::Plain(Value::Null) => "nothing".to_owned(),
+        Node::Plain(Value::Bool(b)) => format!("`{b}`"),
+        Node::Plain(Value::Number(n)) => format!("the number {n}"),
+        Node::Plain(Value::String(s)) => format!("the text `{}`", clip(s)),
+        Node::Plain(Value::Tagged(_)) => "a tagged value".to_owned(),
+    }
+}
+
+/// A text short enough for a message.
+pub(crate) fn clip(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    if line.chars().count() > 60 || line.len() < text.trim_end().len() {
+        format!("{}...", line.chars().take(57).collect::<String>())
+    } else {
+        line.to_owned()
+    }
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.trim_end_matches('.').chars();
+    match chars.next() {
+        Some(first) if !first.is_ascii_uppercase() || chars.clone().next().is_some_and(|c| c.is_uppercase()) => {
+            format!("({first}{})", chars.as_str())
+        }
+        Some(first) => format!("({}{})", first.to_lowercase(), chars.as_str()),
+        None => String::new(),
+    }
+}
+
+/// The sign of an expression that a comma has cut.
+fn open_parenthesis(value: &Value) -> bool {
+    value.as_str().is_some_and(|text| balance(text) > 0)
+}
+
+fn balance(text: &str) -> i64 {
+    text.bytes().map(|c| i64::from(c == b'(') - i64::from(c == b')')).sum()
+}
+
+/// The expression that was meant: pieces are joined until the parentheses close.
+fn rejoin<'v>(first: &Value, pieces: impl Iterator<Item = &'v Value>) -> Option<String> {
+    let mut text = first.as_str()?.to_owned();
+    for piece in pieces {
+        text.push_str(", ");
+        match piece {
+            Value::String(s) => text.push_str(s),
+            Value::Number(n) => text.push_str(&n.to_string()),
+            _ => return None,
+        }
+        match balance(&text) {
+            0 => return Some(text),
+            n if n < 0 => return None,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn comma(place: String, joined: &str, key: Option<&str>) -> Fault {
+    let repaired = match key {
+        Some(key) => format!("write `{key}: \"{joined}\"`, or give it a line of its own"),
+        None => format!("write \"{joined}\""),
+    };
+    Fault::new(
+        "comma-in-braces",
+        place,
+        "inside of `{ }` and `[ ]` a comma ends the value",
+        "an expression with commas in quotes or on its own line",
+    )
+    .help(repaired)
+}
+
+/// All faults of form of a file: its own sections, its variants and its studies.
+pub(crate) fn check_file(layers: &Layers<'_>, root: Node<'_>) -> Vec<Fault> {
+    let mut shapes = shapes(layers, root);
+    shapes.map(root, &FILE, &At::ROOT);
+    shapes.faults
+}
+
+/// All faults of form of a merged model: what a variant left incomplete or made double.
+pub(crate) fn check_merged(layers: &Layers<'_>, root: Node<'_>) -> Vec<Fault> {
+    let mut shapes = shapes(layers, root);
+    for field in FILE.fields.iter().filter(|field| !NOT_IN_VARIANTS.contains(&field.key)) {
+        match root.get(field.key) {
+            Some(node) => shapes.check(node, &field.shape, &At::ROOT.key(field.key)),
+            None if field.required => {
+                shapes.fault("missing-key", &At::ROOT, format!("no `{}` is left", field.key), field.shape.expected());
+            }
+            None => {}
+        }
+    }
+    shapes.faults
+}
+
+fn shapes<'l>(layers: &'l Layers<'l>, root: Node<'_>) -> Shapes<'l> {
+    Shapes { layers, components: components(root.get("space").and_then(Node::text)), patch: false, faults: Vec::new() }
+}
+
+fn components(space: Option<&str>) -> Option<usize> {
+    match space {
+        Some("planar") => Some(2),
+        Some("spatial") => Some(3),
+        _ => None,
+    }
+}

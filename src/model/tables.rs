@@ -1,0 +1,488 @@
+//! The tables of fields: every key of the format, once.
+
+use super::fields::Shape::{Count, Either, Flag, Formula, Later, List, Map, Name, Named, Patch, Text, Value, Word};
+use super::fields::{Choice, Field, Keys, Shape, Size, Table, Want};
+use crate::expression::Dimension as D;
+
+/// Most intervals of a study.
+pub(crate) const MOST_SAMPLES: u64 = 10_000_000;
+/// Most runs of a sweep.
+pub(crate) const MOST_RUNS: u64 = 1_000_000;
+
+const fn need(key: &'static str, shape: Shape, doc: &'static str) -> Field {
+    Field { key, shape, required: true, doc }
+}
+const fn may(key: &'static str, shape: Shape, doc: &'static str) -> Field {
+    Field { key, shape, required: false, doc }
+}
+const fn one_of(keys: &'static [&'static str]) -> Choice {
+    Choice { keys, required: true }
+}
+const fn at_most_one(keys: &'static [&'static str]) -> Choice {
+    Choice { keys, required: false }
+}
+
+const LENGTH: Shape = Value(Want::Of(D::LENGTH));
+const MASS: Shape = Value(Want::Of(D::MASS));
+const INERTIA: Shape = Value(Want::Of(D::INERTIA));
+const TIME: Shape = Value(Want::Of(D::TIME));
+const NUMBER: Shape = Value(Want::Of(D::NONE));
+const ANGLE: Shape = Value(Want::Angle);
+const ANY: Shape = Value(Want::Any);
+/// Angle or length, as the joint has it.
+const COORDINATE: Shape = Value(Want::Varies("an angle (rad) or a length (m), as the joint has it"));
+const EFFORT: Shape = Value(Want::Varies("a torque (N m) or a force (N), as the joint has it"));
+const STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m, or N m/rad for an angle"));
+const DAMPING: Shape = Value(Want::Varies("a damping: N s/m, or N m s/rad for an angle"));
+const POSITION: Shape = List(&LENGTH, Size::Space);
+const DIRECTION: Shape = List(&NUMBER, Size::Space);
+const POINT: Shape = Name("a point `body.point`, or a body for its origin");
+const JOINT_NAME: Shape = Name("the name of a joint");
+const FIGURES: Shape = Either(&[INERTIA, List(&INERTIA, Size::OneOf(&[1, 3, 6]))]);
+
+/// The whole file.
+pub(crate) static FILE: Table = Table {
+    what: "a model",
+    choices: &[],
+    fields: &[
+        need("grashof", Count(1, 1), "Version of the format: 1."),
+        need("name", Text, "Title of the model."),
+        may("about", Text, "Source, sketch and expected facts; shown in reports."),
+        need("space", Word(&["planar", "spatial"]), "`planar` (x, y) or `spatial`."),
+        need(
+            "gravity",
+            Either(&[Word(&["none"]), List(&Value(Want::Of(D::ACCELERATION)), Size::Space)]),
+            "Acceleration of gravity, or `none`.",
+        ),
+        may("parameters", Named(Keys::Name, "a parameter", &ANY), "Numbers with names; each can be set from outside."),
+        may("tables", Named(Keys::Name, "a table", &Map(&TABLE)), "Functions given by points, called `name(x)`."),
+        may("ground", Named(Keys::Name, "a point of the frame", &POSITION), "Points of the frame: `ground.NAME`."),
+        need("bodies", Named(Keys::Name, "a body", &Map(&BODY)), "Rigid bodies."),
+        may("joints", Named(Keys::Name, "a joint", &Map(&JOINT)), "Connections of two points."),
+        may("couplings", Named(Keys::Name, "a coupling", &Map(&COUPLING)), "Relations between coordinates."),
+        may("drivers", Named(Keys::Name, "a driver", &Map(&DRIVER)), "Prescribed motions of joints."),
+        may("loads", Named(Keys::Name, "a load", &Map(&LOAD)), "Applied forces and torques."),
+        may("springs", Named(Keys::Name, "a spring", &Map(&SPRING)), "Springs and dampers."),
+        may("motors", Named(Keys::Name, "a motor", &Map(&MOTOR)), "Motors with a torque-speed curve."),
+        may(
+            "start",
+            Named(Keys::Reference, "a quantity", &Either(&[COORDINATE_OR_RATE, Map(&ROTATION)])),
+            "Initial values of joint and body quantities: plain values are exact, values with `~` in front are guesses.",
+        ),
+        may(
+            "measures",
+            Named(Keys::Name, "a measure", &Formula("an expression of t and of quantities of the mechanism")),
+            "Expressions with names.",
+        ),
+        may("events", Named(Keys::Name, "an event", &Map(&EVENT)), "Actions when an expression crosses zero."),
+        may("variants", Named(Keys::Title, "a variant", &Patch), "Merge patches (RFC 7386) over the sections above; `null` removes."),
+        may("studies", Named(Keys::Title, "a study", &Map(&STUDY)), "What is computed."),
+        may("include", Later, "Reserved."),
+        may("replicate", Later, "Reserved."),
+        may("mirror", Later, "Reserved."),
+    ],
+};
+
+/// Keys that a variant may not change.
+pub(crate) const NOT_IN_VARIANTS: [&str; 4] = ["grashof", "name", "variants", "studies"];
+
+const COORDINATE_OR_RATE: Shape = Value(Want::Varies("an angle, a length, or their rate, as the quantity is; `~` in front marks a guess"));
+
+static TABLE: Table = Table {
+    what: "a table",
+    choices: &[],
+    fields: &[
+        need("points", List(&List(&ANY, Size::Exactly(2)), Size::AtLeast(2)), "Pairs `[x, y]`, x strictly rising."),
+        may("between", Word(&["linear", "cubic"]), "Interpolation."),
+        may("beyond", Word(&["constant", "linear", "error", "periodic"]), "Continuation outside of the points."),
+    ],
+};
+
+static BODY: Table = Table {
+    what: "a body",
+    choices: &[at_most_one(&["bar", "disc", "plate", "box", "ball"])],
+    fields: &[
+        may("bar", Map(&BAR), "Uniform straight bar from the body's origin along x; has the points `start` and `end`."),
+        may("disc", Map(&DISC), "Uniform disc about z, origin in the middle."),
+        may("plate", Map(&PLATE), "Uniform plate, origin in the middle."),
+        may("box", Map(&PLATE), "Uniform box, origin in the middle."),
+        may("ball", Map(&BALL), "Uniform ball, origin in the middle."),
+        may("mass", MASS, "Mass."),
+        may("inertia", FIGURES, "Inertia about the centre of mass: a number, `[Ixx, Iyy, Izz]`, or with `Ixy, Ixz, Iyz`."),
+        may("com", POSITION, "Centre of mass in the body frame."),
+        may("points", Named(Keys::Name, "a point", &POSITION), "Points in the body frame."),
+        may("attached", Named(Keys::Name, "an attached mass", &Map(&ATTACHED)), "Point masses and rotors on the body."),
+    ],
+};
+
+static BAR: Table = Table {
+    what: "a bar",
+    choices: &[one_of(&["length", "from"])],
+    fields: &[
+        may("length", LENGTH, "Length."),
+        may("from", POSITION, "Start of a bar drawn in place, world coordinates."),
+        may("to", POSITION, "End of a bar drawn in place, world coordinates."),
+        may("mass", MASS, "Mass; 0 if silent."),
+        may("width", LENGTH, "In space: size along y; thin if silent."),
+        may("height", LENGTH, "In space: size along z; thin if silent."),
+    ],
+};
+
+static DISC: Table = Table {
+    what: "a disc",
+    choices: &[],
+    fields: &[
+        need("radius", LENGTH, "Radius."),
+        may("mass", MASS, "Mass; 0 if silent."),
+        may("thickness", LENGTH, "Thickness; thin if silent."),
+    ],
+};
+
+static PLATE: Table = Table {
+    what: "a plate or box",
+    choices: &[],
+    fields: &[need("size", List(&LENGTH, Size::Space), "Sizes along the body's axes."), may("mass", MASS, "Mass; 0 if silent.")],
+};
+
+static BALL: Table =
+    Table { what: "a ball", choices: &[], fields: &[need("radius", LENGTH, "Radius."), may("mass", MASS, "Mass; 0 if silent.")] };
+
+static ATTACHED: Table = Table {
+    what: "an attached mass",
+    choices: &[],
+    fields: &[
+        may("at", Name("a point of the body"), "Point of the body; its origin if silent."),
+        may("mass", MASS, "Point mass."),
+        may("inertia", FIGURES, "Inertia of a rotor about its own centre."),
+    ],
+};
+
+/// The kinds of joints; the first-named point's body carries the axis.
+pub(crate) const JOINT_KINDS: [&str; 11] =
+    ["revolute", "slider", "prismatic", "pin-in-slot", "fixed", "distance", "cylindrical", "planar", "screw", "universal", "spherical"];
+const ENDS: Shape = List(&POINT, Size::Exactly(2));
+
+static JOINT: Table = Table {
+    what: "a joint",
+    choices: &[one_of(&JOINT_KINDS)],
+    fields: &[
+        may("revolute", ENDS, "Hinge of two points."),
+        may("slider", ENDS, "The second's point slides along `axis` of the first; no rotation."),
+        may("prismatic", ENDS, "The same as `slider`."),
+        may("pin-in-slot", ENDS, "Planar: the second's point slides in a slot of the first along `axis`."),
+        may("fixed", ENDS, "Holds two bodies together."),
+        may("distance", ENDS, "Massless link: holds the distance of two points."),
+        may("cylindrical", ENDS, "Spatial: turns about and slides along `axis`."),
+        may("planar", ENDS, "Spatial: the second's point moves in the plane normal to `axis`."),
+        may("screw", ENDS, "Spatial: turns about `axis` and moves `pitch` a turn."),
+        may("universal", ENDS, "Spatial: two crossed hinges, `axes`."),
+        may("spherical", ENDS, "Spatial: ball joint."),
+        may("axis", DIRECTION, "Axis in the first body's frame."),
+        may("to", DIRECTION, "Spatial: the same axis in the second body's frame; the numbers of `axis` if silent."),
+        may("axes", List(&DIRECTION, Size::Exactly(2)), "Universal: axis in the first body's frame, axis in the second's."),
+        may("pitch", LENGTH, "Screw: advance per turn."),
+        may("length", LENGTH, "Distance: length of the link; as drawn if silent."),
+        may("zero", COORDINATE, "Value of the coordinate where the bodies' axes coincide."),
+        may("damping", DAMPING, "Viscous damping of the coordinate."),
+        may("friction", Map(&FRICTION), "Dry friction."),
+        may("limits", Map(&LIMITS), "End stops."),
+        may("cut", Flag, "Keep this joint off the spanning tree."),
+    ],
+};
+
+static FRICTION: Table = Table {
+    what: "friction",
+    choices: &[],
+    fields: &[
+        need("coulomb", NUMBER, "Coefficient of friction."),
+        may("stick_speed", Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)")), "Below this speed the joint sticks."),
+    ],
+};
+
+static LIMITS: Table = Table {
+    what: "limits",
+    choices: &[],
+    fields: &[
+        may("from", COORDINATE, "Lower end."),
+        may("to", COORDINATE, "Upper end."),
+        may("stiffness", STIFFNESS, "Stiffness of the stop."),
+        may("damping", DAMPING, "Damping of the stop."),
+    ],
+};
+
+static COUPLING: Table = Table {
+    what: "a coupling",
+    choices: &[one_of(&["gear", "rack", "zero"])],
+    fields: &[
+        may("gear", List(&JOINT_NAME, Size::Exactly(2)), "The second joint turns `ratio` times as far as the first."),
+        may("rack", List(&JOINT_NAME, Size::Exactly(2)), "The slider moves `radius` times as far as the pinion turns: [pinion, slider]."),
+        may("zero", Formula("an expression of positions"), "An expression of positions that stays 0."),
+        may("ratio", NUMBER, "Of a gear."),
+        may("radius", LENGTH, "Of a pinion."),
+    ],
+};
+
+static DRIVER: Table = Table {
+    what: "a driver",
+    choices: &[one_of(&["speed", "angle", "position", "rise"])],
+    fields: &[
+        need("joint", JOINT_NAME, "The driven joint."),
+        may(
+            "speed",
+            Value(Want::Varies("an angular speed (rad/s) or a speed (m/s), as the joint has it")),
+            "Constant speed from the start position.",
+        ),
+        may("angle", ANGLE, "The angle as an expression of t."),
+        may("position", LENGTH, "The position as an expression of t."),
+        may("rise", Map(&RISE), "A rise from the start position, then rest."),
+    ],
+};
+
+static RISE: Table = Table {
+    what: "a rise",
+    choices: &[],
+    fields: &[
+        need("by", COORDINATE, "How far."),
+        need("during", TIME, "How long."),
+        need("law", Word(&["cycloidal", "poly5"]), "Law of motion."),
+    ],
+};
+
+static LOAD: Table = Table {
+    what: "a load",
+    choices: &[one_of(&["at", "joint"])],
+    fields: &[
+        may("at", POINT, "The point of a body that it acts on."),
+        may("joint", JOINT_NAME, "The joint whose coordinate it acts on: on the second body, reaction on the first."),
+        may(
+            "force",
+            Either(&[Value(Want::Of(D::FORCE)), List(&Value(Want::Of(D::FORCE)), Size::Space)]),
+            "Force: a vector at a point, a number on a slider.",
+        ),
+        may(
+            "torque",
+            Either(&[Value(Want::Of(D::TORQUE)), List(&Value(Want::Of(D::TORQUE)), Size::Exactly(3))]),
+            "Torque: a number in the plane or on a joint, a vector in space.",
+        ),
+        may("frame", Name("the name of a body, or `world`"), "Body whose axes the components are in; `world` if silent."),
+    ],
+};
+
+static SPRING: Table = Table {
+    what: "a spring",
+    choices: &[one_of(&["between", "joint", "stretch"]), at_most_one(&["stiffness", "force"]), at_most_one(&["length", "rest"])],
+    fields: &[
+        may("between", ENDS, "The two points that it connects."),
+        may("joint", JOINT_NAME, "The joint whose coordinate it acts on."),
+        may(
+            "stretch",
+            Formula("an expression of positions"),
+            "Any expression of positions; the force is minus the gradient of the energy.",
+        ),
+        may("stiffness", STIFFNESS, "Force by stretch."),
+        may("force", Formula("a table, or an expression of `stretch`"), "Law of the force, instead of `stiffness`."),
+        may("length", LENGTH, "Free length."),
+        may("rest", COORDINATE, "Rest angle or rest position."),
+        may("damping", DAMPING, "Force by rate of stretch; 0 if silent."),
+        may("preload", EFFORT, "Constant added to the force; 0 if silent."),
+    ],
+};
+
+static MOTOR: Table = Table {
+    what: "a motor",
+    choices: &[],
+    fields: &[
+        need("joint", JOINT_NAME, "The joint that it turns."),
+        may("curve", Name("the name of a table: torque over speed"), "Torque of the motor by its own speed."),
+        may("gear", NUMBER, "Turns of the motor per turn of the joint; 1 if silent."),
+        may("inertia", INERTIA, "Inertia of the rotor before the gear; 0 if silent."),
+    ],
+};
+
+static ROTATION: Table = Table {
+    what: "a rotation",
+    choices: &[],
+    fields: &[
+        need("axis", List(&NUMBER, Size::Exactly(3)), "Axis, world frame."),
+        need("angle", ANGLE, "Angle; `~` in front marks a guess."),
+    ],
+};
+
+static EVENT: Table = Table {
+    what: "an event",
+    choices: &[],
+    fields: &[
+        need("when", Formula("an expression that crosses zero"), "What crosses zero."),
+        may("crossing", Word(&["both", "rising", "falling"]), "In which direction."),
+        may("action", Word(&["record", "stop"]), "What happens then."),
+        may("set", Named(Keys::Reference, "a parameter", &ANY), "Parameters that change then."),
+        may("restitution", Map(&RESTITUTION), "Impact in a joint."),
+    ],
+};
+
+static RESTITUTION: Table = Table {
+    what: "restitution",
+    choices: &[],
+    fields: &[need("joint", JOINT_NAME, "The joint."), need("e", NUMBER, "Coefficient of restitution.")],
+};
+
+/// The kinds of studies.
+pub(crate) const STUDY_KINDS: [&str; 7] = ["kinematics", "inverse", "dynamics", "statics", "modes", "periodic", "balance"];
+const COLUMN: Shape = Name("the name of a measure or a quantity such as `rocker.tip.x`");
+
+pub(crate) static STUDY: Table = Table {
+    what: "a study",
+    choices: &[one_of(&STUDY_KINDS)],
+    fields: &[
+        may("kinematics", Map(&RANGE), "Positions, velocities and accelerations over a range."),
+        may("inverse", Map(&RANGE), "Kinematics with driver efforts and reactions."),
+        may("dynamics", Map(&DYNAMICS), "Motion in time."),
+        may("statics", Map(&STATICS), "Equilibrium."),
+        may("modes", Map(&MODES), "Eigenvalues and shapes about a pose."),
+        may("periodic", Map(&PERIODIC), "Periodic regime."),
+        may("balance", Map(&BALANCE), "Attached masses moved until the centre of mass stands still."),
+        may("about", Text, "What the study is for."),
+        may(
+            "variant",
+            Either(&[Name("the name of a variant"), List(&Name("the name of a variant"), Size::AtLeast(0))]),
+            "Variants, applied in order.",
+        ),
+        may("set", Named(Keys::Reference, "a parameter", &ANY), "Parameters for this study."),
+        may(
+            "take",
+            Named(Keys::Name, "a scalar of another study", &Name("a scalar of another study, `STUDY.SCALAR`")),
+            "Scalars of other studies.",
+        ),
+        may(
+            "sweep",
+            Named(Keys::Reference, "a parameter", &Either(&[Map(&SPAN), List(&ANY, Size::AtLeast(1))])),
+            "Parameters that run through values; several: the grid.",
+        ),
+        may("solve", Map(&SOLVE), "A parameter varied until a scalar meets its target."),
+        may("columns", List(&COLUMN, Size::AtLeast(1)), "Columns of the CSV, in order."),
+        may(
+            "scalars",
+            Named(Keys::Name, "a scalar", &Formula("an expression of functionals, parameters and scalars")),
+            "Numbers of the whole study.",
+        ),
+        may("plot", Named(Keys::Title, "a figure", &Either(&[Map(&PLOT), List(&COLUMN, Size::AtLeast(1))])), "Figures."),
+        may("expect", Named(Keys::Reference, "a scalar or an expression", &Map(&EXPECT)), "What must come out; if not, exit code 1."),
+    ],
+};
+
+static RANGE: Table = Table {
+    what: "a range",
+    choices: &[],
+    fields: &[
+        need(
+            "over",
+            Value(Want::Varies("an angle or a length of the one driver, or a time")),
+            "Range: of the one driver from its start, or a time.",
+        ),
+        need("samples", Count(1, MOST_SAMPLES), "Number of equal intervals; one row more."),
+    ],
+};
+
+static BALANCE: Table = Table {
+    what: "a balance",
+    choices: &[],
+    fields: &[
+        need(
+            "move",
+            List(&Name("an attached mass `body.mass`"), Size::AtLeast(1)),
+            "Attached masses that are moved along the line from the body's origin through their point.",
+        ),
+        need(
+            "over",
+            Value(Want::Varies("an angle or a length of the one driver, or a time")),
+            "Range: of the one driver from its start, or a time.",
+        ),
+        need("samples", Count(1, MOST_SAMPLES), "Number of equal intervals; one row more."),
+    ],
+};
+
+/// Integrators by name; the first is the default.
+const INTEGRATORS: [&str; 10] =
+    ["auto", "newmark", "hht", "generalized-alpha", "bdf", "radau5", "dop853", "rk4", "central-difference", "ida"];
+
+static DYNAMICS: Table = Table {
+    what: "a dynamics study",
+    choices: &[at_most_one(&["tolerance", "step"])],
+    fields: &[
+        need("until", TIME, "End of the run."),
+        may("every", TIME, "Output step; all steps if silent."),
+        may("tolerance", NUMBER, "Relative tolerance; 1e-8 if silent."),
+        may("step", TIME, "Fixed step, instead of a tolerance."),
+        may("integrator", Word(&INTEGRATORS), "Scheme."),
+        may("alpha", NUMBER, "Of the Newmark family: weight of the displacement (newmark), or the scheme's alpha."),
+        may("beta", NUMBER, "Of the Newmark family: weight of the velocity."),
+        may("rho", NUMBER, "Spectral radius at infinity of generalized-alpha."),
+        may("level", Word(&["stabilized", "position", "velocity", "acceleration"]), "Constraint rows that are imposed."),
+        may("coordinates", Word(&["joint", "cartesian", "minimal"]), "Coordinates."),
+        may("switches", Word(&["locate", "step-over"]), "Whether switches are located."),
+    ],
+};
+
+static STATICS: Table =
+    Table { what: "a statics study", choices: &[], fields: &[need("from", Word(&["start"]), "Where the search begins.")] };
+
+static MODES: Table = Table {
+    what: "a modes study",
+    choices: &[],
+    fields: &[
+        may("at", Word(&["start", "statics"]), "The pose."),
+        may("damped", Flag, "Whether damping counts."),
+        may("methods", List(&Word(&["library", "jacobi", "power"]), Size::AtLeast(1)), "Eigensolvers that are compared."),
+    ],
+};
+
+static PERIODIC: Table = Table {
+    what: "a periodic study",
+    choices: &[],
+    fields: &[
+        need("over", Name("the name of a measure or quantity, or `t`"), "What advances by one period."),
+        need("by", ANY, "By how much."),
+        need("of", Name("the name of a measure or quantity"), "Whose mean and extremes are found."),
+    ],
+};
+
+static SPAN: Table = Table {
+    what: "a span of values",
+    choices: &[],
+    fields: &[
+        need("from", ANY, "First value."),
+        need("to", ANY, "Last value."),
+        need("count", Count(1, MOST_RUNS), "Number of values."),
+        may("spacing", Word(&["linear", "log"]), "Equal differences or equal ratios."),
+    ],
+};
+
+static SOLVE: Table = Table {
+    what: "a solve",
+    choices: &[],
+    fields: &[
+        need("vary", Name("the name of a parameter"), "The parameter."),
+        need("between", List(&ANY, Size::Exactly(2)), "Its bounds."),
+        need("target", Named(Keys::Reference, "a scalar", &ANY), "The scalar and its target."),
+    ],
+};
+
+static PLOT: Table = Table {
+    what: "a figure",
+    choices: &[],
+    fields: &[
+        need("show", List(&COLUMN, Size::AtLeast(1)), "What is drawn."),
+        may("over", COLUMN, "What it is drawn over; the independent variable if silent."),
+        may("in", Text, "Unit of the horizontal axis."),
+    ],
+};
+
+static EXPECT: Table = Table {
+    what: "an expectation",
+    choices: &[one_of(&["within", "relative"])],
+    fields: &[
+        need("is", ANY, "The value."),
+        may("within", ANY, "Largest absolute difference."),
+        may("relative", NUMBER, "Largest difference relative to the value."),
+    ],
+};

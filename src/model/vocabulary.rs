@@ -1,0 +1,150 @@
+//! The quantities that an expression may name, and the derivative, level and dimension of each.
+
+use super::entities::PointRef;
+
+/// A leaf of an expression: something that the mechanism, the study or the clock supplies.
+///
+/// Sizes such as `speed`, `a`, `f` and measures are not leaves: they are lowered to expressions of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum Quantity {
+    /// Time, s.
+    Time,
+    /// World coordinate (`order` 0), velocity (1) or acceleration (2) of a body's point; `axis` 0 x, 1 y, 2 z. m, m/s, m/s².
+    Point { at: PointRef, axis: usize, order: usize },
+    /// Planar angle of a body from +x, counter-clockwise and unwrapped, or its rates. rad, rad/s, rad/s².
+    Angle { body: usize, order: usize },
+    /// Spatial: component of a body's angular velocity (`order` 1) or acceleration (2) in world axes, rad/s, rad/s².
+    Spin { body: usize, axis: usize, order: usize },
+    /// Spatial: component of a body's unit quaternion (w, x, y, z).
+    Quaternion { body: usize, component: usize },
+    /// The one coordinate of a joint (angle or position, second body relative to first) or its rates; `slot` counts the axes of a joint with several (cylindrical: 0 angle, 1 position).
+    Joint { joint: usize, slot: usize, order: usize },
+    /// Reaction: force (`axis` 0 to 2) of the first-named body on the second, world axes, at the joint, N.
+    Force { joint: usize, axis: usize },
+    /// Reaction: moment about the joint's point (of the second body), world axes; planar only `axis` 2. N m.
+    Moment { joint: usize, axis: usize },
+    /// Torque or force of a driver, on the second body, N m or N.
+    DriverEffort { driver: usize },
+    /// Power that a driver puts in, W.
+    DriverPower { driver: usize },
+    /// Stretch of a spring (`order` 0) or its rate (1) and second rate (2).
+    Stretch { spring: usize, order: usize },
+    /// Force of a spring, positive pulls together.
+    SpringForce { spring: usize },
+    /// Energy stored in a spring, J.
+    SpringEnergy { spring: usize },
+    /// Torque of a motor on its joint, N m.
+    MotorTorque { motor: usize },
+    /// Centre of mass of all bodies, its velocity and acceleration.
+    Com { axis: usize, order: usize },
+    /// Kinetic energy, J.
+    Kinetic,
+    /// Potential energy of gravity and springs, J.
+    Potential,
+    /// Linear momentum, kg m/s.
+    Momentum { axis: usize },
+    /// Σ m a, N.
+    Shaking { axis: usize },
+    /// d/dt of the angular momentum about the world origin, N m; planar only `axis` 2.
+    ShakingMoment { axis: usize },
+    /// Force of the mechanism on the frame, N.
+    Frame { axis: usize },
+    /// Moment of the mechanism on the frame about the world origin, N m; planar only `axis` 2.
+    FrameMoment { axis: usize },
+    /// 2 T/ω² of the one driver, kg m² (or kg).
+    InertiaEq,
+    /// Derivative of [`Quantity::InertiaEq`] by the driver's coordinate.
+    InertiaEqSlope,
+    /// Only in `scalars` and `expect`: `study.functionals[i]`.
+    Functional(usize),
+    /// Only in `scalars` and `expect`: a result of the study's kind, by index in `study.results` (`turns_fully`, `kappa`, `residual`).
+    Result(usize),
+    /// Brought by `take:` from another study, by index in `study.take`.
+    Taken(usize),
+}
+
+/// What a state must be known to for a quantity to be known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// Needs parameters alone.
+    Constant,
+    /// Needs t.
+    Time,
+    /// Needs the position.
+    Position,
+    /// Needs the velocity.
+    Velocity,
+    /// Needs accelerations or reactions.
+    Acceleration,
+    /// Known after a whole study.
+    Study,
+}
+
+impl Quantity {
+    /// What must be known for it to be known.
+    #[must_use]
+    pub fn level(self) -> Level {
+        let by_order = |order| match order {
+            0 => Level::Position,
+            1 => Level::Velocity,
+            _ => Level::Acceleration,
+        };
+        match self {
+            Self::Time => Level::Time,
+            Self::Point { order, .. }
+            | Self::Angle { order, .. }
+            | Self::Spin { order, .. }
+            | Self::Joint { order, .. }
+            | Self::Stretch { order, .. }
+            | Self::Com { order, .. } => by_order(order),
+            Self::Quaternion { .. } | Self::SpringEnergy { .. } | Self::Potential => Level::Position,
+            Self::SpringForce { .. } | Self::MotorTorque { .. } | Self::Kinetic | Self::Momentum { .. } | Self::InertiaEq => {
+                Level::Velocity
+            }
+            Self::Shaking { .. } | Self::ShakingMoment { .. } | Self::InertiaEqSlope => Level::Acceleration,
+            Self::Force { .. }
+            | Self::Moment { .. }
+            | Self::DriverEffort { .. }
+            | Self::DriverPower { .. }
+            | Self::Frame { .. }
+            | Self::FrameMoment { .. } => Level::Acceleration,
+            Self::Functional(_) | Self::Result(_) | Self::Taken(_) => Level::Study,
+        }
+    }
+
+    /// Whether it needs the forces that hold constraints and drivers, which a kinematic study does not find.
+    #[must_use]
+    pub fn is_reaction(self) -> bool {
+        matches!(
+            self,
+            Self::Force { .. }
+                | Self::Moment { .. }
+                | Self::DriverEffort { .. }
+                | Self::DriverPower { .. }
+                | Self::Frame { .. }
+                | Self::FrameMoment { .. }
+        )
+    }
+
+    /// Whether springs must be known for it, so that no spring may be measured by it.
+    #[must_use]
+    pub fn needs_springs(self) -> bool {
+        matches!(self, Self::Stretch { .. } | Self::SpringForce { .. } | Self::SpringEnergy { .. } | Self::Potential)
+    }
+
+    /// The quantity that is its time rate; `None` where there is none among the quantities.
+    #[must_use]
+    pub fn rate(self) -> Option<Self> {
+        Some(match self {
+            Self::Point { at, axis, order: order @ 0..2 } => Self::Point { at, axis, order: order + 1 },
+            Self::Angle { body, order: order @ 0..2 } => Self::Angle { body, order: order + 1 },
+            Self::Spin { body, axis, order: 1 } => Self::Spin { body, axis, order: 2 },
+            Self::Joint { joint, slot, order: order @ 0..2 } => Self::Joint { joint, slot, order: order + 1 },
+            Self::Stretch { spring, order: order @ 0..2 } => Self::Stretch { spring, order: order + 1 },
+            Self::Com { axis, order: order @ 0..2 } => Self::Com { axis, order: order + 1 },
+            Self::Momentum { axis } => Self::Shaking { axis },
+            _ => return None,
+        })
+    }
+}

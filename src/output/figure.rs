@@ -1,0 +1,283 @@
+//! Figures: curves over a common axis, laid out as one panel for each unit.
+
+use super::legend::{self, Entry, Legend};
+use super::panel::{Line, Panel, Ruler};
+use super::raster::RenderError;
+use super::scene::{Rect, Scene, curve_color, curve_dash};
+use super::{Picture, font, thin};
+
+/// Curves over an axis.
+#[derive(Clone, Debug, Default)]
+pub struct Figure {
+    /// Above the picture; may be empty.
+    pub title: String,
+    /// The common axis. Radians are shown as degrees, on both axes.
+    pub x: Axis,
+    /// The other axis. Its `unit` counts for curves that have none of their own; curves of different units stand in panels of
+    /// their own, up to three, one above the other. An empty `label` is made from the names of the curves.
+    pub y: Axis,
+    /// What is shown.
+    pub curves: Vec<Curve>,
+    /// The x of switches, in the unit of the axis: thin dashed lines, across which no curve is joined.
+    pub breaks: Vec<f64>,
+    /// Points of interest.
+    pub marks: Vec<Mark>,
+    /// One unit of x is as long as one of y: for paths in the plane.
+    pub equal: bool,
+}
+
+/// What an axis says and how it runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Axis {
+    /// The quantity, without its unit.
+    pub label: String,
+    /// The SI unit as text, `N m`; empty for a pure number.
+    pub unit: String,
+    /// Even or logarithmic.
+    pub scale: Scale,
+}
+
+/// How an axis runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// By powers of ten; values not above zero are left out.
+    Log,
+}
+
+/// One curve, in SI units.
+#[derive(Clone, Debug, Default)]
+pub struct Curve {
+    /// Its name in the legend.
+    pub label: String,
+    /// Its unit, if it is not the axis' own.
+    pub unit: Option<String>,
+    /// Its points; NaN breaks the line, and so does a pair of equal x if x else runs one way.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A point of interest on a curve.
+#[derive(Clone, Debug, Default)]
+pub struct Mark {
+    /// The text beside it.
+    pub label: String,
+    /// The index of the curve it belongs to.
+    pub curve: usize,
+    /// Where, in SI units.
+    pub at: (f64, f64),
+}
+
+const WIDTH: f64 = 1000.0;
+const HEIGHT: f64 = 640.0;
+/// What a further panel adds.
+const PANEL: f64 = 260.0;
+
+/// Draws `figure` as SVG and PNG, 1000 by 640 pixels and 260 more for each further panel.
+///
+/// # Errors
+/// None that data could cause: curves without values give a picture that says so.
+pub fn render_figure(figure: &Figure) -> Result<Picture, RenderError> {
+    Picture::of(&layout(figure))
+}
+
+/// The indices of the curves of each panel, and the panel's unit.
+fn panels(figure: &Figure) -> Vec<(String, Vec<usize>)> {
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for (index, curve) in figure.curves.iter().enumerate() {
+        let unit = curve.unit.as_ref().unwrap_or(&figure.y.unit);
+        match groups.iter_mut().find(|(known, _)| known == unit) {
+            Some((_, indices)) => indices.push(index),
+            None => groups.push((unit.clone(), vec![index])),
+        }
+    }
+    match groups.len() {
+        0 => vec![(figure.y.unit.clone(), Vec::new())],
+        1..=3 => groups,
+        // More panels would be too flat to read: one for all, with the units in the legend.
+        _ => vec![(String::new(), (0..figure.curves.len()).collect())],
+    }
+}
+
+fn layout(figure: &Figure) -> Scene {
+    let groups = panels(figure);
+    let height = HEIGHT + PANEL * (groups.len() - 1) as f64;
+    let mut scene = Scene { width: WIDTH, height, title: figure.title.clone(), items: Vec::new() };
+    let top = if figure.title.is_empty() { 22.0 } else { 58.0 };
+    if !figure.title.is_empty() {
+        scene.headline(&figure.title);
+    }
+
+    let all = |axis: fn(&(f64, f64)) -> f64| figure.curves.iter().flat_map(move |curve| curve.points.iter().map(axis));
+    let ordered = figure.curves.iter().all(|curve| thin::is_ordered(&curve.points));
+    let mut x = Ruler::over(all(|point| point.0), &figure.x, &figure.x.unit, figure.equal);
+    x.pad(if ordered { 0.0 } else { 0.05 });
+
+    let unit = |curve: &Curve| curve.unit.clone().unwrap_or_else(|| figure.y.unit.clone());
+    let mixed = groups.len() == 1 && figure.curves.iter().any(|curve| unit(curve) != unit(&figure.curves[0]));
+    let mut drawn: Vec<Panel> = groups.iter().map(|(unit, indices)| panel(figure, unit, indices, mixed)).collect();
+    if let (true, [only]) = (figure.equal, drawn.as_mut_slice()) {
+        Ruler::share(&mut x, &mut only.y);
+    }
+
+    // First with every legend inside; one that would hide a curve goes outside, and the panels are laid out anew.
+    for pass in 0..2 {
+        place(&mut drawn, &mut x, top, height, figure.equal);
+        if pass == 0 {
+            for panel in &mut drawn {
+                let pixels = panel.pixels(&x, &figure.breaks);
+                panel.legend = legend::choose(std::mem::take(&mut panel.entries), panel.rect, &pixels);
+            }
+            if drawn.iter().all(|panel| panel.legend.is_inside()) {
+                break;
+            }
+        }
+    }
+    let last = drawn.len() - 1;
+    for (index, panel) in drawn.iter().enumerate() {
+        panel.draw(&mut scene, &x, &figure.breaks, index == last);
+    }
+    scene
+}
+
+/// The panel of the curves `indices`, not yet placed.
+fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
+    let curves = || indices.iter().map(|index| &figure.curves[*index]);
+    let values = curves().flat_map(|curve| curve.points.iter().map(|point| point.1));
+    let mut axis = figure.y.clone();
+    let names: Vec<_> = curves().map(|curve| curve.label.as_str()).filter(|label| !label.is_empty()).collect();
+    if axis.label.is_empty() || indices.len() < figure.curves.len() {
+        // The names are in the legend anyway: on the axis they stand only if they are few.
+        let joined = names.join(", ");
+        axis.label = if names.len() <= 3 && joined.chars().count() <= 36 { joined } else { String::new() };
+    }
+    let mut y = Ruler::over(values, &axis, unit, figure.equal);
+    y.pad(0.06);
+    let line = |(place, &index): (usize, &usize)| {
+        let count = indices.len();
+        let dash = if count > 7 { &[] } else { curve_dash(place) };
+        let points = figure.curves[index].points.clone();
+        Line { ordered: thin::is_ordered(&points), points, color: curve_color(place, count), dash }
+    };
+    let lines: Vec<_> = indices.iter().enumerate().map(line).collect();
+    let label = |curve: &Curve| match curve.unit.as_ref().unwrap_or(&figure.y.unit) {
+        unit if mixed && !unit.is_empty() => format!("{} in {}", curve.label, super::units::pretty(unit)),
+        _ => curve.label.clone(),
+    };
+    let entries = lines.iter().zip(curves()).map(|(line, curve)| Entry { label: label(curve), color: line.color, dash: line.dash });
+    // One curve whose name the axis has needs no legend.
+    let alone = names.len() == 1 && (indices.len() < figure.curves.len() || axis.label == names[0] || figure.curves.len() == 1);
+    let entries = if alone || names.is_empty() { Vec::new() } else { entries.collect() };
+    let marks = figure.marks.iter().filter(|mark| indices.contains(&mark.curve)).cloned().collect();
+    Panel {
+        rect: Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: HEIGHT },
+        y,
+        lines,
+        entries,
+        legend: Legend::Inside(Vec::new(), [0.0; 2]),
+        marks,
+        label: 0.0,
+    }
+}
+
+/// Gives each panel its rectangle and the axes their marks.
+fn place(panels: &mut [Panel], x: &mut Ruler, top: f64, height: f64, equal: bool) {
+    let count = panels.len() as f64;
+    let (gap, bottom) = (28.0, height - 84.0);
+    let each = (bottom - top - gap * (count - 1.0)) / count;
+    for (index, panel) in panels.iter_mut().enumerate() {
+        let above = top + index as f64 * (each + gap);
+        let legend = panel.legend.height(WIDTH - 160.0);
+        panel.rect.top = above + legend;
+        panel.rect.bottom = above + each;
+        panel.y.mark(panel.rect.height(), 62.0, |_| 30.0);
+    }
+    let widest = panels.iter().map(|panel| panel.y.widest()).fold(20.0, f64::max);
+    let beside = panels.iter().map(|panel| panel.legend.width()).fold(0.0, f64::max);
+    let left = 62.0 + widest;
+    let mark = |x: &mut Ruler, right: f64| x.mark(right - left, 96.0, |label| font::width(label, super::panel::TICK) + 26.0);
+    // Half of the last label of x may stand out on the right.
+    mark(x, WIDTH - 34.0 - beside);
+    let right = WIDTH - (x.widest() / 2.0 + 10.0).max(if beside > 0.0 { 8.0 + beside } else { 34.0 });
+    for panel in panels.iter_mut() {
+        (panel.rect.left, panel.rect.right, panel.label) = (left, right, left - widest - 26.0);
+    }
+    if let (true, [only]) = (equal, &mut *panels) {
+        Ruler::equalize(x, &mut only.y, only.rect);
+        only.y.mark(only.rect.height(), 62.0, |_| 30.0);
+    }
+    mark(x, right);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(label: &str, unit: Option<&str>, points: Vec<(f64, f64)>) -> Curve {
+        Curve { label: label.into(), unit: unit.map(Into::into), points }
+    }
+
+    fn svg(figure: &Figure) -> String {
+        super::super::svg::write_svg(&layout(figure))
+    }
+
+    fn axis(label: &str, unit: &str) -> Axis {
+        Axis { label: label.into(), unit: unit.into(), scale: Scale::Linear }
+    }
+
+    /// The polylines of curves, not of the grid: those of the curves' stroke width.
+    fn lines(svg: &str) -> Vec<&str> {
+        svg.lines().filter(|line| line.starts_with("<polyline") && line.contains("stroke-width=\"3\"")).collect()
+    }
+
+    #[test]
+    fn a_jump_is_not_joined() {
+        let points = vec![(0.0, 1.0), (1.0, 2.0), (1.0, -2.0), (2.0, -1.0)];
+        let figure = Figure {
+            x: axis("theta", "rad"),
+            y: axis("torque", "N m"),
+            curves: vec![curve("torque", None, points)],
+            breaks: vec![1.0],
+            ..Figure::default()
+        };
+        let svg = svg(&figure);
+        assert_eq!(lines(&svg).len(), 2);
+        assert!(svg.contains(">theta in deg<") && svg.contains(">torque in N m<"));
+    }
+
+    #[test]
+    fn odd_data_make_a_picture_all_the_same() {
+        let nan = f64::NAN;
+        let samples = [
+            vec![],
+            vec![(0.0, 5.0)],
+            vec![(0.0, nan), (1.0, nan)],
+            vec![(0.0, 5.0), (1.0, 5.0)],
+            vec![(0.0, 1e300), (1.0, -1e300)],
+            vec![(0.0, f64::MAX), (1.0, f64::INFINITY), (2.0, 1.0)],
+            vec![(1e-320, 1e-320), (2e-320, 3e-320)],
+            vec![(0.0, 1e9), (1.0, 1e9 + 1e-6)],
+            vec![(0.0, -1.0), (0.0, 1.0)],
+        ];
+        for points in samples {
+            for (scale, equal) in [(Scale::Linear, false), (Scale::Log, false), (Scale::Linear, true), (Scale::Log, true)] {
+                let axis = Axis { label: "q".into(), unit: "m".into(), scale };
+                let curves = vec![curve("a", None, points.clone()), curve("b", None, points.clone())];
+                let figure = Figure { x: axis.clone(), y: axis, curves, equal, ..Figure::default() };
+                let svg = svg(&figure);
+                assert!(!svg.contains("NaN") && !svg.contains("inf"), "{points:?} {scale:?} {equal}: {svg}");
+            }
+        }
+        assert!(svg(&Figure::default()).contains("no values"));
+    }
+
+    #[test]
+    fn curves_of_different_units_have_panels_of_their_own() {
+        let points = vec![(0.0, 0.0), (1.0, 1.0)];
+        let curves = vec![curve("delta", Some("rad"), points.clone()), curve("omega", Some("rad/s"), points)];
+        let figure = Figure { x: axis("t", "s"), curves, ..Figure::default() };
+        let svg = svg(&figure);
+        assert!(svg.contains("height=\"900\"") && svg.contains(">delta in deg<") && svg.contains(">omega in rad/s<"));
+    }
+}

@@ -1,0 +1,49 @@
+//! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
+//!
+//! This room knows names, numbers and pictures, nothing of mechanics; its data types are plain, and every function here is
+//! pure but [`Staging::commit`], the only one that touches a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
+//! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
+
+mod csv;
+mod drawing;
+mod figure;
+mod font;
+mod json;
+mod legend;
+mod lettering;
+mod panel;
+mod raster;
+mod scene;
+mod staging;
+mod summary;
+mod svg;
+mod symbols;
+mod table;
+mod thin;
+mod ticks;
+mod units;
+
+pub use csv::{number, write_csv};
+pub use drawing::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace, render_drawing};
+pub use figure::{Axis, Curve, Figure, Mark, Scale, render_figure};
+pub use json::{Extrema, Extreme, Finding, Report, extrema, json_number, json_numbers, write_json};
+pub use raster::RenderError;
+pub use staging::{Staging, WriteError};
+pub use summary::{Scalar, summary};
+pub use table::{Header, Table};
+
+/// One picture in both of its forms.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The text of an SVG file.
+    pub svg: String,
+    /// The bytes of a PNG file.
+    pub png: Vec<u8>,
+}
+
+impl Picture {
+    /// Both forms of one display list.
+    fn of(scene: &scene::Scene) -> Result<Self, RenderError> {
+        Ok(Self { svg: svg::write_svg(scene), png: raster::write_png(scene)? })
+    }
+}

@@ -1,0 +1,317 @@
+//! One panel of a figure: its axes, its grid and its curves.
+
+use super::figure::{Axis, Mark, Scale};
+use super::legend::{self, Entry, Legend};
+use super::scene::{Anchor, Color, GREY, GRID, INK, Item, Rect, Scene, Stroke, Text, pale};
+use super::summary::significant;
+use super::thin::{self, Point};
+use super::ticks::{self, Tick};
+use super::{font, units};
+
+/// Font sizes: readable when the picture is shown at half its size.
+pub(super) const TICK: f64 = 20.0;
+const LABEL: f64 = 22.0;
+/// Numbers beyond cannot be told from overflow; their differences would be infinite.
+const HUGE: f64 = 1e290;
+
+/// An axis with its numbers: SI values become shown values, `(si - offset) factor`, and those become positions.
+#[derive(Clone, Debug)]
+pub(super) struct Ruler {
+    scale: Scale,
+    name: String,
+    unit: String,
+    shown: units::Shown,
+    offset: f64,
+    low: f64,
+    high: f64,
+    pub(super) ticks: Vec<Tick>,
+}
+
+impl Ruler {
+    /// An axis for `values`, in SI units; `plain` forbids to shift the origin.
+    pub(super) fn over(values: impl Iterator<Item = f64>, axis: &Axis, unit: &str, plain: bool) -> Self {
+        let usable = |x: &f64| x.abs() < HUGE && (axis.scale == Scale::Linear || *x > 1e-290);
+        let range = values
+            .filter(usable)
+            .fold(None, |range: Option<(f64, f64)>, x| Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x)))));
+        let (low, high) = range.unwrap_or(if axis.scale == Scale::Log { (1.0, 10.0) } else { (0.0, 1.0) });
+        let mut ruler = Self {
+            scale: axis.scale,
+            name: axis.label.clone(),
+            unit: unit.to_owned(),
+            shown: units::base(unit),
+            offset: 0.0,
+            low,
+            high,
+            ticks: Vec::new(),
+        };
+        let (span, largest) = (high - low, low.abs().max(high.abs()));
+        if ruler.scale == Scale::Log {
+            if high < 1.001 * low {
+                (ruler.low, ruler.high) = (low / 3.0, high * 3.0);
+            }
+            return ruler;
+        }
+        if span <= 1e-12 * largest {
+            // Nothing but rounding: a constant, shown in the middle of a range of its own size.
+            let around = if largest > 1e-290 { 0.25 * largest } else { 1.0 };
+            (ruler.low, ruler.high) = (low - around, high + around);
+        } else if span < 1e-4 * largest && !plain {
+            // Long equal digits at every mark: a round number is taken off and named in the label.
+            let round = 10f64.powf(span.log10().ceil());
+            ruler.offset = (((low + high) / 2.0) / round).round() * round;
+        }
+        ruler.rescale();
+        ruler
+    }
+
+    fn rescale(&mut self) {
+        let largest = [self.low, self.high].into_iter().map(|x| (x - self.offset).abs()).fold(0.0, f64::max);
+        self.shown = units::scaled(&self.unit, largest);
+    }
+
+    /// Both axes in one unit, as equal scales need it.
+    pub(super) fn share(x: &mut Self, y: &mut Self) {
+        if x.unit == y.unit {
+            let largest = [x.low, x.high, y.low, y.high].into_iter().map(f64::abs).fold(0.0, f64::max);
+            (x.shown, y.shown) = (units::scaled(&x.unit, largest), units::scaled(&x.unit, largest));
+        }
+    }
+
+    /// Widens the range by `part` of itself at both ends.
+    pub(super) fn pad(&mut self, part: f64) {
+        match self.scale {
+            Scale::Linear => {
+                let by = part * (self.high - self.low);
+                (self.low, self.high) = (self.low - by, self.high + by);
+            }
+            Scale::Log => {
+                let by = (self.high / self.low).powf(part);
+                (self.low, self.high) = (self.low / by, self.high * by);
+            }
+        }
+    }
+
+    /// Widens one of two even axes so that their units are equally long in `rect`.
+    pub(super) fn equalize(x: &mut Self, y: &mut Self, rect: Rect) {
+        if x.scale == Scale::Log || y.scale == Scale::Log {
+            return;
+        }
+        let (dense_x, dense_y) = ((x.high - x.low) / rect.width(), (y.high - y.low) / rect.height());
+        let density = dense_x.max(dense_y);
+        for (ruler, length) in [(x, rect.width()), (y, rect.height())] {
+            let (middle, half) = ((ruler.low + ruler.high) / 2.0, density * length / 2.0);
+            (ruler.low, ruler.high) = (middle - half, middle + half);
+        }
+    }
+
+    fn show(&self, x: f64) -> f64 {
+        (x - self.offset) * self.shown.factor
+    }
+
+    /// Chooses the marks for an axis of `length` pixels: one for about every `spacing`, fewer while a label takes more `room`.
+    pub(super) fn mark(&mut self, length: f64, spacing: f64, room: impl Fn(&str) -> f64) {
+        let (low, high) = (self.show(self.low), self.show(self.high));
+        let mut most = (length / spacing).max(2.0) as usize;
+        loop {
+            self.ticks = match self.scale {
+                Scale::Linear => ticks::linear(low, high, most, self.shown.unit == "deg"),
+                Scale::Log => ticks::log(low, high, most),
+            };
+            let labelled = || self.ticks.iter().filter(|tick| !tick.label.is_empty());
+            let at: Vec<f64> = labelled().map(|tick| self.part(tick.at) * length).collect();
+            let needed: Vec<f64> = labelled().map(|tick| room(&tick.label)).collect();
+            let crowded = (1..at.len()).any(|k| at[k] - at[k - 1] < (needed[k] + needed[k - 1]) / 2.0);
+            if !crowded || most <= 2 {
+                return;
+            }
+            most -= 1;
+        }
+    }
+
+    /// Where a shown value lies: 0 at the low end, 1 at the high end.
+    fn part(&self, shown: f64) -> f64 {
+        let (low, high) = (self.show(self.low), self.show(self.high));
+        match self.scale {
+            Scale::Linear => (shown - low) / (high - low),
+            Scale::Log => (shown / low).log10() / (high / low).log10(),
+        }
+    }
+
+    /// Where an SI value lies, NaN if the axis cannot show it.
+    fn place(&self, x: f64) -> f64 {
+        if x.abs() < HUGE && (self.scale == Scale::Linear || x > 1e-290) { self.part(self.show(x)) } else { f64::NAN }
+    }
+
+    /// The width of the longest label, in pixels.
+    pub(super) fn widest(&self) -> f64 {
+        self.ticks.iter().map(|tick| font::width(&tick.label, TICK)).fold(0.0, f64::max)
+    }
+
+    /// What the axis says, cut to `room` pixels.
+    fn label(&self, room: f64) -> String {
+        let base = units::base(&self.unit);
+        let offset = match self.offset * base.factor {
+            0.0 => String::new(),
+            offset => {
+                let sign = if offset < 0.0 { '+' } else { '−' };
+                format!(" {sign} {} {}", significant(offset.abs(), 12), base.unit).trim_end().to_owned()
+            }
+        };
+        let unit = match (self.shown.unit.as_str(), self.name.is_empty()) {
+            ("", _) => String::new(),
+            (unit, true) => format!("in {unit}"),
+            (unit, false) => format!(" in {unit}"),
+        };
+        // The unit is what must not be lost.
+        let rest = offset + &unit;
+        font::fitted(&self.name, LABEL, room - font::width(&rest, LABEL)) + &rest
+    }
+}
+
+/// A curve with its looks.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub(super) points: Vec<(f64, f64)>,
+    pub(super) ordered: bool,
+    pub(super) color: Color,
+    pub(super) dash: &'static [f64],
+}
+
+impl Line {
+    /// Few values are the results of single runs: the line between is only a guide.
+    fn is_short(&self) -> bool {
+        self.points.len() <= 25
+    }
+}
+
+/// One panel of a figure.
+#[derive(Clone, Debug)]
+pub(super) struct Panel {
+    pub(super) rect: Rect,
+    pub(super) y: Ruler,
+    pub(super) lines: Vec<Line>,
+    /// Of the legend, until it is placed.
+    pub(super) entries: Vec<Entry>,
+    pub(super) legend: Legend,
+    pub(super) marks: Vec<Mark>,
+    /// The base line of the label of y, in pixels; the same for all panels.
+    pub(super) label: f64,
+}
+
+impl Panel {
+    fn point(&self, x: &Ruler, at: (f64, f64)) -> Point {
+        let (right, up) = (x.place(at.0), self.y.place(at.1));
+        [self.rect.left + right * self.rect.width(), self.rect.bottom - up * self.rect.height()]
+    }
+
+    /// The pieces of a curve in pixels.
+    fn pieces(&self, line: &Line, x: &Ruler, breaks: &[f64]) -> Vec<Vec<Point>> {
+        // Few values get a dot each, and so none of them may go.
+        let thinned = |points| if line.is_short() { points } else { thin::thinned(points, line.ordered) };
+        let shown = |at: &(f64, f64)| {
+            let known = self.point(x, *at).iter().all(|x| x.is_finite());
+            if known { *at } else { (at.0, f64::NAN) }
+        };
+        let points: Vec<_> = line.points.iter().map(shown).collect();
+        let pieces = thin::pieces(&points, line.ordered, breaks).into_iter();
+        pieces.map(|piece| thinned(piece.into_iter().map(|at| self.point(x, at)).collect())).collect()
+    }
+
+    /// All curves in pixels.
+    pub(super) fn pixels(&self, x: &Ruler, breaks: &[f64]) -> Vec<Vec<Point>> {
+        let marks = self.marks.iter().map(|mark| vec![self.point(x, mark.at)]);
+        self.lines.iter().flat_map(|line| self.pieces(line, x, breaks)).chain(marks).collect()
+    }
+
+    /// Draws the panel; the numbers and the label of x only below the `lowest`.
+    pub(super) fn draw(&self, scene: &mut Scene, x: &Ruler, breaks: &[f64], lowest: bool) {
+        self.axes(scene, x, lowest);
+        let Rect { top, bottom, left, right } = self.rect;
+        for at in breaks.iter().map(|at| left + x.place(*at) * self.rect.width()).filter(|at| (left..=right).contains(at)) {
+            scene.line(vec![[at, top], [at, bottom]], Stroke::dashed(GREY, 1.2, &[6.0, 5.0]));
+        }
+        let mut empty = true;
+        for line in &self.lines {
+            for piece in self.pieces(line, x, breaks) {
+                empty = false;
+                if line.is_short() || piece.len() == 1 {
+                    piece.iter().for_each(|at| scene.circle(*at, 5.0, Some(line.color), None));
+                }
+                if piece.len() > 1 {
+                    // A curve that fills the panel would lose its dashes, and hide all others.
+                    let dense = thin::length(&piece) > 20.0 * self.rect.width();
+                    let stroke = if dense { Stroke::solid(line.color, 1.5) } else { Stroke::dashed(line.color, 3.0, line.dash) };
+                    scene.line(piece, stroke);
+                }
+            }
+        }
+        if empty {
+            let [x, y] = self.rect.center();
+            scene.text([x, y], "no values", LABEL, Anchor::Middle);
+        }
+        self.draw_marks(scene, x, breaks);
+        self.legend.draw(scene, self.rect);
+    }
+
+    fn axes(&self, scene: &mut Scene, x: &Ruler, lowest: bool) {
+        let Rect { top, bottom, left, right } = self.rect;
+        let grid = |major: bool| Stroke::solid(if major { GRID } else { pale(GRID, 0.5) }, 1.0);
+        let across = |tick: &Tick| left + x.part(tick.at) * self.rect.width();
+        let up = |tick: &Tick| bottom - self.y.part(tick.at) * self.rect.height();
+        for major in [false, true] {
+            for tick in x.ticks.iter().filter(|tick| tick.label.is_empty() != major) {
+                scene.line(vec![[across(tick), top], [across(tick), bottom]], grid(major));
+            }
+            for tick in self.y.ticks.iter().filter(|tick| tick.label.is_empty() != major) {
+                scene.line(vec![[left, up(tick)], [right, up(tick)]], grid(major));
+            }
+        }
+        let zero = self.y.show(0.0);
+        let height = bottom - self.y.part(zero) * self.rect.height();
+        if self.y.scale == Scale::Linear && self.y.offset == 0.0 && height > top && height < bottom {
+            scene.line(vec![[left, height], [right, height]], Stroke::solid([170, 170, 170], 1.2));
+        }
+        scene.rect(self.rect, None, Some(Stroke::solid(GREY, 1.2)));
+        for tick in self.y.ticks.iter().filter(|tick| !tick.label.is_empty()) {
+            scene.line(vec![[left - 6.0, up(tick)], [left, up(tick)]], Stroke::solid(GREY, 1.2));
+            scene.text([left - 11.0, up(tick) + TICK * font::CAPITAL / 2.0], &tick.label, TICK, Anchor::End);
+        }
+        for tick in x.ticks.iter().filter(|tick| !tick.label.is_empty()) {
+            scene.line(vec![[across(tick), bottom], [across(tick), bottom + 6.0]], Stroke::solid(GREY, 1.2));
+            if lowest {
+                scene.text([across(tick), bottom + 12.0 + TICK * font::CAPITAL], &tick.label, TICK, Anchor::Middle);
+            }
+        }
+        if lowest {
+            scene.text([(left + right) / 2.0, bottom + 66.0], x.label(self.rect.width()), LABEL, Anchor::Middle);
+        }
+        let at = [self.label, (top + bottom) / 2.0];
+        let text = self.y.label(self.rect.height() + 20.0);
+        scene.items.push(Item::Text(Text { at, text, size: LABEL, color: INK, anchor: Anchor::Middle, upright: true, halo: false }));
+    }
+
+    fn draw_marks(&self, scene: &mut Scene, x: &Ruler, breaks: &[f64]) {
+        let curves = self.pixels(x, breaks);
+        for mark in &self.marks {
+            let at = self.point(x, mark.at);
+            if !self.rect.contains(at) {
+                continue;
+            }
+            scene.circle(at, 6.0, Some(INK), Some(Stroke::solid([255; 3], 2.0)));
+            let (width, height) = (font::width(&mark.label, TICK), TICK * font::CAPITAL);
+            let beside = |dx: f64, dy: f64| {
+                let (x, y) = (at[0] + dx * (14.0 + width / 2.0), at[1] + dy * (14.0 + height / 2.0));
+                Rect { left: x - width / 2.0, top: y - height / 2.0, right: x + width / 2.0, bottom: y + height / 2.0 }
+            };
+            let sides = [(1.0, -0.8), (-1.0, -0.8), (1.0, 0.8), (-1.0, 0.8), (0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0)];
+            let within = self.rect.grown(-6.0);
+            let inside = |area: &Rect| within.contains([area.left, area.top]) && within.contains([area.right, area.bottom]);
+            let free = |area: &Rect| inside(area) && !curves.iter().any(|line| legend::crosses(line, area.grown(4.0)));
+            let places = || sides.into_iter().map(|(dx, dy)| beside(dx, dy));
+            let area = places().find(free).or_else(|| places().find(inside)).unwrap_or_else(|| beside(0.0, -1.0));
+            let (at, text) = ([area.left, area.bottom], mark.label.clone());
+            scene.items.push(Item::Text(Text { at, text, size: TICK, color: INK, anchor: Anchor::Start, upright: false, halo: true }));
+        }
+    }
+}

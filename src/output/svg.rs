@@ -1,0 +1,116 @@
+//! A display list as SVG.
+//!
+//! Written directly: plotters' SVG has whole coordinates only, no dashes, no halo, and sets text by other measures than its
+//! bitmaps.
+
+use super::scene::{Anchor, Color, Item, Scene, Stroke, Text};
+use std::fmt::Write;
+
+/// DejaVu's close relatives come next: their letters have the same widths.
+const FAMILY: &str = "'DejaVu Sans', 'Bitstream Vera Sans', Verdana, sans-serif";
+
+/// The text of an SVG file.
+pub(super) fn write_svg(scene: &Scene) -> String {
+    let (width, height) = (short(scene.width), short(scene.height));
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+         font-family=\"{FAMILY}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
+        escaped(&scene.title)
+    );
+    for item in &scene.items {
+        match item {
+            Item::Path { points, closed, fill, stroke } => {
+                let element = if *closed { "polygon" } else { "polyline" };
+                let _ = write!(out, "<{element} points=\"");
+                for (index, [x, y]) in points.iter().enumerate() {
+                    let _ = write!(out, "{}{},{}", if index == 0 { "" } else { " " }, short(*x), short(*y));
+                }
+                let _ = writeln!(out, "\"{}{}/>", filled(*fill), stroked(*stroke));
+            }
+            Item::Circle { at: [x, y], radius, fill, stroke } => {
+                let (x, y, radius) = (short(*x), short(*y), short(*radius));
+                let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}{}/>", filled(*fill), stroked(*stroke));
+            }
+            Item::Text(text) => write_text(&mut out, text),
+        }
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn write_text(out: &mut String, text: &Text) {
+    let ([x, y], words) = (text.at, escaped(&text.text));
+    let (x, y) = (short(x), short(y));
+    let anchor = match text.anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
+    };
+    let turned = if text.upright { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+    let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{turned}", short(text.size));
+    if text.halo {
+        // A second element under the letters: `paint-order` is not known to all readers.
+        let width = short(text.size * 0.28);
+        let _ =
+            writeln!(out, "<text {place} fill=\"#ffffff\" stroke=\"#ffffff\" stroke-width=\"{width}\" aria-hidden=\"true\">{words}</text>");
+    }
+    let _ = writeln!(out, "<text {place} fill=\"{}\">{words}</text>", hex(text.color));
+}
+
+fn filled(fill: Option<Color>) -> String {
+    format!(" fill=\"{}\"", fill.map_or("none".into(), hex))
+}
+
+fn stroked(stroke: Option<Stroke>) -> String {
+    let Some(stroke) = stroke else { return String::new() };
+    let mut text = format!(" stroke=\"{}\" stroke-width=\"{}\"", hex(stroke.color), short(stroke.width));
+    if !stroke.dash.is_empty() {
+        let lengths: Vec<_> = stroke.dash.iter().map(|length| short(*length)).collect();
+        // Round ends would close the gaps of short dashes.
+        let _ = write!(text, " stroke-dasharray=\"{}\" stroke-linecap=\"butt\"", lengths.join(" "));
+    }
+    text
+}
+
+fn hex([r, g, b]: Color) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// A hundredth of a pixel is more than enough.
+fn short(x: f64) -> String {
+    let text = format!("{x:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML has no place for control characters, not even escaped.
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_escaped_and_numbers_are_short() {
+        let mut scene = Scene { width: 100.0, height: 50.0, title: "a < b & \"c\"".into(), items: vec![] };
+        scene.text([1.0 / 3.0, -0.001], "x\u{0}<y", 12.0, Anchor::Middle);
+        let svg = write_svg(&scene);
+        assert!(svg.contains("<title>a &lt; b &amp; &quot;c&quot;</title>"));
+        assert!(svg.contains("x=\"0.33\" y=\"0\" font-size=\"12\" text-anchor=\"middle\""));
+        assert!(svg.contains(">x &lt;y</text>"));
+    }
+}

@@ -1,0 +1,109 @@
+//! The number type that kinematics, dynamics and expressions are written in: `f64`, or [`Dual`] numbers that carry derivatives.
+//!
+//! The trait is as small as the mechanics allows. No comparison is in it: a kernel that branched on a value would lose the
+//! derivative's meaning at the switch, so switches are decided outside by modes.
+
+mod dual;
+
+pub use dual::Dual;
+use std::fmt::Debug;
+use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
+
+/// A real number or something that behaves like one (dual numbers now; lanes and tracing are possible).
+///
+/// The supertraits are what nalgebra's matrix arithmetic asks for (`Num` brings zero, one and the four operations).
+pub trait Scalar:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Neg<Output = Self>
+    + num_traits::Num
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + Send
+    + Sync
+    + 'static
+{
+    /// The number `x` with zero derivatives.
+    fn constant(x: f64) -> Self;
+    /// The real part.
+    fn value(self) -> f64;
+    /// √x.
+    fn sqrt(self) -> Self;
+    /// (sin x, cos x), x in rad.
+    fn sin_cos(self) -> (Self, Self);
+    /// tan x.
+    fn tan(self) -> Self;
+    /// asin x.
+    fn asin(self) -> Self;
+    /// acos x.
+    fn acos(self) -> Self;
+    /// atan x.
+    fn atan(self) -> Self;
+    /// Angle of the point (x, y) = (`x`, `self`), in (−π, π].
+    fn atan2(self, x: Self) -> Self;
+    /// eˣ.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// x to a constant power.
+    fn powf(self, n: f64) -> Self;
+    /// x to an integer power.
+    fn powi(self, n: i32) -> Self;
+    /// x · k for a plain number k.
+    fn scale(self, k: f64) -> Self {
+        self * Self::constant(k)
+    }
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+    fn tan(self) -> Self {
+        f64::tan(self)
+    }
+    fn asin(self) -> Self {
+        f64::asin(self)
+    }
+    fn acos(self) -> Self {
+        f64::acos(self)
+    }
+    fn atan(self) -> Self {
+        f64::atan(self)
+    }
+    fn atan2(self, x: Self) -> Self {
+        f64::atan2(self, x)
+    }
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+    fn ln(self) -> Self {
+        f64::ln(self)
+    }
+    fn powf(self, n: f64) -> Self {
+        f64::powf(self, n)
+    }
+    fn powi(self, n: i32) -> Self {
+        f64::powi(self, n)
+    }
+    #[inline(always)]
+    fn scale(self, k: f64) -> Self {
+        self * k
+    }
+}

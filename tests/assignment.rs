@@ -1,0 +1,487 @@
+//! The crank-rocker by the program, against the reference values and against the closed form for other parameters.
+
+#[path = "../benches/closed_form/mod.rs"]
+mod closed_form;
+mod reference;
+
+use closed_form::crank_rocker::{COLUMNS, CrankRocker, Load, Parameters};
+use reference::program::{Run, Table, model, run, run_text};
+use reference::{Verdict, number, turning};
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+const SAMPLES: usize = 3600;
+
+fn crank_rocker(arguments: &[&str]) -> Run {
+    run(&model("crank_rocker.yaml"), &[&["--no-plots"], arguments].concat())
+}
+
+/// Rows and side of the switches in a table that starts with theta.
+fn switches(table: &Table) -> Vec<usize> {
+    table.sides().iter().enumerate().filter(|(_, side)| **side < 0).map(|(i, _)| i).collect()
+}
+
+#[test]
+fn every_column_at_whole_degrees() {
+    let file = reference::read();
+    let run = crank_rocker(&["--study", "one-turn", "--study", "one-turn-unloaded"]).succeeded();
+    for (study, loaded) in [("one-turn", true), ("one-turn-unloaded", false)] {
+        let table = run.table(study);
+        assert_eq!(table.names, COLUMNS, "{study}: columns");
+        let rows = table.on_grid(0.0, TAU / SAMPLES as f64, SAMPLES);
+        let mut verdict = Verdict::default();
+        for series in reference::crank_rocker(&file, loaded) {
+            let column = table.index(series.name);
+            for (degree, right) in series.values.iter().enumerate() {
+                let found = table.rows[rows[10 * degree]][column];
+                verdict.close(series.name, format_args!("{degree} deg"), found, *right, series.tolerance);
+            }
+        }
+        verdict.give(study);
+    }
+}
+
+#[test]
+fn switches_stand_in_two_rows() {
+    let file = reference::read();
+    let run = crank_rocker(&["--study", "one-turn", "--study", "one-turn-unloaded"]).succeeded();
+    let unloaded = run.table("one-turn-unloaded");
+    assert_eq!(unloaded.rows.len(), SAMPLES + 1);
+    let table = run.table("one-turn");
+    assert_eq!(table.rows.len(), SAMPLES + 1 + 8);
+    let places = switches(&table);
+    let theta: Vec<f64> = places.iter().map(|i| table.rows[*i][0]).collect();
+    assert_eq!(theta.len(), 4, "{theta:?}");
+    let mut verdict = Verdict::default();
+    let right = CrankRocker::new(Parameters::default()).switches(0.0);
+    for (found, right) in theta.iter().zip(&right) {
+        verdict.close("switch", right, *found, *right, 1e-9);
+    }
+    verdict.close("start of the load", "", theta[1], number(&file, "load_zone/theta_c_rad"), 1e-9);
+    verdict.close("end of the load", "", theta[2], number(&file, "load_zone/theta_e_rad"), 1e-9);
+    let columns = ["Ox", "Oy", "Ax", "Ay", "Bx", "By", "Gx", "Gy", "MO"];
+    let names = ["O.fx", "O.fy", "A.fx", "A.fy", "B.fx", "B.fy", "C.fx", "C.fy", "drive.torque"];
+    for (name, column) in names.iter().zip(columns) {
+        for side in 0..2 {
+            let right = number(&file, &format!("reactions/with_load/at_theta_e_before_and_after/{column}/{side}"));
+            let found = table.rows[places[2] + side][table.index(name)];
+            verdict.close(name, if side == 0 { "before" } else { "after" }, found, right, 2e-6);
+        }
+    }
+    let load = table.index("tip_force");
+    verdict.close("tip_force", "before its end", table.rows[places[2]][load], 3000.0, 1e-5);
+    verdict.close("tip_force", "after its end", table.rows[places[2] + 1][load], 0.0, 0.0);
+    // the torque ends continuously
+    let torque = table.index("drive.torque");
+    verdict.close("torque", "its end", table.rows[places[2]][torque], table.rows[places[2] + 1][torque], 1e-5);
+    // what does not depend on forces is the same on both sides
+    for i in places {
+        for name in &COLUMNS[..21] {
+            let k = table.index(name);
+            verdict.close(name, "both sides", table.rows[i][k], table.rows[i + 1][k], 1e-12 * table.rows[i][k].abs().max(1.0));
+        }
+    }
+    verdict.give("switches");
+}
+
+#[test]
+fn extrema_and_their_angles() {
+    let file = reference::read();
+    let run = crank_rocker(&["--study", "one-turn", "--study", "one-turn-unloaded"]).succeeded();
+    for (study, loaded) in [("one-turn", true), ("one-turn-unloaded", false)] {
+        let json = run.json(study);
+        let p = Parameters { load_max: if loaded { 3000.0 } else { 0.0 }, ..Parameters::default() };
+        let rocker = CrankRocker::new(p);
+        let mut verdict = Verdict::default();
+        for right in reference::extrema(&file, loaded) {
+            let found = &json["extrema"][right.column][right.which];
+            let (value, at) = (found["value"].as_f64().unwrap_or(f64::NAN), found["at"].as_f64().unwrap_or(f64::NAN));
+            let name = format!("{} {}", right.which, right.column);
+            verdict.close(&name, "its place", value, right.value, right.tolerance);
+            // an extremum may be taken at several angles
+            let column = COLUMNS.iter().position(|c| *c == right.column).unwrap();
+            let here = rocker.row(at, Load::ByState)[column];
+            if (here - right.value).abs() > right.tolerance || (at - right.at).abs() < 0.1 {
+                verdict.close(&format!("angle of {name}"), "", at, right.at, 1e-6);
+            }
+        }
+        verdict.give(study);
+    }
+}
+
+#[test]
+fn work_and_power() {
+    let file = reference::read();
+    let run = crank_rocker(&["--study", "one-turn", "--study", "one-turn-unloaded"]).succeeded();
+    let mut verdict = Verdict::default();
+    for (study, case) in [("one-turn", "with_load"), ("one-turn-unloaded", "without_load")] {
+        let scalars = run.json(study)["scalars"].clone();
+        for (name, key) in [("work_per_turn", "work_per_turn_J"), ("mean_torque", "mean_torque_Nm"), ("mean_power", "mean_power_W")] {
+            let right = number(&file, &format!("power/{case}/values/{key}"));
+            verdict.close(name, study, scalars[name].as_f64().unwrap_or(f64::NAN), right, 1e-7);
+        }
+    }
+    verdict.give("work and power");
+}
+
+#[test]
+fn shaking_force_both_ways() {
+    let run = crank_rocker(&["--study", "one-turn", "--study", "one-turn-unloaded"]).succeeded();
+    for study in ["one-turn", "one-turn-unloaded"] {
+        let table = run.table(study);
+        let at = |name: &str| table.column(name);
+        let (fx, fy, size) = (at("shaking.fx"), at("shaking.fy"), at("shaking.f"));
+        let (frame_x, frame_y) = (at("frame.fx"), at("frame.fy"));
+        let (ox, oy, cx, cy) = (at("O.fx"), at("O.fy"), at("C.fx"), at("C.fy"));
+        let (ax, ay) = (at("com.ax"), at("com.ay"));
+        let (phi3, load) = (at("phi3"), at("tip_force"));
+        let weight = 240.0 * 9.81;
+        let mut verdict = Verdict::default();
+        for i in 0..table.rows.len() {
+            // round-off of forces up to 35 kN
+            verdict.close("shaking x", i, fx[i], -frame_x[i] + load[i] * phi3[i].cos(), 1e-9);
+            verdict.close("shaking y", i, fy[i], -frame_y[i] - weight - load[i] * phi3[i].sin(), 1e-9);
+            verdict.close("m a, x", i, fx[i], 240.0 * ax[i], 1e-9);
+            verdict.close("m a, y", i, fy[i], 240.0 * ay[i], 1e-9);
+            verdict.close("frame x", i, frame_x[i], -(ox[i] + cx[i]), 1e-9);
+            verdict.close("frame y", i, frame_y[i], -(oy[i] + cy[i]), 1e-9);
+            verdict.close("size", i, size[i], fx[i].hypot(fy[i]), 1e-9);
+        }
+        verdict.give(study);
+    }
+}
+
+#[test]
+fn counterweights() {
+    let file = reference::read();
+    let run = crank_rocker(&["--study", "balanced"]).succeeded();
+    let json = run.json("balanced");
+    let scalar = |name: &str| json["scalars"][name].as_f64().unwrap_or(f64::NAN);
+    let mut verdict = Verdict::default();
+    verdict.close("kappa", "", scalar("kappa"), number(&file, "balance/values/l_kappa_for_100kg"), 1e-12);
+    verdict.close("lambda", "", scalar("lambda"), number(&file, "balance/values/l_lambda_for_100kg"), 1e-12);
+    verdict.close("com_x", "", scalar("com_x"), number(&file, "balance/values/fixed_com_x"), 1e-12);
+    verdict.close("com_y", "", scalar("com_y"), 0.0, 1e-12);
+    let table = run.table("balanced");
+    assert_eq!(table.names[..4], ["theta", "time", "com.x", "com.y"]);
+    for (i, (x, y)) in table.column("com.x").into_iter().zip(table.column("com.y")).enumerate() {
+        verdict.close("com.x", i, x, 280.0 / 440.0, 1e-12);
+        verdict.close("com.y", i, y, 0.0, 1e-12);
+    }
+    for (i, force) in table.column("shaking.f").into_iter().enumerate() {
+        verdict.close("shaking.f", i, force, 0.0, 1e-8);
+    }
+    verdict.give("balanced");
+
+    // other masses and lengths
+    let run = crank_rocker(&["--study", "balanced", "--set", "l1=0.2", "--set", "l_tip=0.3", "--set", "m2=40", "--set", "m3=25 kg"]);
+    let run = run.succeeded();
+    let p = Parameters { l1: 0.2, l_tip: 0.3, m2: 40.0, m3: 25.0, ..Parameters::default() };
+    let ([kappa, lambda], centre) = CrankRocker::new(p).balance(100.0, 100.0);
+    let json = run.json("balanced");
+    let scalar = |name: &str| json["scalars"][name].as_f64().unwrap_or(f64::NAN);
+    let mut verdict = Verdict::default();
+    for (name, right) in [("kappa", kappa), ("lambda", lambda), ("com_x", centre[0]), ("com_y", centre[1])] {
+        verdict.close(name, "", scalar(name), right, 1e-11);
+    }
+    verdict.give("other masses");
+}
+
+/// One curve of the study `lengths` against the circles; `within` near a dead or change point is wider.
+fn curve(verdict: &mut Verdict, table: &Table, p: Parameters, reach: [f64; 2]) {
+    let rocker = CrankRocker::new(p);
+    assert_eq!(table.names, ["theta", "phi2", "phi3"]);
+    let mut last: Option<[f64; 2]> = None;
+    for (i, row) in table.rows.iter().enumerate() {
+        let name = |what: &str| format!("l3 = {}: {what}", p.l3);
+        let theta = row[0];
+        let m = rocker.motion(theta);
+        let distance = (theta - reach[0]).abs().min((theta - reach[1]).abs());
+        if distance < 1e-9 {
+            // at a dead point φ moves with the root of θ
+            let m = rocker.motion(0.5 * (reach[0] + reach[1]) + (theta - 0.5 * (reach[0] + reach[1])) * (1.0 - 1e-13));
+            verdict.close(&name("phi2 at its end"), i, row[1], m.phi2, 1e-5);
+            verdict.close(&name("phi3 at its end"), i, row[2], m.phi3, 1e-5);
+        } else if p.l3 == p.l1 && p.l2 == p.l {
+            // a parallelogram through its flat positions
+            verdict.close(&name("phi2"), theta.to_degrees(), row[1], 0.0, 1e-10);
+            verdict.close(&name("phi3"), theta.to_degrees(), row[2], FRAC_PI_2 - theta, 1e-10);
+        } else {
+            verdict.close(&name("phi2"), theta.to_degrees(), row[1], m.phi2, 1e-10);
+            verdict.close(&name("phi3"), theta.to_degrees(), row[2], m.phi3, 1e-10);
+        }
+        if let Some(before) = last {
+            verdict.holds((row[1] - before[0]).abs() < 0.5 && (row[2] - before[1]).abs() < 0.5, name(&format!("a jump at {theta}")));
+        }
+        last = Some([row[1], row[2]]);
+    }
+}
+
+#[test]
+fn other_lengths_of_the_rocker() {
+    let run = crank_rocker(&["--study", "lengths"]).succeeded();
+    let table = run.table("lengths");
+    assert_eq!(table.names, ["l3", "turns_fully", "theta_from", "theta_to", "reason"]);
+    let lengths = [0.1, 0.15, 0.16, 0.3, 0.55, 0.8, 1.9];
+    assert_eq!(table.rows.len(), lengths.len());
+    let mut verdict = Verdict::default();
+    for (k, l3) in lengths.into_iter().enumerate() {
+        let p = Parameters { l3, ..Parameters::default() };
+        let limits = CrankRocker::new(p).reach(FRAC_PI_2);
+        let row = &table.rows[k];
+        let curves = run.table(&format!("lengths-{:03}", k + 1));
+        verdict.close("l3", k, row[0], l3, 1e-15);
+        let [from, to] = limits.unwrap_or([FRAC_PI_2, FRAC_PI_2 + TAU]);
+        verdict.close("turns_fully", l3, row[1], f64::from(u8::from(limits.is_none())), 0.0);
+        verdict.close("theta_from", l3, row[2], from, 1e-9);
+        verdict.close("theta_to", l3, row[3], to, 1e-9);
+        verdict.holds(table.reasons[k].is_empty() == limits.is_none(), format!("l3 = {l3}: reason `{}`", table.reasons[k]));
+        let theta = curves.column("theta");
+        verdict.close("first row", l3, theta[0], from, 1e-9);
+        verdict.close("last row", l3, *theta.last().unwrap(), to, 1e-9);
+        verdict.holds(theta.windows(2).all(|w| w[0] < w[1]), format!("l3 = {l3}: angles rise"));
+        // on the grid of whole degrees from 90, and one at each end
+        let inner = theta.iter().filter(|t| (*t - from).abs() > 1e-9 && (*t - to).abs() > 1e-9);
+        for t in inner {
+            verdict.close("grid", l3, t.to_degrees(), t.to_degrees().round(), 1e-9);
+        }
+        let whole = (to.to_degrees() - 1e-9).floor() - (from.to_degrees() + 1e-9).ceil() + 1.0;
+        verdict.close("rows", l3, theta.len() as f64, whole + 2.0, 0.0);
+        curve(&mut verdict, &curves, p, [from, to]);
+    }
+    verdict.give("lengths");
+}
+
+/// The model with the rates among the columns of `lengths`.
+fn lengths_with_rates() -> String {
+    let text = std::fs::read_to_string(model("crank_rocker.yaml")).unwrap();
+    let old = "columns: [theta, phi2, phi3]\n";
+    assert_eq!(text.matches(old).count(), 1);
+    text.replace(old, "columns: [theta, phi2, phi3, omega2, omega3, alpha2, alpha3]\n")
+}
+
+#[test]
+fn rates_are_empty_at_change_points() {
+    let run = run_text(&lengths_with_rates(), &["--no-plots", "--study", "lengths"]).succeeded();
+    let mut verdict = Verdict::default();
+    let speed = Parameters::default().speed;
+    let table = run.table("lengths-002");
+    for row in &table.rows {
+        let degrees = row[0].to_degrees().round();
+        if degrees % 180.0 == 0.0 {
+            verdict.holds(row[1].is_finite() && row[2].is_finite(), format!("positions at the change point {degrees}"));
+            verdict.holds(row[3..].iter().all(|x| x.is_nan()), format!("rates at the change point {degrees}: {:?}", &row[3..]));
+        } else {
+            // the parallelogram: the rocker turns with the crank, the coupler not at all
+            for (k, right) in [(3, 0.0), (4, -speed), (5, 0.0), (6, 0.0)] {
+                verdict.close(&table.names[k], degrees, row[k], right, 1e-7);
+            }
+        }
+    }
+    // where the crank turns, the rates are those of the closed form
+    let table = run.table("lengths-004");
+    let rocker = CrankRocker::new(Parameters { l3: 0.3, ..Parameters::default() });
+    for row in &table.rows {
+        let m = rocker.motion(row[0]);
+        for (k, right) in [(3, m.omega2), (4, m.omega3), (5, m.alpha2), (6, m.alpha3)] {
+            verdict.close(&table.names[k], row[0], row[k], right, 1e-8);
+        }
+    }
+    verdict.give("rates");
+}
+
+#[test]
+fn report_of_a_study() {
+    let run = crank_rocker(&["--study", "one-turn"]).succeeded();
+    let json = run.json("one-turn");
+    assert_eq!(json["study"], "one-turn");
+    assert_ne!(json["status"], "failed");
+    assert!(json["status"].is_string());
+    let p = Parameters::default();
+    let phi3_min = CrankRocker::new(p).phi3_min;
+    let parameters = [
+        ("l1", p.l1),
+        ("l2", p.l2),
+        ("l3", p.l3),
+        ("l_tip", p.l_tip),
+        ("l", p.l),
+        ("m1", p.m1),
+        ("m2", p.m2),
+        ("m3", p.m3),
+        ("m_tip", p.m_tip),
+        ("g_earth", p.g_earth),
+        ("speed", p.speed),
+        ("load_max", p.load_max),
+        ("load_angle", p.load_angle),
+        ("phi3_min", phi3_min),
+    ];
+    for (name, right) in parameters {
+        let found = json["parameters"][name].as_f64().unwrap_or(f64::NAN);
+        assert!((found - right).abs() <= 1e-14 * right.abs(), "{name}: {found}, right {right}");
+    }
+    for name in ["mean_torque", "mean_power", "work_per_turn"] {
+        assert!(json["scalars"][name].is_number(), "{name}");
+    }
+    for name in COLUMNS {
+        for which in ["min", "max"] {
+            for key in ["value", "at"] {
+                assert!(json["extrema"][name][which][key].is_number(), "{which} {key} of {name}");
+            }
+        }
+    }
+    assert!(json["certificate"].is_object());
+    assert!(json["findings"].is_array());
+}
+
+/// Parameters from outside, as the command line says them.
+struct Case {
+    set: &'static [&'static str],
+    p: Parameters,
+}
+
+fn cases() -> Vec<Case> {
+    let d = Parameters::default();
+    let rpm = TAU / 60.0;
+    vec![
+        Case { set: &["l3=0.6"], p: Parameters { l3: 0.6, ..d } },
+        Case { set: &["l3=60 cm", "speed=100 rpm"], p: Parameters { l3: 0.6, speed: 100.0 * rpm, ..d } },
+        Case { set: &["speed=10"], p: Parameters { speed: 10.0, ..d } },
+        Case { set: &["g_earth=1.62"], p: Parameters { g_earth: 1.62, ..d } },
+        Case { set: &["g_earth=0", "load_max=5 kN"], p: Parameters { g_earth: 0.0, load_max: 5000.0, ..d } },
+        Case { set: &["l1=0.2", "l_tip=0.3 m", "load_max=1234.5"], p: Parameters { l1: 0.2, l_tip: 0.3, load_max: 1234.5, ..d } },
+        Case { set: &["l2=1.25", "l=1.1"], p: Parameters { l2: 1.25, l: 1.1, ..d } },
+        Case { set: &["m1=5", "m2=12.5", "m3=80", "m_tip=0"], p: Parameters { m1: 5.0, m2: 12.5, m3: 80.0, m_tip: 0.0, ..d } },
+        Case { set: &["load_angle=-25 deg"], p: Parameters { load_angle: (-25.0_f64).to_radians(), ..d } },
+        // above the whole swing: the load acts all the way back and begins with a jump
+        Case { set: &["load_angle=5 deg"], p: Parameters { load_angle: 5.0_f64.to_radians(), ..d } },
+        Case { set: &["load_angle=-0.3", "l3=50 cm"], p: Parameters { load_angle: -0.3, l3: 0.5, ..d } },
+        Case { set: &["l_tip=0", "m_tip=200 kg"], p: Parameters { l_tip: 0.0, m_tip: 200.0, ..d } },
+        Case {
+            set: &["l1=8 cm", "l2=45 cm", "l3=30 cm", "l=40 cm", "l_tip=5 cm", "m_tip=3", "m1=1", "m2=2", "m3=1500 g", "speed=900 rpm"],
+            p: Parameters {
+                l1: 0.08,
+                l2: 0.45,
+                l3: 0.3,
+                l: 0.4,
+                l_tip: 0.05,
+                m_tip: 3.0,
+                m1: 1.0,
+                m2: 2.0,
+                m3: 1.5,
+                speed: 900.0 * rpm,
+                ..d
+            },
+        },
+        Case { set: &["l1=0.4", "l3=0.9", "l2=1.1", "load_max=800"], p: Parameters { l1: 0.4, l3: 0.9, l2: 1.1, load_max: 800.0, ..d } },
+    ]
+}
+
+/// The load on one side of `theta`, from the state a little beyond.
+fn load_beside(rocker: &CrankRocker, theta: f64, side: i32) -> Load {
+    let m = rocker.motion(theta + 1e-7 * f64::from(side));
+    if m.phi3 <= rocker.p.load_angle && m.omega3 <= 0.0 { Load::On } else { Load::Off }
+}
+
+#[test]
+fn any_parameters_as_the_closed_form() {
+    for Case { set, p } in cases() {
+        let sets: Vec<&str> = set.iter().flat_map(|s| ["--set", s]).collect();
+        // the figures that the file expects are those of its own parameters
+        let run = crank_rocker(&[&["--study", "one-turn"], sets.as_slice()].concat());
+        assert!(run.code <= 1, "{set:?}: exit code {}\n{}", run.code, run.stderr);
+        let mut verdict = Verdict::default();
+        let rocker = CrankRocker::new(p);
+        let table = run.table("one-turn");
+        table.on_grid(0.0, TAU / SAMPLES as f64, SAMPLES);
+        let right: Vec<_> = table
+            .rows
+            .iter()
+            .zip(table.sides())
+            .map(|(row, side)| rocker.row(row[0], if side == 0 { Load::ByState } else { load_beside(&rocker, row[0], side) }))
+            .collect();
+        let scale: Vec<f64> = (0..COLUMNS.len()).map(|k| right.iter().map(|row| row[k].abs()).fold(1e-300, f64::max)).collect();
+        for (found, right) in table.rows.iter().zip(&right) {
+            for (k, name) in COLUMNS.iter().enumerate() {
+                verdict.close(name, format_args!("{} deg", right[0].to_degrees()), found[k], right[k], 1e-9 * right[k].abs() + 1e-12 * scale[k]);
+            }
+        }
+        switched(&mut verdict, &rocker, &table);
+        extrema(&mut verdict, &rocker, &run.json("one-turn"), &scale);
+        scalars(&mut verdict, &rocker, &run.json("one-turn"));
+        verdict.give(&format!("{set:?}"));
+    }
+}
+
+fn switched(verdict: &mut Verdict, rocker: &CrankRocker, table: &Table) {
+    let right = rocker.switches(0.0);
+    let found: Vec<f64> = switches(table).into_iter().map(|i| table.rows[i][0]).collect();
+    verdict.holds(found.len() == right.len(), format!("switches {found:?}, right {right:?}"));
+    for (found, right) in found.iter().zip(&right) {
+        verdict.close("switch", "", *found, *right, 1e-8);
+    }
+}
+
+fn extrema(verdict: &mut Verdict, rocker: &CrankRocker, json: &Value, scale: &[f64]) {
+    let mut ends = vec![0.0];
+    ends.extend(rocker.switches(0.0));
+    ends.push(TAU);
+    let pieces: Vec<[f64; 2]> = ends.windows(2).map(|w| [w[0], w[1]]).collect();
+    let loads: Vec<Load> = pieces.iter().map(|[a, b]| load_beside(rocker, 0.5 * (a + b), 0)).collect();
+    for (k, column) in COLUMNS.iter().enumerate() {
+        let right = turning::extremes(|theta, piece| rocker.row(theta, loads[piece])[k], &pieces);
+        for (which, (value, at)) in ["min", "max"].into_iter().zip(right) {
+            let found = &json["extrema"][column][which];
+            let (found, place) = (found["value"].as_f64().unwrap_or(f64::NAN), found["at"].as_f64().unwrap_or(f64::NAN));
+            let name = format!("{which} {column}");
+            verdict.close(&name, at, found, value, 1e-9 * value.abs() + 1e-12 * scale[k]);
+            if (place - at).abs() <= 1e-6 {
+                continue;
+            }
+            // taken at several angles?
+            let there = [Load::On, Load::Off].map(|load| (rocker.row(place, load)[k] - value).abs()).into_iter().fold(f64::INFINITY, f64::min);
+            let elsewhere = (place - at).abs() > 1e-2 && there <= 1e-11 * scale[k];
+            verdict.holds(elsewhere, format!("angle of {name}: found {place}, right {at}, off by {:.3e}", place - at));
+        }
+    }
+}
+
+fn scalars(verdict: &mut Verdict, rocker: &CrankRocker, json: &Value) {
+    let work = rocker.work_per_turn();
+    let torque = rocker.forces(&rocker.motion(1.0), Load::Off).torque.abs();
+    for (name, right) in [("work_per_turn", work), ("mean_torque", work / TAU), ("mean_power", work / TAU * rocker.p.speed)] {
+        let found = json["scalars"][name].as_f64().unwrap_or(f64::NAN);
+        verdict.close(name, "", found, right, 1e-9 * right.abs() + 1e-11 * (torque + 1.0) * rocker.p.speed.max(1.0));
+    }
+}
+
+#[test]
+fn a_number_and_a_quantity_from_outside_are_the_same() {
+    let csv = |set: &[&str]| {
+        let run = crank_rocker(&[&["--study", "one-turn-unloaded"], set].concat());
+        std::fs::read(run.directory.join("one-turn-unloaded.csv")).unwrap()
+    };
+    assert!(csv(&["--set", "l3=0.6"]) == csv(&["--set", "l3=60 cm"]));
+}
+
+#[test]
+fn reach_of_other_cranks() {
+    // the sweep of l3 stands in the file; other parameters come from outside
+    let run = crank_rocker(&["--study", "lengths", "--set", "l1=0.25", "--set", "l=0.9"]).succeeded();
+    let table = run.table("lengths");
+    let mut verdict = Verdict::default();
+    for (k, row) in table.rows.iter().enumerate() {
+        let p = Parameters { l1: 0.25, l: 0.9, l3: row[0], ..Parameters::default() };
+        let ac = (p.l * p.l + p.l1 * p.l1).sqrt();
+        if ac > p.l2 + p.l3 || ac < (p.l2 - p.l3).abs() {
+            verdict.holds(!table.reasons[k].is_empty(), format!("l3 = {}: no reason", p.l3));
+            continue;
+        }
+        let limits = CrankRocker::new(p).reach(FRAC_PI_2);
+        let [from, to] = limits.unwrap_or([FRAC_PI_2, FRAC_PI_2 + TAU]);
+        verdict.close("turns_fully", p.l3, row[1], f64::from(u8::from(limits.is_none())), 0.0);
+        verdict.close("theta_from", p.l3, row[2], from, 1e-9);
+        verdict.close("theta_to", p.l3, row[3], to, 1e-9);
+        curve(&mut verdict, &run.table(&format!("lengths-{:03}", k + 1)), p, [from, to]);
+    }
+    verdict.give("other cranks");
+}
