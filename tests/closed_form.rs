@@ -53,12 +53,9 @@ fn extrema_of_the_crank_rocker() {
             let (value, at) = if right.which == "min" { min } else { max };
             let name = format!("{} {}", right.which, right.column);
             verdict.close(&name, "its place", value, right.value, right.tolerance);
-            // the angle counts modulo a turn, and the extremum may be taken twice
-            if (rocker.row(right.at, Load::ByState)[column] - value).abs() > right.tolerance || min.0 == max.0 {
-                verdict.close(&format!("angle of {name}"), "", at, right.at, 1e-8);
-            } else if (at - right.at).abs() > 1e-6 {
-                verdict.holds((rocker.row(at, Load::ByState)[column] - right.value).abs() < 1e-7, format!("angle of {name}: {at}, right {}", right.at));
-            } else {
+            // an extremum may be taken at several angles
+            let here = rocker.row(at, Load::ByState)[column];
+            if (here - right.value).abs() > 1e-3 * right.value.abs() || (at - right.at).abs() < 0.1 {
                 verdict.close(&format!("angle of {name}"), "", at, right.at, 1e-8);
             }
         }
@@ -138,7 +135,7 @@ fn the_laws_hold_for_any_lengths() {
                 let row = |theta: f64| rocker.row(theta, load);
                 let here = row(theta);
                 let of = |name: &str| here[index(name)];
-                let rate = |name: &str| p.speed * turning::slope(&|x| row(x)[index(name)], theta);
+                let rate = |name: &str| p.speed * turning::slope(&|x| row(x)[index(name)], theta, 2e-3);
                 for (value, of_rate) in [
                     ("phi2", "omega2"),
                     ("phi3", "omega3"),

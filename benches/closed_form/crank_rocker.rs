@@ -374,8 +374,8 @@ impl CrankRocker {
 
     /// The crank angles in [from, from + 2π) where the load may begin or end, ascending: φ3 passes the load's angle, or turns.
     ///
-    /// φ3 = ψ3 stands where |A − B'| = l2 with B' the place of B: l1 (u1 · B') = (l1² + |B'|² − l2²)/2. It turns where crank
-    /// and coupler are in one line: |O-B| = l2 ± l1.
+    /// With B where φ3 is the load's angle, |A-B| = l2 says that B · A = (l1² + |B|² − l2²)/2. φ3 turns where crank and coupler
+    /// are in one line: |O-B| = l2 ± l1.
     pub(crate) fn switches(&self, from: f64) -> Vec<f64> {
         let p = &self.p;
         let mut found = Vec::new();
@@ -407,7 +407,8 @@ impl CrankRocker {
         let (mut below, mut above) = (f64::NEG_INFINITY, f64::INFINITY);
         for distance in [p.l2 + p.l3, p.l2 - p.l3] {
             let cosine = (p.l * p.l + p.l1 * p.l1 - distance * distance) / (2.0 * p.l * p.l1);
-            if cosine.abs() >= 1.0 {
+            // at ±1 itself the crank passes a change point
+            if cosine.abs() >= 1.0 - 1e-12 {
                 continue;
             }
             for limit in [cosine.acos(), -cosine.acos()] {

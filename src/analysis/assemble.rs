@@ -100,6 +100,7 @@ pub fn assemble<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assem
         return Err(system.explain_facing());
     }
     let System { modes, size, .. } = system;
+    snap(mechanism, &mut q);
     anchor(mechanism, &q, &modes);
     let (v, found) = velocity(mechanism, &q, &modes, &metric, size)?;
     Ok(Assembled { q, v, modes, size, metric, found })
@@ -114,6 +115,16 @@ pub(crate) fn units<G: Space>(mechanism: &Mechanism<G>) -> Vec<u8> {
         }
     }
     unit
+}
+
+/// Coordinates that were asked for exactly take the asked bits; the search left them within round-off.
+fn snap<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &mut [f64]) {
+    for start in mechanism.starts.iter().filter(|s| !s.guess) {
+        let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
+        if let Measured::Coordinate { along, .. } = mechanism.gauges[gauge].measured {
+            q[along.q] = start.value;
+        }
+    }
 }
 
 /// A distance without a length is held as drawn.

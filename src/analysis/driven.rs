@@ -4,7 +4,8 @@ use super::assemble::Assembled;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
-use grashof_solvers::kkt::{Kkt, row_scale};
+use grashof_solvers::kkt::row_scale;
+use grashof_solvers::{Kkt, Lu};
 
 /// Newton did not reach a position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,15 +28,22 @@ pub struct Driven<'m, G: Space> {
     pub reactions: Reactions<G>,
     /// Size of the correction that Newton made in all, largest component in units of `unit`.
     pub correction: f64,
-    kkt: Kkt,
-    /// Diagonal of the mass metric as a matrix (nv × nv).
-    metric: Vec<f64>,
+    solver: Solver,
     /// 1 for angles, the size of the mechanism for lengths (nv).
     unit: Vec<f64>,
     delta: Vec<f64>,
     rhs: Vec<f64>,
     scratch: Vec<f64>,
     zeros: Vec<f64>,
+}
+
+/// How G is inverted.
+#[derive(Clone, Debug)]
+enum Solver {
+    /// As many rows as velocities: one factorisation of G, its rows scaled to unit size.
+    Square { lu: Lu, scale: Vec<f64> },
+    /// Redundant rows: the regularised system with the mass metric (nv × nv) in the place of M.
+    Redundant { kkt: Kkt, metric: Vec<f64>, probe: Vec<f64> },
 }
 
 /// Corrections below this are below round-off after one more quadratic step.
@@ -51,12 +59,22 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         let mut dynamics = Dynamics::new(mechanism);
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
-        let mut kkt = if rows == nv { Kkt::determinate(nv) } else { Kkt::new(nv, rows) };
-        kkt.set_scale(&start.metric, &row_scale(&dynamics.work.g, &start.metric));
-        let mut metric = vec![0.0; nv * nv];
-        for (i, d) in start.metric.iter().enumerate() {
-            metric[i * nv + i] = *d;
-        }
+        let g_scale = row_scale(&dynamics.work.g, &start.metric);
+        let solver = if rows == nv {
+            let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let scale = dynamics.work.g.chunks_exact(nv.max(1)).map(|row| if size(row) > 0.0 { size(row).recip() } else { 1.0 });
+            Solver::Square { lu: Lu::new(nv), scale: scale.collect() }
+        } else {
+            let mut kkt = Kkt::new(nv, rows);
+            kkt.set_scale(&start.metric, &g_scale);
+            let mut metric = vec![0.0; nv * nv];
+            for (i, d) in start.metric.iter().enumerate() {
+                metric[i * nv + i] = *d;
+            }
+            // a force in no special direction
+            let probe = start.metric.iter().enumerate().map(|(i, d)| d.sqrt() * (1.0 + 0.37 * (i as f64 * 2.39).sin())).collect();
+            Solver::Redundant { kkt, metric, probe }
+        };
         let unit = super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
         let reactions = dynamics.reactions();
         Self {
@@ -67,8 +85,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             lambda: vec![0.0; rows],
             reactions,
             correction: 0.0,
-            kkt,
-            metric,
+            solver,
             unit,
             delta: vec![0.0; nv],
             rhs: vec![0.0; rows],
@@ -87,14 +104,14 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         let mut last = f64::INFINITY;
         for step in 0..STEPS {
             self.dynamics.position(&self.q, modes);
-            self.kkt.factor(&self.metric, &self.dynamics.work.g).map_err(|_| NotReached)?;
+            self.factor()?;
             if last < QUADRATIC {
                 return Ok(());
             }
             for (r, phi) in self.rhs.iter_mut().zip(&self.dynamics.work.phi) {
                 *r = -phi;
             }
-            self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.scratch);
+            self.solver.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.scratch);
             let size = self.delta.iter().zip(&self.unit).map(|(d, u)| (d / u).abs()).fold(0.0, f64::max);
             // growing, or turning by more than a quarter: this is not the neighbourhood of a solution
             if !size.is_finite() || size > 1.5 || (step > 2 && size > last) {
@@ -109,12 +126,11 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
 
     /// Velocities and accelerations at the position found last, with the driver laws of `modes`.
     pub fn rates(&mut self, modes: &[i32]) {
-        self.dynamics.velocity(&self.zeros, modes);
         self.rhs.copy_from_slice(&self.dynamics.work.nu);
-        self.kkt.solve(&self.zeros, &self.rhs, &mut self.v, &mut self.scratch);
+        self.solver.solve(&self.zeros, &self.rhs, &mut self.v, &mut self.scratch);
         self.dynamics.velocity(&self.v, modes);
         self.rhs.copy_from_slice(&self.dynamics.work.gamma);
-        self.kkt.solve(&self.zeros, &self.rhs, &mut self.a, &mut self.scratch);
+        self.solver.solve(&self.zeros, &self.rhs, &mut self.a, &mut self.scratch);
     }
 
     /// Forces, multipliers and reactions for the motion found last.
@@ -122,38 +138,80 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         self.dynamics.forces(modes);
         self.dynamics.mass();
         let work = &self.dynamics.work;
-        if self.kkt.is_determinate() {
-            // the factorisation of G stands; only f − M a changes
-            self.multipliers();
-        } else if self.kkt.factor(&work.mass, &work.g).is_ok() {
-            self.rhs.copy_from_slice(&work.gamma);
-            self.kkt.solve(&work.force, &self.rhs, &mut self.a, &mut self.lambda);
+        let nv = self.dynamics.mechanism.nv;
+        match &mut self.solver {
+            Solver::Square { lu, scale } => {
+                // λ = G⁻ᵀ (f − M a), G as factored in `position`
+                for (i, (l, f)) in self.lambda.iter_mut().zip(&work.force).enumerate() {
+                    let row = &work.mass[i * nv..(i + 1) * nv];
+                    *l = f - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
+                }
+                lu.solve_transposed(&mut self.lambda);
+                self.lambda.iter_mut().zip(scale).for_each(|(l, s)| *l *= *s);
+            }
+            Solver::Redundant { kkt, .. } => {
+                if kkt.factor(&work.mass, &work.g).is_ok() {
+                    kkt.solve(&work.force, &work.gamma, &mut self.delta, &mut self.lambda);
+                }
+            }
         }
         self.dynamics.react(&self.a, &self.lambda, &mut self.reactions);
     }
 
-    /// λ = G⁻ᵀ(f − M a) by the factorisation at hand: the solver's mass is the metric, so f is shifted by (D − M) a.
-    fn multipliers(&mut self) {
-        let nv = self.dynamics.mechanism.nv;
-        let work = &self.dynamics.work;
-        for i in 0..nv {
-            let row = &work.mass[i * nv..(i + 1) * nv];
-            let ma: f64 = row.iter().zip(&self.a).map(|(m, a)| m * a).sum();
-            self.delta[i] = work.force[i] - ma + self.metric[i * nv + i] * self.a[i];
+    /// Factors G as evaluated last.
+    fn factor(&mut self) -> Result<(), NotReached> {
+        let g = &self.dynamics.work.g;
+        match &mut self.solver {
+            Solver::Square { lu, scale } => {
+                let nv = scale.len().max(1);
+                for ((out, row), s) in lu.matrix_mut().chunks_exact_mut(nv).zip(g.chunks_exact(nv)).zip(scale) {
+                    out.iter_mut().zip(row).for_each(|(out, g)| *out = g * *s);
+                }
+                lu.factor_in_place().map_err(|_| NotReached)
+            }
+            Solver::Redundant { kkt, metric, .. } => kkt.factor(metric, g).map_err(|_| NotReached),
         }
-        self.rhs.copy_from_slice(&work.gamma);
-        self.kkt.solve(&self.delta, &self.rhs, &mut self.a, &mut self.lambda);
     }
 
-    /// Ratio of the smallest to the largest pivot of the factorisation: near 0 in a singular position.
-    #[must_use]
-    pub fn condition(&self) -> f64 {
-        self.kkt.lu().pivot_ratio()
+    /// How far the position found last is from a singular one: near 0 there, up to 1 elsewhere.
+    ///
+    /// Square: the ratio of the smallest to the largest pivot. Redundant: a force makes a free motion a ~ f/D where G has a null
+    /// space, and one of (1e-8/σ²)³ after the solver's two refinements elsewhere; σ comes from that.
+    pub fn condition(&mut self) -> f64 {
+        match &mut self.solver {
+            Solver::Square { lu, .. } => lu.pivot_ratio(),
+            Solver::Redundant { kkt, metric, probe } => {
+                self.rhs.fill(0.0);
+                kkt.solve(probe, &self.rhs, &mut self.delta, &mut self.scratch);
+                let nv = probe.len();
+                let weight = |x: f64, i: usize| x * x * metric[i * nv + i];
+                let moved: f64 = self.delta.iter().enumerate().map(|(i, x)| weight(*x, i)).sum();
+                let asked: f64 = probe.iter().enumerate().map(|(i, f)| f * f / metric[i * nv + i]).sum();
+                let ratio = (moved / asked).sqrt();
+                // within a factor of the regularisation nothing is left to tell apart
+                if ratio > 1e-3 { 0.0 } else { 1.0 }
+            }
+        }
     }
 
     /// Largest component of a displacement in units of angles and of the mechanism's size.
     #[must_use]
     pub fn measure(&self, delta: &[f64]) -> f64 {
         delta.iter().zip(&self.unit).map(|(d, u)| (d / u).abs()).fold(0.0, f64::max)
+    }
+}
+
+impl Solver {
+    /// G x = `rhs` (of least size in the metric where rows are redundant).
+    fn solve(&mut self, zeros: &[f64], rhs: &[f64], x: &mut [f64], scratch: &mut [f64]) {
+        match self {
+            Self::Square { lu, scale } => {
+                for ((x, r), s) in x.iter_mut().zip(rhs).zip(scale) {
+                    *x = r * *s;
+                }
+                lu.solve(x);
+            }
+            Self::Redundant { kkt, .. } => kkt.solve(zeros, rhs, x, scratch),
+        }
     }
 }

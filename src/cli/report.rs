@@ -59,7 +59,7 @@ pub(super) fn summary(model: &Model, study: &Study, outcome: &Outcome) -> String
 }
 
 fn shown(x: Option<&f64>) -> String {
-    x.map_or_else(String::new, |x| output::number((x * 1e6).round() / 1e6))
+    x.map_or_else(String::new, |x| output::number((x * 1e6).round() / 1e6 + 0.0))
 }
 
 /// The JSON of one run.

@@ -182,6 +182,12 @@ impl Job<'_> {
 
     /// Tells which expectations are not met.
     fn expectations(&self, outcome: &Outcome) -> u8 {
+        let changed = !(self.common.set.is_empty() && self.common.variant.is_empty());
+        let help = if changed {
+            "the file expects this of its own values; `--set` and `--variant` change what is computed"
+        } else {
+            "find out which of the two is right"
+        };
         let mut code = code::DONE;
         for e in outcome.expectations.iter().filter(|e| !e.met) {
             code = code::UNMET;
@@ -191,7 +197,7 @@ impl Job<'_> {
                 &e.place,
                 message,
                 "the value that the file expects",
-                Some("find out which of the two is right".into()),
+                Some(help.into()),
             )]);
             tell(report.render(self.common.colored()).trim_end());
         }

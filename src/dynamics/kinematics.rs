@@ -10,7 +10,7 @@ use crate::mechanism::{Leaf, RowKind, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
-    /// Driver laws f, f', f'' at time `t`, s.
+    /// Driver laws f, f', f'' and ν, which is f' in the rows of drivers and 0 elsewhere, at time `t`, s.
     pub fn time(&mut self, t: G::S, modes: &[i32]) {
         let m = self.mechanism;
         let w = &mut self.work;
@@ -20,6 +20,9 @@ impl<G: Space> Dynamics<'_, G> {
                 w.inputs[input] = t;
             }
             m.time_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.motions);
+            for drive in &m.drives {
+                w.nu[drive.row] = w.motions[drive.output + 1];
+            }
         }
     }
 
@@ -39,7 +42,7 @@ impl<G: Space> Dynamics<'_, G> {
         let m = self.mechanism;
         let w = &mut self.work;
         for node in &m.nodes {
-            let mut x = w.poses[node.parent] * node.before;
+            let mut x = w.poses[node.parent].shifted(node.before, node.turned);
             for step in &m.steps[node.steps.clone()] {
                 match *step {
                     Step::Axis { u, d, turns, slides, q: i, v } => {
@@ -122,7 +125,7 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// Twists, rates, ν and γ at the velocities `v` (nv); after [`Dynamics::position`].
+    /// Twists, rates and γ at the velocities `v` (nv); after [`Dynamics::position`].
     pub fn velocity(&mut self, v: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
         let w = &mut self.work;
@@ -144,17 +147,12 @@ impl<G: Space> Dynamics<'_, G> {
             m.velocity_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.drifts);
         }
         let w = &mut self.work;
-        for (i, row) in m.rows.iter().enumerate() {
-            (w.nu[i], w.gamma[i]) = match row.kind {
-                RowKind::Gauge(k) => (G::S::default(), -w.readings[k].drift),
-                RowKind::Driver { gauge, driver } => {
-                    let output = m.drives[driver].output;
-                    (w.motions[output + 1], w.motions[output + 2] - w.readings[gauge].drift)
-                }
-                RowKind::Ratio { first, second, ratio } => {
-                    (G::S::default(), w.readings[first].drift.scale(ratio) - w.readings[second].drift)
-                }
-                RowKind::Function(f) => (G::S::default(), -w.drifts[m.functions[f].drift]),
+        for (row, gamma) in m.rows.iter().zip(&mut w.gamma) {
+            *gamma = match row.kind {
+                RowKind::Gauge(k) => -w.readings[k].drift,
+                RowKind::Driver { gauge, driver } => w.motions[m.drives[driver].output + 2] - w.readings[gauge].drift,
+                RowKind::Ratio { first, second, ratio } => w.readings[first].drift.scale(ratio) - w.readings[second].drift,
+                RowKind::Function(f) => -w.drifts[m.functions[f].drift],
             };
         }
     }

@@ -10,6 +10,8 @@ pub struct Workspace<G: Space> {
     // ---- time: written by `Dynamics::time`
     /// f, f', f'' of each driver (3 × drivers).
     pub motions: Vec<G::S>,
+    /// ν (rows): f' in the rows of drivers, else 0.
+    pub nu: Vec<G::S>,
 
     // ---- position: written by `Dynamics::position`
     /// Pose of each body in the world.
@@ -32,8 +34,6 @@ pub struct Workspace<G: Space> {
     pub bias: Vec<Motion<G>>,
     /// Drifts of the functions.
     pub drifts: Vec<G::S>,
-    /// ν (rows).
-    pub nu: Vec<G::S>,
     /// γ (rows).
     pub gamma: Vec<G::S>,
 

@@ -34,6 +34,12 @@ impl<G: Space> Pose<G> {
     pub fn point(self, r: G::Vector) -> G::Vector {
         self.p + G::rotate(self.r, r)
     }
+    /// `self * b`, without the product of rotations if b has none (`turned` false).
+    #[inline(always)]
+    #[must_use]
+    pub fn shifted(self, b: Self, turned: bool) -> Self {
+        Self { r: if turned { G::multiply(self.r, b.r) } else { self.r }, p: self.point(b.p) }
+    }
     /// The inverse pose x_bw.
     #[must_use]
     pub fn inverse(self) -> Self {

@@ -61,6 +61,8 @@ pub struct Node<G: Space> {
     pub parent: usize,
     /// Joint frame in the parent.
     pub before: Pose<G>,
+    /// Whether `before` has a rotation.
+    pub turned: bool,
     /// The joint's moving steps, in `Mechanism::steps`.
     pub steps: Range<usize>,
     /// Body frame in the moved joint frame, if it is another.
@@ -203,6 +205,7 @@ impl<G: Space> Mechanism<G> {
                     body: n.body,
                     parent: n.parent,
                     before: n.before.lift(),
+                    turned: n.turned,
                     steps: n.steps.clone(),
                     after: n.after.map(Pose::lift),
                     columns: n.columns.clone(),

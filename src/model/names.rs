@@ -83,9 +83,13 @@ const SECTIONS: [Section; 11] = [
     ("events", Entity::Event),
 ];
 
-/// Every name of a model, with faults for those that are taken twice or reserved.
-pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<Fault>) -> HashMap<&'n str, Entity> {
+/// Names with what they stand for.
+pub(crate) type Names<'n> = (HashMap<&'n str, Entity>, Vec<(&'n str, Entity)>);
+
+/// Every name of a model, to be looked up and in file order, with faults for those that are taken twice or reserved.
+pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<Fault>) -> Names<'n> {
     let mut names: HashMap<&str, (Entity, &str)> = HashMap::new();
+    let mut listed = Vec::new();
     for (section, entity) in SECTIONS {
         let Some(node) = root.get(section) else { continue };
         let at = At::ROOT.key(section);
@@ -122,10 +126,11 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<
                 );
             } else {
                 names.insert(name, (entity, section));
+                listed.push((name, entity));
             }
         }
     }
-    names.into_iter().map(|(name, (entity, _))| (name, entity)).collect()
+    (names.into_iter().map(|(name, (entity, _))| (name, entity)).collect(), listed)
 }
 
 /// Why a name is not free, if it is not.

@@ -74,6 +74,8 @@ pub(crate) struct World<'a> {
     pub(crate) model: Model,
     /// The one name space.
     pub(crate) names: HashMap<&'a str, Entity>,
+    /// The same in file order, for messages.
+    pub(crate) listed: Vec<(&'a str, Entity)>,
     /// Dimensions of parameters; `None` where the value is faulty.
     pub(crate) parameters: Vec<Option<Dimension>>,
     /// Dimensions of tables.
@@ -109,7 +111,12 @@ pub(super) fn unknown(found: impl Into<String>, expected: impl Into<String>, hel
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
 
-impl World<'_> {
+impl<'a> World<'a> {
+    /// Names of one kind of things, in file order; not more than a message can use.
+    pub(crate) fn known(&self, kind: impl Fn(Entity) -> bool) -> Vec<&'a str> {
+        self.listed.iter().filter(|(_, entity)| kind(*entity)).map(|(name, _)| *name).take(suggest::MOST_CANDIDATES).collect()
+    }
+
     /// Components of a vector.
     pub(crate) fn components(&self) -> usize {
         match self.model.space {
@@ -216,9 +223,9 @@ impl World<'_> {
 
     /// An unknown first name.
     pub(crate) fn nobody(&self, head: &str, path: &str) -> Unknown {
-        let mut known: Vec<&str> = self.names.keys().copied().chain(["ground", "t", "time", "com", "energy", "shaking", "frame"]).collect();
-        known.sort_unstable();
-        let help = suggest::nearest(head, known.iter().copied()).map(|near| {
+        let known = ["ground", "t", "time", "com", "energy", "shaking", "frame"].into_iter();
+        let known = known.chain(self.listed.iter().map(|(name, _)| *name));
+        let help = suggest::nearest(head, known).map(|near| {
             let rest = path.get(head.len()..).unwrap_or("");
             format!("did you mean `{near}{rest}`?")
         });

@@ -1,7 +1,7 @@
 //! "Did you mean": the nearest known name.
 
 /// A generated file may hold tens of thousands of names and as many faults.
-const MOST_CANDIDATES: usize = 1000;
+pub(crate) const MOST_CANDIDATES: usize = 1000;
 
 /// The candidate nearest to `word`, if it is near enough to be a slip of the pen.
 pub(crate) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {

@@ -206,6 +206,8 @@ fn place(panels: &mut [Panel], x: &mut Ruler, top: f64, height: f64, equal: bool
     if let (true, [only]) = (equal, &mut *panels) {
         Ruler::equalize(x, &mut only.y, only.rect);
         only.y.mark(only.rect.height(), 62.0, |_| 30.0);
+        // equal scales may ask for longer numbers than before: the label gives way to the left
+        only.label = (left - only.y.widest() - 26.0).max(18.0);
     }
     mark(x, right);
 }

@@ -14,12 +14,14 @@ pub(crate) fn root(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// f' by differences of the eighth order, step 2e-3 rad.
-pub(crate) fn slope(f: &impl Fn(f64) -> f64, x: f64) -> f64 {
-    const STEP: f64 = 2e-3;
-    let pair = |k: f64| f(x + k * STEP) - f(x - k * STEP);
-    (pair(1.0) * 4.0 / 5.0 - pair(2.0) / 5.0 + pair(3.0) * 4.0 / 105.0 - pair(4.0) / 280.0) / STEP
+/// f' by differences of the eighth order.
+pub(crate) fn slope(f: &impl Fn(f64) -> f64, x: f64, step: f64) -> f64 {
+    let pair = |k: f64| f(x + k * step) - f(x - k * step);
+    (pair(1.0) * 4.0 / 5.0 - pair(2.0) / 5.0 + pair(3.0) * 4.0 / 105.0 - pair(4.0) / 280.0) / step
 }
+
+/// Steps of the differences, rad: wide to be quiet, then narrow to see sharp bends.
+const STEPS: [f64; 3] = [2e-3, 3e-4, 5e-5];
 
 /// Smallest and largest value of `f(x, piece)` over all pieces [a, b], with their places. `f` must go on smoothly a little beyond
 /// the ends of its piece.
@@ -38,11 +40,18 @@ pub(crate) fn extremes(f: impl Fn(f64, usize) -> f64, pieces: &[[f64; 2]]) -> [(
         let count = (((b - a) / 5e-3).ceil() as usize).max(8);
         let at = |k: usize| a + (b - a) * k as f64 / count as f64;
         put(f(a), a);
-        let mut left = slope(&f, a);
+        let mut left = slope(&f, a, STEPS[0]);
         for k in 1..=count {
-            let right = slope(&f, at(k));
+            let right = slope(&f, at(k), STEPS[0]);
             if (left < 0.0) != (right < 0.0) {
-                let x = root(|x| slope(&f, x), at(k - 1), at(k));
+                let mut x = root(|x| slope(&f, x, STEPS[0]), at(k - 1), at(k));
+                for step in &STEPS[1..] {
+                    let ends = [(x - 10.0 * step).max(a), (x + 10.0 * step).min(b)];
+                    let [low, high] = ends.map(|x| slope(&f, x, *step));
+                    if (low < 0.0) != (high < 0.0) {
+                        x = root(|x| slope(&f, x, *step), ends[0], ends[1]);
+                    }
+                }
                 put(f(x), x);
             }
             left = right;

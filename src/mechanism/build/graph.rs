@@ -113,6 +113,9 @@ impl<G: Space> Builder<'_, G> {
         if joint.friction.is_some() {
             self.fault("later", &format!("{place}.friction"), "joint friction".into(), "nothing: dry friction is not computed yet", Some("use `damping` for viscous friction, or remove it".into()));
         }
+        if joint.limits.is_some() {
+            self.fault("later", &format!("{place}.limits"), "joint limits".into(), "nothing: end stops are not computed yet", Some("remove them".into()));
+        }
         Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }
     }
 
@@ -162,6 +165,7 @@ impl<G: Space> Builder<'_, G> {
             body: branch.body,
             parent: branch.parent,
             before,
+            turned: before.r != G::identity(),
             steps: first_step..m.steps.len(),
             after,
             columns: first_column..m.nv,

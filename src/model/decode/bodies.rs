@@ -223,11 +223,11 @@ impl<'n> Decoder<'n> {
                 Some(Entity::Body(i)) => *i,
                 other => {
                     let is = other.map(|entity| format!("`{body}` is {}", entity.what()));
-                    let bodies: Vec<String> = self.world.model.bodies.iter().map(|b| b.name.clone()).collect();
+                    let mut bodies = vec!["ground"];
+                    bodies.extend(self.world.known(|entity| matches!(entity, Entity::Body(_))));
                     let rest = &text[body.len()..];
-                    let near =
-                        suggest::nearest(body, bodies.iter().map(String::as_str)).map(|near| format!("did you mean `{near}{rest}`?"));
-                    let list = suggest::known(bodies.iter().map(String::as_str)).unwrap_or_default();
+                    let near = suggest::nearest(body, bodies.iter().copied()).map(|near| format!("did you mean `{near}{rest}`?"));
+                    let list = suggest::known(bodies.iter().copied()).unwrap_or_default();
                     let message = is.unwrap_or_else(|| format!("unknown body `{}`", clip(body)));
                     self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help = near;
                     return None;

@@ -199,7 +199,7 @@ impl<'n> Decoder<'n> {
         if let Some(Entity::Table(i)) = self.world.names.get(text) {
             return Some(*i);
         }
-        let tables: Vec<&str> = self.section("tables").into_iter().map(|(name, _)| name).collect();
+        let tables = self.world.known(|entity| matches!(entity, Entity::Table(_)));
         let near = suggest::nearest(text, tables.iter().copied()).map(|near| format!("did you mean `{near}`?"));
         let list = suggest::known(tables.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
         self.fault("unknown-table", at, format!("unknown table `{}`", clip(text)), format!("one of the tables {list}")).help = near;
@@ -253,9 +253,9 @@ impl<'n> Decoder<'n> {
             Some(text) => match self.world.names.get(text) {
                 Some(Entity::Body(i)) => *i,
                 _ => {
-                    let bodies: Vec<String> = self.world.model.bodies.iter().skip(1).map(|b| b.name.clone()).collect();
-                    let near = suggest::nearest(text, bodies.iter().map(String::as_str)).map(|near| format!("did you mean `{near}`?"));
-                    let list = suggest::known(bodies.iter().map(String::as_str)).unwrap_or_default();
+                    let bodies = self.world.known(|entity| matches!(entity, Entity::Body(_)));
+                    let near = suggest::nearest(text, bodies.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                    let list = suggest::known(bodies.iter().copied()).unwrap_or_default();
                     let message = format!("unknown body `{}`", clip(text));
                     self.fault("unknown-body", &frame_at, message, format!("`world` or one of the bodies {list}")).help = near;
                     0
@@ -321,9 +321,9 @@ impl<'n> Decoder<'n> {
             Some(Entity::Parameter(i)) => Some(*i),
             other => {
                 let is = other.map(|entity| format!("`{name}` is {}", entity.what()));
-                let names: Vec<String> = self.world.model.parameters.iter().map(|p| p.name.clone()).collect();
-                let near = suggest::nearest(name, names.iter().map(String::as_str)).map(|near| format!("did you mean `{near}`?"));
-                let list = suggest::known(names.iter().map(String::as_str)).unwrap_or_else(|| "(there are none)".to_owned());
+                let names = self.world.known(|entity| matches!(entity, Entity::Parameter(_)));
+                let near = suggest::nearest(name, names.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                let list = suggest::known(names.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown parameter `{}`", clip(name)));
                 let fault = self.fault("unknown-parameter", at, message, format!("one of the parameters {list}"));
                 fault.help = near;

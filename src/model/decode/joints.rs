@@ -178,7 +178,7 @@ impl<'n> Decoder<'n> {
             Some(Entity::Joint(i)) => self.world.sound.joints.get(*i).copied().flatten(),
             other => {
                 let is = other.map(|entity| format!("`{text}` is {}", entity.what()));
-                let joints: Vec<&str> = self.section("joints").into_iter().map(|(name, _)| name).collect();
+                let joints = self.world.known(|entity| matches!(entity, Entity::Joint(_)));
                 let near = suggest::nearest(text, joints.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 let list = suggest::known(joints.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown joint `{}`", clip(text)));

@@ -73,7 +73,7 @@ impl<'n> Decoder<'n> {
         let text = |key: &str| root.get(key).and_then(Node::text).unwrap_or_default().to_owned();
         let space = if root.get("space").and_then(Node::text) == Some("spatial") { Dimensions::Spatial } else { Dimensions::Planar };
         let mut faults = Vec::new();
-        let names = names::collect(root, layers, &mut faults);
+        let (names, listed) = names::collect(root, layers, &mut faults);
         let model = Model {
             name: text("name"),
             about: text("about"),
@@ -99,6 +99,7 @@ impl<'n> Decoder<'n> {
         let world = World {
             model,
             names,
+            listed,
             parameters: Vec::new(),
             tables: Vec::new(),
             measures: Vec::new(),
@@ -209,7 +210,9 @@ impl<'n> Decoder<'n> {
                     } else {
                         // what the scope refused is a sentence, what lowering refused a thing
                         let message = if code.is_some() { fault.found } else { format!("found {}", fault.found) };
-                        let code = code.unwrap_or(if fault.expected.starts_with(['`', 'a']) { "expression" } else { "wrong-dimension" });
+                        let form =
+                            ["`", "a function", "a quantity whose", "a constant"].iter().any(|start| fault.expected.starts_with(start));
+                        let code = code.unwrap_or(if form { "expression" } else { "wrong-dimension" });
                         Fault::new(code, place.clone(), message, fault.expected).maybe_help(fault.help)
                     };
                     self.faults.push(made.at(origin.spot(fault.at)));

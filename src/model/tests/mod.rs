@@ -7,12 +7,13 @@ use super::*;
 use crate::expression::{Dimension, Id};
 
 /// The drafts of the models that the project ships.
-pub(super) const FILES: [(&str, &str); 5] = [
+pub(super) const FILES: [(&str, &str); 6] = [
     ("andrews", include_str!("files/andrews.yaml")),
     ("bricard", include_str!("files/bricard.yaml")),
     ("crank_rocker", include_str!("files/crank_rocker.yaml")),
     ("pendulum", include_str!("files/pendulum.yaml")),
     ("quick_return", include_str!("files/quick_return.yaml")),
+    ("zoo", include_str!("files/zoo.yaml")),
 ];
 
 fn document(name: &str) -> Document {
@@ -175,6 +176,36 @@ fn later_phases_add_findings_at_places() {
     assert_eq!(at("joints.O.damping").at.unwrap().source.trim(), "joints: { O: { damping: viscous } }");
     assert_eq!(at("start.O.angle").column(), 19);
     assert!(at("nonsense").at.is_some());
+}
+
+#[test]
+fn space_has_its_own_quantities() {
+    let model = model("zoo", "run");
+    assert_eq!(model.space, Dimensions::Spatial);
+    let rotation = &model.start[1];
+    assert_eq!(
+        (rotation.name.as_str(), rotation.quantity, rotation.guess),
+        ("b.rotation", Quantity::Quaternion { body: 2, component: 0 }, true)
+    );
+    assert!(matches!(rotation.value, StartValue::Rotation { .. }));
+    assert_eq!(model.start[3].quantity, Quantity::Joint { joint: 0, slot: 0, order: 0 });
+    assert_eq!(model.start[4].quantity, Quantity::Joint { joint: 3, slot: 0, order: 1 });
+    let CouplingKind::Zero(zero) = model.couplings[0].kind else { panic!() };
+    let inputs: Vec<Quantity> = model.pool.inputs_of(&[zero]).iter().map(|i| model.inputs[*i as usize]).collect();
+    let slot = |slot| Quantity::Joint { joint: 0, slot, order: 0 };
+    assert!(inputs.len() == 2 && inputs.contains(&slot(0)) && inputs.contains(&slot(1)));
+    assert!(matches!(model.springs[0].law, SpringLaw::Force(_)));
+    assert_eq!(model.bodies[4].inertia.len(), 6);
+}
+
+#[test]
+fn many_findings_are_cut_short() {
+    let head = FILES.iter().find(|(name, _)| *name == "pendulum").map(|(_, text)| *text).unwrap();
+    let many: String = (0..300).map(|i| format!("  p{i}: nobody\n")).collect();
+    let report = Document::read(&format!("{head}parameters:\n{many}"), "many").unwrap().check_all(&Selection::default());
+    assert_eq!(report.diagnostics.len(), 201);
+    assert_eq!(report.diagnostics.last().unwrap().message, "100 more findings are not shown");
+    assert!(report.failed());
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn damaged_files_never_panic() {
         // the largest file takes most of the time and is damaged less often
         let (name, text) = match round % 16 {
             0 => FILES[2],
-            k => FILES[[0, 1, 3, 4][k % 4]],
+            k => FILES[[0, 1, 3, 4, 5][k % 5]],
         };
         let bytes = mutate(text, &mut dice);
         let report = match Document::from_bytes(&bytes, name) {
