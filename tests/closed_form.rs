@@ -126,7 +126,8 @@ fn switches_work_balance_and_reach() {
 #[test]
 fn the_laws_hold_for_any_lengths() {
     for (l1, l2, l3, l_tip, l) in [(0.15, 1.0, 0.6, 0.15, 1.0), (0.2, 0.7, 0.5, 0.3, 0.8), (0.1, 0.4, 0.35, 0.0, 0.3)] {
-        let p = Parameters { l1, l2, l3, l_tip, l, speed: 12.0, m1: 3.0, m2: 5.0, m3: 7.0, m_tip: 2.0, g_earth: 3.7, ..Parameters::default() };
+        let p =
+            Parameters { l1, l2, l3, l_tip, l, speed: 12.0, m1: 3.0, m2: 5.0, m3: 7.0, m_tip: 2.0, g_earth: 3.7, ..Parameters::default() };
         let rocker = CrankRocker::new(p);
         let mut verdict = Verdict::default();
         for k in 0..360 {

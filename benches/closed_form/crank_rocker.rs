@@ -209,17 +209,7 @@ impl CrankRocker {
         let (a1, a2, a3) = (p.l1 * self.speed_squared, l2_omega2 * omega2, l3_omega_r * omega_r);
         let alpha2 = (a1 * d13 + a2 * d23 - a3) * inverse * self.inverse_l2;
         let alpha_r = (a1 * d12 + a2 - a3 * d23) * inverse * self.inverse_l3;
-        Motion {
-            u1,
-            u2,
-            u3,
-            phi2: u2[1].atan2(u2[0]),
-            phi3: u3[0].atan2(u3[1]),
-            omega2,
-            omega3: -omega_r,
-            alpha2,
-            alpha3: -alpha_r,
-        }
+        Motion { u1, u2, u3, phi2: u2[1].atan2(u2[0]), phi3: u3[0].atan2(u3[1]), omega2, omega3: -omega_r, alpha2, alpha3: -alpha_r }
     }
 
     /// Size of the tip load.
@@ -244,10 +234,7 @@ impl CrankRocker {
         let half = 0.5 * p.l2;
         let w2 = m.omega2 * m.omega2;
         let a1 = [0.5 * at_a[0], 0.5 * at_a[1] + p.g_earth];
-        let a2 = [
-            at_a[0] + half * (m.alpha2 * n2[0] - w2 * m.u2[0]),
-            at_a[1] + half * (m.alpha2 * n2[1] - w2 * m.u2[1]) + p.g_earth,
-        ];
+        let a2 = [at_a[0] + half * (m.alpha2 * n2[0] - w2 * m.u2[0]), at_a[1] + half * (m.alpha2 * n2[1] - w2 * m.u2[1]) + p.g_earth];
         // moments of the rocker about C and of the coupler about A
         let r3 = self.i3 * -m.alpha3 + self.s3 * p.g_earth * n3[1] + tip_force * self.radius;
         let r2 = -(self.i2 * m.alpha2 + half * p.m2 * cross(m.u2, a2));
@@ -309,10 +296,8 @@ impl CrankRocker {
         let (n1, n2) = (normal(m.u1), normal(m.u2));
         let half = 0.5 * p.l2;
         let velocity = add(scale(n1, p.l1 * p.speed), scale(n2, half * m.omega2));
-        let acceleration = add(
-            scale(m.u1, -p.l1 * self.speed_squared),
-            sub(scale(n2, half * m.alpha2), scale(m.u2, half * m.omega2 * m.omega2)),
-        );
+        let acceleration =
+            add(scale(m.u1, -p.l1 * self.speed_squared), sub(scale(n2, half * m.alpha2), scale(m.u2, half * m.omega2 * m.omega2)));
         let crank = p.m1 * p.l1 * p.l1 / 3.0 * self.speed_squared;
         let coupler = p.m2 * dot(velocity, velocity) + self.i2 * m.omega2 * m.omega2;
         let rocker = self.i3 * m.omega3 * m.omega3;

@@ -24,8 +24,7 @@ impl Default for Parameters {
 }
 
 /// Names of the values of [`row`], without the independent angle and the time.
-pub(crate) const COLUMNS: [&str; 9] =
-    ["theta1", "theta3", "omega1", "omega3", "alpha1", "alpha3", "slider.x", "slider.vx", "slider.ax"];
+pub(crate) const COLUMNS: [&str; 9] = ["theta1", "theta3", "omega1", "omega3", "alpha1", "alpha3", "slider.x", "slider.vx", "slider.ax"];
 
 /// The columns at the crank angle `theta`.
 pub(crate) fn row(p: &Parameters, theta: f64) -> [f64; COLUMNS.len()] {

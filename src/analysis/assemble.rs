@@ -154,12 +154,8 @@ fn anchor<G: Space<S = f64>>(mechanism: &mut Mechanism<G>, q: &[f64], modes: &[i
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
-    let offsets: Vec<f64> = mechanism
-        .rows
-        .iter()
-        .zip(&dynamics.work.phi)
-        .map(|(row, phi)| if row.anchored { row.offset + phi } else { row.offset })
-        .collect();
+    let offsets: Vec<f64> =
+        mechanism.rows.iter().zip(&dynamics.work.phi).map(|(row, phi)| if row.anchored { row.offset + phi } else { row.offset }).collect();
     for (row, offset) in mechanism.rows.iter_mut().zip(offsets) {
         row.offset = offset;
     }
@@ -172,12 +168,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         dynamics.time(0.0, &modes);
         let rows = (0..mechanism.rows.len()).filter(|r| !mechanism.rows[*r].anchored).collect();
         // the farthest point of any body from its own origin, and of the ground
-        let reach = mechanism
-            .bodies
-            .iter()
-            .flat_map(|b| &b.points)
-            .map(|(_, p)| G::dot(*p, *p).sqrt())
-            .fold(0.0, f64::max);
+        let reach = mechanism.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
         Self { dynamics, modes, rows, size: if reach > 0.0 { reach } else { 1.0 } }
     }
 
@@ -310,11 +301,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     /// A step of at most half a radian or half the size of the mechanism.
     fn bounded(&self, mut delta: Vec<f64>) -> Vec<f64> {
         let unit = units(self.dynamics.mechanism);
-        let largest = delta
-            .iter()
-            .zip(&unit)
-            .map(|(d, u)| d.abs() / if *u == 0 { 0.5 } else { 0.5 * self.size })
-            .fold(0.0, f64::max);
+        let largest = delta.iter().zip(&unit).map(|(d, u)| d.abs() / if *u == 0 { 0.5 } else { 0.5 * self.size }).fold(0.0, f64::max);
         if largest > 1.0 {
             delta.iter_mut().for_each(|d| *d /= largest);
         }
@@ -329,8 +316,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     fn wrong_way(&self) -> Option<usize> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         m.joints.iter().position(|j| {
-            j.tree.is_none()
-                && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.poses[j.a.0].r, u), G::rotate(w.poses[j.b.0].r, f)) < 0.0)
+            j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.poses[j.a.0].r, u), G::rotate(w.poses[j.b.0].r, f)) < 0.0)
         })
     }
 
@@ -356,7 +342,8 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             }
             if gap.sqrt() > 1e-9 * self.size || tilt.sqrt() > 1e-9 {
                 let path = describe_loop(m, joint);
-                let others: Vec<&str> = m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).map(|j| j.name.as_str()).collect();
+                let others: Vec<&str> =
+                    m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).map(|j| j.name.as_str()).collect();
                 parts.push(format!(
                     "the loop {path} stays open at joint `{}` by {} mm and {} deg (joints {} share it)",
                     joint.name,

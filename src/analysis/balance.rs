@@ -28,7 +28,10 @@ pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(u
         let attached = &mechanism.bodies[body].attached[index];
         let length = G::dot(attached.mass.com, attached.mass.com).sqrt();
         if length == 0.0 {
-            return Err(format!("`{}` is attached at the origin of `{}`: no line to move along", attached.name, mechanism.bodies[body].name));
+            return Err(format!(
+                "`{}` is attached at the origin of `{}`: no line to move along",
+                attached.name, mechanism.bodies[body].name
+            ));
         }
         lines.push((body, attached.mass.mass, attached.mass.com * (1.0 / length), length));
     }

@@ -113,7 +113,13 @@ impl Clock {
     }
 
     /// Time at progress s.
-    pub fn time<G: Space<S = f64>>(&self, dynamics: &mut Dynamics<'_, G>, modes: &mut [i32], set: &mut impl FnMut(f64, &mut [i32]), s: f64) -> f64 {
+    pub fn time<G: Space<S = f64>>(
+        &self,
+        dynamics: &mut Dynamics<'_, G>,
+        modes: &mut [i32],
+        set: &mut impl FnMut(f64, &mut [i32]),
+        s: f64,
+    ) -> f64 {
         if let Some(speed) = self.speed {
             return s / speed;
         }
@@ -132,7 +138,13 @@ impl Clock {
         let (Ok(fa), Ok(fb)) = (miss(a), miss(b));
         match root(miss, a, b, fa, fb, 0.0) {
             Ok(Some(found)) => found.place(),
-            Ok(None) => if fa.abs() < fb.abs() { a } else { b },
+            Ok(None) => {
+                if fa.abs() < fb.abs() {
+                    a
+                } else {
+                    b
+                }
+            }
         }
     }
 }

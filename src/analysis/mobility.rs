@@ -56,14 +56,24 @@ fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Vec<f
 }
 
 /// Whether the drivers leave no freedom and do not contend for the same one.
-pub(super) fn drivers_fit<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled, model: &Model, study: &Study) -> Result<(), Failure> {
+pub(super) fn drivers_fit<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    model: &Model,
+    study: &Study,
+) -> Result<(), Failure> {
     let m = mobility(mechanism, start);
     let drivers = mechanism.drives.len();
     if m.freedom < drivers {
         let names: Vec<String> = model.drivers.iter().map(|d| format!("`{}`", d.name)).collect();
         return Err(Failure::Study {
             code: "over-constrained",
-            message: format!("{drivers} drivers ({}) for a mechanism of {} degree{} of freedom", names.join(", "), m.freedom, plural(m.freedom)),
+            message: format!(
+                "{drivers} drivers ({}) for a mechanism of {} degree{} of freedom",
+                names.join(", "),
+                m.freedom,
+                plural(m.freedom)
+            ),
             place: "drivers".into(),
             help: "remove drivers until there are as many as degrees of freedom".into(),
         });

@@ -187,11 +187,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.driven.wind(&mut self.modes, &self.path.nodes[near].turns);
             self.driven.position(at, &self.modes).ok()?;
             // Lagrange's weight at the middle: Π_{i≠k} i/(i − k)
-            let weight: f64 = [-4_i32, -3, -2, -1, 1, 2, 3, 4]
-                .iter()
-                .filter(|i| **i != k)
-                .map(|&i| f64::from(i) / f64::from(i - k))
-                .product();
+            let weight: f64 =
+                [-4_i32, -3, -2, -1, 1, 2, 3, 4].iter().filter(|i| **i != k).map(|&i| f64::from(i) / f64::from(i - k)).product();
             sum.iter_mut().zip(&self.driven.q).for_each(|(s, q)| *s += weight * q);
         }
         Some(sum)

@@ -21,20 +21,50 @@ pub struct Observer<G: Space> {
 #[derive(Clone, Copy, Debug)]
 enum Source<G: Space> {
     Time,
-    Point { body: usize, at: G::Vector, axis: usize, order: usize },
-    Angle { body: usize, order: usize },
-    Spin { body: usize, axis: usize, order: usize },
-    Quaternion { body: usize, component: usize },
-    Gauge { gauge: usize, order: usize },
-    Force { joint: usize, axis: usize },
-    Moment { joint: usize, axis: usize },
+    Point {
+        body: usize,
+        at: G::Vector,
+        axis: usize,
+        order: usize,
+    },
+    Angle {
+        body: usize,
+        order: usize,
+    },
+    Spin {
+        body: usize,
+        axis: usize,
+        order: usize,
+    },
+    Quaternion {
+        body: usize,
+        component: usize,
+    },
+    Gauge {
+        gauge: usize,
+        order: usize,
+    },
+    Force {
+        joint: usize,
+        axis: usize,
+    },
+    Moment {
+        joint: usize,
+        axis: usize,
+    },
     DriverEffort(usize),
     DriverPower(usize),
-    Stretch { spring: usize, order: usize },
+    Stretch {
+        spring: usize,
+        order: usize,
+    },
     SpringForce(usize),
     SpringEnergy(usize),
     Effort(usize),
-    Com { axis: usize, order: usize },
+    Com {
+        axis: usize,
+        order: usize,
+    },
     Kinetic,
     Potential,
     Momentum(usize),
@@ -187,12 +217,8 @@ impl<G: Space<S = f64>> Source<G> {
                         StretchOf::Function(f) => {
                             let function = &m.functions[f];
                             let slopes = &w.functions[function.value + 1..];
-                            let along: f64 = function
-                                .gauges
-                                .iter()
-                                .zip(slopes)
-                                .map(|(&g, s)| s * (gauge_order(d, g, 2, a) - w.readings[g].drift))
-                                .sum();
+                            let along: f64 =
+                                function.gauges.iter().zip(slopes).map(|(&g, s)| s * (gauge_order(d, g, 2, a) - w.readings[g].drift)).sum();
                             along + w.drifts[function.drift]
                         }
                     },

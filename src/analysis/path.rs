@@ -53,7 +53,12 @@ impl Path {
     ///
     /// # Errors
     /// If the start is a singular position, where velocities are not determined.
-    pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], set: &mut impl FnMut(f64, &mut [i32]), to: f64) -> Result<Self, SingularStart> {
+    pub fn trace<G: Space<S = f64>>(
+        driven: &mut Driven<'_, G>,
+        modes: &mut [i32],
+        set: &mut impl FnMut(f64, &mut [i32]),
+        to: f64,
+    ) -> Result<Self, SingularStart> {
         set(0.0, modes);
         driven.position(0.0, modes).map_err(|_| SingularStart)?;
         if driven.condition() < SINGULAR {

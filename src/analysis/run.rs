@@ -92,16 +92,16 @@ fn clock<G: Space<S = f64>>(
     parameters: &[f64],
     study: &Study,
 ) -> Result<Clock, Failure> {
-    let fault = |message: String, help: &str| Failure::Study {
-        code: "range",
-        message,
-        place: format!("{}.over", study.place),
-        help: help.into(),
-    };
+    let fault =
+        |message: String, help: &str| Failure::Study { code: "range", message, place: format!("{}.over", study.place), help: help.into() };
     match range.over {
         Over::Time(id) => {
             let length = model.pool.value(id, parameters);
-            if length.is_finite() && length != 0.0 { Ok(Clock::of_time(length)) } else { Err(fault(format!("the range is {length} s"), "give a time, as `over: 2 s`")) }
+            if length.is_finite() && length != 0.0 {
+                Ok(Clock::of_time(length))
+            } else {
+                Err(fault(format!("the range is {length} s"), "give a time, as `over: 2 s`"))
+            }
         }
         Over::Driver(id) => {
             let length = model.pool.value(id, parameters);
@@ -188,7 +188,8 @@ fn observe<G: Space<S = f64>>(
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(model, mechanism, start, range, parameters, study)?;
     let mut motion = trace(mechanism, start, clock, observer, watched.ids.len())?;
-    let lost = |l: Lost| Failure::Numerical(format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at));
+    let lost =
+        |l: Lost| Failure::Numerical(format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at));
     let rows = motion.sample(range.samples).map_err(lost)?;
     let n = rows.places.len();
     // column after column, for the search of extremes
@@ -214,7 +215,8 @@ fn observe<G: Space<S = f64>>(
     }
     let mut functionals = Functionals { clock, motion: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
     let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
-    let scalars = evaluate(model, study, parameters, mechanism, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
+    let scalars =
+        evaluate(model, study, parameters, mechanism, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
     let expectations = expectations(model, study, parameters, mechanism, &found, &results);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     Ok(Outcome {
@@ -333,14 +335,19 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
         });
     }
     if let Some(t) = motion.path.dead.iter().flatten().next() {
-        out.push(Finding { code: "dead-point", message: format!("the motion ends at a dead point at t = {} s", t.0), path: "drivers".into() });
+        out.push(Finding {
+            code: "dead-point",
+            message: format!("the motion ends at a dead point at t = {} s", t.0),
+            path: "drivers".into(),
+        });
     }
     out
 }
 
 /// Residuals over the rows.
 fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Certificate {
-    let mut certificate = Certificate { evaluations: rows.places.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
+    let mut certificate =
+        Certificate { evaluations: rows.places.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
     let mut nothing = vec![0.0; rows.values.first().map_or(0, Vec::len)];
     let every = (rows.places.len() / 64).max(1);
     for (s, piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {

@@ -55,7 +55,8 @@ pub(super) fn scene<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene {
         }
         for (joint, out) in mechanism.joints.iter().zip(&mut scene.joints) {
             let (a, axis) = (poses[joint.a.0], G::vector(&joint.axis));
-            let at = if joint.kind == "pin-in-slot" || joint.kind == "slider" { poses[joint.b.0].point(joint.b.1) } else { a.point(joint.a.1) };
+            let at =
+                if joint.kind == "pin-in-slot" || joint.kind == "slider" { poses[joint.b.0].point(joint.b.1) } else { a.point(joint.a.1) };
             out.at.push(view.flat::<G>(at));
             let (p, q) = (view.flat::<G>(at), view.flat::<G>(at + G::rotate(a.r, axis)));
             out.along.push([q[0] - p[0], q[1] - p[1]]);

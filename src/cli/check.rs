@@ -52,10 +52,9 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
 
 fn explain(document: &Document, failure: &Failure, common: &Common) -> u8 {
     let diagnostics = match failure {
-        Failure::Model(faults) => faults
-            .iter()
-            .map(|f| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone()))
-            .collect(),
+        Failure::Model(faults) => {
+            faults.iter().map(|f| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone())).collect()
+        }
         Failure::Study { code, message, place, help } => vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))],
         Failure::Numerical(message) => {
             tell(&format!("error: {message}"));
@@ -109,7 +108,11 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
         say(&format!("  links [m]                 {}", lengths.join(", ")));
         say(&match g.range {
             None => "  range of the input        full turn".to_string(),
-            Some((a, b)) => format!("  range of the input        {} to {} deg from the line of the ground pivots, to either side", short(a.to_degrees()), short(b.to_degrees())),
+            Some((a, b)) => format!(
+                "  range of the input        {} to {} deg from the line of the ground pivots, to either side",
+                short(a.to_degrees()),
+                short(b.to_degrees())
+            ),
         });
     }
     if !survey.start.is_empty() {

@@ -174,7 +174,11 @@ pub(super) fn drawing(model: &Model, scene: &Scene) -> Drawing {
         title: model.name.clone(),
         bodies: scene.bodies.iter().map(|(name, poses)| Outline { name: name.clone(), poses: poses.clone() }).collect(),
         joints: joints.collect(),
-        links: scene.springs.iter().map(|(name, poses)| Link { name: name.clone(), kind: LinkKind::Spring, poses: poses.clone() }).collect(),
+        links: scene
+            .springs
+            .iter()
+            .map(|(name, poses)| Link { name: name.clone(), kind: LinkKind::Spring, poses: poses.clone() })
+            .collect(),
         traces: scene.traces.iter().map(|(name, points)| Trace { name: name.clone(), points: points.clone() }).collect(),
     }
 }

@@ -63,7 +63,9 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
         match text.split_once('=') {
             Some((name, value)) => sets.push((name.trim().to_string(), value.trim().to_string())),
             None => {
-                tell(&format!("error: `--set {text}` has no `=`\n  help: write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`"));
+                tell(&format!(
+                    "error: `--set {text}` has no `=`\n  help: write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`"
+                ));
                 return None;
             }
         }

@@ -84,7 +84,9 @@ enum Color {
 #[derive(Subcommand)]
 enum Command {
     /// Run the studies of a model and write tables and figures
-    #[command(after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out")]
+    #[command(
+        after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out"
+    )]
     Run(run::Arguments),
     /// Look a model over: topology, freedom, redundant rows, masses, start
     #[command(after_help = "Examples:\n  grashof check models/crank_rocker.yaml\n  grashof check my.yaml --strict --json")]
@@ -96,7 +98,9 @@ enum Command {
     #[command(after_help = "Examples:\n  grashof schema > grashof.schema.json\n  grashof schema | head")]
     Schema,
     /// Print a completion script for a shell
-    #[command(after_help = "Examples:\n  grashof completions bash > /etc/bash_completion.d/grashof\n  grashof completions fish > ~/.config/fish/completions/grashof.fish")]
+    #[command(
+        after_help = "Examples:\n  grashof completions bash > /etc/bash_completion.d/grashof\n  grashof completions fish > ~/.config/fish/completions/grashof.fish"
+    )]
     Completions(completions::Arguments),
 }
 

@@ -71,11 +71,8 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
         .zip(&outcome.extremes)
         .map(|(c, e)| (c.name.clone(), e.map_or_else(Extrema::default, |e| Extrema { min: extreme(e.min), max: extreme(e.max) })))
         .collect();
-    let mut findings: Vec<Finding> = outcome
-        .findings
-        .iter()
-        .map(|f| Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() })
-        .collect();
+    let mut findings: Vec<Finding> =
+        outcome.findings.iter().map(|f| Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() }).collect();
     if let Some(reason) = &outcome.stopped {
         findings.push(Finding { code: "stopped".into(), message: reason.clone(), path: study.place.clone() });
     }

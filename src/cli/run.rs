@@ -35,7 +35,9 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     }
     let known = document.study_names();
     if known.is_empty() {
-        tell("error: the model has no studies, so there is nothing to run\n  help: add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`");
+        tell(
+            "error: the model has no studies, so there is nothing to run\n  help: add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`",
+        );
         return code::INPUT;
     }
     let studies = if arguments.study.is_empty() { known.clone() } else { arguments.study.clone() };
@@ -53,7 +55,9 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
         let named = !arguments.study.is_empty();
         match conflict(&model) {
             Some(parameter) if named => {
-                tell(&format!("error: `--set {parameter}` sets the parameter that study `{study}` varies\n  help: leave the parameter to the study, or run another one"));
+                tell(&format!(
+                    "error: `--set {parameter}` sets the parameter that study `{study}` varies\n  help: leave the parameter to the study, or run another one"
+                ));
                 worst = worst.max(code::INPUT);
                 continue;
             }
@@ -65,7 +69,8 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
             }
             None => {}
         }
-        let job = Job { document: &document, model: &model, study, studies: &known, directory: &directory, plots: !arguments.no_plots, common };
+        let job =
+            Job { document: &document, model: &model, study, studies: &known, directory: &directory, plots: !arguments.no_plots, common };
         let finished = job.run();
         if interrupted() {
             tell(&format!("interrupted: study `{study}` is not written"));

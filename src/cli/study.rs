@@ -62,7 +62,10 @@ impl Job<'_> {
         };
         let mut code = code::DONE;
         if let Some(reason) = &outcome.stopped {
-            tell(&format!("error: study `{}` stopped on its way: {reason}\n  help: start elsewhere, change the lengths, or give a shorter range", self.study));
+            tell(&format!(
+                "error: study `{}` stopped on its way: {reason}\n  help: start elsewhere, change the lengths, or give a shorter range",
+                self.study
+            ));
             code = code::NUMERICAL;
         } else {
             code = code.max(self.expectations(&outcome));
@@ -118,10 +121,8 @@ impl Job<'_> {
                 staging.add(format!("{}-{:03}.csv", self.study, i + 1), write_csv(&report::rows(self.model, study, outcome)));
             }
         }
-        let labelled: Vec<(Option<String>, &Outcome)> = runs
-            .iter()
-            .filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?)))
-            .collect();
+        let labelled: Vec<(Option<String>, &Outcome)> =
+            runs.iter().filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?))).collect();
         if let (true, Some((_, first))) = (self.plots, labelled.first()) {
             let mut drawn = figures::figures(self.model, study, &labelled);
             drawn.extend(figures::sweep_figures(self.model, study, &runs));

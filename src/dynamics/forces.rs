@@ -91,9 +91,7 @@ impl<G: Space> Dynamics<'_, G> {
                 EffortLaw::Linear { stiffness, rest, damping, preload } => {
                     -(stiffness * (self.extent(effort.along) - rest) + preload) - damping * self.extent_rate(effort.along)
                 }
-                EffortLaw::Law { output, damping, preload } => {
-                    -(outputs[output] + preload) - damping * self.extent_rate(effort.along)
-                }
+                EffortLaw::Law { output, damping, preload } => -(outputs[output] + preload) - damping * self.extent_rate(effort.along),
                 EffortLaw::Drive { output } => outputs[output],
             };
             self.work.efforts[i] = size;
@@ -106,6 +104,10 @@ impl<G: Space> Dynamics<'_, G> {
         let nv = m.nv;
         let Workspace { composite, inertias, columns, mass, readings, .. } = &mut self.work;
         composite.copy_from_slice(inertias);
+        if !m.rotors.is_empty() {
+            // a rotor between two branches adds to entries that no ancestor writes
+            mass.fill(G::S::default());
+        }
         for node in m.nodes.iter().rev() {
             let whole = composite[node.body];
             for k in node.columns.clone() {
@@ -123,7 +125,7 @@ impl<G: Space> Dynamics<'_, G> {
         for rotor in &m.rotors {
             let (gauge, reading) = (&m.gauges[rotor.gauge], &readings[rotor.gauge]);
             gauge.project(reading, columns, |j, x| {
-                gauge.project(reading, columns, |k, y| mass[j * nv + k] += rotor.inertia * x * y);
+                gauge.project(reading, columns, |k, y| mass[j * nv + k] += rotor.inertia * (x * y));
             });
         }
     }

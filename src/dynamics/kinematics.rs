@@ -131,8 +131,12 @@ impl<G: Space> Dynamics<'_, G> {
         let w = &mut self.work;
         for node in &m.nodes {
             let (mut twist, mut bias) = (w.twists[node.parent], w.bias[node.parent]);
-            for k in node.columns.clone() {
-                let moved = w.columns[k] * v[k];
+            for step in &m.steps[node.steps.clone()] {
+                let moved = match *step {
+                    Step::Axis { v: k, .. } => w.columns[k] * v[k],
+                    // three columns, one step: they turn together, so that none carries another
+                    Step::Ball { v: k, .. } => (k + 1..k + G::SPIN).fold(w.columns[k] * v[k], |sum, k| sum + w.columns[k] * v[k]),
+                };
                 bias += twist.cross(moved);
                 twist += moved;
             }

@@ -66,8 +66,7 @@ impl<G: Space> Workspace<G> {
     pub fn new(mechanism: &Mechanism<G>) -> Self {
         let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
-        let programs =
-            [&mechanism.time_program, &mechanism.position_program, &mechanism.velocity_program, &mechanism.force_program];
+        let programs = [&mechanism.time_program, &mechanism.position_program, &mechanism.velocity_program, &mechanism.force_program];
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         Self {
             motions: zeros(mechanism.time_program.outputs),

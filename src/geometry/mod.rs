@@ -20,11 +20,33 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// What vectors, spins and tensors have in common: a linear space over `S`.
 pub trait Linear<S>:
-    Copy + Debug + Default + PartialEq + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> + AddAssign + Mul<S, Output = Self> + Send + Sync + 'static
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + Mul<S, Output = Self>
+    + Send
+    + Sync
+    + 'static
 {
 }
 impl<S, T> Linear<S> for T where
-    T: Copy + Debug + Default + PartialEq + Add<Output = T> + Sub<Output = T> + Neg<Output = T> + AddAssign + Mul<S, Output = T> + Send + Sync + 'static
+    T: Copy
+        + Debug
+        + Default
+        + PartialEq
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Neg<Output = T>
+        + AddAssign
+        + Mul<S, Output = T>
+        + Send
+        + Sync
+        + 'static
 {
 }
 

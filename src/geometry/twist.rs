@@ -199,8 +199,7 @@ impl<G: Space> MassProperties<G> {
             return Self { mass, com: self.com, inertia: self.inertia + o.inertia };
         }
         let com = (self.com * self.mass + o.com * o.mass) * (G::S::constant(1.0) / mass);
-        let inertia =
-            self.inertia + o.inertia + G::steiner(self.mass, self.com - com) + G::steiner(o.mass, o.com - com);
+        let inertia = self.inertia + o.inertia + G::steiner(self.mass, self.com - com) + G::steiner(o.mass, o.com - com);
         Self { mass, com, inertia }
     }
     /// About the world origin, in world axes.
@@ -284,7 +283,8 @@ mod tests {
 
     #[test]
     fn kinetic_energy_is_that_of_the_particles() {
-        let body = MassProperties::<E3> { mass: 2.0, com: E3::vector(&[0.1, 0.2, -0.3]), inertia: E3::tensor([0.4, 0.5, 0.3, 0.02, -0.01, 0.03]) };
+        let body =
+            MassProperties::<E3> { mass: 2.0, com: E3::vector(&[0.1, 0.2, -0.3]), inertia: E3::tensor([0.4, 0.5, 0.3, 0.02, -0.01, 0.03]) };
         let other = MassProperties::<E3> { mass: 3.0, com: E3::vector(&[-0.5, 0.1, 0.2]), inertia: E3::Tensor::zeros() };
         let (x, v) = (pose(0.2), motion(0.6));
         let joined = body.join(other).in_world(x);

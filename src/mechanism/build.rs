@@ -100,7 +100,13 @@ impl<G: Space> Builder<'_, G> {
         if x.is_finite() {
             return x;
         }
-        self.fault("not-a-number", place, format!("this evaluates to {x}"), "a finite number", Some("look at the parameters it uses".into()));
+        self.fault(
+            "not-a-number",
+            place,
+            format!("this evaluates to {x}"),
+            "a finite number",
+            Some("look at the parameters it uses".into()),
+        );
         0.0
     }
 
@@ -145,7 +151,10 @@ impl<G: Space> Builder<'_, G> {
             return Some(*gauge);
         }
         let measured = *self.slot_measures[joint].get(slot)?;
-        let (a, b) = (self.mechanism.joints[joint].a.0, self.mechanism.joints[joint].b.0);
+        let (mut a, mut b) = (self.mechanism.joints[joint].a.0, self.mechanism.joints[joint].b.0);
+        if self.mechanism.joints[joint].tree.is_none() && self.shapes[joint].seen_from_second(slot) {
+            (a, b) = (b, a);
+        }
         let shift = if slot == 0 { self.shapes[joint].zero } else { 0.0 };
         let gauge = self.gauge(a, b, measured, shift);
         self.slots[joint][slot] = Some(gauge);

@@ -171,9 +171,8 @@ impl<G: Space> Gauge<G> {
                 let (pa, pb, n) = (poses[self.a].point(pa), poses[self.b].point(pb), G::rotate(poses[self.a].r, n));
                 let (da, db) = (va.at(pa), vb.at(pb));
                 let dn = G::turn(va.w, n);
-                out.drift = G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da))
-                    + two * G::dot(dn, db - da)
-                    + G::dot(G::turn(va.w, dn), pb - pa);
+                out.drift =
+                    G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + two * G::dot(dn, db - da) + G::dot(G::turn(va.w, dn), pb - pa);
             }
             Measured::Distance { pa, pb } => {
                 let (pa, pb) = (poses[self.a].point(pa), poses[self.b].point(pb));

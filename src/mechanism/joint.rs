@@ -160,10 +160,9 @@ impl Shape {
                 Pose { r: G::hinge(G::spin(u), G::S::constant(-self.zero)), p: G::Vector::default() }
             }
             [Axis::Slide(d)] => Pose::translation(G::vector(&d.map(|x| -x * self.zero))),
-            [Axis::Screw(u, pitch)] if self.zero != 0.0 => Pose {
-                r: G::hinge(G::spin(u), G::S::constant(-self.zero)),
-                p: G::vector(&u.map(|x| -x * pitch * self.zero)),
-            },
+            [Axis::Screw(u, pitch)] if self.zero != 0.0 => {
+                Pose { r: G::hinge(G::spin(u), G::S::constant(-self.zero)), p: G::vector(&u.map(|x| -x * pitch * self.zero)) }
+            }
             _ => Pose::identity(),
         };
         zero * align * back
@@ -186,15 +185,20 @@ impl Shape {
             JointKind::Cylindrical => vec![turn(e1, e2, back(e1)), slide(n)],
             JointKind::Planar => vec![slide(e1), slide(e2), turn(e1, e2, back(e1))],
             JointKind::Universal { .. } => {
-                // the second axis seen from a turns with the first angle
-                let w = apply(&self.align, self.second);
-                vec![turn(w, cross(n, w), self.second)]
+                // the second axis seen from a turns with the first angle; the first axis seen from b turns back by the second
+                let (w, first) = (apply(&self.align, self.second), back(n));
+                vec![turn(w, cross(n, w), self.second), turn(first, cross(first, self.second), n)]
             }
             JointKind::Free if planar => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0]), Measured::Angle],
             JointKind::Free => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0]), slide([0.0, 0.0, 1.0])],
             JointKind::Fixed | JointKind::Spherical => vec![],
             JointKind::Distance { .. } => vec![Measured::Distance { pa, pb }],
         }
+    }
+
+    /// Whether a coordinate of the cut joint is measured from the second body to the first.
+    pub(super) fn seen_from_second(&self, slot: usize) -> bool {
+        matches!(self.kind, JointKind::Universal { .. }) && slot == 1
     }
 
     /// The rows of the joint when it is cut, apart from a screw's relation of angle and advance.
@@ -204,7 +208,8 @@ impl Shape {
         let [e1, e2, n] = self.triad;
         let back = |x: [f64; 3]| apply(&transpose(&self.align), x);
         let slide = |d: [f64; 3], label| Asked { measured: Measured::Slide { pa, n: v(d), pb }, target: 0.0, label, angular: false };
-        let dot = |u: [f64; 3], w: [f64; 3], label| Asked { measured: Measured::Dot { u: v(u), w: v(w) }, target: 0.0, label, angular: true };
+        let dot =
+            |u: [f64; 3], w: [f64; 3], label| Asked { measured: Measured::Dot { u: v(u), w: v(w) }, target: 0.0, label, angular: true };
         let angle = || Asked { measured: Measured::Angle, target: 0.0, label: "angle", angular: true };
         if planar {
             return match self.kind {
@@ -256,7 +261,13 @@ impl Shape {
     /// Degrees of freedom that the joint leaves.
     pub(super) fn freedom(&self, planar: bool) -> usize {
         match self.kind {
-            JointKind::Distance { .. } => if planar { 2 } else { 5 },
+            JointKind::Distance { .. } => {
+                if planar {
+                    2
+                } else {
+                    5
+                }
+            }
             _ => self.axes(planar).iter().map(|a| a.sizes().1).sum(),
         }
     }
@@ -318,11 +329,9 @@ mod tests {
 
     #[test]
     fn smallest_rotation_takes_one_axis_to_the_other() {
-        for (from, to) in [
-            ([1.0, 0.0, 0.0], unit([0.3, -0.5, 0.8])),
-            ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]),
-            (unit([1.0, 1.0, 0.2]), unit([1.0, 1.0, 0.2])),
-        ] {
+        for (from, to) in
+            [([1.0, 0.0, 0.0], unit([0.3, -0.5, 0.8])), ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]), (unit([1.0, 1.0, 0.2]), unit([1.0, 1.0, 0.2]))]
+        {
             let r = axis_rotation(from, to);
             let moved = apply(&r, from);
             assert!((0..3).all(|i| (moved[i] - to[i]).abs() < 1e-14), "{moved:?} {to:?}");

@@ -13,18 +13,7 @@ use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
 ///
 /// The supertraits are what nalgebra's matrix arithmetic asks for (`Num` brings zero, one and the four operations).
 pub trait Scalar:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Neg<Output = Self>
-    + num_traits::Num
-    + AddAssign
-    + SubAssign
-    + MulAssign
-    + Send
-    + Sync
-    + 'static
+    Copy + Debug + Default + PartialEq + Neg<Output = Self> + num_traits::Num + AddAssign + SubAssign + MulAssign + Send + Sync + 'static
 {
     /// The number `x` with zero derivatives.
     fn constant(x: f64) -> Self;

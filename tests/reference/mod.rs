@@ -82,7 +82,8 @@ pub(crate) fn crank_rocker(file: &Value, loaded: bool) -> Vec<Series> {
     all.extend(vectors(file, ["com.vx", "com.vy"], "centre_of_mass/v_xy"));
     all.extend(vectors(file, ["com.ax", "com.ay"], "centre_of_mass/a_xy"));
     all.extend(vectors(file, ["shaking.fx", "shaking.fy"], "shaking/m_aG_xy"));
-    let joints = [("O", ["O.fx", "O.fy", "O.f"]), ("A", ["A.fx", "A.fy", "A.f"]), ("B", ["B.fx", "B.fy", "B.f"]), ("G", ["C.fx", "C.fy", "C.f"])];
+    let joints =
+        [("O", ["O.fx", "O.fy", "O.f"]), ("A", ["A.fx", "A.fy", "A.f"]), ("B", ["B.fx", "B.fy", "B.f"]), ("G", ["C.fx", "C.fy", "C.f"])];
     for (joint, [x, y, size]) in joints {
         let [fx, fy] = vectors(file, [x, y], &format!("reactions/{case}/{joint}_xy"));
         let sizes = fx.values.iter().zip(&fy.values).map(|(x, y)| x.hypot(*y)).collect();

@@ -1,8 +1,8 @@
 //! Drivers, couplings, springs, loads and motors as rows and efforts along gauges.
 
-use super::super::gauge::Measured;
-use super::super::{Drive, Effort, EffortLaw, Pull, Row, RowKind, RowOwner, Rotor, Stretch};
 use super::super::force::StretchOf;
+use super::super::gauge::Measured;
+use super::super::{Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stretch};
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -165,9 +165,7 @@ impl<G: Space> Builder<'_, G> {
                 let stiffness = G::S::constant(self.number(id, place));
                 EffortLaw::Linear { stiffness, rest: G::S::constant(rest), damping, preload }
             }
-            SpringLaw::None => {
-                EffortLaw::Linear { stiffness: G::S::constant(0.0), rest: G::S::constant(rest), damping, preload }
-            }
+            SpringLaw::None => EffortLaw::Linear { stiffness: G::S::constant(0.0), rest: G::S::constant(rest), damping, preload },
         };
         self.mechanism.stretches.push(Stretch { of: along, rest: G::S::constant(rest) });
         self.mechanism.spring_efforts.push(self.mechanism.efforts.len());

@@ -46,9 +46,8 @@ impl<G: Space> Builder<'_, G> {
         for branch in branches {
             self.node(branch);
         }
-        self.mechanism.joint_of_node = (0..self.mechanism.nodes.len())
-            .map(|n| self.mechanism.joints.iter().position(|j| j.tree.is_some_and(|t| t.0 == n)))
-            .collect();
+        self.mechanism.joint_of_node =
+            (0..self.mechanism.nodes.len()).map(|n| self.mechanism.joints.iter().position(|j| j.tree.is_some_and(|t| t.0 == n))).collect();
         for index in 0..self.shapes.len() {
             self.slots.push(vec![]);
             self.slot_measures.push(vec![]);
@@ -103,7 +102,13 @@ impl<G: Space> Builder<'_, G> {
             JointKind::Distance { length: Some(length) } => {
                 let l = self.number(length, place);
                 if l <= 0.0 {
-                    self.fault("no-length", place, format!("the distance is {l} m"), "more than 0 m", Some("a distance of 0 is a `revolute` or `spherical` joint".into()));
+                    self.fault(
+                        "no-length",
+                        place,
+                        format!("the distance is {l} m"),
+                        "more than 0 m",
+                        Some("a distance of 0 is a `revolute` or `spherical` joint".into()),
+                    );
                 }
                 l
             }
@@ -111,10 +116,22 @@ impl<G: Space> Builder<'_, G> {
         };
         let zero = self.optional(joint.zero, place);
         if joint.friction.is_some() {
-            self.fault("later", &format!("{place}.friction"), "joint friction".into(), "nothing: dry friction is not computed yet", Some("use `damping` for viscous friction, or remove it".into()));
+            self.fault(
+                "later",
+                &format!("{place}.friction"),
+                "joint friction".into(),
+                "nothing: dry friction is not computed yet",
+                Some("use `damping` for viscous friction, or remove it".into()),
+            );
         }
         if joint.limits.is_some() {
-            self.fault("later", &format!("{place}.limits"), "joint limits".into(), "nothing: end stops are not computed yet", Some("remove them".into()));
+            self.fault(
+                "later",
+                &format!("{place}.limits"),
+                "joint limits".into(),
+                "nothing: end stops are not computed yet",
+                Some("remove them".into()),
+            );
         }
         Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }
     }

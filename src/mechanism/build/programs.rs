@@ -11,12 +11,7 @@ use std::sync::Arc;
 
 impl<'m, G: Space> Builder<'m, G> {
     pub(super) fn new(model: &'m Model, parameters: &'m [f64]) -> Self {
-        let none = || StagedProgram {
-            program: Pool::new().program(&[], &[], &Arc::from([])),
-            fills: vec![],
-            inputs: 0,
-            outputs: 0,
-        };
+        let none = || StagedProgram { program: Pool::new().program(&[], &[], &Arc::from([])), fills: vec![], inputs: 0, outputs: 0 };
         let mut builder = Self {
             model,
             parameters,
@@ -155,7 +150,13 @@ impl<'m, G: Space> Builder<'m, G> {
         let inputs = self.inputs.clone();
         let rate = self.pool.rate(id, &mut |_, input| (inputs.get(input as usize) == Some(&Quantity::Time)).then_some(one));
         if rate.is_err() {
-            self.fault("not-of-time", place, "the motion uses a quantity of the mechanism".into(), "an expression of t and parameters", None);
+            self.fault(
+                "not-of-time",
+                place,
+                "the motion uses a quantity of the mechanism".into(),
+                "an expression of t and parameters",
+                None,
+            );
         }
         rate.ok()
     }
@@ -169,7 +170,13 @@ impl<'m, G: Space> Builder<'m, G> {
             match self.gauge_of(quantity) {
                 Some((gauge, 0)) => gauges.push(gauge),
                 _ => {
-                    self.fault("not-a-position", place, format!("the expression uses {quantity:?}"), "coordinates of bodies and joints alone", None);
+                    self.fault(
+                        "not-a-position",
+                        place,
+                        format!("the expression uses {quantity:?}"),
+                        "coordinates of bodies and joints alone",
+                        None,
+                    );
                     return None;
                 }
             }

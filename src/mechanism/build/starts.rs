@@ -13,7 +13,7 @@ impl<G: Space> Builder<'_, G> {
         for index in 0..self.model.start.len() {
             let start = &self.model.start[index];
             let place = start.place.as_str();
-            let name = place.strip_prefix("start.").unwrap_or(place).to_string();
+            let name = start.name.clone();
             match &start.value {
                 StartValue::Rotation { axis, angle } => self.rotation(index, axis, *angle, &name),
                 StartValue::Number(id) => {
