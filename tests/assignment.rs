@@ -508,7 +508,7 @@ fn in_space_the_same() {
     let rocker = CrankRocker::new(Parameters::default());
     let mut verdict = Verdict::default();
     let shared: Vec<_> = COLUMNS.iter().enumerate().filter(|(_, name)| table.names.iter().any(|n| n == *name)).collect();
-    assert!(shared.len() > 30, "{:?}", table.names);
+    assert!(shared.len() >= 28, "{:?}", table.names);
     for (found, side) in table.rows.iter().zip(table.sides()) {
         let load = if side == 0 { Load::ByState } else { load_beside(&rocker, found[0], side) };
         let right = rocker.row(found[0], load);
@@ -517,7 +517,8 @@ fn in_space_the_same() {
             let within = if name.contains(".f") || name.starts_with("drive") { 1e-6 } else { 1e-10 * (1.0 + right[*k].abs()) };
             verdict.close(name, found[0].to_degrees(), found[table.index(name)], right[*k], within);
         }
-        for name in ["com.z", "com.vz", "com.az", "O.fz", "A.fz", "B.fz", "C.fz", "shaking.fz"] {
+        // nothing leaves the plane, and hinges about z carry no moment
+        for name in table.names.iter().filter(|n| n.ends_with('z') || n.ends_with(".mx") || n.ends_with(".my")) {
             verdict.close(name, found[0].to_degrees(), found[table.index(name)], 0.0, 1e-6);
         }
     }

@@ -201,6 +201,7 @@ const ARGUMENTS: &[(&str, &[&str], i32)] = &[
     ("argument-color", &["run", "base.yaml", "--color", "blue"], 2),
     ("argument-shell", &["completions", "cmd"], 2),
     ("argument-kind", &["new", "five-bar", "OUT"], 2),
+    ("argument-file-for-kind", &["new", "mine.yaml"], 2),
     ("argument-check-unknown-variant", &["check", "base.yaml", "--variant", "shrt"], 2),
     ("argument-check-set-unknown", &["check", "base.yaml", "--set", "l9=0.3"], 2),
 ];

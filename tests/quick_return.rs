@@ -36,8 +36,8 @@ fn every_column_at_whole_degrees() {
                 verdict.close(name, format_args!("{degree} deg"), found, series.values[degree % 360], series.tolerance);
             }
         }
-        for step in 0..=SAMPLES {
-            let found = table.rows[rows[step]][1];
+        for (step, row) in rows.iter().enumerate() {
+            let found = table.rows[*row][1];
             verdict.close("time", step, found, TAU * step as f64 / SAMPLES as f64, 1e-12);
         }
         verdict.give(study);

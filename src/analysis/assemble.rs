@@ -4,10 +4,13 @@
 //! Then constraints and exact values are closed by Gauss-Newton steps that are shortest in the mass metric (Levenberg's
 //! damping where a step does not help), so that the branch is the one the guess lies on. Velocities follow linearly.
 
+mod explain;
+
 use super::least_squares::shortest;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step, describe_loop};
+use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
+use explain::short;
 use grashof_solvers::kkt::metric;
 use std::f64::consts::TAU;
 
@@ -44,6 +47,8 @@ pub struct Found {
 /// Why a mechanism cannot be assembled, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AssemblyFault {
+    /// Kebab-case kind: `not-assembled`, `start-cannot-hold`, `over-constrained`.
+    pub code: &'static str,
     /// What stays open.
     pub message: String,
     /// Path in the model file of what it concerns most.
@@ -58,6 +63,8 @@ struct System<'a, G: Space<S = f64>> {
     modes: Vec<i32>,
     /// Rows asked at position level: those not anchored by the start.
     rows: Vec<usize>,
+    /// Whether exact values must hold.
+    exact: bool,
     size: f64,
 }
 
@@ -93,8 +100,11 @@ pub fn assemble<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assem
         }
     }
     if !closed {
+        // whom to blame: would it close if the exact values gave way?
+        system.exact = false;
+        let closes = system.close(&mut q, &metric);
         system.evaluate(&q);
-        return Err(system.explain());
+        return Err(if closes { system.explain_start() } else { system.explain() });
     }
     if !system.faces() {
         return Err(system.explain_facing());
@@ -169,7 +179,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         let rows = (0..mechanism.rows.len()).filter(|r| !mechanism.rows[*r].anchored).collect();
         // the farthest point of any body from its own origin, and of the ground
         let reach = mechanism.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
-        Self { dynamics, modes, rows, size: if reach > 0.0 { reach } else { 1.0 } }
+        Self { dynamics, modes, rows, exact: true, size: if reach > 0.0 { reach } else { 1.0 } }
     }
 
     fn evaluate(&mut self, q: &[f64]) {
@@ -239,7 +249,9 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             r.push(w.phi[row] * scale);
             jacobian.extend(w.g[row * m.nv..(row + 1) * m.nv].iter().map(|x| x * scale));
         }
-        self.asked(true, r, jacobian);
+        if self.exact {
+            self.asked(true, r, jacobian);
+        }
     }
 
     /// Pulls the drawn position towards all asked values.
@@ -319,62 +331,6 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.poses[j.a.0].r, u), G::rotate(w.poses[j.b.0].r, f)) < 0.0)
         })
     }
-
-    fn explain_facing(&self) -> AssemblyFault {
-        let joint = self.wrong_way().unwrap_or(0);
-        let joint = &self.dynamics.mechanism.joints[joint];
-        AssemblyFault {
-            message: format!("joint `{}` can only be closed from this guess with its axes the wrong way round", joint.name),
-            place: format!("joints.{}", joint.name),
-            help: "give guesses in `start` for the orientations of the bodies in its loop".into(),
-        }
-    }
-
-    /// The loops and exact values that stay open at the position evaluated last.
-    fn explain(&self) -> AssemblyFault {
-        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let mut parts = Vec::new();
-        let mut place = String::from("start");
-        for (index, joint) in m.joints.iter().enumerate() {
-            let (mut gap, mut tilt) = (0.0_f64, 0.0_f64);
-            for (row, phi) in m.rows.iter().zip(&w.phi).filter(|(r, _)| r.owner == RowOwner::Joint(index)) {
-                if row.angular { tilt += phi * phi } else { gap += phi * phi }
-            }
-            if gap.sqrt() > 1e-9 * self.size || tilt.sqrt() > 1e-9 {
-                let path = describe_loop(m, joint);
-                let others: Vec<&str> =
-                    m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).map(|j| j.name.as_str()).collect();
-                parts.push(format!(
-                    "the loop {path} stays open at joint `{}` by {} mm and {} deg (joints {} share it)",
-                    joint.name,
-                    short(gap.sqrt() * 1e3),
-                    short(tilt.sqrt().to_degrees()),
-                    others.join(", ")
-                ));
-                if place == "start" {
-                    place = format!("joints.{}", joint.name);
-                }
-            }
-        }
-        for (row, phi) in m.rows.iter().zip(&w.phi) {
-            if !row.anchored && !matches!(row.owner, RowOwner::Joint(_)) && phi.abs() > 1e-9 {
-                let what = if matches!(row.owner, RowOwner::Coupling) { format!("coupling `{}`", row.label) } else { "a driver".into() };
-                parts.push(format!("{what} stays off by {}", short(*phi)));
-            }
-        }
-        for start in m.starts.iter().filter(|s| !s.guess) {
-            let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
-            let off = w.readings[gauge].x - start.value;
-            if off.abs() > 1e-9 {
-                parts.push(format!("the exact start value {} = {} is missed by {}", start.name, short(start.value), short(off)));
-            }
-        }
-        AssemblyFault {
-            message: format!("the mechanism cannot be assembled: {}", parts.join("; ")),
-            place,
-            help: "check lengths and points, put `~` before start values that may give way, or give better guesses".into(),
-        }
-    }
 }
 
 /// Velocities from drivers and exact values; what is left over stays as near as can be to the guesses, else at rest.
@@ -434,14 +390,33 @@ fn velocity<G: Space<S = f64>>(
     if let Some((i, x)) = off.iter().enumerate().max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()))
         && x.abs() > 1e-7 * scale * (1.0 + size)
     {
-        let what = match i.checked_sub(m.rows.len()) {
-            Some(k) => wanted(false).nth(k).map_or_else(String::new, |s| format!("the exact start value {} = {}", s.name, short(s.value))),
+        let held = i.checked_sub(m.rows.len()).and_then(|k| wanted(false).nth(k));
+        let what = match held {
+            Some(s) => format!("the exact start value {} = {} (SI)", s.name, short(s.value)),
             None => m.name_of_row(i),
         };
+        let start = Assembled { q: q.to_vec(), v, modes: modes.to_vec(), size, metric: metric.to_vec(), found: vec![] };
+        let (freedom, drivers) = (super::mobility::mobility(m, &start).freedom, m.drives.len());
+        if held.is_none() && freedom < drivers {
+            return Err(AssemblyFault {
+                code: "over-constrained",
+                message: format!(
+                    "{drivers} drivers for a mechanism of {freedom} degree{} of freedom: {what} is missed by {} at the start",
+                    if freedom == 1 { "" } else { "s" },
+                    short(*x)
+                ),
+                place: "drivers".into(),
+                help: "remove drivers until there are as many as degrees of freedom".into(),
+            });
+        }
         return Err(AssemblyFault {
-            message: format!("the start velocities contradict each other: {what} is missed by {}", short(*x)),
-            place: "start".into(),
-            help: "put `~` before one of the velocities, or remove it".into(),
+            code: "start-cannot-hold",
+            message: format!("the start velocities contradict each other or the drivers: {what} is missed by {}", short(*x)),
+            place: held.map_or_else(|| "start".into(), |s| s.place.clone()),
+            help: match held {
+                Some(_) => "put `~` before it, or remove it: drivers and other exact values fix it already".into(),
+                None => "put `~` before one of the velocities, or remove it".into(),
+            },
         });
     }
     dynamics.velocity(&v, modes);
@@ -465,17 +440,6 @@ fn velocity<G: Space<S = f64>>(
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// Four significant digits, for sentences.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
-        let digits = if x == 0.0 { 1 } else { (4 - 1 - x.abs().log10().floor() as i32).clamp(0, 9) as usize };
-        let text = format!("{x:.digits$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
-    } else {
-        format!("{x:.3e}")
-    }
 }
 
 /// A fixed sequence in (−1, 1).

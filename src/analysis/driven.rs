@@ -46,7 +46,7 @@ enum Solver {
     Redundant { kkt: Kkt, metric: Vec<f64>, probe: Vec<f64> },
 }
 
-/// Corrections below this are below round-off after one more quadratic step.
+/// A correction below this leaves an error below round-off, and moves everything linearly to within round-off.
 const QUADRATIC: f64 = 1e-8;
 /// Newton steps before a position counts as not reached.
 const STEPS: usize = 12;
@@ -103,11 +103,12 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         self.correction = 0.0;
         let mut last = f64::INFINITY;
         for step in 0..STEPS {
+            if last < QUADRATIC {
+                self.dynamics.nudge(&self.q, &self.delta, modes);
+                return self.factor();
+            }
             self.dynamics.position(&self.q, modes);
             self.factor()?;
-            if last < QUADRATIC {
-                return Ok(());
-            }
             for (r, phi) in self.rhs.iter_mut().zip(&self.dynamics.work.phi) {
                 *r = -phi;
             }
@@ -135,24 +136,24 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
 
     /// Forces, multipliers and reactions for the motion found last.
     pub fn forces(&mut self, modes: &[i32]) {
-        self.dynamics.forces(modes);
-        self.dynamics.mass();
-        let work = &self.dynamics.work;
-        let nv = self.dynamics.mechanism.nv;
         match &mut self.solver {
             Solver::Square { lu, scale } => {
-                // λ = G⁻ᵀ (f − M a), G as factored in `position`
-                for (i, (l, f)) in self.lambda.iter_mut().zip(&work.force).enumerate() {
-                    let row = &work.mass[i * nv..(i + 1) * nv];
-                    *l = f - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
-                }
+                // λ = G⁻ᵀ (f − M a), G as factored in `position`; M itself is not needed
+                self.dynamics.loads(modes);
+                self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
+                self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.lambda);
                 lu.solve_transposed(&mut self.lambda);
                 self.lambda.iter_mut().zip(scale).for_each(|(l, s)| *l *= *s);
             }
             Solver::Redundant { kkt, .. } => {
+                self.dynamics.forces(modes);
+                self.dynamics.mass();
+                let work = &self.dynamics.work;
                 if kkt.factor(&work.mass, &work.g).is_ok() {
                     kkt.solve(&work.force, &work.gamma, &mut self.delta, &mut self.lambda);
                 }
+                self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
+                self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.delta);
             }
         }
         self.dynamics.react(&self.a, &self.lambda, &mut self.reactions);

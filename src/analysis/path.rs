@@ -168,7 +168,7 @@ fn step<G: Space<S = f64>>(
         *d = h * (v + 0.5 * h * a);
     }
     let size = driven.measure(delta);
-    if !(size <= FARTHEST) {
+    if size.is_nan() || size > FARTHEST {
         return Err(NotReached);
     }
     set(t, modes);
@@ -185,7 +185,7 @@ fn step<G: Space<S = f64>>(
         *d = v - (v0 + h * a0);
     }
     let (jump, speed) = (driven.measure(delta), driven.measure(&last.v) + driven.measure(&driven.v));
-    if !(jump <= 0.2 * speed + 1e-9 / h.abs()) {
+    if jump.is_nan() || jump > 0.2 * speed + 1e-9 / h.abs() {
         return Err(NotReached);
     }
     Ok(driven.node(t, modes))

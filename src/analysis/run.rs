@@ -65,7 +65,7 @@ fn run_in<G: Space<S = f64>>(model: &Model, study: &Study, parameters: &[f64], c
 }
 
 fn assembled<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assembled, Failure> {
-    assemble(mechanism).map_err(|f| Failure::Study { code: "not-assembled", message: f.message, place: f.place, help: f.help })
+    assemble(mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })
 }
 
 fn trace<'m, G: Space<S = f64>>(
@@ -77,7 +77,7 @@ fn trace<'m, G: Space<S = f64>>(
 ) -> Result<Motion<'m, G>, Failure> {
     Motion::trace(mechanism, start, clock, observer, columns).map_err(|_| {
         Failure::Numerical(
-            "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities; start elsewhere"
+            "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities"
                 .into(),
         )
     })

@@ -13,7 +13,8 @@ pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
     let bytes = match bytes(model) {
         Ok(bytes) => bytes,
         Err(error) => {
-            tell(&format!("error: cannot read `{model}`: {error}"));
+            let why = if error.kind() == std::io::ErrorKind::NotFound { "there is no such file".to_string() } else { error.to_string() };
+            tell(&format!("error: cannot read `{model}`: {why}"));
             let help = match error.kind() {
                 std::io::ErrorKind::NotFound => "check the path, or write a new model with `grashof new four-bar`",
                 _ if Path::new(model).is_dir() => "name a file in it",

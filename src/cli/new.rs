@@ -32,7 +32,12 @@ pub(super) fn new(arguments: &Arguments) -> u8 {
     }
     let Some((kind, _, text)) = TEMPLATES.iter().find(|t| t.0 == arguments.kind) else {
         let known: Vec<&str> = TEMPLATES.iter().map(|t| t.0).collect();
-        tell(&format!("error: no model of the kind `{}`\n  help: the kinds are {}", arguments.kind, known.join(", ")));
+        let help = if arguments.kind.contains(['.', '/']) {
+            format!("the kind stands before the file: `grashof new {} {}`", known[0], arguments.kind)
+        } else {
+            format!("the kinds are {}", known.join(", "))
+        };
+        tell(&format!("error: no model of the kind `{}`\n  help: {help}", arguments.kind));
         return code::INPUT;
     };
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));

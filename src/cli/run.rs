@@ -4,6 +4,7 @@ use super::progress::{interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::{Common, code, files, say, tell};
 use grashof::model::{Document, Model};
+use std::collections::HashSet;
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -40,7 +41,9 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
         );
         return code::INPUT;
     }
-    let studies = if arguments.study.is_empty() { known.clone() } else { arguments.study.clone() };
+    let mut studies = if arguments.study.is_empty() { known.clone() } else { arguments.study.clone() };
+    let mut seen = HashSet::new();
+    studies.retain(|study| seen.insert(study.clone()));
     let directory = files::directory(&arguments.model, common);
     let mut worst = code::DONE;
     let mut reports = Vec::new();
@@ -73,7 +76,8 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
             Job { document: &document, model: &model, study, studies: &known, directory: &directory, plots: !arguments.no_plots, common };
         let finished = job.run();
         if interrupted() {
-            tell(&format!("interrupted: study `{study}` is not written"));
+            let what = if finished.code == code::INTERRUPTED { "is not written" } else { "was the last one" };
+            tell(&format!("interrupted: study `{study}` {what}"));
             return code::INTERRUPTED;
         }
         worst = worst.max(finished.code);

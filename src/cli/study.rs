@@ -62,10 +62,8 @@ impl Job<'_> {
         };
         let mut code = code::DONE;
         if let Some(reason) = &outcome.stopped {
-            tell(&format!(
-                "error: study `{}` stopped on its way: {reason}\n  help: start elsewhere, change the lengths, or give a shorter range",
-                self.study
-            ));
+            let message = format!("study `{}` stopped on its way: {reason}", self.study);
+            self.tell_at("stopped", &study.place, message, "start elsewhere, change the lengths, or give a shorter range");
             code = code::NUMERICAL;
         } else {
             code = code.max(self.expectations(&outcome));
@@ -165,6 +163,9 @@ impl Job<'_> {
     }
 
     fn write(&self, staging: &Staging, code: u8, output: Output) -> Finished {
+        if interrupted() {
+            return Finished { code: code::INTERRUPTED, output: None };
+        }
         match staging.commit(self.directory, self.study, self.studies) {
             Ok(paths) => {
                 if self.common.verbose {
@@ -205,6 +206,12 @@ impl Job<'_> {
         code
     }
 
+    /// Prints an error at a place of the file.
+    fn tell_at(&self, code: &'static str, place: &str, message: String, help: &str) {
+        let report = Report::new(vec![self.document.diagnostic(code, place, message, "", Some(help.into()))]);
+        tell(report.render(self.common.colored()).trim_end());
+    }
+
     /// Prints why a run did not begin, and gives its exit code.
     fn explain(&self, failure: &Failure) -> u8 {
         let diagnostics = match failure {
@@ -216,7 +223,9 @@ impl Job<'_> {
                 vec![self.document.diagnostic(code, place, message.clone(), "", Some(help.clone()))]
             }
             Failure::Numerical(message) => {
-                tell(&format!("error: study `{}`: {message}", self.study));
+                let place = self.model.study.as_ref().map_or("studies", |s| s.place.as_str());
+                let help = "start elsewhere, change the lengths, or give a shorter range";
+                self.tell_at("numerical", place, format!("study `{}`: {message}", self.study), help);
                 return code::NUMERICAL;
             }
         };
@@ -227,16 +236,17 @@ impl Job<'_> {
 
 /// What the model language has and this version does not compute.
 fn later(study: &Study) -> Option<Failure> {
-    let what = match study.kind {
-        Kind::Later(kind) => format!("studies of the kind `{kind}`"),
-        _ if study.solve.is_some() => "`solve`".to_string(),
-        _ if !study.take.is_empty() => "`take`".to_string(),
+    let beside = |key: &str| format!("studies.{}.{key}", study.name);
+    let (what, place) = match study.kind {
+        Kind::Later(kind) => (format!("studies of the kind `{kind}`"), study.place.clone()),
+        _ if study.solve.is_some() => ("`solve`".to_string(), beside("solve")),
+        _ if !study.take.is_empty() => ("`take`".to_string(), beside("take")),
         _ => return None,
     };
     Some(Failure::Study {
         code: "later",
         message: format!("{what} cannot be computed yet"),
-        place: study.place.clone(),
+        place,
         help: "name the studies to run with `--study`; `kinematics`, `inverse`, `balance` and sweeps of them are there".into(),
     })
 }

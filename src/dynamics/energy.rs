@@ -55,23 +55,21 @@ impl<G: Space> Dynamics<'_, G> {
         let input = program.fills.iter().find(|(_, l)| *l == crate::mechanism::Leaf::Stretch { spring, order: 0 });
         let Some(&(input, _)) = input else { return self.work.force_outputs[output] * s };
         let w = &mut self.work;
-        let mut values = vec![0.0; program.inputs];
-        let mut registers = vec![0.0; program.program.registers()];
-        let saved = modes.to_vec();
+        w.saved.copy_from_slice(modes);
         let mut sum = G::S::default();
         for panel in 0..PANELS {
             for (node, weight) in NODES {
                 let place = (panel as f64 + 0.5 * (1.0 + node)) / PANELS as f64;
                 w.inputs[input] = s.scale(place);
-                for (value, x) in values.iter_mut().zip(&w.inputs) {
+                for (value, x) in w.values.iter_mut().zip(&w.inputs) {
                     *value = x.value();
                 }
-                program.program.set_modes(&values, &mut registers, modes);
+                program.program.set_modes(&w.values, &mut w.numbers, modes);
                 program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
                 sum += w.force_outputs[output].scale(weight / PANELS as f64);
             }
         }
-        modes.copy_from_slice(&saved);
+        modes.copy_from_slice(&w.saved);
         w.inputs[input] = s;
         program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
         sum * s

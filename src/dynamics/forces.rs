@@ -5,12 +5,12 @@
 //! M_jk = s_j · I^c s_k for every ancestor column j of k (Featherstone 2008, section 6.2), and rotors add J gᵀg.
 
 use super::{Dynamics, Workspace};
-use crate::geometry::{Force, Space};
+use crate::geometry::{Force, Motion, Space};
 use crate::mechanism::{EffortLaw, StretchOf};
 
 impl<G: Space> Dynamics<'_, G> {
-    /// World inertias, applied wrenches, efforts and f; after [`Dynamics::velocity`].
-    pub fn forces(&mut self, modes: &[i32]) {
+    /// World inertias, applied wrenches and efforts; after [`Dynamics::velocity`].
+    pub fn loads(&mut self, modes: &[i32]) {
         let m = self.mechanism;
         if m.force_program.outputs > 0 {
             self.fill(&m.force_program);
@@ -19,22 +19,46 @@ impl<G: Space> Dynamics<'_, G> {
         }
         self.applied();
         self.efforts();
-        // P_b, summed from the leaves
+    }
+
+    /// [`Dynamics::loads`] and f.
+    pub fn forces(&mut self, modes: &[i32]) {
+        self.loads(modes);
         let w = &mut self.work;
-        for node in &m.nodes {
-            let (b, i) = (node.body, w.inertias[node.body]);
-            w.sums[b] = i * w.bias[b] + w.twists[b].cross_force(i * w.twists[b]) - w.applied[b];
+        for node in &self.mechanism.nodes {
+            let b = node.body;
+            w.unbalanced[b] = inertial(w, b, w.bias[b]) - w.applied[b];
         }
+        let mut force = std::mem::take(&mut self.work.force);
+        self.project(None, &mut force);
+        self.work.force = force;
+    }
+
+    /// f − M a (nv) from the accelerations of the bodies that belong to `a`, without M; after [`Dynamics::loads`].
+    pub fn unbalanced(&mut self, a: &[G::S], accelerations: &[Motion<G>], out: &mut [G::S]) {
+        let w = &mut self.work;
+        for node in &self.mechanism.nodes {
+            let b = node.body;
+            w.unbalanced[b] = inertial(w, b, accelerations[b]) - w.applied[b];
+        }
+        self.project(Some(a), out);
+    }
+
+    /// −s_k · Σ (unbalanced wrenches of all that hangs on k), and what efforts and rotors put on the coordinates.
+    fn project(&mut self, a: Option<&[G::S]>, force: &mut [G::S]) {
+        let m = self.mechanism;
+        let w = &mut self.work;
+        w.sums.copy_from_slice(&w.unbalanced);
         for node in m.nodes.iter().rev() {
             let sum = w.sums[node.body];
             for k in node.columns.clone() {
-                w.force[k] = -sum.power(w.columns[k]);
+                force[k] = -sum.power(w.columns[k]);
             }
             if node.parent != 0 {
                 w.sums[node.parent] += sum;
             }
         }
-        let Workspace { force, efforts, readings, columns, functions, .. } = w;
+        let Workspace { efforts, readings, columns, functions, .. } = w;
         let along_gauge = |gauge: usize, size: G::S, force: &mut [G::S]| {
             m.gauges[gauge].project(&readings[gauge], columns, |k, x| force[k] += size * x);
         };
@@ -50,7 +74,9 @@ impl<G: Space> Dynamics<'_, G> {
             }
         }
         for rotor in &m.rotors {
-            along_gauge(rotor.gauge, -(rotor.inertia * readings[rotor.gauge].drift), force);
+            let reading = &readings[rotor.gauge];
+            let acceleration = a.map_or(reading.drift, |a| m.gauges[rotor.gauge].acceleration(reading, columns, a));
+            along_gauge(rotor.gauge, -(rotor.inertia * acceleration), force);
         }
     }
 
@@ -144,4 +170,11 @@ impl<G: Space> Dynamics<'_, G> {
             }
         }
     }
+}
+
+/// I A + V ×* I V of a body.
+#[inline(always)]
+fn inertial<G: Space>(w: &Workspace<G>, body: usize, acceleration: Motion<G>) -> Force<G> {
+    let (i, v) = (w.inertias[body], w.twists[body]);
+    i * acceleration + v.cross_force(i * v)
 }

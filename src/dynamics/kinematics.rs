@@ -15,20 +15,50 @@ impl<G: Space> Dynamics<'_, G> {
         let m = self.mechanism;
         let w = &mut self.work;
         self.t = t;
-        if m.time_program.outputs > 0 {
+        if m.drives.iter().any(|d| d.speed.is_none()) {
             for &(input, _) in &m.time_program.fills {
                 w.inputs[input] = t;
             }
             m.time_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.motions);
-            for drive in &m.drives {
-                w.nu[drive.row] = w.motions[drive.output + 1];
+        }
+        for drive in &m.drives {
+            if let Some(speed) = drive.speed {
+                w.motions[drive.output] = t.scale(speed);
+                w.motions[drive.output + 1] = G::S::constant(speed);
+                w.motions[drive.output + 2] = G::S::default();
             }
+            w.nu[drive.row] = w.motions[drive.output + 1];
         }
     }
 
     /// Poses, columns, gauges, Φ and G at the coordinates `q` (nq); after [`Dynamics::time`].
     pub fn position(&mut self, q: &[G::S], modes: &[i32]) {
         self.poses(q);
+        self.placed(q, modes);
+    }
+
+    /// The same at `q`, which the small displacement `delta` (nv) has led to from the coordinates evaluated last: everything moves
+    /// by its first derivative. The error is the square of `delta`.
+    pub fn nudge(&mut self, q: &[G::S], delta: &[G::S], modes: &[i32]) {
+        let w = &mut self.work;
+        w.moved.fill(Motion::default());
+        for node in &self.mechanism.nodes {
+            let mut moved = w.moved[node.parent];
+            for k in node.columns.clone() {
+                let column = w.columns[k];
+                w.columns[k] = column + moved.cross(column);
+                moved += column * delta[k];
+            }
+            w.moved[node.body] = moved;
+            let x = &mut w.poses[node.body];
+            x.p = x.p + moved.at(x.p);
+            x.r = G::nudge(x.r, moved.w);
+        }
+        self.placed(q, modes);
+    }
+
+    /// Gauges, functions and rows once bodies are in place.
+    fn placed(&mut self, q: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
         for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut self.work.readings) {
             gauge.position(&self.work.poses, q, &self.work.columns, &modes[m.switches..], reading);

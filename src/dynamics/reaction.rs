@@ -42,18 +42,18 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// Accelerations, reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::forces`].
+    /// Reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::unbalanced`] with the
+    /// accelerations that [`Dynamics::accelerate`] put into `out`.
     pub fn react(&self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
-        self.accelerate(a, &mut out.accelerations);
         self.pairs(a, lambda, out);
         let (m, w) = (self.mechanism, &self.work);
         // what each body lacks: I A + V ×* I V − applied − pairs on it
         out.shaking = Force::default();
         out.sums[0] = Force::default();
         for node in &m.nodes {
-            let inertial = self.inertial(node.body, out.accelerations[node.body]);
-            out.shaking += inertial;
-            out.sums[node.body] = inertial - w.applied[node.body];
+            let lacking = w.unbalanced[node.body];
+            out.shaking += lacking + w.applied[node.body];
+            out.sums[node.body] = lacking;
         }
         out.frame = Force::default();
         for (i, (gauge, &size)) in m.gauges[..self.active].iter().zip(&out.along).enumerate() {

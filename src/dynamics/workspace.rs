@@ -18,6 +18,8 @@ pub struct Workspace<G: Space> {
     pub poses: Vec<Pose<G>>,
     /// Unit twist of each velocity column in the world (nv).
     pub columns: Vec<Motion<G>>,
+    /// Small displacement of each body, in [`Dynamics::nudge`](super::Dynamics::nudge).
+    pub(super) moved: Vec<Motion<G>>,
     /// Gauge readings; `x` and `wrench` from here on.
     pub readings: Vec<Reading<G>>,
     /// Functions and their partial derivatives (outputs of the position program).
@@ -44,6 +46,8 @@ pub struct Workspace<G: Space> {
     pub composite: Vec<Inertia<G>>,
     /// Applied wrench of each body: gravity and loads at points.
     pub applied: Vec<Force<G>>,
+    /// I A + V ×* I V − applied of each body, at the accelerations given last (bias alone in `forces`).
+    pub unbalanced: Vec<Force<G>>,
     /// Size of each effort, along its gauge or function.
     pub efforts: Vec<G::S>,
     /// Outputs of the force program.
@@ -58,6 +62,10 @@ pub struct Workspace<G: Space> {
     // ---- scratch of the programs
     pub(super) inputs: Vec<G::S>,
     pub(super) registers: Vec<G::S>,
+    /// Inputs, registers and modes as plain numbers, where modes are set anew.
+    pub(super) values: Vec<f64>,
+    pub(super) numbers: Vec<f64>,
+    pub(super) saved: Vec<i32>,
 }
 
 impl<G: Space> Workspace<G> {
@@ -72,6 +80,7 @@ impl<G: Space> Workspace<G> {
             motions: zeros(mechanism.time_program.outputs),
             poses: vec![Pose::identity(); bodies],
             columns: vec![Motion::default(); nv],
+            moved: vec![Motion::default(); bodies],
             readings: vec![Reading::default(); mechanism.gauges.len()],
             functions: zeros(mechanism.position_program.outputs),
             phi: zeros(rows),
@@ -84,6 +93,7 @@ impl<G: Space> Workspace<G> {
             inertias: vec![Inertia::default(); bodies],
             composite: vec![Inertia::default(); bodies],
             applied: vec![Force::default(); bodies],
+            unbalanced: vec![Force::default(); bodies],
             efforts: zeros(mechanism.efforts.len()),
             force_outputs: zeros(mechanism.force_program.outputs),
             force: zeros(nv),
@@ -91,6 +101,9 @@ impl<G: Space> Workspace<G> {
             sums: vec![Force::default(); bodies],
             inputs: zeros(most(|p| p.inputs)),
             registers: zeros(most(|p| p.program.registers())),
+            values: vec![0.0; mechanism.force_program.inputs],
+            numbers: vec![0.0; mechanism.force_program.program.registers()],
+            saved: mechanism.modes(),
         }
     }
 }

@@ -112,6 +112,8 @@ pub trait Space: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
     fn hinge(axis: Self::Spin, q: Self::S) -> Self::Rotation;
     /// Rotation of the quaternion (w, x, y, z) of any length but 0 (homogeneous of degree 0).
     fn quaternion(q: [Self::S; 4]) -> Self::Rotation;
+    /// (E + ω~) R: a rotation turned by a vector so small that its square is below round-off, rad.
+    fn nudge(r: Self::Rotation, w: Self::Spin) -> Self::Rotation;
     /// Angle of a rotation: unwrapped in the plane; 0 in space, where angles belong to joints.
     fn angle(r: Self::Rotation) -> Self::S;
     /// Entry (i, k) of the rotation as a 3×3 matrix.

@@ -110,6 +110,10 @@ impl<S: Scalar> Space for Planar<S> {
         Self::hinge(S::one(), half + half)
     }
     #[inline(always)]
+    fn nudge(r: Turn<S>, w: S) -> Turn<S> {
+        Turn { c: r.c - r.s * w, s: r.s + r.c * w, angle: r.angle + w }
+    }
+    #[inline(always)]
     fn angle(r: Turn<S>) -> S {
         r.angle
     }

@@ -124,6 +124,10 @@ impl<S: Scalar> Space for Spatial<S> {
             one - two * (x * x + y * y),
         )
     }
+    fn nudge(r: Self::Rotation, w: Self::Spin) -> Self::Rotation {
+        let z = S::zero();
+        r + Matrix3::new(z, -w.z, w.y, w.z, z, -w.x, -w.y, w.x, z) * r
+    }
     fn angle(_: Self::Rotation) -> S {
         S::zero()
     }

@@ -56,6 +56,8 @@ pub struct Drive {
     pub row: usize,
     /// Output of the time program that is f; f' and f'' follow.
     pub output: usize,
+    /// The speed if it is constant: f = speed · t needs no program.
+    pub speed: Option<f64>,
     /// True if the start fixes its anchor (a speed or a rise).
     pub relative: bool,
     /// True if an angle is driven.

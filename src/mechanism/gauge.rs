@@ -104,6 +104,8 @@ pub struct Reading<G: Space> {
     pub x: G::S,
     /// Unit wrench on b.
     pub wrench: Force<G>,
+    /// World points of a and b, where the gauge has them.
+    pub points: [G::Vector; 2],
     /// ẋ.
     pub rate: G::S,
     /// ẍ at a = 0: c and what the bias of the bodies adds.
@@ -126,6 +128,7 @@ impl<G: Space> Gauge<G> {
                 let (pa, pb, n) = (xa.point(pa), xb.point(pb), G::rotate(xa.r, n));
                 out.x = G::dot(n, pb - pa) + G::S::constant(self.shift);
                 out.wrench = Force::at(n, pb);
+                out.points = [pa, pb];
             }
             Measured::Distance { pa, pb } => {
                 let (pa, pb) = (xa.point(pa), xb.point(pb));
@@ -134,6 +137,7 @@ impl<G: Space> Gauge<G> {
                 // coinciding points have no line of action: no force rather than no number
                 let k = if out.x.value() == 0.0 { G::S::default() } else { G::S::constant(1.0) / out.x };
                 out.wrench = Force::at(d * k, pb);
+                out.points = [pa, pb];
             }
             Measured::Dot { u, w } => {
                 let (u, w) = (G::rotate(xa.r, u), G::rotate(xb.r, w));
@@ -167,15 +171,15 @@ impl<G: Space> Gauge<G> {
                 return;
             }
             Measured::Angle => out.drift = G::S::default(),
-            Measured::Slide { pa, n, pb } => {
-                let (pa, pb, n) = (poses[self.a].point(pa), poses[self.b].point(pb), G::rotate(poses[self.a].r, n));
+            Measured::Slide { .. } => {
+                let ([pa, pb], n) = (out.points, out.wrench.f);
                 let (da, db) = (va.at(pa), vb.at(pb));
                 let dn = G::turn(va.w, n);
                 out.drift =
                     G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + two * G::dot(dn, db - da) + G::dot(G::turn(va.w, dn), pb - pa);
             }
-            Measured::Distance { pa, pb } => {
-                let (pa, pb) = (poses[self.a].point(pa), poses[self.b].point(pb));
+            Measured::Distance { .. } => {
+                let [pa, pb] = out.points;
                 let (da, db) = (va.at(pa), vb.at(pb));
                 let (n, rate) = (out.wrench.f, db - da);
                 let along = G::dot(n, rate);

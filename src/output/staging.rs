@@ -84,6 +84,9 @@ impl Staging {
         };
         let missing = directory.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
         undo.directories = missing.map(Path::to_owned).collect();
+        if let Some(file) = directory.ancestors().find(|path| path.is_file()) {
+            return Err(failed(file)(io::Error::new(io::ErrorKind::NotADirectory, "a file is in the way of the directory")));
+        }
         fs::create_dir_all(directory).map_err(failed(directory))?;
 
         // The process number keeps two runs in one directory apart.

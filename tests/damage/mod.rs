@@ -5,7 +5,7 @@ use grashof::analysis::run::run;
 use grashof::analysis::survey::survey;
 use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
-use grashof::model::{Document, Kind, Selection};
+use grashof::model::{Document, Kind, Over, Selection};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -107,7 +107,14 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
     let Ok(mut model) = document.model(&selection) else { return Fate::Refused };
     let Some(mut study) = model.study.take() else { return Fate::Refused };
     match &mut study.kind {
-        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => range.samples = 12,
+        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => {
+            let (Over::Driver(id) | Over::Time(id)) = range.over;
+            // a long range is long work and no hang
+            if model.pool.value(id, &sweep::parameters(&model)).abs() > 1e3 {
+                return Fate::Refused;
+            }
+            range.samples = 12;
+        }
         Kind::Later(_) => return Fate::Refused,
     }
     let _ = survey(&model, &sweep::parameters(&model));

@@ -21,7 +21,7 @@ pub(crate) fn slope(f: &impl Fn(f64) -> f64, x: f64, step: f64) -> f64 {
 }
 
 /// Steps of the differences, rad: wide to be quiet, then narrow to see sharp bends.
-const STEPS: [f64; 3] = [2e-3, 3e-4, 5e-5];
+const STEPS: [f64; 4] = [2e-3, 3e-4, 5e-5, 8e-6];
 
 /// Smallest and largest value of `f(x, piece)` over all pieces [a, b], with their places. `f` must go on smoothly a little beyond
 /// the ends of its piece.

@@ -97,6 +97,10 @@ impl<G: Space> Builder<'_, G> {
             let Some(next) = self.rate_by_time(order, place) else { return };
             order = next;
         }
+        let speed = match driver.motion {
+            Motion::Speed(speed) => Some(self.number(speed, place)),
+            _ => None,
+        };
         let relative = !matches!(driver.motion, Motion::Position(_));
         let turns = match self.mechanism.gauges[gauge].measured {
             Measured::Coordinate { along, .. } => along.turns,
@@ -111,7 +115,15 @@ impl<G: Space> Builder<'_, G> {
             anchored: relative,
             angular: turns,
         });
-        self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row: self.mechanism.rows.len() - 1, output, relative, turns });
+        self.mechanism.drives.push(Drive {
+            name: driver.name.clone(),
+            gauge,
+            row: self.mechanism.rows.len() - 1,
+            output,
+            speed,
+            relative,
+            turns,
+        });
     }
 
     /// by · law(τ), τ = t/during held in [0, 1].

@@ -1,0 +1,786 @@
+//! The program as a person meets it: every command and flag, what it prints where, what it writes, and its exit code.
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A small four-bar with two studies and a sweep; `{}` stands for further lines of the study `turn`.
+const MODEL: &str = "\
+grashof: 1
+name: four-bar
+space: planar
+gravity: [0, -9.81 m/s^2]
+parameters: { l1: 15 cm, l2: 1 m, l3: 55 cm, speed: 240 rpm }
+ground: { O: [0, 0], C: [1 m, 0] }
+bodies:
+  crank: { bar: { length: l1, mass: 3 kg } }
+  coupler: { bar: { length: l2, mass: 6 kg } }
+  rocker: { bar: { length: l3, mass: 6 kg } }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, coupler.start] }
+  B: { revolute: [coupler.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start] }
+drivers: { drive: { joint: O, speed: speed } }
+start: { O.angle: 90 deg, coupler.angle: ~25 deg, rocker.angle: ~90 deg }
+measures: { theta: crank.angle, phi3: rocker.angle }
+variants:
+  slow: { parameters: { speed: 60 rpm } }
+studies:
+  turn:
+    inverse: { over: 1 turn, samples: 24 }
+    columns: [theta, time, phi3, drive, det]
+    scalars: { swing: max(phi3) - min(phi3), mean_power: mean(drive.power) }
+    plot: { angles: [phi3], torque: [drive.torque] }
+  turn-again:
+    kinematics: { over: 1 turn, samples: 12 }
+  lengths:
+    kinematics: { over: 1 turn, samples: 12 }
+    sweep: { l3: [10 cm, 50 cm, 55 cm, 5 m] }
+    columns: [theta, phi3]
+    scalars: { swing: max(phi3) - min(phi3) }
+    plot: { phi3: [phi3] }
+";
+
+fn model() -> String {
+    // undefined for part of the turn: empty fields
+    MODEL.replace("phi3: rocker.angle }", "phi3: rocker.angle, det: sqrt(sin(theta)) }")
+}
+
+/// A fresh directory below the system's temporary one, removed at the end.
+struct Place(PathBuf);
+
+/// A finished run of the program.
+struct Done {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("grashof-cli-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// With the model in `model.yaml`.
+    fn with_model(name: &str) -> Self {
+        let place = Self::new(name);
+        place.put("model.yaml", &model());
+        place
+    }
+
+    fn put(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).unwrap();
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.text(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn files(&self, directory: &str) -> Vec<String> {
+        let Ok(entries) = fs::read_dir(self.0.join(directory)) else { return Vec::new() };
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    fn contents(&self, directory: &str) -> BTreeMap<String, Vec<u8>> {
+        self.files(directory).into_iter().map(|name| (name.clone(), fs::read(self.0.join(directory).join(name)).unwrap())).collect()
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_grashof"));
+        command.args(arguments).current_dir(&self.0).env_remove("NO_COLOR").stdin(Stdio::null());
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Done {
+        Done::of(self.command(arguments).output().unwrap())
+    }
+
+    fn run_with_input(&self, arguments: &[&str], input: &str) -> Done {
+        let mut child = self.command(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+        Done::of(child.wait_with_output().unwrap())
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+impl Done {
+    fn of(output: Output) -> Self {
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        let done = Self { code: output.status.code().unwrap_or(-1), stdout: text(output.stdout), stderr: text(output.stderr) };
+        assert!(!done.stderr.contains("panicked"), "{}", done.stderr);
+        done
+    }
+
+    #[track_caller]
+    fn ends(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "stdout\n{}\nstderr\n{}", self.stdout, self.stderr);
+        self
+    }
+
+    #[track_caller]
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
+    }
+}
+
+/// Header and fields of a CSV file whose fields hold no commas but for the last.
+fn csv(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut lines = text.lines().map(|line| {
+        let mut fields = vec![String::new()];
+        let mut quoted = false;
+        for c in line.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                ',' if !quoted => fields.push(String::new()),
+                c => fields.last_mut().unwrap().push(c),
+            }
+        }
+        fields
+    });
+    (lines.next().unwrap(), lines.collect())
+}
+
+#[test]
+fn help_shows_two_examples_of_each_command() {
+    let place = Place::new("help");
+    let whole = place.run(&["--help"]).ends(0);
+    for word in ["run", "check", "new", "schema", "completions", "Exit codes", "130"] {
+        assert!(whole.stdout.contains(word), "{word}\n{}", whole.stdout);
+    }
+    assert!(whole.stderr.is_empty());
+    for command in ["run", "check", "new", "schema", "completions"] {
+        for flag in ["--help", "-h"] {
+            let help = place.run(&[command, flag]).ends(0);
+            let examples = help.stdout.split("Examples:").nth(1).unwrap_or_else(|| panic!("{command}: no examples"));
+            assert_eq!(examples.matches(&format!("  grashof {command}")).count(), 2, "{command}{examples}");
+            assert!(help.stderr.is_empty());
+        }
+    }
+    let flags = place.run(&["run", "--help"]).ends(0).stdout;
+    for flag in
+        ["--study", "--json", "--units", "--no-plots", "--output", "--set", "--variant", "--threads", "--quiet", "--verbose", "--color"]
+    {
+        assert!(flags.contains(flag), "{flag}\n{flags}");
+    }
+}
+
+#[test]
+fn version_and_no_command() {
+    let place = Place::new("version");
+    assert_eq!(place.run(&["--version"]).ends(0).stdout, format!("grashof {}\n", env!("CARGO_PKG_VERSION")));
+    let nothing = place.run(&[]).ends(2);
+    assert!(nothing.stdout.is_empty() && nothing.stderr.contains("Usage"), "{}", nothing.stderr);
+}
+
+#[test]
+fn run_writes_whole_results() {
+    let place = Place::with_model("whole");
+    let done = place.run(&["run", "model.yaml", "-o", "out/deep"]).ends(0);
+    assert!(done.stderr.is_empty(), "{}", done.stderr);
+    for study in ["turn", "turn-again", "lengths"] {
+        assert!(done.stdout.lines().any(|line| line == study), "{study}\n{}", done.stdout);
+    }
+    let expected = [
+        "lengths-002.csv",
+        "lengths-003.csv",
+        "lengths-mechanism.png",
+        "lengths-mechanism.svg",
+        "lengths-phi3.png",
+        "lengths-phi3.svg",
+        "lengths.csv",
+        "lengths.json",
+        "turn-again-mechanism.png",
+        "turn-again-mechanism.svg",
+        "turn-again.csv",
+        "turn-again.json",
+        "turn-angles.png",
+        "turn-angles.svg",
+        "turn-mechanism.png",
+        "turn-mechanism.svg",
+        "turn-torque.png",
+        "turn-torque.svg",
+        "turn.csv",
+        "turn.json",
+    ];
+    let found: Vec<String> = place.files("out/deep").into_iter().filter(|name| name != "lengths-001.csv").collect();
+    assert_eq!(found, expected);
+    for name in place.files("out/deep") {
+        let bytes = fs::read(place.0.join("out/deep").join(&name)).unwrap();
+        if name.ends_with(".png") {
+            assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n", "{name}");
+        } else if name.ends_with(".svg") {
+            let text = String::from_utf8(bytes).unwrap();
+            assert!(text.starts_with("<svg") || text.starts_with("<?xml"), "{name}");
+            assert!(text.trim_end().ends_with("</svg>"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn tables_hold_numbers_alone() {
+    let place = Place::with_model("numbers");
+    place.run(&["run", "model.yaml", "-o", "out", "--no-plots"]).ends(0);
+    let (names, rows) = csv(&place.text("out/turn.csv"));
+    assert_eq!(names, ["theta", "time", "phi3", "drive.torque", "drive.power", "det"]);
+    assert!(rows.len() >= 25, "{}", rows.len());
+    let det: Vec<&str> = rows.iter().map(|row| row[5].as_str()).collect();
+    assert!(det.contains(&"") && det.iter().any(|x| !x.is_empty()), "{det:?}");
+    for row in &rows {
+        assert_eq!(row.len(), names.len());
+        for (name, field) in names.iter().zip(row) {
+            let number = field.parse::<f64>().is_ok_and(f64::is_finite);
+            assert!(number || field.is_empty() && name == "det", "{name}: {field:?}");
+        }
+    }
+    assert_eq!(rows[0][0].parse::<f64>().unwrap(), std::f64::consts::FRAC_PI_2);
+    let (names, rows) = csv(&place.text("out/lengths.csv"));
+    assert_eq!(names, ["l3", "turns_fully", "swing", "reason"]);
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["0.1", "0.5", "0.55", "5"]);
+    for (row, turns) in rows.iter().zip([false, true, true, false]) {
+        assert_eq!(row[1], if turns { "1" } else { "0" }, "{row:?}");
+        assert_eq!(row[3].is_empty(), turns, "{row:?}");
+        assert_eq!(turns, row[2].parse::<f64>().is_ok() && row[3].is_empty());
+    }
+}
+
+#[test]
+fn reports_have_the_promised_keys() {
+    let place = Place::with_model("keys");
+    place.run(&["run", "model.yaml", "-o", "out", "--no-plots"]).ends(0);
+    for study in ["turn", "turn-again", "lengths"] {
+        let report = place.json(&format!("out/{study}.json"));
+        let keys: Vec<&str> = report.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(keys, ["study", "status", "parameters", "scalars", "extrema", "certificate", "findings"], "{study}");
+        assert_eq!(report["study"], study);
+        assert_eq!(report["status"], "done", "{study}");
+        assert_eq!(report["parameters"]["l1"], 0.15);
+        for finding in report["findings"].as_array().unwrap() {
+            assert!(finding["code"].is_string() && finding["message"].is_string() && finding["path"].is_string(), "{finding}");
+        }
+    }
+    let turn = place.json("out/turn.json");
+    assert!(turn["scalars"]["swing"].is_f64() && turn["scalars"]["mean_power"].is_number());
+    for column in ["phi3", "drive.torque"] {
+        for end in ["min", "max"] {
+            assert!(turn["extrema"][column][end]["value"].is_number() && turn["extrema"][column][end]["at"].is_number());
+        }
+    }
+    let lengths = place.json("out/lengths.json");
+    assert_eq!(lengths["scalars"]["turns_fully"], serde_json::json!([0, 1, 1, 0]));
+    assert!(lengths["scalars"]["swing"][3].is_null(), "what is no number is null");
+}
+
+#[test]
+fn the_default_directory_is_named_as_the_model() {
+    let place = Place::with_model("default");
+    fs::create_dir(place.0.join("sub")).unwrap();
+    fs::copy(place.0.join("model.yaml"), place.0.join("sub/other.name.yaml")).unwrap();
+    place.run(&["run", "model.yaml", "--study", "turn", "--no-plots"]).ends(0);
+    assert_eq!(place.files("results/model"), ["turn.csv", "turn.json"]);
+    place.run(&["run", "sub/other.name.yaml", "--study", "turn", "--no-plots"]).ends(0);
+    assert_eq!(place.files("results/other.name"), ["turn.csv", "turn.json"]);
+}
+
+#[test]
+fn stdin_is_a_model_too() {
+    let place = Place::with_model("stdin");
+    place.run(&["run", "model.yaml", "--study", "turn", "--no-plots", "-o", "file"]).ends(0);
+    place.run_with_input(&["run", "-", "--study", "turn", "--no-plots", "-o", "out"], &model()).ends(0);
+    assert_eq!(place.contents("out"), place.contents("file"));
+    let check = place.run_with_input(&["check", "-"], &model()).ends(0);
+    assert!(check.stdout.contains("four-bar"));
+    let bad = place.run_with_input(&["check", "-"], "grashof: 1\nspce: planar\n").ends(2);
+    assert!(bad.stderr.contains("<stdin>:2:1"), "{}", bad.stderr);
+    place.run_with_input(&["run", "-", "--study", "turn", "--no-plots"], &model()).ends(0);
+    assert_eq!(place.files("results/stdin"), ["turn.csv", "turn.json"]);
+}
+
+#[test]
+fn studies_can_be_chosen() {
+    let place = Place::with_model("chosen");
+    let done = place.run(&["run", "model.yaml", "--study", "lengths", "--study", "turn", "--no-plots", "-o", "out"]).ends(0);
+    let heads: Vec<&str> = done.stdout.lines().filter(|line| !line.starts_with(' ') && !line.is_empty()).collect();
+    assert_eq!(heads, ["lengths", "turn"]);
+    assert!(!place.files("out").iter().any(|name| name.starts_with("turn-again")));
+    // one that is named twice runs once
+    let done = place.run(&["run", "model.yaml", "--study", "turn", "--study", "turn", "--no-plots", "-o", "once"]).ends(0);
+    assert_eq!(done.stdout.lines().filter(|line| *line == "turn").count(), 1, "{}", done.stdout);
+    // an unknown one does not keep the known one from running
+    let done = place.run(&["run", "model.yaml", "--study", "turns", "--study", "turn", "--no-plots", "-o", "two"]).ends(2);
+    assert!(done.stderr.contains("turns") && done.stderr.contains("did you mean `turn`"), "{}", done.stderr);
+    assert_eq!(place.files("two"), ["turn.csv", "turn.json"]);
+}
+
+#[test]
+fn json_on_stdout_is_all_that_is_there() {
+    let place = Place::with_model("json");
+    let done = place.run(&["run", "model.yaml", "--json", "--no-plots", "-o", "out", "-v"]).ends(0);
+    let reports = done.json();
+    let names: Vec<&str> = reports.as_array().unwrap().iter().map(|r| r["study"].as_str().unwrap()).collect();
+    assert_eq!(names, ["turn", "turn-again", "lengths"]);
+    for (report, name) in reports.as_array().unwrap().iter().zip(names) {
+        assert_eq!(*report, place.json(&format!("out/{name}.json")));
+    }
+    // with an error, too
+    let done = place.run(&["run", "model.yaml", "--json", "--study", "turns", "-o", "out"]).ends(2);
+    assert_eq!(done.json(), serde_json::json!([]));
+    let check = place.run(&["check", "model.yaml", "--json"]).ends(0);
+    let report = check.json();
+    assert_eq!(report["name"], "four-bar");
+    assert_eq!(report["degrees_of_freedom"], 1);
+    assert_eq!(report["left_by_drivers"], 0);
+    assert_eq!(report["bodies"].as_array().unwrap().len(), 3);
+    assert_eq!(report["joints"].as_array().unwrap().len(), 4);
+    assert_eq!(report["start"][0]["name"], "O.angle");
+    assert!(report["findings"].is_array());
+}
+
+#[test]
+fn units_quiet_verbose() {
+    let place = Place::with_model("units");
+    let base = ["run", "model.yaml", "--study", "turn", "--no-plots", "-o", "out"];
+    let plain = place.run(&base).ends(0);
+    assert!(plain.stderr.is_empty() && plain.stdout.contains("swing") && plain.stdout.contains("mean_power"), "{}", plain.stdout);
+    assert!(plain.stdout.lines().any(|line| line.contains("mean_power") && line.ends_with('W')), "{}", plain.stdout);
+    let units = place.run(&[&base[..], &["--units"]].concat()).ends(0);
+    for line in ["theta [rad]", "time [s]", "phi3 [rad]", "drive.torque [N m]", "drive.power [W]", "det [1]"] {
+        assert!(units.stdout.lines().any(|l| l.trim() == line), "{line}\n{}", units.stdout);
+        assert!(!plain.stdout.contains(line));
+    }
+    let verbose = place.run(&[&base[..], &["-v"]].concat()).ends(0);
+    assert!(verbose.stderr.contains("turn.csv") && verbose.stderr.contains("turn.json"), "{}", verbose.stderr);
+    assert_eq!(verbose.stdout, plain.stdout);
+    let quiet = place.run(&[&base[..], &["-q"]].concat()).ends(0);
+    assert!(quiet.stderr.is_empty());
+    assert_eq!(quiet.stdout, plain.stdout);
+    // errors are told all the same
+    let quiet = place.run(&["run", "model.yaml", "-q", "--set", "l9=1"]).ends(2);
+    assert!(quiet.stderr.contains("l9"));
+}
+
+#[test]
+fn colours_as_asked() {
+    let place = Place::new("colour");
+    place.put("bad.yaml", "grashof: 1\nspce: planar\n");
+    let colored = |arguments: &[&str], no_color: Option<&str>| {
+        let mut command = place.command(&[&["check", "bad.yaml"], arguments].concat());
+        if let Some(value) = no_color {
+            command.env("NO_COLOR", value);
+        }
+        Done::of(command.output().unwrap()).ends(2).stderr.contains('\x1b')
+    };
+    assert!(colored(&["--color", "always"], None));
+    assert!(colored(&["--color", "always"], Some("1")), "what is asked for wins over the environment");
+    for (arguments, no_color) in
+        [(&["--color", "never"][..], None), (&["--color", "auto"], None), (&[], None), (&["--color", "auto"], Some("1"))]
+    {
+        assert!(!colored(arguments, no_color), "{arguments:?}: colours in a pipe");
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_files() {
+    let place = Place::with_model("threads");
+    for (threads, out) in [("1", "one"), ("2", "two"), ("7", "seven")] {
+        place.run(&["run", "model.yaml", "-j", threads, "-o", out]).ends(0);
+    }
+    let one = place.contents("one");
+    assert!(one.len() > 15);
+    for other in ["two", "seven"] {
+        let found = place.contents(other);
+        assert_eq!(one.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>());
+        assert!(one.iter().all(|(name, bytes)| found[name] == *bytes), "files differ");
+    }
+}
+
+#[test]
+fn completions_of_all_shells() {
+    let place = Place::new("completions");
+    for (shell, sign) in [("bash", "complete"), ("zsh", "#compdef"), ("fish", "complete -c grashof")] {
+        let script = place.run(&["completions", shell]).ends(0);
+        assert!(script.stdout.contains(sign) && script.stdout.contains("check") && script.stderr.is_empty(), "{shell}");
+    }
+    // a shell that is there reads its script
+    for shell in ["bash", "zsh", "fish"] {
+        let script = place.run(&["completions", shell]).stdout;
+        place.put("script", &script);
+        if let Ok(output) = Command::new(shell).arg("-n").arg(place.0.join("script")).output() {
+            assert!(output.status.success(), "{shell}: {}", String::from_utf8_lossy(&output.stderr));
+        }
+    }
+}
+
+/// Whether `value` has the form that `schema` asks for, as far as types, keys, lists and alternatives go.
+fn fits(schema: &Value, value: &Value, root: &Value) -> Result<(), String> {
+    if let Some(to) = schema["$ref"].as_str() {
+        let at = to.strip_prefix('#').unwrap_or(to);
+        return fits(root.pointer(at).ok_or_else(|| format!("{to} leads nowhere"))?, value, root);
+    }
+    if let Some(all) = schema["allOf"].as_array() {
+        all.iter().try_for_each(|s| fits(s, value, root))?;
+    }
+    for several in ["anyOf", "oneOf"] {
+        if let Some(options) = schema[several].as_array() {
+            let found: Vec<_> = options.iter().map(|s| fits(s, value, root)).collect();
+            if found.iter().all(Result::is_err) {
+                return Err(format!("{value} fits none of {several}: {found:?}"));
+            }
+        }
+    }
+    if let Some(one) = schema["enum"].as_array()
+        && !one.contains(value)
+    {
+        return Err(format!("{value} is none of {one:?}"));
+    }
+    if let Some(constant) = schema.get("const")
+        && constant != value
+    {
+        return Err(format!("{value} is not {constant}"));
+    }
+    let is = |kind: &str| match kind {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        _ => false,
+    };
+    let kinds: Vec<&str> = match &schema["type"] {
+        Value::String(kind) => vec![kind],
+        Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),
+        _ => vec![],
+    };
+    if !kinds.is_empty() && !kinds.iter().any(|kind| is(kind)) {
+        return Err(format!("{value} is none of {kinds:?}"));
+    }
+    if let Some(map) = value.as_object() {
+        for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            if !map.contains_key(key) {
+                return Err(format!("`{key}` is missing"));
+            }
+        }
+        for (key, inner) in map {
+            let within = |e: String| format!("{key}: {e}");
+            match (schema["properties"].get(key), &schema["additionalProperties"]) {
+                (Some(s), _) => fits(s, inner, root).map_err(within)?,
+                (None, Value::Bool(false)) if schema.get("patternProperties").is_none() => return Err(format!("`{key}` is not known")),
+                (None, s @ Value::Object(_)) => fits(s, inner, root).map_err(within)?,
+                _ => {}
+            }
+        }
+    }
+    for item in value.as_array().into_iter().flatten() {
+        if schema["items"].is_object() {
+            fits(&schema["items"], item, root)?;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_schema_fits_the_models_and_refuses_bad_ones() {
+    let place = Place::new("schema");
+    let done = place.run(&["schema"]).ends(0);
+    let schema = done.json();
+    assert!(done.stderr.is_empty() && schema["$schema"].is_string() && schema["properties"]["grashof"].is_object());
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["models", "src/cli/templates"] {
+        for entry in fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "yaml") {
+                let value: Value = serde_yaml::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+                fits(&schema, &value, &schema).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 6);
+    for name in ["misspelt-section", "misspelt-in-body", "misspelt-joint-option", "unknown-space", "missing-gravity", "list-at-top"] {
+        let text = fs::read_to_string(root.join(format!("tests/bad/{name}.yaml"))).unwrap();
+        let value: Value = serde_yaml::from_str(&text).unwrap();
+        assert!(fits(&schema, &value, &schema).is_err(), "{name} fits");
+    }
+}
+
+#[test]
+fn new_models_run() {
+    let place = Place::new("new");
+    let list = place.run(&["new", "--list"]).ends(0).stdout;
+    let kinds: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(kinds, ["four-bar", "slider-crank"]);
+    assert!(place.files("").is_empty(), "--list writes nothing");
+    for kind in kinds {
+        let file = format!("my {kind}.yaml");
+        let done = place.run(&["new", kind, &file]).ends(0);
+        assert!(done.stdout.is_empty() && done.stderr.contains(&file));
+        assert!(place.text(&file).lines().filter(|line| line.contains('#')).count() >= 3, "{kind}: comments");
+        let checked = place.run(&["check", &file, "--strict"]).ends(0);
+        assert!(checked.stderr.is_empty(), "{}", checked.stderr);
+        let run = place.run(&["run", &file]).ends(0);
+        assert!(run.stderr.is_empty() && !run.stdout.is_empty(), "{}", run.stderr);
+        assert!(place.files(&format!("results/my {kind}")).len() > 4);
+        // `-` is stdout
+        assert_eq!(place.run(&["new", kind, "-"]).ends(0).stdout, place.text(&file));
+    }
+    place.run(&["new"]).ends(0);
+    assert!(place.text("four_bar.yaml").contains("name: four-bar"));
+}
+
+#[test]
+fn new_never_overwrites() {
+    let place = Place::new("overwrite");
+    place.put("mine.yaml", "mine");
+    place.put("four_bar.yaml", "mine, too");
+    for arguments in [&["new", "four-bar", "mine.yaml"][..], &["new", "slider-crank", "mine.yaml"], &["new"]] {
+        let done = place.run(arguments).ends(2);
+        assert!(done.stderr.contains("error") && done.stderr.contains("help:"), "{}", done.stderr);
+    }
+    assert_eq!((place.text("mine.yaml").as_str(), place.text("four_bar.yaml").as_str()), ("mine", "mine, too"));
+    place.run(&["new", "four-bar", "no/such/place.yaml"]).ends(2);
+    place.run(&["new", "five-bar"]).ends(2);
+}
+
+#[test]
+fn check_tells_what_a_model_is() {
+    let place = Place::with_model("check");
+    let done = place.run(&["check", "model.yaml"]).ends(0);
+    for word in [
+        "crank",
+        "revolute",
+        "loop: ground -O- crank -A- coupler -B- rocker -C- ground",
+        "degrees of freedom        1",
+        "left by the drivers       0",
+        "crank-rocker",
+        "full turn",
+        "O.angle",
+        "~",
+    ] {
+        assert!(done.stdout.contains(word), "{word}\n{}", done.stdout);
+    }
+    assert!(done.stderr.is_empty() && place.files("").len() == 1, "check writes nothing");
+    assert!(place.run(&["check", "model.yaml", "--set", "l3=10 cm"]).ends(0).stdout.contains("rocker-crank"));
+    // findings: nothing without --strict, 1 with it
+    place.put("loose.yaml", &model().replace("O.angle: 90 deg", "O.angle: 90"));
+    let loose = place.run(&["check", "loose.yaml"]).ends(0);
+    assert!(loose.stderr.contains("warning") && loose.stdout.contains("findings"), "{}\n{}", loose.stdout, loose.stderr);
+    place.run(&["check", "loose.yaml", "--strict"]).ends(1);
+    place.run(&["check", "model.yaml", "--strict"]).ends(0);
+    assert_eq!(place.run(&["check", "loose.yaml", "--json", "--strict"]).ends(1).json()["findings"].as_array().unwrap().len(), 1);
+    // what cannot be assembled is an error of the model
+    assert!(place.run(&["check", "model.yaml", "--set", "l3=5"]).ends(2).stderr.contains("cannot be assembled"));
+}
+
+/// The model with more keys in its study `turn`.
+fn with(lines: &str) -> String {
+    model().replace("    plot: { angles: [phi3], torque: [drive.torque] }\n", &format!("{lines}\n"))
+}
+
+#[test]
+fn an_expectation_that_is_not_met_ends_with_1() {
+    let place = Place::new("expect");
+    place.put("met.yaml", &with("    expect: { mean_power: { is: 0 W, within: 1e-6 W }, max(phi3) > 1: { is: 1, within: 0 } }"));
+    place.run(&["run", "met.yaml", "--no-plots"]).ends(0);
+    place.put("not.yaml", &with("    expect: { swing: { is: 1 rad, relative: 1e-3 } }"));
+    let done = place.run(&["run", "not.yaml", "--no-plots"]).ends(1);
+    assert!(done.stderr.contains("swing") && done.stderr.contains("not.yaml:26"), "{}", done.stderr);
+    // results are there all the same, and the JSON says it
+    let report = place.json("results/not/turn.json");
+    assert_eq!(report["status"], "done");
+    assert_eq!(report["findings"][0]["code"], "expectation");
+    assert!(place.0.join("results/not/lengths.csv").is_file(), "the other studies ran");
+}
+
+#[test]
+fn a_study_that_stops_on_its_way_keeps_its_rows() {
+    let place = Place::with_model("stops");
+    let done = place.run(&["run", "model.yaml", "--study", "turn", "--set", "l3=10 cm", "-o", "out"]).ends(3);
+    assert!(done.stderr.contains("dead point") && done.stderr.contains("model.yaml:"), "{}", done.stderr);
+    let report = place.json("out/turn.json");
+    assert_eq!(report["status"], "failed");
+    assert!(report["findings"].as_array().unwrap().iter().any(|f| f["code"] == "stopped"), "{}", report["findings"]);
+    let (_, rows) = csv(&place.text("out/turn.csv"));
+    assert!(rows.len() > 2 && rows.len() < 25, "{}", rows.len());
+    let theta: Vec<f64> = rows.iter().map(|row| row[0].parse().unwrap()).collect();
+    assert!(theta.windows(2).all(|w| w[0] <= w[1]) && theta[0] < 1.5 && theta[theta.len() - 1] > 1.6, "{theta:?}");
+}
+
+#[test]
+fn the_highest_code_of_several_studies_wins() {
+    let place = Place::new("highest");
+    // 3 of `turn` over 1 of `turn-again`, which runs although the first stopped
+    let text = model().replace(
+        "{ over: 1 turn, samples: 12 }\n  lengths",
+        "{ over: 0.1 rad, samples: 12 }\n    expect: { max(phi3): { is: 9, within: 1 } }\n  lengths",
+    );
+    place.put("model.yaml", &text);
+    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn-again", "--no-plots"]).ends(1);
+    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn", "--study", "turn-again", "--no-plots"]).ends(3);
+    assert!(place.0.join("results/model/turn-again.json").is_file());
+}
+
+#[test]
+fn a_sweep_fails_only_if_all_its_runs_do() {
+    let place = Place::new("sweep");
+    let sweep = |values: &str| model().replace("[10 cm, 50 cm, 55 cm, 5 m]", values);
+    // dead points and impossible lengths beside a good run: a result
+    place.put("some.yaml", &sweep("[5 m, 10 cm, 55 cm]"));
+    place.run(&["run", "some.yaml", "--study", "lengths", "--no-plots", "-o", "some"]).ends(0);
+    assert_eq!(place.json("some/lengths.json")["status"], "done");
+    assert!(!place.files("some").contains(&"lengths-001.csv".to_string()), "a run that never began has no curve");
+    // all stop on their way: rows are kept, code 3
+    place.put("stop.yaml", &sweep("[10 cm, 11 cm]"));
+    place.run(&["run", "stop.yaml", "--study", "lengths", "--no-plots", "-o", "stop"]).ends(3);
+    assert_eq!(place.files("stop"), ["lengths-001.csv", "lengths-002.csv", "lengths.csv", "lengths.json"]);
+    assert_eq!(place.json("stop/lengths.json")["status"], "failed");
+    // none begins: nothing is written
+    place.put("none.yaml", &sweep("[5 m, 6 m]"));
+    let done = place.run(&["run", "none.yaml", "--study", "lengths", "-o", "none"]).ends(3);
+    assert!(done.stderr.contains("none of the 2 runs"), "{}", done.stderr);
+    assert!(!place.0.join("none").exists());
+}
+
+#[test]
+fn what_is_set_beats_the_file_and_not_the_sweep() {
+    let place = Place::with_model("set");
+    let speed = |arguments: &[&str]| {
+        place.run(&[&["run", "model.yaml", "--study", "turn", "--no-plots", "-o", "out"], arguments].concat()).ends(0);
+        place.json("out/turn.json")["parameters"]["speed"].as_f64().unwrap()
+    };
+    assert!((speed(&[]) / (240.0 * std::f64::consts::TAU / 60.0) - 1.0).abs() < 1e-15);
+    assert_eq!(speed(&["--variant", "slow"]), std::f64::consts::TAU);
+    assert_eq!(speed(&["--variant", "slow", "--set", "speed=3"]), 3.0);
+    assert_eq!(speed(&["--set", "speed = 1 turn/s"]), std::f64::consts::TAU);
+    assert_eq!(speed(&["--set", "speed=5", "--set", "speed=7"]), 7.0, "the last one wins");
+    // a swept parameter: the study is skipped with a note, or refused if it was named
+    let done = place.run(&["run", "model.yaml", "--set", "l3=0.5", "--no-plots", "-o", "note"]).ends(0);
+    assert!(done.stderr.contains("note: study `lengths` is skipped"), "{}", done.stderr);
+    assert_eq!(place.files("note"), ["turn-again.csv", "turn-again.json", "turn.csv", "turn.json"]);
+    assert!(place.run(&["run", "model.yaml", "--set", "l3=0.5", "--no-plots", "-o", "note", "-q"]).ends(0).stderr.is_empty());
+    place.run(&["run", "model.yaml", "--set", "l3=0.5", "--study", "lengths", "-o", "refused"]).ends(2);
+    assert!(!place.0.join("refused").exists());
+    // another parameter reaches a sweep
+    place.run(&["run", "model.yaml", "--set", "l1=10 cm", "--study", "lengths", "--no-plots", "-o", "other"]).ends(0);
+    assert_eq!(place.json("other/lengths.json")["parameters"]["l1"], 0.1);
+}
+
+#[test]
+fn files_of_the_same_study_are_replaced_and_no_others() {
+    let place = Place::with_model("stale");
+    let kept = ["notes.txt", "turn.yaml", "turn-again-old.svg", "other.csv", "turnover.csv"];
+    let stale = ["turn-oldplot.svg", "turn-oldplot.png", "turn-007.csv"];
+    fs::create_dir_all(place.0.join("out/inner")).unwrap();
+    kept.iter().chain(&stale).for_each(|name| place.put(&format!("out/{name}"), "old"));
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out"]).ends(0);
+    for name in kept {
+        assert_eq!(place.text(&format!("out/{name}")), "old");
+    }
+    for name in stale {
+        assert!(!place.0.join("out").join(name).exists(), "{name}");
+    }
+    assert!(place.0.join("out/inner").is_dir() && place.0.join("out/turn-angles.svg").is_file());
+    // figures of an earlier run do not stay beside newer numbers
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--no-plots"]).ends(0);
+    assert!(!place.0.join("out/turn-angles.svg").exists());
+    assert!(!place.files("out").iter().any(|name| name.starts_with('.')), "no temporary file stays");
+    // a run that cannot begin leaves the earlier results alone
+    let before = place.contents_of_files("out");
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--set", "l3=5"]).ends(2);
+    assert_eq!(place.contents_of_files("out"), before);
+}
+
+impl Place {
+    fn contents_of_files(&self, directory: &str) -> BTreeMap<String, Vec<u8>> {
+        let path = self.0.join(directory);
+        self.files(directory)
+            .into_iter()
+            .filter(|name| path.join(name).is_file())
+            .map(|name| (name.clone(), fs::read(path.join(name)).unwrap()))
+            .collect()
+    }
+}
+
+#[test]
+fn a_closed_pipe_is_no_panic() {
+    let place = Place::with_model("pipe");
+    for arguments in [
+        &["schema"][..],
+        &["completions", "bash"],
+        &["--help"],
+        &["new", "four-bar", "-"],
+        &["check", "model.yaml"],
+        &["check", "model.yaml", "--json"],
+        &["run", "model.yaml", "--no-plots", "--units"],
+        &["run", "model.yaml", "--no-plots", "--json"],
+    ] {
+        let mut child = place.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let mut stderr = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        let status = child.wait().unwrap();
+        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+        assert_eq!(status.code(), Some(0), "{arguments:?}: {stderr}");
+    }
+    assert!(place.0.join("results/model/turn.csv").is_file());
+    // and errors into a closed pipe
+    let mut child = place.command(&["check", "nowhere.yaml"]).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(2));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_writes_nothing_and_ends_with_130() {
+    use std::time::{Duration, Instant};
+    let place = Place::new("interrupt");
+    let sweep = "{ from: 50 cm, to: 60 cm, count: 100000 }";
+    place.put("model.yaml", &model().replace("[10 cm, 50 cm, 55 cm, 5 m]", sweep));
+    let arguments = ["run", "model.yaml", "--study", "turn", "--study", "lengths", "-o", "out", "--no-plots"];
+    let mut child = place.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    // the first study is written: the second one is running, and the handler was set long ago
+    while !place.0.join("out/turn.json").is_file() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    if !killed.is_ok_and(|status| status.success()) {
+        let _ = child.kill();
+        let _ = child.wait();
+        return;
+    }
+    let interrupted = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if interrupted.elapsed() > Duration::from_secs(60) {
+            child.kill().unwrap();
+            panic!("the interrupt was not heeded");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert_eq!(status.code(), Some(130));
+    assert_eq!(place.files("out"), ["turn.csv", "turn.json"], "the interrupted study is not written");
+}
