@@ -23,6 +23,8 @@ fn terms<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
         d.terms(s.t, &s.q, &s.v, &s.modes);
         d.watch(&s.q, &s.v, &s.modes);
         d.residual(&s.a, &s.lambda, &mut residual);
+        d.accelerate(&s.a, &mut r.accelerations);
+        d.unbalanced(&s.a, &r.accelerations, &mut residual);
         d.react(&s.a, &s.lambda, &mut r);
         m.retract(&mut q, &s.v);
         m.rate(&q, &s.v, &mut rate);

@@ -507,12 +507,12 @@ fn in_space_the_same() {
     table.on_grid(0.0, TAU / SAMPLES as f64, SAMPLES);
     let rocker = CrankRocker::new(Parameters::default());
     let mut verdict = Verdict::default();
-    let shared: Vec<_> = COLUMNS.iter().enumerate().filter(|(_, name)| table.names.iter().any(|n| n == *name)).collect();
-    assert!(shared.len() >= 28, "{:?}", table.names);
+    let common: Vec<_> = COLUMNS.iter().enumerate().filter(|(_, name)| table.names.iter().any(|n| n == *name)).collect();
+    assert!(common.len() >= 28, "{:?}", table.names);
     for (found, side) in table.rows.iter().zip(table.sides()) {
         let load = if side == 0 { Load::ByState } else { load_beside(&rocker, found[0], side) };
         let right = rocker.row(found[0], load);
-        for (k, name) in &shared {
+        for (k, name) in &common {
             // forces up to 35 kN
             let within = if name.contains(".f") || name.starts_with("drive") { 1e-6 } else { 1e-10 * (1.0 + right[*k].abs()) };
             verdict.close(name, found[0].to_degrees(), found[table.index(name)], right[*k], within);

@@ -1,9 +1,11 @@
 //! Laws of mechanics on two mechanisms that hold every kind of joint, on the tree (both ways round) and cut, and every kind
 //! of force; in any state, whether the constraints hold in it or not. Fixed seeds.
 
+#![allow(clippy::needless_range_loop, reason = "bodies are numbered alike in several arrays")]
+
 mod common;
 
-use common::{Noise, State, accelerate, close, mechanism, slope, spin, star_state, twist, vector, wrench};
+use common::{Noise, State, accelerate, close, mechanism, react, slope, spin, star_state, twist, vector, wrench};
 use grashof::dynamics::{self, Dynamics, Tangents};
 use grashof::geometry::{Force, Motion, Planar, Space, Spatial};
 use grashof::mechanism::{Coordinates, EffortLaw, Mechanism, Rotor, StretchOf};
@@ -119,6 +121,39 @@ fn the_residual_is_newton_and_euler_for_each_body() {
             *balance -= applied[k] + efforts[k] + rows[k];
         }
         close("M a + Gᵀλ − f", &r, &balance, EXACT);
+    }
+    everywhere!(law);
+}
+
+#[test]
+fn what_is_unbalanced_is_f_less_m_a() {
+    fn law<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
+        let mut d = Dynamics::new(m);
+        s.evaluate(&mut d);
+        let right: Vec<f64> = d.work.force.iter().zip(product(&d.work.mass, &s.a)).map(|(f, x)| f - x).collect();
+        let (mut accelerations, mut out) = (vec![Motion::default(); m.bodies.len()], vec![0.0; m.nv]);
+        d.accelerate(&s.a, &mut accelerations);
+        d.unbalanced(&s.a, &accelerations, &mut out);
+        close("f − M a", &out, &right, EXACT);
+    }
+    everywhere!(law);
+}
+
+#[test]
+fn a_nudge_is_a_small_move() {
+    // bodies, gauges and rows follow to the square of the displacement
+    fn law<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
+        let delta: Vec<f64> = s.v.iter().map(|v| 1e-8 * v).collect();
+        let mut d = Dynamics::new(m);
+        s.evaluate(&mut d);
+        let mut q = s.q.clone();
+        m.retract(&mut q, &delta);
+        d.nudge(&q, &delta, &s.modes);
+        let mut e = Dynamics::new(m);
+        e.time(s.t, &s.modes);
+        e.position(&q, &s.modes);
+        close("Φ", &d.work.phi, &e.work.phi, 1e-13);
+        close("G", &d.work.g, &e.work.g, 1e-13);
     }
     everywhere!(law);
 }
@@ -374,8 +409,7 @@ fn wrenches_on_every_body_balance() {
         let s = moving(m, s);
         let mut d = Dynamics::new(m);
         s.evaluate(&mut d);
-        let mut r = d.reactions();
-        d.react(&s.a, &s.lambda, &mut r);
+        let r = react(&mut d, &s.a, &s.lambda);
         let w = &d.work;
         let mut on = vec![Force::<G>::default(); m.bodies.len()];
         for (joint, f) in m.joints.iter().zip(&r.joints) {
@@ -418,8 +452,7 @@ fn shaking_is_the_rate_of_momentum() {
     fn law<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
         let mut d = Dynamics::new(m);
         s.evaluate(&mut d);
-        let mut r = d.reactions();
-        d.react(&s.a, &s.lambda, &mut r);
+        let r = react(&mut d, &s.a, &s.lambda);
         let momentum = |s: &State| {
             let mut d = Dynamics::new(m);
             s.evaluate(&mut d);
@@ -435,8 +468,7 @@ fn evaluations_in_any_order_give_the_same_bits() {
     fn law<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
         let all = |d: &mut Dynamics<'_, G>, s: &State| {
             s.evaluate(d);
-            let mut r = d.reactions();
-            d.react(&s.a, &s.lambda, &mut r);
+            let r = react(d, &s.a, &s.lambda);
             let w = &d.work;
             let mut bits: Vec<u64> = [&w.mass, &w.force, &w.phi, &w.g, &w.nu, &w.gamma, &w.efforts, &r.drives]
                 .into_iter()
@@ -532,8 +564,7 @@ fn an_open_mechanism_falls_alike_on_every_tree() {
             let mut d = Dynamics::new(&tree);
             s.evaluate(&mut d);
             let (a, lambda) = accelerate(&d);
-            let mut r = d.reactions();
-            d.react(&a, &lambda, &mut r);
+            let r = react(&mut d, &a, &lambda);
             let (q, v) = star_state(&star, &d);
             let mut e = Dynamics::new(&star);
             let at = State { q, v, modes: star.modes(), ..s.clone() };
@@ -542,8 +573,7 @@ fn an_open_mechanism_falls_alike_on_every_tree() {
             let rate: Vec<f64> = product(&e.work.g, &at.v);
             close("G v", &rate, &vec![0.0; rate.len()], 1e-12);
             let (a, lambda) = accelerate(&e);
-            let mut o = e.reactions();
-            e.react(&a, &lambda, &mut o);
+            let o = react(&mut e, &a, &lambda);
             for b in 1..tree.bodies.len() {
                 close(&format!("acceleration of {}", tree.bodies[b].name), &twist(r.accelerations[b]), &twist(o.accelerations[b]), 1e-9);
             }

@@ -156,7 +156,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
                 self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.delta);
             }
         }
-        self.dynamics.react(&self.a, &self.lambda, &mut self.reactions);
+        self.dynamics.distribute(&self.a, &self.lambda, &mut self.reactions);
     }
 
     /// Factors G as evaluated last.

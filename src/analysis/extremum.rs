@@ -133,7 +133,9 @@ impl<C: Curve> Search<'_, C> {
         if best == f64::NEG_INFINITY {
             return Ok(None);
         }
-        let mut found: Vec<Candidate> = Vec::new();
+        // the best sample takes part whatever becomes of its hill: of noise, only the most promising hills are looked into
+        let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
+        let mut found = vec![Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] }];
         let mut hills = hills(samples, values, sign, best, &mut found);
         // the most promising first, so that the others can be left out
         let noisy = hills.len() > 16 + values.len() / 6;

@@ -5,7 +5,7 @@ use super::clock::Clock;
 use super::continuous::Curve;
 use super::driven::Driven;
 use super::observe::Observer;
-use super::path::{Path, SINGULAR, SingularStart};
+use super::path::{NoPath, Path, SINGULAR};
 use super::root::root;
 use super::switching::{Distance, Switching};
 use crate::geometry::Space;
@@ -55,14 +55,14 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     /// Traces the path of a mechanism over the range of a clock.
     ///
     /// # Errors
-    /// If the start is a singular position.
+    /// If the start is a singular position, or the range is endless.
     pub fn trace(
         mechanism: &'m Mechanism<G>,
         start: &Assembled,
         clock: Clock,
         observer: Observer<G>,
         columns: usize,
-    ) -> Result<Self, SingularStart> {
+    ) -> Result<Self, NoPath> {
         let mut driven = Driven::new(mechanism, start);
         let mut switching = Switching::new(mechanism, &observer);
         let mut modes = start.modes.clone();

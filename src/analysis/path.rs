@@ -32,12 +32,23 @@ pub struct Path {
     /// Nodes, t rising.
     pub nodes: Vec<Node>,
     /// Dead points at the two ends, if the range was not reached there: time and coordinates.
-    pub dead: [Option<(f64, Vec<f64>)>; 2],
+    pub dead: [Option<DeadPoint>; 2],
 }
 
-/// The path could not even begin.
+/// Time and coordinates of a dead point.
+pub type DeadPoint = (f64, Vec<f64>);
+
+/// Why there is no path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SingularStart;
+pub enum NoPath {
+    /// The start is a singular position, where velocities are not determined.
+    SingularStart,
+    /// The range asks for more steps than [`MOST_NODES`].
+    TooLong,
+}
+
+/// Steps of a path at most: some 50 000 turns of a crank.
+pub const MOST_NODES: usize = 2_000_000;
 
 /// Steps below this part of the range mean that the path has ended.
 const SHORTEST: f64 = 1e-13;
@@ -52,24 +63,24 @@ impl Path {
     /// Follows the path from t = 0 to `to` (which may be negative), and back as far if it ends at a dead point.
     ///
     /// # Errors
-    /// If the start is a singular position, where velocities are not determined.
+    /// If the start is a singular position, or the range is endless.
     pub fn trace<G: Space<S = f64>>(
         driven: &mut Driven<'_, G>,
         modes: &mut [i32],
         set: &mut impl FnMut(f64, &mut [i32]),
         to: f64,
-    ) -> Result<Self, SingularStart> {
+    ) -> Result<Self, NoPath> {
         set(0.0, modes);
-        driven.position(0.0, modes).map_err(|_| SingularStart)?;
+        driven.position(0.0, modes).map_err(|_| NoPath::SingularStart)?;
         if driven.condition() < SINGULAR {
-            return Err(SingularStart);
+            return Err(NoPath::SingularStart);
         }
         driven.rates(modes);
         let start = driven.node(0.0, modes);
-        let (mut nodes, dead_to) = march(driven, modes, set, &start, to);
+        let (mut nodes, dead_to) = march(driven, modes, set, &start, to)?;
         let mut dead = [None, dead_to];
         if dead[1].is_some() {
-            let (back, dead_back) = march(driven, modes, set, &start, -to);
+            let (back, dead_back) = march(driven, modes, set, &start, -to)?;
             dead[0] = dead_back;
             nodes = back.into_iter().skip(1).rev().chain(nodes).collect();
             if to < 0.0 {
@@ -123,15 +134,18 @@ fn march<G: Space<S = f64>>(
     set: &mut impl FnMut(f64, &mut [i32]),
     start: &Node,
     to: f64,
-) -> (Vec<Node>, Option<(f64, Vec<f64>)>) {
+) -> Result<(Vec<Node>, Option<DeadPoint>), NoPath> {
     let mut nodes = vec![start.clone()];
     let longest = to / 48.0;
     let mut h = longest;
     let mut delta = vec![0.0; start.v.len()];
     while let Some(last) = nodes.last() {
+        if nodes.len() > MOST_NODES {
+            return Err(NoPath::TooLong);
+        }
         let left = to - last.t;
         if left.abs() <= 1e-14 * to.abs() {
-            return (nodes, None);
+            return Ok((nodes, None));
         }
         if h.abs() >= left.abs() * (1.0 - 1e-12) {
             h = left;
@@ -146,12 +160,12 @@ fn march<G: Space<S = f64>>(
                 h *= 0.6;
                 if h.abs() < SHORTEST * to.abs() {
                     let end = fold(driven, modes, last, to.signum()).unwrap_or_else(|| (last.t, last.q.clone()));
-                    return (nodes, Some(end));
+                    return Ok((nodes, Some(end)));
                 }
             }
         }
     }
-    (nodes, None)
+    Ok((nodes, None))
 }
 
 /// One trusted step to time `t`.

@@ -9,6 +9,7 @@ use super::mobility::drivers_fit;
 use super::motion::{Lost, Motion, Rows};
 use super::observe::Observer;
 use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
+use super::path::{MOST_NODES, NoPath};
 use super::{balance, scene};
 use crate::dynamics::Dynamics;
 use crate::expression::Id;
@@ -75,11 +76,11 @@ fn trace<'m, G: Space<S = f64>>(
     observer: Observer<G>,
     columns: usize,
 ) -> Result<Motion<'m, G>, Failure> {
-    Motion::trace(mechanism, start, clock, observer, columns).map_err(|_| {
-        Failure::Numerical(
-            "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities"
-                .into(),
-        )
+    Motion::trace(mechanism, start, clock, observer, columns).map_err(|why| {
+        Failure::Numerical(match why {
+            NoPath::SingularStart => "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities".into(),
+            NoPath::TooLong => format!("the range asks for more than {MOST_NODES} steps"),
+        })
     })
 }
 

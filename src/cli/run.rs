@@ -84,13 +84,19 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
         show(&finished, study, arguments, &mut reports);
     }
     if arguments.json {
-        say(&serde_json::to_string_pretty(&reports).unwrap_or_default());
+        say(&json_list(&reports));
     }
     worst
 }
 
+/// JSON texts as one list, their numbers untouched: reading them back could change a last digit.
+fn json_list(texts: &[String]) -> String {
+    let items: Vec<String> = texts.iter().map(|text| format!("\n  {}", text.trim_end().replace('\n', "\n  "))).collect();
+    format!("[{}{}]", items.join(","), if items.is_empty() { "" } else { "\n" })
+}
+
 /// Prints what a study gave.
-fn show(finished: &Finished, study: &str, arguments: &Arguments, reports: &mut Vec<serde_json::Value>) {
+fn show(finished: &Finished, study: &str, arguments: &Arguments, reports: &mut Vec<String>) {
     let Some(output) = &finished.output else { return };
     if arguments.json {
         reports.push(output.report.clone());

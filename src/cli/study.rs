@@ -33,8 +33,8 @@ pub(super) struct Finished {
 pub(super) struct Output {
     /// Scalars for stdout.
     pub(super) table: String,
-    /// The JSON report.
-    pub(super) report: serde_json::Value,
+    /// The text of the JSON report, as in its file.
+    pub(super) report: String,
     /// Columns with their units.
     pub(super) columns: Vec<(String, String)>,
 }
@@ -78,7 +78,7 @@ impl Job<'_> {
         }
         let output = Output {
             table: report::summary(self.model, study, &outcome),
-            report: serde_json::from_str(&report).unwrap_or_default(),
+            report,
             columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
         };
         self.write(&staging, code, output)
@@ -128,7 +128,7 @@ impl Job<'_> {
         }
         let output = Output {
             table: report::sweep_summary(&table),
-            report: serde_json::from_str(&report).unwrap_or_default(),
+            report,
             columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
         };
         self.write(&staging, code, output)

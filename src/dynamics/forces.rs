@@ -36,12 +36,17 @@ impl<G: Space> Dynamics<'_, G> {
 
     /// f − M a (nv) from the accelerations of the bodies that belong to `a`, without M; after [`Dynamics::loads`].
     pub fn unbalanced(&mut self, a: &[G::S], accelerations: &[Motion<G>], out: &mut [G::S]) {
+        self.unbalance(accelerations);
+        self.project(Some(a), out);
+    }
+
+    /// I A + V ×* I V − applied of each body.
+    pub(super) fn unbalance(&mut self, accelerations: &[Motion<G>]) {
         let w = &mut self.work;
         for node in &self.mechanism.nodes {
             let b = node.body;
             w.unbalanced[b] = inertial(w, b, accelerations[b]) - w.applied[b];
         }
-        self.project(Some(a), out);
     }
 
     /// −s_k · Σ (unbalanced wrenches of all that hangs on k), and what efforts and rotors put on the coordinates.
@@ -84,6 +89,7 @@ impl<G: Space> Dynamics<'_, G> {
     fn applied(&mut self) {
         let m = self.mechanism;
         let w = &mut self.work;
+        w.applied[0] = Force::default();
         for node in &m.nodes {
             let b = node.body;
             let inertia = m.bodies[b].mass.in_world(w.poses[b]);

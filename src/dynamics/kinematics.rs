@@ -44,10 +44,23 @@ impl<G: Space> Dynamics<'_, G> {
         w.moved.fill(Motion::default());
         for node in &self.mechanism.nodes {
             let mut moved = w.moved[node.parent];
-            for k in node.columns.clone() {
-                let column = w.columns[k];
-                w.columns[k] = column + moved.cross(column);
-                moved += column * delta[k];
+            for step in &self.mechanism.steps[node.steps.clone()] {
+                match *step {
+                    Step::Axis { v: k, .. } => {
+                        let column = w.columns[k];
+                        w.columns[k] = column + moved.cross(column);
+                        moved += column * delta[k];
+                    }
+                    // three columns, one step: carried by the second body, which the step moves unless it is reversed
+                    Step::Ball { v, reversed, .. } => {
+                        let turned = (v..v + G::SPIN).fold(moved, |sum, k| sum + w.columns[k] * delta[k]);
+                        let carrier = if reversed { moved } else { turned };
+                        for column in &mut w.columns[v..v + G::SPIN] {
+                            *column += carrier.cross(*column);
+                        }
+                        moved = turned;
+                    }
+                }
             }
             w.moved[node.body] = moved;
             let x = &mut w.poses[node.body];

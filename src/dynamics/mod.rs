@@ -3,7 +3,9 @@
 //! The stages go `time → position → velocity → forces → mass → accelerations`; each needs those before it and leaves its
 //! results in the [`Workspace`]. The equations are
 //!
-//!     M(q) a + Gᵀλ = f(t, q, v),    G v = ν,    G a = γ.
+//! ```text
+//! M(q) a + Gᵀλ = f(t, q, v),    G v = ν,    G a = γ.
+//! ```
 //!
 //! An evaluator is cheap to make, holds no state of its own between states, and allocates nothing once it is made.
 

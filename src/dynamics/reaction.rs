@@ -42,9 +42,15 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// Reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::unbalanced`] with the
-    /// accelerations that [`Dynamics::accelerate`] put into `out`.
-    pub fn react(&self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
+    /// Accelerations, reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::loads`].
+    pub fn react(&mut self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
+        self.accelerate(a, &mut out.accelerations);
+        self.unbalance(&out.accelerations);
+        self.distribute(a, lambda, out);
+    }
+
+    /// [`Dynamics::react`] without its first two steps, which [`Dynamics::accelerate`] and [`Dynamics::unbalanced`] have done.
+    pub fn distribute(&self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
         self.pairs(a, lambda, out);
         let (m, w) = (self.mechanism, &self.work);
         // what each body lacks: I A + V ×* I V − applied − pairs on it

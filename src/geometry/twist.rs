@@ -285,7 +285,7 @@ mod tests {
     fn kinetic_energy_is_that_of_the_particles() {
         let body =
             MassProperties::<E3> { mass: 2.0, com: E3::vector(&[0.1, 0.2, -0.3]), inertia: E3::tensor([0.4, 0.5, 0.3, 0.02, -0.01, 0.03]) };
-        let other = MassProperties::<E3> { mass: 3.0, com: E3::vector(&[-0.5, 0.1, 0.2]), inertia: E3::Tensor::zeros() };
+        let other = MassProperties::<E3> { mass: 3.0, com: E3::vector(&[-0.5, 0.1, 0.2]), inertia: E3::tensor([0.0; 6]) };
         let (x, v) = (pose(0.2), motion(0.6));
         let joined = body.join(other).in_world(x);
         let mut sum = body.in_world(x);

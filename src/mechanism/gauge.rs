@@ -3,7 +3,9 @@
 //! Everything that constrains, drives or pulls does so through gauges: a joint row is a gauge that stays at its target, a
 //! driver one that follows a function of time, a spring one with a force. With twists V and accelerations A of the bodies,
 //!
-//!     ẋ = W · (V_b − V_a),      ẍ = W · (A_b − A_a) + c,
+//! ```text
+//! ẋ = W · (V_b − V_a),      ẍ = W · (A_b − A_a) + c,
+//! ```
 //!
 //! where W is the unit wrench on b (−W acts on a: every gauge's force is a pair in one line) and the drift c collects
 //! what the velocities alone contribute. With points p, d = p_b − p_a, directions carried by their bodies, ṗ = v + ω×p and

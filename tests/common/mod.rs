@@ -4,7 +4,7 @@
 
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::{run::run, sweep};
-use grashof::dynamics::Dynamics;
+use grashof::dynamics::{Dynamics, Reactions};
 use grashof::geometry::{Pose, Space};
 use grashof::mechanism::{Coordinates, Mechanism, Step, build};
 use grashof::model::{Document, Model, Selection};
@@ -147,6 +147,16 @@ pub(crate) fn accelerate<G: Space<S = f64>>(d: &Dynamics<'_, G>) -> (Vec<f64>, V
     // one step of refinement takes the last digits
     x += svd.solve(&(&b - &kkt * &x), cut).expect("a solution");
     (x.as_slice()[..n].to_vec(), x.as_slice()[n..].to_vec())
+}
+
+/// What follows from a and λ at the state evaluated last.
+pub(crate) fn react<G: Space<S = f64>>(d: &mut Dynamics<'_, G>, a: &[f64], lambda: &[f64]) -> Reactions<G> {
+    let mut r = d.reactions();
+    let mut lacking = vec![0.0; d.mechanism.nv];
+    d.accelerate(a, &mut r.accelerations);
+    d.unbalanced(a, &r.accelerations, &mut lacking);
+    d.react(a, lambda, &mut r);
+    r
 }
 
 /// The coordinates and velocities of the star tree at which its bodies are where those of another tree are.

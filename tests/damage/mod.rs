@@ -153,6 +153,7 @@ fn setting(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise)
 }
 
+#[expect(clippy::print_stderr, reason = "a count for who tries many by hand")]
 pub(crate) fn models_never_panic_or_hang() {
     let models = models();
     let rounds = setting("GRASHOF_MUTATIONS", 300);

@@ -23,15 +23,17 @@ pub(crate) fn slope(f: &impl Fn(f64) -> f64, x: f64, step: f64) -> f64 {
 /// Steps of the differences, rad: wide to be quiet, then narrow to see sharp bends.
 const STEPS: [f64; 4] = [2e-3, 3e-4, 5e-5, 8e-6];
 
-/// Smallest and largest value of `f(x, piece)` over all pieces [a, b], with their places. `f` must go on smoothly a little beyond
+/// Smallest and largest value of `f(x, piece)` over all pieces [a, b], with their first places. `f` must go on smoothly a little beyond
 /// the ends of its piece.
 pub(crate) fn extremes(f: impl Fn(f64, usize) -> f64, pieces: &[[f64; 2]]) -> [(f64, f64); 2] {
     let mut found = [(f64::INFINITY, f64::NAN), (f64::NEG_INFINITY, f64::NAN)];
+    // of two that are equal but for round-off the first stays
     let mut put = |value: f64, at: f64| {
-        if value < found[0].0 {
+        let least = 1e-12 * value.abs();
+        if value + least < found[0].0 {
             found[0] = (value, at);
         }
-        if value > found[1].0 {
+        if value - least > found[1].0 {
             found[1] = (value, at);
         }
     };
@@ -55,8 +57,8 @@ pub(crate) fn extremes(f: impl Fn(f64, usize) -> f64, pieces: &[[f64; 2]]) -> [(
                 put(f(x), x);
             }
             left = right;
-            put(f(at(k)), at(k));
         }
+        put(f(b), b);
     }
     found
 }
