@@ -28,6 +28,17 @@ impl Want {
             Self::Any => "any quantity".to_owned(),
         }
     }
+
+    /// For messages: " such as `15 cm`", in the unit of the dimension.
+    fn example(self) -> String {
+        match self {
+            Self::Of(dimension) if dimension == Dimension::LENGTH => " such as `15 cm`".to_owned(),
+            Self::Of(dimension) if dimension == Dimension::NONE => String::new(),
+            Self::Of(dimension) => format!(" such as `2 {}`", dimension.si()),
+            Self::Angle => " such as `30 deg`".to_owned(),
+            Self::Varies(_) | Self::Any => " such as `15 cm`".to_owned(),
+        }
+    }
 }
 
 /// How many items a list has.
@@ -129,7 +140,7 @@ impl Shape {
     /// For messages: what is expected here.
     pub(crate) fn expected(&self) -> String {
         match self {
-            Self::Value(want) => format!("{}: a number, a quantity such as `15 cm`, or an expression", want.name()),
+            Self::Value(want) => format!("{}: a number, a quantity{}, or an expression", want.name(), want.example()),
             Self::Formula(words) => (*words).to_owned(),
             Self::Text => "text".to_owned(),
             Self::Word(words) => format!("one of {}", words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")),

@@ -93,7 +93,11 @@ impl Shapes<'_> {
             (Shape::Flag, Node::Plain(Value::Bool(_))) => {}
             (Shape::Count(least, most), Node::Plain(Value::Number(n))) => {
                 if !n.as_u64().is_some_and(|n| (*least..=*most).contains(&n)) {
-                    self.fault("bad-count", at, format!("found {n}"), outer.expected());
+                    let help = match (*least, *most) {
+                        (1, 1) => "this version reads models of version 1: write `grashof: 1`".to_owned(),
+                        (least, most) => format!("write a whole number from {least} to {most}"),
+                    };
+                    self.fault("bad-count", at, format!("found {n}"), outer.expected()).help = Some(help);
                 }
             }
             (Shape::List(item, size), Node::Plain(Value::Sequence(items))) => self.list(items, item, *size, at, outer),
@@ -125,7 +129,8 @@ impl Shapes<'_> {
                 _ => outer.expected(),
             };
             let n = items.len();
-            self.fault("wrong-size", at, format!("a list of {n} item{}", if n == 1 { "" } else { "s" }), expected);
+            let fault = self.fault("wrong-size", at, format!("a list of {n} item{}", if n == 1 { "" } else { "s" }), expected);
+            fault.help = Some("write as many items as are expected, with a comma between them".to_owned());
         }
         // an empty value in a list is never "remove"
         let patch = std::mem::replace(&mut self.patch, false);
@@ -217,7 +222,9 @@ impl Shapes<'_> {
             let found: Vec<&str> = present.iter().copied().filter(|key| choice.keys.contains(key)).collect();
             let list = || suggest::known(choice.keys.iter().copied()).unwrap_or_default();
             if found.is_empty() && choice.required && !choice.keys.iter().any(|key| meant(key)) {
-                self.fault("missing-key", at, format!("{} needs one more key", table.what), format!("one of {}", list())).spot = Spot::Key;
+                let fault = self.fault("missing-key", at, format!("{} needs one more key", table.what), format!("one of {}", list()));
+                fault.spot = Spot::Key;
+                fault.help = choice.keys.first().map(|key| format!("add one of them, for example `{key}: ...`"));
             }
             if let [first, second, ..] = found[..] {
                 let fault =

@@ -26,7 +26,9 @@ pub(crate) fn read(text: &str) -> Result<Mapping, Vec<Fault>> {
 }
 
 fn empty() -> Fault {
-    Fault::new("empty-file", String::new(), "the file is empty", "a model, beginning with `grashof: 1`").at(Spot::Bytes(0..0))
+    Fault::new("empty-file", String::new(), "the file is empty", "a model, beginning with `grashof: 1`")
+        .help("begin with a model that runs: `grashof new four-bar`")
+        .at(Spot::Bytes(0..0))
 }
 
 /// Bytes of the first line that says something.
@@ -154,6 +156,11 @@ fn syntax(text: &str, info: &str, at: usize) -> Fault {
         let message = format!("this is not YAML: {}", info.trim_start_matches("while ").trim());
         Fault::new("yaml-syntax", String::new(), message, expected).at(Spot::Bytes(at..at + width))
     };
+    if info.contains("recursion limit") {
+        let mut fault = fault("at most 64 levels");
+        (fault.code, fault.message) = ("too-deep", "lists or maps stand too deep in each other".to_owned());
+        return fault.help("look for brackets that are not closed");
+    }
     let line_start = text[..at].rfind('\n').map_or(0, |i| i + 1);
     let line = text[line_start..].lines().next().unwrap_or("");
     if info.contains("tab") || line.trim_start_matches(' ').starts_with('\t') {

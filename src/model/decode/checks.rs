@@ -153,14 +153,24 @@ impl Check<'_> {
         }
         let first = x.first().copied().unwrap_or(0.0);
         match self.rule {
-            Rule::NotNegative(what) if first < 0.0 => fault("negative", format!("{what} is {first}"), "a value that is not negative"),
-            Rule::Positive(what) if first <= 0.0 => fault("not-positive", format!("{what} is {first}"), "a value above 0"),
-            Rule::NotZero(what) if first == 0.0 => fault("zero", format!("{what} is 0"), "a value other than 0"),
-            Rule::Direction if x.iter().all(|x| *x == 0.0) => fault("zero-axis", "all components are 0".to_owned(), "a direction"),
+            Rule::NotNegative(what) if first < 0.0 => {
+                fault("negative", format!("{what} is {first}"), "a value that is not negative").map(|fault| fault.help(SIGN))
+            }
+            Rule::Positive(what) if first <= 0.0 => {
+                fault("not-positive", format!("{what} is {first}"), "a value above 0").map(|fault| fault.help(SIGN))
+            }
+            Rule::NotZero(what) if first == 0.0 => {
+                fault("zero", format!("{what} is 0"), "a value other than 0").map(|fault| fault.help("give the value that is meant"))
+            }
+            Rule::Direction if x.iter().all(|x| *x == 0.0) => fault("zero-axis", "all components are 0".to_owned(), "a direction")
+                .map(|fault| fault.help("give at least one component, as `[1, 0]` or in space `[0, 0, 1]`")),
             Rule::Distinct if x.len().is_multiple_of(2) && x[..x.len() / 2] == x[x.len() / 2..] => {
                 fault("zero-length", "both ends are the same point".to_owned(), "two points that differ")
             }
-            Rule::Inertia => impossible(x).and_then(|why| fault("impossible-inertia", why, "the inertia of a body that can exist")),
+            Rule::Inertia => impossible(x).and_then(|why| {
+                fault("impossible-inertia", why, "each principal moment at most the sum of the other two")
+                    .map(|fault| fault.help("check the figures, their order `[Ixx, Iyy, Izz]` and that they are about `com`"))
+            }),
             Rule::Ratio if x.contains(&0.0) || x.iter().any(|x| x.signum() != first.signum()) => {
                 fault("bad-span", format!("from {} to {}", x[0], x.get(1).copied().unwrap_or(x[0])), "for equal ratios both ends above 0")
             }
@@ -168,6 +178,9 @@ impl Check<'_> {
         }
     }
 }
+
+/// The remedy for a value of the wrong sign.
+const SIGN: &str = "check its sign and the parameters that it is made of";
 
 /// Why figures Ixx, Iyy, Izz (, Ixy, Ixz, Iyz) belong to no body: a principal moment is negative, or larger than the sum of
 /// the other two (the integrals of y² + z², x² + z², x² + y² cannot be).
