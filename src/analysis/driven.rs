@@ -29,7 +29,7 @@ pub struct Driven<'m, G: Space> {
     /// Size of the correction that Newton made in all, largest component in units of `unit`.
     pub correction: f64,
     solver: Solver,
-    /// 1 for angles, the size of the mechanism for lengths (nv).
+    /// 1 for angles, one by the size of the mechanism for lengths (nv).
     unit: Vec<f64>,
     delta: Vec<f64>,
     rhs: Vec<f64>,
@@ -75,7 +75,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             let probe = start.metric.iter().enumerate().map(|(i, d)| d.sqrt() * (1.0 + 0.37 * (i as f64 * 2.39).sin())).collect();
             Solver::Redundant { kkt, metric, probe }
         };
-        let unit = super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
+        let unit = super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size.recip() }).collect();
         let reactions = dynamics.reactions();
         Self {
             dynamics,
@@ -113,7 +113,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
                 *r = -phi;
             }
             self.solver.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.scratch);
-            let size = self.delta.iter().zip(&self.unit).map(|(d, u)| (d / u).abs()).fold(0.0, f64::max);
+            let size = self.delta.iter().zip(&self.unit).map(|(d, u)| (d * u).abs()).fold(0.0, f64::max);
             // growing, or turning by more than a quarter: this is not the neighbourhood of a solution
             if !size.is_finite() || size > 1.5 || (step > 2 && size > last) {
                 return Err(NotReached);
@@ -198,7 +198,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     /// Largest component of a displacement in units of angles and of the mechanism's size.
     #[must_use]
     pub fn measure(&self, delta: &[f64]) -> f64 {
-        delta.iter().zip(&self.unit).map(|(d, u)| (d / u).abs()).fold(0.0, f64::max)
+        delta.iter().zip(&self.unit).map(|(d, u)| (d * u).abs()).fold(0.0, f64::max)
     }
 }
 

@@ -100,11 +100,11 @@ impl<G: Space> Dynamics<'_, G> {
             let axes = w.poses[pull.frame].r;
             let mut wrench = Force::default();
             if !pull.force.is_empty() {
-                let mut f = G::Vector::default();
-                for (axis, &output) in pull.force.iter().enumerate() {
-                    f += crate::geometry::basis::<G>(axis) * w.force_outputs[output];
+                let mut f = [G::S::default(); 3];
+                for (f, &output) in f.iter_mut().zip(&pull.force) {
+                    *f = w.force_outputs[output];
                 }
-                wrench = Force::at(G::rotate(axes, f), w.poses[pull.body].point(pull.at));
+                wrench = Force::at(G::rotate(axes, G::from_components(f)), w.poses[pull.body].point(pull.at));
             }
             for (axis, &output) in pull.torque.iter().enumerate() {
                 let mut e = [0.0; 3];

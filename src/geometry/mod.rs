@@ -72,6 +72,8 @@ pub trait Space: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
 
     /// A vector from its first [`Self::VECTOR`] components (missing ones are 0).
     fn vector(x: &[f64]) -> Self::Vector;
+    /// A vector from its components; the plane takes the first two.
+    fn from_components(x: [Self::S; 3]) -> Self::Vector;
     /// Component of a vector; 0 beyond the last.
     fn component(v: Self::Vector, axis: usize) -> Self::S;
     /// The spin with the given world components (x, y, z); the plane keeps z.

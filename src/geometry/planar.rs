@@ -34,6 +34,10 @@ impl<S: Scalar> Space for Planar<S> {
         let at = |i: usize| S::constant(x.get(i).copied().unwrap_or(0.0));
         Vector2::new(at(0), at(1))
     }
+    #[inline(always)]
+    fn from_components(x: [S; 3]) -> Self::Vector {
+        Vector2::new(x[0], x[1])
+    }
     #[inline]
     fn component(v: Self::Vector, axis: usize) -> S {
         v.get(axis).copied().unwrap_or_default()

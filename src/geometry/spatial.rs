@@ -23,6 +23,10 @@ impl<S: Scalar> Space for Spatial<S> {
         let at = |i: usize| S::constant(x.get(i).copied().unwrap_or(0.0));
         Vector3::new(at(0), at(1), at(2))
     }
+    #[inline(always)]
+    fn from_components(x: [S; 3]) -> Self::Vector {
+        Vector3::from(x)
+    }
     #[inline]
     fn component(v: Self::Vector, axis: usize) -> S {
         v[axis]
