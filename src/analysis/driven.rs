@@ -40,8 +40,8 @@ pub struct Driven<'m, G: Space> {
 /// How G is inverted.
 #[derive(Clone, Debug)]
 enum Solver {
-    /// As many rows as velocities: one factorisation of G, its rows scaled to unit size.
-    Square { lu: Lu, scale: Vec<f64> },
+    /// As many rows as velocities: one factorisation of G, its rows scaled to unit size (rows; and the same for each entry).
+    Square { lu: Lu, scale: Vec<f64>, entries: Vec<f64> },
     /// Redundant rows: the regularised system with the mass metric (nv × nv) in the place of M.
     Redundant { kkt: Kkt, metric: Vec<f64>, probe: Vec<f64> },
 }
@@ -63,7 +63,9 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         let solver = if rows == nv {
             let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
             let scale = dynamics.work.g.chunks_exact(nv.max(1)).map(|row| if size(row) > 0.0 { size(row).recip() } else { 1.0 });
-            Solver::Square { lu: Lu::new(nv), scale: scale.collect() }
+            let scale: Vec<f64> = scale.collect();
+            let entries = scale.iter().flat_map(|s| std::iter::repeat_n(*s, nv)).collect();
+            Solver::Square { lu: Lu::new(nv), scale, entries }
         } else {
             let mut kkt = Kkt::new(nv, rows);
             kkt.set_scale(&start.metric, &g_scale);
@@ -137,7 +139,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     /// Forces, multipliers and reactions for the motion found last.
     pub fn forces(&mut self, modes: &[i32]) {
         match &mut self.solver {
-            Solver::Square { lu, scale } => {
+            Solver::Square { lu, scale, .. } => {
                 // λ = G⁻ᵀ (f − M a), G as factored in `position`; M itself is not needed
                 self.dynamics.loads(modes);
                 self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
@@ -163,10 +165,9 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     fn factor(&mut self) -> Result<(), NotReached> {
         let g = &self.dynamics.work.g;
         match &mut self.solver {
-            Solver::Square { lu, scale } => {
-                let nv = scale.len().max(1);
-                for ((out, row), s) in lu.matrix_mut().chunks_exact_mut(nv).zip(g.chunks_exact(nv)).zip(scale) {
-                    out.iter_mut().zip(row).for_each(|(out, g)| *out = g * *s);
+            Solver::Square { lu, entries, .. } => {
+                for ((out, g), s) in lu.matrix_mut().iter_mut().zip(g).zip(entries) {
+                    *out = g * *s;
                 }
                 lu.factor_in_place().map_err(|_| NotReached)
             }
@@ -206,7 +207,7 @@ impl Solver {
     /// G x = `rhs` (of least size in the metric where rows are redundant).
     fn solve(&mut self, zeros: &[f64], rhs: &[f64], x: &mut [f64], scratch: &mut [f64]) {
         match self {
-            Self::Square { lu, scale } => {
+            Self::Square { lu, scale, .. } => {
                 for ((x, r), s) in x.iter_mut().zip(rhs).zip(scale) {
                     *x = r * *s;
                 }

@@ -139,7 +139,8 @@ impl<G: Space> Dynamics<'_, G> {
         let m = self.mechanism;
         let nv = m.nv;
         let Workspace { readings, columns, functions, motions, phi, g, .. } = &mut self.work;
-        for ((row, phi), g) in m.rows.iter().zip(phi.iter_mut()).zip(g.chunks_exact_mut(nv.max(1))) {
+        for (i, (row, phi)) in m.rows.iter().zip(phi.iter_mut()).enumerate() {
+            let g = &mut g[i * nv..(i + 1) * nv];
             match row.kind {
                 RowKind::Gauge(i) => {
                     *phi = readings[i].x - row.offset;

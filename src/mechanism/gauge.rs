@@ -116,7 +116,7 @@ pub struct Reading<G: Space> {
 
 impl<G: Space> Gauge<G> {
     /// x and W from the poses (`poses[body]`), the tree coordinates `q` and columns `s`.
-    #[inline]
+    #[inline(always)]
     pub fn position(&self, poses: &[Pose<G>], q: &[G::S], s: &[Motion<G>], windings: &[i32], out: &mut Reading<G>) {
         let (xa, xb) = (poses[self.a], poses[self.b]);
         match self.measured {
@@ -162,7 +162,7 @@ impl<G: Space> Gauge<G> {
     }
 
     /// ẋ and c from the twists; after [`Gauge::position`].
-    #[inline]
+    #[inline(always)]
     pub fn velocity(&self, poses: &[Pose<G>], twists: &[Motion<G>], bias: &[Motion<G>], v: &[G::S], out: &mut Reading<G>) {
         let (va, vb) = (twists[self.a], twists[self.b]);
         let two = G::S::constant(2.0);
@@ -218,7 +218,7 @@ impl<G: Space> Gauge<G> {
     }
 
     /// ∂ẋ/∂v_k for the columns of the gauge, written by `put(k, value)`.
-    #[inline]
+    #[inline(always)]
     pub fn project(&self, reading: &Reading<G>, s: &[Motion<G>], mut put: impl FnMut(usize, G::S)) {
         if let Measured::Coordinate { along, .. } = self.measured {
             put(along.v, G::S::constant(1.0));
