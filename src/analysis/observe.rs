@@ -74,7 +74,7 @@ enum Source<G: Space> {
     FrameMoment(usize),
     InertiaEq,
     InertiaEqSlope,
-    /// Known from outside: given by [`Observer::give`], or not defined.
+    /// A number known beforehand; NaN: not defined here.
     Given(f64),
 }
 
@@ -93,20 +93,13 @@ impl<G: Space<S = f64>> Observer<G> {
         }
     }
 
-    /// Reads all quantities after [`Driven::forces`]; `lent` modes stay as they are.
+    /// Reads all quantities after [`Driven::forces`].
     pub fn read(&mut self, driven: &mut Driven<'_, G>, modes: &[i32]) {
         let Driven { dynamics, a, reactions, v, q, .. } = driven;
         dynamics.watch(q, v, modes);
         self.modes.copy_from_slice(modes);
         for (input, source) in &self.fills {
             self.inputs[*input] = source.read(dynamics, a, reactions, &mut self.modes);
-        }
-    }
-
-    /// Reads positions, velocities and accelerations alone: what needs forces is not defined.
-    pub fn give(&mut self, value: f64) {
-        for (input, _) in &self.fills {
-            self.inputs[*input] = value;
         }
     }
 

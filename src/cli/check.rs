@@ -1,10 +1,9 @@
 //! `grashof check`: a look at a model before it moves.
 
-use super::{Common, code, files, say, tell};
-use grashof::analysis::outcome::Failure;
+use super::{Common, code, files, say};
 use grashof::analysis::survey::{Survey, survey};
 use grashof::analysis::sweep::parameters;
-use grashof::model::{Document, Report};
+use grashof::model::Document;
 use grashof::output::{json_number, json_numbers};
 use serde_json::{Value, json};
 
@@ -38,7 +37,7 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     };
     let survey = match survey(&model, &parameters(&model)) {
         Ok(survey) => survey,
-        Err(failure) => return explain(&document, &failure, common),
+        Err(failure) => return files::explain(&document, &failure, "", common),
     };
     let mut findings: Vec<String> = report.diagnostics.iter().map(|d| d.message.clone()).collect();
     findings.extend(remarks(&survey, model.drivers.len()));
@@ -48,21 +47,6 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
         print(&model.name, &survey, &findings, &document);
     }
     if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
-}
-
-fn explain(document: &Document, failure: &Failure, common: &Common) -> u8 {
-    let diagnostics = match failure {
-        Failure::Model(faults) => {
-            faults.iter().map(|f| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone())).collect()
-        }
-        Failure::Study { code, message, place, help } => vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))],
-        Failure::Numerical(message) => {
-            tell(&format!("error: {message}"));
-            return code::NUMERICAL;
-        }
-    };
-    tell(Report::new(diagnostics).render(common.colored()).trim_end());
-    code::INPUT
 }
 
 /// What is worth a remark about freedom and rows.

@@ -1,6 +1,8 @@
 //! Reading the model file and naming the place of its results.
 
-use super::{Common, tell};
+use super::{Common, code, tell};
+use grashof::analysis::outcome::Failure;
+use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -80,4 +82,24 @@ pub(super) fn directory(model: &str, common: &Common) -> PathBuf {
         let stem = if model == "-" { "stdin".into() } else { Path::new(model).file_stem().unwrap_or_default().to_os_string() };
         Path::new("results").join(stem)
     })
+}
+
+/// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
+pub(super) fn explain(document: &Document, failure: &Failure, study: &str, common: &Common) -> u8 {
+    let (diagnostics, code) = match failure {
+        Failure::Model(faults) => {
+            let at = |f: &BuildFault| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone());
+            (faults.iter().map(at).collect(), code::INPUT)
+        }
+        Failure::Study { code, message, place, help } => {
+            (vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))], code::INPUT)
+        }
+        Failure::Numerical(message) => {
+            let help = "start elsewhere, change the lengths, or give a shorter range".to_string();
+            let message = format!("study `{study}`: {message}");
+            (vec![document.diagnostic("numerical", &format!("studies.{study}"), message, "", Some(help))], code::NUMERICAL)
+        }
+    };
+    tell(Report::new(diagnostics).render(common.colored()).trim_end());
+    code
 }

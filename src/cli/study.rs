@@ -1,7 +1,7 @@
 //! One study from model to files.
 
 use super::progress::{Progress, interrupted};
-use super::{Common, code, figures, report, tell};
+use super::{Common, code, figures, files, report, tell};
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;
 use grashof::analysis::sweep::{self, Run};
@@ -214,23 +214,7 @@ impl Job<'_> {
 
     /// Prints why a run did not begin, and gives its exit code.
     fn explain(&self, failure: &Failure) -> u8 {
-        let diagnostics = match failure {
-            Failure::Model(faults) => faults
-                .iter()
-                .map(|f| self.document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone()))
-                .collect(),
-            Failure::Study { code, message, place, help } => {
-                vec![self.document.diagnostic(code, place, message.clone(), "", Some(help.clone()))]
-            }
-            Failure::Numerical(message) => {
-                let place = self.model.study.as_ref().map_or("studies", |s| s.place.as_str());
-                let help = "start elsewhere, change the lengths, or give a shorter range";
-                self.tell_at("numerical", place, format!("study `{}`: {message}", self.study), help);
-                return code::NUMERICAL;
-            }
-        };
-        tell(Report::new(diagnostics).render(self.common.colored()).trim_end());
-        code::INPUT
+        files::explain(self.document, failure, self.study, self.common)
     }
 }
 

@@ -5,7 +5,7 @@
 //! (Featherstone 2008, equation 5.7 in world coordinates).
 
 use super::{Dynamics, Workspace};
-use crate::geometry::{Motion, Pose, Space, basis};
+use crate::geometry::{Motion, Space};
 use crate::mechanism::{Leaf, RowKind, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
@@ -258,12 +258,6 @@ impl<G: Space> Dynamics<'_, G> {
         self.work.poses[body].point(at)
     }
 
-    /// Pose of a body.
-    #[must_use]
-    pub fn pose(&self, body: usize) -> Pose<G> {
-        self.work.poses[body]
-    }
-
     /// Reads the gauges that no row or force needs (joint coordinates for output); after the velocity stage.
     pub fn watch(&mut self, q: &[G::S], v: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
@@ -272,11 +266,5 @@ impl<G: Space> Dynamics<'_, G> {
             gauge.position(&w.poses, q, &w.columns, &modes[m.switches..], reading);
             gauge.velocity(&w.poses, &w.twists, &w.bias, v, reading);
         }
-    }
-
-    /// Unit vector along a world axis.
-    #[must_use]
-    pub fn axis(axis: usize) -> G::Vector {
-        basis::<G>(axis)
     }
 }

@@ -58,8 +58,6 @@ pub struct Drive {
     pub output: usize,
     /// The speed if it is constant: f = speed · t needs no program.
     pub speed: Option<f64>,
-    /// True if the start fixes its anchor (a speed or a rise).
-    pub relative: bool,
     /// True if an angle is driven.
     pub turns: bool,
 }

@@ -1,6 +1,5 @@
 //! The JSON file of a study: what was set, what came out, where the extremes are, and how far to trust it.
 
-use super::Table;
 use serde_json::{Map, Value, json};
 
 /// What the JSON file says, in the order it says it.
@@ -14,7 +13,7 @@ pub struct Report {
     pub parameters: Vec<(String, f64)>,
     /// Results; numbers by [`json_number`], lists by [`json_numbers`].
     pub scalars: Vec<(String, Value)>,
-    /// For each column its extremes, see [`extrema`].
+    /// For each column its extremes, on the continuous solution.
     pub extrema: Vec<(String, Extrema)>,
     /// Figures of merit: drifts, residuals, step counts.
     pub certificate: Vec<(String, Value)>,
@@ -49,25 +48,6 @@ pub struct Extrema {
     pub min: Option<Extreme>,
     /// The greatest value, where it occurs first.
     pub max: Option<Extreme>,
-}
-
-/// The extremes of every column of `table` over the `independent` variable, one value a row.
-pub fn extrema(table: &Table, independent: &[f64]) -> Vec<(String, Extrema)> {
-    let of = |index: usize| {
-        let mut found = Extrema::default();
-        for (row, value) in table.column(index).enumerate().filter(|(_, value)| value.is_finite()) {
-            let here = Extreme { value, at: independent.get(row).copied().unwrap_or(f64::NAN) };
-            // Strict comparison: of equal values the first stays.
-            if found.min.is_none_or(|min| value < min.value) {
-                found.min = Some(here);
-            }
-            if found.max.is_none_or(|max| value > max.value) {
-                found.max = Some(here);
-            }
-        }
-        found
-    };
-    table.columns.iter().enumerate().map(|(index, column)| (column.name.clone(), of(index))).collect()
 }
 
 /// A JSON number, or `null` for what is not a finite number; whole numbers stand without `.0`, as in the CSV.
@@ -107,22 +87,17 @@ pub fn write_json(report: &Report) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Header;
     use super::*;
 
     #[test]
     fn the_report_reads_back_in_its_order_with_null_for_no_number() {
-        let table = Table {
-            columns: vec![Header::new("theta", "rad"), Header::new("none", "")],
-            rows: vec![vec![0.0, f64::NAN], vec![2.5, f64::NAN], vec![-1.0, f64::NAN]],
-            ..Table::default()
-        };
+        let theta = Extrema { min: Some(Extreme { value: -1.0, at: 2.0 }), max: Some(Extreme { value: 2.5, at: 1.0 }) };
         let report = Report {
             study: "one-turn".into(),
             status: "ok".into(),
             parameters: vec![("z".into(), 1.0), ("a".into(), f64::NAN)],
             scalars: vec![("eigenvalues".into(), json_numbers(&[0.1, f64::INFINITY]))],
-            extrema: extrema(&table, &[0.0, 1.0, 2.0]),
+            extrema: vec![("theta".into(), theta), ("none".into(), Extrema::default())],
             findings: vec![Finding { code: "jump".into(), message: "a jump".into(), path: "forces.load".into() }],
             ..Report::default()
         };

@@ -26,7 +26,7 @@ mod units;
 pub use csv::{number, write_csv};
 pub use drawing::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace, render_drawing};
 pub use figure::{Axis, Curve, Figure, Mark, Scale, render_figure};
-pub use json::{Extrema, Extreme, Finding, Report, extrema, json_number, json_numbers, write_json};
+pub use json::{Extrema, Extreme, Finding, Report, json_number, json_numbers, write_json};
 pub use raster::RenderError;
 pub use staging::{Staging, WriteError};
 pub use summary::{Scalar, summary};

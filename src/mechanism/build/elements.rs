@@ -101,7 +101,7 @@ impl<G: Space> Builder<'_, G> {
             Motion::Speed(speed) => Some(self.number(speed, place)),
             _ => None,
         };
-        let relative = !matches!(driver.motion, Motion::Position(_));
+        let anchored = !matches!(driver.motion, Motion::Position(_));
         let turns = match self.mechanism.gauges[gauge].measured {
             Measured::Coordinate { along, .. } => along.turns,
             Measured::Slide { .. } | Measured::Distance { .. } => false,
@@ -112,18 +112,10 @@ impl<G: Space> Builder<'_, G> {
             owner: RowOwner::Driver(index),
             label: String::new(),
             offset: G::S::constant(0.0),
-            anchored: relative,
+            anchored,
             angular: turns,
         });
-        self.mechanism.drives.push(Drive {
-            name: driver.name.clone(),
-            gauge,
-            row: self.mechanism.rows.len() - 1,
-            output,
-            speed,
-            relative,
-            turns,
-        });
+        self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row: self.mechanism.rows.len() - 1, output, speed, turns });
     }
 
     /// by · law(τ), τ = t/during held in [0, 1].
