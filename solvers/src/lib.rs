@@ -1,4 +1,4 @@
-//! Solvers of constrained mechanical systems: what they ask of a system, and the linear algebra below the integrators.
+//! Integrators of constrained mechanical systems, and the linear algebra below them.
 //!
 //! ```text
 //! M(q) a + Gᵀλ = f(t, q, v, z)         nv equations of motion
@@ -7,12 +7,21 @@
 //! ż = g(t, q, v, z)                    first-order states
 //! ```
 //!
-//! Nothing here knows a body or a joint. Numbers are `f64`, matrices are dense and row-major, and nothing allocates after
-//! construction except [`rank`] and [`coloring`], which serve at assembly.
+//! Nothing here knows a body or a joint. [`Integration`] drives a [`Scheme`] over a [`System`]: steps, events, singular positions.
+//! The blocks of a system are dense and row-major with a pattern beside them; factors are dense or sparse by size. Nothing
+//! allocates after construction except [`rank`] and [`coloring`], which serve at assembly, and sparse factors that need new pivots.
 
 pub mod coloring;
+pub mod dense_output;
+pub mod engine;
+pub mod integration;
 pub mod kkt;
+pub mod matrix;
+pub mod minimal;
+pub mod newton;
 pub mod rank;
+pub mod scheme;
+pub mod schemes;
 pub mod sparsity;
 pub mod state;
 pub mod system;
@@ -21,8 +30,17 @@ pub mod system;
 mod noise;
 
 pub use coloring::Coloring;
+pub use dense_output::Dense;
+pub use engine::{Control, Counts, Engine, Node, Rejected, Why};
+pub use integration::{Halt, Integration, Progress, Settings};
 pub use kkt::Kkt;
 pub use kkt::dense::{Lu, Singular};
+pub use kkt::factor::Factor;
+pub use kkt::number::Number;
+pub use kkt::sparse::SparseLu;
+pub use minimal::Minimal;
+pub use scheme::{Level, Scheme};
+pub use schemes::Method;
 pub use sparsity::{Pattern, Sparsity};
 pub use state::{At, Dims, State};
 pub use system::{Effect, Stage, System, Tangent, Terms};

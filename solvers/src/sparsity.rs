@@ -87,6 +87,12 @@ pub struct Pattern {
     pub metric: Vec<f64>,
     /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::row_scale`](crate::kkt::row_scale); E = 1e-8 of it.
     pub g_scale: Vec<f64>,
+    /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
+    pub size_q: Vec<f64>,
+    /// The same for displacements and velocities (nv): errors of v count relative to size + |v|.
+    pub size_v: Vec<f64>,
+    /// Whether root functions read a and λ; else they are functions of t, q, v and z alone, which saves a solution at each look.
+    pub roots_by_reactions: bool,
 }
 
 impl Pattern {
@@ -105,6 +111,9 @@ impl Pattern {
             z_z: Sparsity::dense(z, z),
             metric: vec![1.0; v],
             g_scale: vec![1.0; m],
+            size_q: vec![1.0; dims.q],
+            size_v: vec![1.0; v],
+            roots_by_reactions: false,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Nothing allocates after construction.
 
 use allocation_counter::measure;
-use grashof_solvers::{Kkt, Lu};
+use grashof_solvers::{Factor, Kkt, Lu, Number, Sparsity};
+use nalgebra::Complex;
 
 #[test]
 fn factorisations_and_solutions_allocate_nothing() {
@@ -30,4 +31,43 @@ fn factorisations_and_solutions_allocate_nothing() {
             assert_eq!(info.count_total, 0, "order {n}");
         }
     }
+}
+
+/// Factors and solves with a chain of 2 × 2 blocks [2 1; 1 −1e-8] whose neighbours are coupled.
+fn factor_chain<T: Number>(unit: T) {
+    for n in [4, 12, 40, 200] {
+        let entries = (0..n).flat_map(|i: usize| [(i, i), (i, i ^ 1), (i, i.wrapping_sub(2)), (i, i + 2)]);
+        let pattern = Sparsity::new(n, n, entries);
+        let value = |i: usize, j: usize| match (i == j, i % 2) {
+            (true, 0) => 2.0,
+            (true, _) => -1e-8,
+            _ => {
+                if i ^ 1 == j {
+                    1.0
+                } else {
+                    0.1
+                }
+            }
+        };
+        let places: Vec<_> = (0..n).flat_map(|j| pattern.column(j).iter().map(move |&i| (i, j))).collect();
+        let mut values: Vec<T> = places.iter().map(|&(i, j)| T::from(value(i, j)) * unit).collect();
+        for mut factor in [Factor::new(&pattern), Factor::dense(&pattern), Factor::sparse(&pattern)] {
+            let mut b = vec![unit; n];
+            factor.factor(&values).unwrap();
+            let info = measure(|| {
+                for step in 1..5 {
+                    values.iter_mut().for_each(|x| *x *= T::from(1.0 + 0.1 / step as f64));
+                    factor.factor(&values).unwrap();
+                    factor.solve(&mut b);
+                }
+            });
+            assert_eq!(info.count_total, 0, "order {n}, {factor:?}");
+        }
+    }
+}
+
+#[test]
+fn factorisations_with_known_pivots_allocate_nothing() {
+    factor_chain(1.0);
+    factor_chain(Complex::new(1.0, 0.5));
 }

@@ -1,5 +1,6 @@
 //! Dense LU factorisation in place, for matrices of a few to a few dozen unknowns.
 
+use super::number::Number;
 use super::small;
 use std::fmt;
 
@@ -25,12 +26,12 @@ impl std::error::Error for Singular {}
 /// Measured, ns for a factorisation and for a solution on one 2.8 GHz core: order 3: 20 and 7; 6: 79 and 18; 9: 200 and 57;
 /// 12: 345 and 70; 20: 1450 and 420; 50: 13000 and 1470 (nalgebra's LU: 54, 143, 316, 578, 1980, 15500).
 #[derive(Clone, Debug)]
-pub struct Lu {
+pub struct Lu<T: Number = f64> {
     n: usize,
     /// A, then L (unit diagonal not stored) and U (n × n).
-    a: Vec<f64>,
+    a: Vec<T>,
     /// Reciprocal pivots (n): a solve divides nothing.
-    inverse: Vec<f64>,
+    inverse: Vec<T>,
     /// Row exchanged with row k at step k (n).
     swap: Vec<usize>,
 }
@@ -56,10 +57,10 @@ macro_rules! sized {
     };
 }
 
-impl Lu {
+impl<T: Number> Lu<T> {
     /// Room for an n × n matrix; it holds zeros and no factorisation yet.
     pub fn new(n: usize) -> Self {
-        Self { n, a: vec![0.0; n * n], inverse: vec![0.0; n], swap: vec![0; n] }
+        Self { n, a: vec![T::ZERO; n * n], inverse: vec![T::ZERO; n], swap: vec![0; n] }
     }
 
     /// Order of the matrix.
@@ -68,12 +69,12 @@ impl Lu {
     }
 
     /// The buffer that the next [`factor_in_place`](Self::factor_in_place) takes as A (n × n, row-major).
-    pub fn matrix_mut(&mut self) -> &mut [f64] {
+    pub fn matrix_mut(&mut self) -> &mut [T] {
         &mut self.a
     }
 
     /// Copies `a` (n × n, row-major) and factors it.
-    pub fn factor(&mut self, a: &[f64]) -> Result<(), Singular> {
+    pub fn factor(&mut self, a: &[T]) -> Result<(), Singular> {
         self.a.copy_from_slice(a);
         self.factor_in_place()
     }
@@ -82,8 +83,8 @@ impl Lu {
     pub fn factor_in_place(&mut self) -> Result<(), Singular> {
         macro_rules! small {
             ($k:literal) => {
-                match (square_mut::<$k>(&mut self.a), self.inverse.first_chunk_mut(), self.swap.first_chunk_mut()) {
-                    (Some(a), Some(inverse), Some(swap)) => small::factor::<$k>(a, inverse, swap),
+                match (square_mut::<T, $k>(&mut self.a), self.inverse.first_chunk_mut(), self.swap.first_chunk_mut()) {
+                    (Some(a), Some(inverse), Some(swap)) => small::factor::<T, $k>(a, inverse, swap),
                     _ => factor(self.n, &mut self.a, &mut self.inverse, &mut self.swap),
                 }
             };
@@ -92,11 +93,11 @@ impl Lu {
     }
 
     /// b := A⁻¹ b.
-    pub fn solve(&self, b: &mut [f64]) {
+    pub fn solve(&self, b: &mut [T]) {
         macro_rules! small {
             ($k:literal) => {
-                match (square::<$k>(&self.a), self.inverse.first_chunk(), self.swap.first_chunk(), b.first_chunk_mut()) {
-                    (Some(a), Some(inverse), Some(swap), Some(b)) => small::solve::<$k>(a, inverse, swap, b),
+                match (square::<T, $k>(&self.a), self.inverse.first_chunk(), self.swap.first_chunk(), b.first_chunk_mut()) {
+                    (Some(a), Some(inverse), Some(swap), Some(b)) => small::solve::<T, $k>(a, inverse, swap, b),
                     _ => solve(self.n, &self.a, &self.inverse, &self.swap, b),
                 }
             };
@@ -105,7 +106,7 @@ impl Lu {
     }
 
     /// b := A⁻ᵀ b.
-    pub fn solve_transposed(&self, b: &mut [f64]) {
+    pub fn solve_transposed(&self, b: &mut [T]) {
         macro_rules! small {
             ($k:literal) => {
                 solve_transposed($k, &self.a, &self.inverse, &self.swap, b)
@@ -116,18 +117,20 @@ impl Lu {
 
     /// Smallest over largest magnitude of a pivot: a cheap sign of ill-conditioning, 1 for an orthogonal diagonal, 0 when empty.
     pub fn pivot_ratio(&self) -> f64 {
-        let (least, most) = self.inverse.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(x.abs()), m.max(x.abs())));
+        let (least, most) = self.inverse.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(x.abs1()), m.max(x.abs1())));
         if most > 0.0 { least / most } else { 0.0 }
     }
 
     /// max |u_ij| / max |a_ij| for the matrix `a` that was factored: elimination loses log10 of it in digits (Wilkinson); near
     /// 1 for almost every matrix.
-    pub fn pivot_growth(&self, a: &[f64]) -> f64 {
-        let largest = |m: f64, x: &f64| m.max(x.abs());
+    pub fn pivot_growth(&self, a: &[T]) -> f64 {
+        let largest = |m: f64, x: &T| m.max(x.abs1());
         let upper = self.a.chunks_exact(self.n.max(1)).enumerate().flat_map(|(i, row)| &row[i..]);
         upper.fold(0.0, largest) / a.iter().fold(0.0, largest)
     }
+}
 
+impl Lu {
     /// Estimate of the smallest singular value σ of A by `steps` inverse iterations, at least one.
     ///
     /// `left` (n) comes in as a guess, best the result of the last call (zeros: a start of its own); on return Aᵀ·left = σ·right
@@ -172,21 +175,21 @@ fn normalize(x: &mut [f64]) -> f64 {
 }
 
 /// The first K² numbers as a square matrix.
-fn square<const K: usize>(a: &[f64]) -> Option<&[[f64; K]; K]> {
+fn square<T, const K: usize>(a: &[T]) -> Option<&[[T; K]; K]> {
     a.as_chunks::<K>().0.first_chunk()
 }
 
-fn square_mut<const K: usize>(a: &mut [f64]) -> Option<&mut [[f64; K]; K]> {
+fn square_mut<T, const K: usize>(a: &mut [T]) -> Option<&mut [[T; K]; K]> {
     a.as_chunks_mut::<K>().0.first_chunk_mut()
 }
 
 /// Gaussian elimination by rows.
-fn factor(n: usize, a: &mut [f64], inverse: &mut [f64], swap: &mut [usize]) -> Result<(), Singular> {
+fn factor<T: Number>(n: usize, a: &mut [T], inverse: &mut [T], swap: &mut [usize]) -> Result<(), Singular> {
     let (a, inverse, swap) = (&mut a[..n * n], &mut inverse[..n], &mut swap[..n]);
     for k in 0..n {
-        let (mut pivot, mut largest) = (k, a[k * n + k].abs());
+        let (mut pivot, mut largest) = (k, a[k * n + k].abs1());
         for i in k + 1..n {
-            let x = a[i * n + k].abs();
+            let x = a[i * n + k].abs1();
             if x > largest {
                 (pivot, largest) = (i, x);
             }
@@ -201,13 +204,13 @@ fn factor(n: usize, a: &mut [f64], inverse: &mut [f64], swap: &mut [usize]) -> R
         if pivot != k {
             row_k.swap_with_slice(&mut bottom[(pivot - k - 1) * n..(pivot - k) * n]);
         }
-        inverse[k] = 1.0 / row_k[k];
+        inverse[k] = row_k[k].recip();
         for row in bottom.chunks_exact_mut(n) {
             // l_ik = a_ik / u_kk, a_ij −= l_ik u_kj
             let l = row[k] * inverse[k];
             row[k] = l;
             for (x, u) in row[k + 1..].iter_mut().zip(&row_k[k + 1..]) {
-                *x -= l * u;
+                *x -= l * *u;
             }
         }
     }
@@ -215,7 +218,7 @@ fn factor(n: usize, a: &mut [f64], inverse: &mut [f64], swap: &mut [usize]) -> R
 }
 
 /// b := U⁻¹ L⁻¹ P b.
-fn solve(n: usize, a: &[f64], inverse: &[f64], swap: &[usize], b: &mut [f64]) {
+fn solve<T: Number>(n: usize, a: &[T], inverse: &[T], swap: &[usize], b: &mut [T]) {
     let (a, inverse, swap, b) = (&a[..n * n], &inverse[..n], &swap[..n], &mut b[..n]);
     for (k, &pivot) in swap.iter().enumerate() {
         b.swap(k, pivot);
@@ -230,19 +233,19 @@ fn solve(n: usize, a: &[f64], inverse: &[f64], swap: &[usize], b: &mut [f64]) {
 
 /// b := Pᵀ L⁻ᵀ U⁻ᵀ b.
 #[inline(always)]
-fn solve_transposed(n: usize, a: &[f64], inverse: &[f64], swap: &[usize], b: &mut [f64]) {
+fn solve_transposed<T: Number>(n: usize, a: &[T], inverse: &[T], swap: &[usize], b: &mut [T]) {
     let (a, inverse, swap, b) = (&a[..n * n], &inverse[..n], &swap[..n], &mut b[..n]);
     for i in 0..n {
         let x = b[i] * inverse[i];
         b[i] = x;
         for (y, u) in b[i + 1..].iter_mut().zip(&a[i * n + i + 1..(i + 1) * n]) {
-            *y -= u * x;
+            *y -= *u * x;
         }
     }
     for i in (1..n).rev() {
         let x = b[i];
         for (y, l) in b[..i].iter_mut().zip(&a[i * n..i * n + i]) {
-            *y -= l * x;
+            *y -= *l * x;
         }
     }
     for (k, &pivot) in swap.iter().enumerate().rev() {
@@ -252,16 +255,16 @@ fn solve_transposed(n: usize, a: &[f64], inverse: &[f64], swap: &[usize], b: &mu
 
 /// Σ xᵢ yᵢ in four partial sums, which do not wait for each other.
 #[inline(always)]
-pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub(super) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
     let (x4, x_rest) = x.as_chunks::<4>();
     let (y4, y_rest) = y.as_chunks::<4>();
-    let mut sum = [0.0; 4];
+    let mut sum = [T::ZERO; 4];
     for (x, y) in x4.iter().zip(y4) {
         for (s, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {
-            *s += x * y;
+            *s += *x * *y;
         }
     }
-    let rest: f64 = x_rest.iter().zip(y_rest).map(|(x, y)| x * y).sum();
+    let rest: T = x_rest.iter().zip(y_rest).map(|(x, y)| *x * *y).sum();
     (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest
 }
 

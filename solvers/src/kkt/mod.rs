@@ -14,9 +14,15 @@
 //! not depend on the units, and nothing is rounded.
 
 pub mod dense;
+pub mod factor;
+pub mod number;
+pub mod ordering;
+mod pivoting;
 mod scale;
 mod small;
+pub mod sparse;
 
+pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, metric, row_scale};
 
 use dense::{Lu, Singular};
@@ -236,5 +242,7 @@ fn subtract_product(matrix: &[f64], x: &[f64], r: &mut [f64]) {
     }
 }
 
+#[cfg(test)]
+mod factor_tests;
 #[cfg(test)]
 mod tests;

@@ -37,7 +37,7 @@ pub fn row_scale(g: &[f64], metric: &[f64]) -> Vec<f64> {
 }
 
 /// The power of two nearest to 1/√x: scaling by it rounds nothing.
-pub(super) fn root_inverse(x: f64) -> f64 {
+pub(crate) fn root_inverse(x: f64) -> f64 {
     (-0.5 * x.log2()).round().clamp(-500.0, 500.0).exp2()
 }
 

@@ -4,22 +4,23 @@
 //! Tried and slower: updating whole rows against a masked pivot row, a copy of the matrix in local variables.
 
 use super::dense::Singular;
+use super::number::Number;
 
 /// Gaussian elimination by rows; see [`super::dense::Lu`] for the contents of the arguments.
 #[inline]
-pub(super) fn factor<const N: usize>(a: &mut [[f64; N]; N], inverse: &mut [f64; N], swap: &mut [usize; N]) -> Result<(), Singular> {
+pub(super) fn factor<T: Number, const N: usize>(a: &mut [[T; N]; N], inverse: &mut [T; N], swap: &mut [usize; N]) -> Result<(), Singular> {
     for k in 0..N {
         // first the magnitude, then its place by branches: what is predicted right is not waited for
         let mut largest = 0.0;
         for row in &a[k..] {
-            largest = if row[k].abs() > largest { row[k].abs() } else { largest };
+            largest = if row[k].abs1() > largest { row[k].abs1() } else { largest };
         }
         // a pivot that is zero, infinite or not a number ends here
         if !(largest > 0.0 && largest < f64::INFINITY) {
             return Err(Singular { column: k });
         }
         let mut pivot = k;
-        while pivot < N - 1 && a[pivot][k].abs() != largest {
+        while pivot < N - 1 && a[pivot][k].abs1() != largest {
             pivot += 1;
         }
         swap[k] = pivot;
@@ -34,7 +35,7 @@ pub(super) fn factor<const N: usize>(a: &mut [[f64; N]; N], inverse: &mut [f64; 
                 std::mem::swap(u, other);
             }
         }
-        inverse[k] = 1.0 / u[k];
+        inverse[k] = u[k].recip();
         for row in bottom {
             // l_ik = a_ik / u_kk, a_ij −= l_ik u_kj
             let l = row[k] * inverse[k];
@@ -49,7 +50,7 @@ pub(super) fn factor<const N: usize>(a: &mut [[f64; N]; N], inverse: &mut [f64; 
 
 /// b := U⁻¹ L⁻¹ P b, by columns: every update of a column is independent of the others.
 #[inline]
-pub(super) fn solve<const N: usize>(a: &[[f64; N]; N], inverse: &[f64; N], swap: &[usize; N], b: &mut [f64; N]) {
+pub(super) fn solve<T: Number, const N: usize>(a: &[[T; N]; N], inverse: &[T; N], swap: &[usize; N], b: &mut [T; N]) {
     for (k, &pivot) in swap.iter().enumerate() {
         if pivot < N {
             b.swap(k, pivot);

@@ -1,0 +1,466 @@
+//! What every scheme needs of a system: accelerations by one KKT solve, projection on the constraints, error norms, counters.
+//!
+//! ```text
+//! [ M   Gᵀ ] [ a ]   [ f ]        [ M   Gᵀ ] [ δq ]   [  0 ]        [ M   Gᵀ ] [ δv ]   [    0    ]
+//! [ G  −E  ] [ λ ] = [ γ ],       [ G  −E  ] [ μ  ] = [ −Φ ],       [ G  −E  ] [ μ  ] = [ ν − G v ]
+//! ```
+//!
+//! The same matrix serves three times: the shortest way back to the constraints is meant in the metric M.
+
+use crate::kkt::Kkt;
+use crate::{At, Dims, Stage, State, System, Terms};
+
+/// A state with what follows from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// The state.
+    pub state: State,
+    /// Accelerations (nv), of the KKT system at this state.
+    pub a: Vec<f64>,
+    /// Multipliers (m), of the same.
+    pub lambda: Vec<f64>,
+    /// ż (nz).
+    pub zdot: Vec<f64>,
+}
+
+impl Node {
+    /// A node of zeros.
+    pub fn new(dims: Dims) -> Self {
+        Self { state: State::new(dims), a: vec![0.0; dims.v], lambda: vec![0.0; dims.rows()], zdot: vec![0.0; dims.z] }
+    }
+
+    /// Copies another node of the same sizes without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.state.copy_from(&other.state);
+        self.a.copy_from_slice(&other.a);
+        self.lambda.copy_from_slice(&other.lambda);
+        self.zdot.copy_from_slice(&other.zdot);
+    }
+}
+
+/// What was spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected trials: error too large, Newton without success.
+    pub rejected: usize,
+    /// Evaluations of terms or residuals.
+    pub evaluations: usize,
+    /// Evaluations of tangents.
+    pub tangents: usize,
+    /// Factorisations of a KKT or Newton matrix.
+    pub factorisations: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Events at which a scheme was restarted or that were recorded.
+    pub events: usize,
+    /// Singular positions that were bridged by explicit steps.
+    pub bridges: usize,
+    /// Switches that a scheme marched across.
+    pub stepped_over: usize,
+}
+
+impl std::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.evaluations += other.evaluations;
+        self.tangents += other.tangents;
+        self.factorisations += other.factorisations;
+        self.iterations += other.iterations;
+        self.events += other.events;
+        self.bridges += other.bridges;
+        self.stepped_over += other.stepped_over;
+    }
+}
+
+/// Why a step, or a whole run, cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Why {
+    /// The local error is too large by this factor.
+    Error(f64),
+    /// Newton's iteration did not converge.
+    Newton,
+    /// A matrix is singular: mass is missing, or the position is singular.
+    Singular,
+    /// A number is not finite; the index of the velocity whose equation it is in.
+    NotFinite(usize),
+    /// Constraints cannot be closed: the row with the largest residual, and that residual.
+    Constraints {
+        /// Row of Φ or of G.
+        row: usize,
+        /// What remains.
+        residual: f64,
+    },
+    /// The step has become too small to change the time.
+    StepSize,
+    /// Events pile up; the root that crossed last.
+    Zeno(usize),
+    /// More steps than are allowed.
+    TooManySteps,
+    /// This build does not have the scheme (see [`available`](crate::schemes::available)).
+    Unavailable,
+}
+
+/// A trial that failed, and the step to try next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rejected {
+    /// The reason.
+    pub why: Why,
+    /// Step to try next, s.
+    pub retry: f64,
+}
+
+/// How the size of a step is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Control {
+    /// By the local error: tolerance in units of [`Pattern::size_q`](crate::Pattern::size_q).
+    Tolerance(f64),
+    /// Given steps, s, used in turn: a constant step twice, or two that alternate.
+    Steps([f64; 2]),
+}
+
+/// Tools of a scheme over one system; sized once, then free of allocation.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    /// Sizes of the system.
+    pub dims: Dims,
+    /// Terms of the last evaluation.
+    pub terms: Terms,
+    /// Solver of the KKT matrix factored last.
+    pub kkt: Kkt,
+    /// What was spent so far.
+    pub counts: Counts,
+    /// How steps are chosen.
+    pub control: Control,
+    /// Sizes of coordinates, from the pattern: errors of q count absolutely.
+    pub size_q: Vec<f64>,
+    /// Sizes of velocities: errors of v count relative to size + |v|.
+    pub size_v: Vec<f64>,
+    /// 1/√(G D⁻¹ Gᵀ) of each row (m): Φ times this is a mass-weighted way.
+    pub row_unit: Vec<f64>,
+    delta: Vec<f64>,
+    mu: Vec<f64>,
+    zeros: Vec<f64>,
+    rhs: Vec<f64>,
+    modes: Vec<i32>,
+}
+
+/// Steps of Newton's method in a projection.
+const PROJECTIONS: usize = 12;
+
+/// Corrections in a row, and the way that is left to round-off.
+const REPEATED: usize = 10;
+const CLOSED: f64 = 4e-15;
+
+/// A correction below this (in units of size) leaves a residual of its square.
+const SQUARE_ENOUGH: f64 = 1e-7;
+
+impl Engine {
+    /// Tools for a system.
+    pub fn new(system: &dyn System, control: Control) -> Self {
+        let dims = system.dims();
+        let pattern = system.pattern();
+        let mut kkt = Kkt::new(dims.v, dims.rows());
+        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        Self {
+            dims,
+            terms: Terms::new(dims),
+            kkt,
+            counts: Counts::default(),
+            control,
+            size_q: pattern.size_q.clone(),
+            size_v: pattern.size_v.clone(),
+            row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
+            delta: vec![0.0; dims.v],
+            mu: vec![0.0; dims.rows()],
+            zeros: vec![0.0; dims.v],
+            rhs: vec![0.0; dims.rows()],
+            modes: vec![0; dims.modes],
+        }
+    }
+
+    /// The tolerance of errors; of a given step, 1e-12: what Newton's method aims at.
+    pub fn tolerance(&self) -> f64 {
+        match self.control {
+            Control::Tolerance(tolerance) => tolerance,
+            Control::Steps(_) => 1e-12,
+        }
+    }
+
+    /// Whether steps are given.
+    pub fn is_fixed(&self) -> bool {
+        matches!(self.control, Control::Steps(_))
+    }
+
+    /// Accelerations, multipliers and ż at a state (index 1).
+    ///
+    /// # Errors
+    /// If the KKT matrix is singular or a force is not finite.
+    pub fn accelerations(
+        &mut self,
+        system: &mut dyn System,
+        at: At<'_>,
+        a: &mut [f64],
+        lambda: &mut [f64],
+        zdot: &mut [f64],
+    ) -> Result<(), Why> {
+        self.evaluate(system, at, Stage::Dynamics);
+        self.factor()?;
+        self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
+        zdot.copy_from_slice(&self.terms.zdot);
+        match a.iter().chain(&*zdot).position(|x| !x.is_finite()) {
+            Some(i) => Err(self.not_finite(i)),
+            None => Ok(()),
+        }
+    }
+
+    /// [`Engine::accelerations`] at the state of a node.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn accelerate(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
+        let Node { state, a, lambda, zdot } = node;
+        self.accelerations(system, state.at(), a, lambda, zdot)
+    }
+
+    /// Moves a state to the constraints, first q, then v, by the shortest way in the metric M, and evaluates a, λ, ż there.
+    ///
+    /// # Errors
+    /// If the constraints cannot be closed from here, and as [`Engine::accelerations`].
+    pub fn settle(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
+        self.settle_within(system, node, 0.0)
+    }
+
+    /// [`Engine::settle`] behind a step with error control: forces and γ are not evaluated anew after a correction δv of the
+    /// velocities below a hundredth of the tolerance. Accelerations then differ by ∂a/∂v δv, so that what the next step makes of
+    /// them, h ∂a/∂v δv, is less than the correction itself.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn settle_step(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
+        let slack = if self.is_fixed() { 0.0 } else { 0.01 * self.tolerance() };
+        self.settle_within(system, node, slack)
+    }
+
+    fn settle_within(&mut self, system: &mut dyn System, node: &mut Node, slack: f64) -> Result<(), Why> {
+        self.project_within(system, &mut node.state, slack)?;
+        let Node { a, lambda, zdot, .. } = node;
+        // the factors are those of this position, and the terms those of this position and velocity
+        self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
+        zdot.copy_from_slice(&self.terms.zdot);
+        match a.iter().chain(&*zdot).position(|x| !x.is_finite()) {
+            Some(i) => Err(self.not_finite(i)),
+            None => Ok(()),
+        }
+    }
+
+    /// Moves a state to the constraints; leaves terms and factors of the state reached.
+    ///
+    /// # Errors
+    /// If the constraints cannot be closed from here, or the KKT matrix is singular.
+    pub fn project(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Why> {
+        self.project_within(system, state, 0.0)
+    }
+
+    fn project_within(&mut self, system: &mut dyn System, state: &mut State, slack: f64) -> Result<(), Why> {
+        let rows = self.dims.rows() > 0;
+        // a correction of v is to be expected unless it may be neglected
+        let exact = rows && slack == 0.0;
+        let stage = if exact { Stage::Velocity } else { Stage::Dynamics };
+        if self.dims.holonomic > 0 {
+            self.evaluate(system, state.at(), Stage::Position);
+            if self.position_residual() > 1e-15 {
+                self.close(system, state)?;
+            }
+        }
+        self.evaluate(system, state.at(), stage);
+        // in a singular position E leaves a part of each correction to be done
+        for _ in 0..REPEATED {
+            if self.dims.holonomic == 0 || self.position_residual() <= CLOSED {
+                break;
+            }
+            self.close(system, state)?;
+            self.evaluate(system, state.at(), stage);
+        }
+        self.factor()?;
+        let mut size = 0.0;
+        for _ in 0..REPEATED {
+            if !rows || !self.velocity_correction(&state.v) {
+                break;
+            }
+            for ((v, d), s) in state.v.iter_mut().zip(&self.delta).zip(&self.size_v) {
+                size = f64::max(size, d.abs() / (s + v.abs()));
+                *v += d;
+            }
+        }
+        if exact || size.is_nan() || size > slack {
+            self.evaluate(system, state.at(), Stage::Dynamics);
+        }
+        Ok(())
+    }
+
+    /// Newton's method on Φ = 0 from a state that was evaluated last; the factors stay those of the first position.
+    fn close(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Why> {
+        let mut last = f64::INFINITY;
+        for iteration in 0..PROJECTIONS {
+            if iteration > 0 {
+                self.evaluate(system, state.at(), Stage::Position);
+            }
+            self.factor()?;
+            self.rhs.fill(0.0);
+            for (r, phi) in self.rhs.iter_mut().zip(&self.terms.phi) {
+                *r = -phi;
+            }
+            self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
+            system.retract(&mut state.q, &self.delta);
+            let size = self.delta.iter().zip(&self.size_v).fold(0.0, |m, (d, s)| f64::max(m, d.abs() / s));
+            if size < SQUARE_ENOUGH {
+                return Ok(());
+            }
+            if size.is_nan() || size >= 2.0 * last {
+                break;
+            }
+            last = size;
+        }
+        let (row, residual) = largest(&self.terms.phi);
+        Err(Why::Constraints { row, residual })
+    }
+
+    /// The shortest δv with G (v + δv) = ν, into `delta`; false if v is there already.
+    fn velocity_correction(&mut self, v: &[f64]) -> bool {
+        let nv = self.dims.v;
+        let mut needed = false;
+        for ((r, nu), row) in self.rhs.iter_mut().zip(&self.terms.nu).zip(self.terms.g.chunks_exact(nv.max(1))) {
+            let (mut sum, mut size) = (0.0, 0.0);
+            for (g, v) in row.iter().zip(v) {
+                sum += g * v;
+                size += (g * v).abs();
+            }
+            *r = nu - sum;
+            needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs());
+        }
+        if needed {
+            self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
+        }
+        needed
+    }
+
+    /// Takes the modes of a state from its values; true if one has changed.
+    pub fn follow_modes(&mut self, system: &mut dyn System, state: &mut State) -> bool {
+        self.modes.copy_from_slice(&state.modes);
+        let at = At { t: state.t, q: &state.q, v: &state.v, z: &state.z, modes: &self.modes, live: &state.live };
+        system.modes(at, &mut state.modes);
+        self.modes != state.modes
+    }
+
+    /// The velocities behind an impulse along `row` (nv): δv by [M Gᵀ; G −E] [δv; Λ] = [p rowᵀ; 0] with row·v⁺ = −restitution row·v⁻.
+    ///
+    /// # Errors
+    /// If the KKT matrix is singular.
+    pub fn impulse(&mut self, system: &mut dyn System, state: &mut State, row: &[f64], restitution: f64) -> Result<(), Why> {
+        self.evaluate(system, state.at(), Stage::Dynamics);
+        self.factor()?;
+        self.rhs.fill(0.0);
+        self.kkt.solve(row, &self.rhs, &mut self.delta, &mut self.mu);
+        let along = |x: &[f64]| row.iter().zip(x).map(|(r, x)| r * x).sum::<f64>();
+        let p = -(1.0 + restitution) * along(&state.v) / along(&self.delta);
+        if !p.is_finite() {
+            return Err(Why::Singular);
+        }
+        state.v.iter_mut().zip(&self.delta).for_each(|(v, d)| *v += p * d);
+        Ok(())
+    }
+
+    /// Evaluates terms, and counts.
+    pub fn evaluate(&mut self, system: &mut dyn System, at: At<'_>, stage: Stage) {
+        self.counts.evaluations += 1;
+        system.terms(at, stage, &mut self.terms);
+    }
+
+    /// Factors the KKT matrix of the terms evaluated last.
+    ///
+    /// # Errors
+    /// If it is singular or not finite.
+    pub fn factor(&mut self) -> Result<(), Why> {
+        self.counts.factorisations += 1;
+        self.kkt.factor(&self.terms.mass, &self.terms.g).map_err(|_| match self.terms.mass.iter().position(|x| !x.is_finite()) {
+            Some(i) => Why::NotFinite(i / self.dims.v),
+            None => Why::Singular,
+        })
+    }
+
+    fn not_finite(&self, i: usize) -> Why {
+        // a force that is not finite spoils every acceleration: name its own equation
+        Why::NotFinite(self.terms.force.iter().position(|x| !x.is_finite()).unwrap_or(i))
+    }
+
+    /// Largest |Φ| as a way: each row by its unit and the size of its coordinates; of the terms evaluated last.
+    pub fn position_residual(&self) -> f64 {
+        self.rows_residual(self.terms.phi.iter().copied())
+    }
+
+    /// Largest |G v − ν| as a velocity, by the same units, of the terms evaluated last.
+    pub fn velocity_residual(&self, v: &[f64]) -> f64 {
+        let rows = self.terms.g.chunks_exact(self.dims.v.max(1)).zip(&self.terms.nu);
+        self.rows_residual(rows.map(|(row, nu)| row.iter().zip(v).map(|(g, v)| g * v).sum::<f64>() - nu))
+    }
+
+    fn rows_residual(&self, residuals: impl Iterator<Item = f64>) -> f64 {
+        let nv = self.dims.v.max(1);
+        let mut largest = 0.0;
+        for (r, row) in residuals.zip(self.terms.g.chunks_exact(nv)) {
+            // |G_i| in units of size: how much Φ changes when the coordinates move by their size
+            let reach = row.iter().zip(&self.size_v).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()));
+            let size = r.abs() / if reach > 0.0 { reach } else { 1.0 };
+            largest = f64::max(largest, size);
+        }
+        largest
+    }
+
+    /// Norm of an error, 1 at the tolerance: root mean square of e_q/(tol·size_q), e_v/(tol·(size_v + |v|)), e_z/(tol·(1 + |z|)).
+    pub fn norm(&self, at: &State, e_q: &[f64], e_v: &[f64], e_z: &[f64]) -> f64 {
+        let q: f64 = e_q.iter().zip(&self.size_q).map(|(e, s)| (e / s).powi(2)).sum();
+        let v: f64 = e_v.iter().zip(&self.size_v).zip(&at.v).map(|((e, s), v)| (e / (s + v.abs())).powi(2)).sum();
+        let z: f64 = e_z.iter().zip(&at.z).map(|(e, z)| (e / (1.0 + z.abs())).powi(2)).sum();
+        let count = e_q.len() + e_v.len() + e_z.len();
+        ((q + v + z) / count.max(1) as f64).sqrt() / self.tolerance()
+    }
+
+    /// Root mean square of a displacement (nv) and a change of velocity (nv) as Newton's method sees them, 1 at the tolerance.
+    pub fn step_norm(&self, at: &State, d: &[f64], e_v: &[f64], e_z: &[f64]) -> f64 {
+        let q: f64 = d.iter().zip(&self.size_v).map(|(e, s)| (e / s).powi(2)).sum();
+        let v: f64 = e_v.iter().zip(&self.size_v).zip(&at.v).map(|((e, s), v)| (e / (s + v.abs())).powi(2)).sum();
+        let z: f64 = e_z.iter().zip(&at.z).map(|(e, z)| (e / (1.0 + z.abs())).powi(2)).sum();
+        let count = d.len() + e_v.len() + e_z.len();
+        ((q + v + z) / count.max(1) as f64).sqrt() / self.tolerance()
+    }
+
+    /// Time derivative ȧ of the accelerations along the motion at a node, by a central difference over ±`reach` s.
+    ///
+    /// # Errors
+    /// As [`Engine::accelerations`].
+    pub fn jerk(&mut self, system: &mut dyn System, node: &Node, reach: f64, scratch: &mut Node, out: &mut [f64]) -> Result<(), Why> {
+        out.fill(0.0);
+        for sign in [-1.0, 1.0] {
+            let h = sign * reach;
+            scratch.copy_from(node);
+            scratch.state.t += h;
+            for (i, d) in self.delta.iter_mut().enumerate() {
+                *d = h * node.state.v[i] + 0.5 * h * h * node.a[i];
+            }
+            system.retract(&mut scratch.state.q, &self.delta);
+            scratch.state.v.iter_mut().zip(&node.a).for_each(|(v, a)| *v += h * a);
+            scratch.state.z.iter_mut().zip(&node.zdot).for_each(|(z, r)| *z += h * r);
+            self.accelerate(system, scratch)?;
+            out.iter_mut().zip(&scratch.a).for_each(|(j, a)| *j += a / (2.0 * h));
+        }
+        Ok(())
+    }
+}
+
+/// Index and size of the entry that is largest in size.
+fn largest(x: &[f64]) -> (usize, f64) {
+    x.iter().enumerate().fold((0, 0.0), |best, (i, x)| if x.abs() > best.1 { (i, x.abs()) } else { best })
+}

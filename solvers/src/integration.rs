@@ -1,0 +1,475 @@
+//! The loop that drives a scheme: try, accept or reject, locate events, bridge singular positions.
+//!
+//! A root that leaves its positive side is located on the continuous solution, the state there is projected on the
+//! constraints, and the scheme starts afresh behind it, so that no step has a kink or jump inside. Both sides of an event are
+//! kept for the caller.
+
+use crate::dense_output::Dense;
+use crate::engine::{Control, Engine, Node, Why};
+use crate::scheme::{Level, Scheme};
+use crate::schemes::{self, Method};
+use crate::{State, System};
+use zeno::Zeno;
+
+mod bridge;
+mod events;
+mod zeno;
+
+/// How a run is to be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The scheme.
+    pub method: Method,
+    /// Which constraint rows an implicit scheme imposes.
+    pub level: Level,
+    /// Tolerance or steps.
+    pub control: Control,
+    /// Whether switches are located; else the modes are taken anew from each state, and a step may march across.
+    pub locate: bool,
+    /// Whether the work of [`System::power`] is integrated.
+    pub balance: bool,
+    /// Most steps of a run.
+    pub most_steps: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::Auto,
+            level: Level::Stabilized,
+            control: Control::Tolerance(1e-8),
+            locate: true,
+            balance: false,
+            most_steps: 50_000_000,
+        }
+    }
+}
+
+/// What an advance has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// One more step; the end is not reached.
+    Step,
+    /// A step that ends at an event; see [`Integration::before`] and [`Integration::crossed`].
+    Event,
+    /// A step that ends at an event which stops the run.
+    Stopped,
+    /// A step that ends where it was asked to.
+    End,
+}
+
+/// A run that cannot go on, with the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Halt {
+    /// Why.
+    pub why: Why,
+    /// Time of the last good state, s.
+    pub t: f64,
+    /// The last step that was tried, s.
+    pub h: f64,
+}
+
+/// Times of bridges that are remembered.
+pub const REMEMBERED: usize = 64;
+
+/// A run in progress: the last step, and all that is needed for the next. Advancing allocates nothing.
+pub struct Integration {
+    /// Tools and counters.
+    pub engine: Engine,
+    settings: Settings,
+    scheme: Box<dyn Scheme>,
+    /// Crosses singular positions, for implicit schemes.
+    bridge: Option<Box<dyn Scheme>>,
+    /// Time that must be passed and σ that must be reached before the bridge ends.
+    bridging: Option<(f64, f64)>,
+    /// Whether σ may be asked: rows are independent at the start.
+    independent: bool,
+    bridged: Vec<f64>,
+    schemes: Vec<&'static str>,
+    sigma: f64,
+    /// Largest σ so far: how far from singular this mechanism can be.
+    largest_sigma: f64,
+    sigma_row: Vec<f64>,
+    last: Node,
+    node: Node,
+    trial: Node,
+    before: Node,
+    /// The end of a step of which only a part is told yet, and whether it is the end asked for.
+    ahead: Node,
+    pending: Option<bool>,
+    dense: Dense,
+    dense_ready: bool,
+    h: f64,
+    /// Number of given steps since `origin`.
+    turn: usize,
+    /// Where given steps began to be counted: the start, or the last event.
+    origin: f64,
+    start: f64,
+    roots: Vec<f64>,
+    samples: Vec<f64>,
+    probe: Vec<f64>,
+    crossed: Vec<usize>,
+    row: Vec<f64>,
+    power: Vec<f64>,
+    work: Vec<f64>,
+    zeno: Zeno,
+}
+
+impl Integration {
+    /// A run of `system` from `start`, which need not be consistent: it is projected, and its modes are taken from the values a
+    /// moment later. Roots are looked for while `locate` is set.
+    ///
+    /// # Errors
+    /// If the start cannot be made consistent.
+    pub fn new(system: &mut dyn System, settings: Settings, start: &State) -> Result<Self, Halt> {
+        let dims = system.dims();
+        let engine = Engine::new(system, settings.control);
+        let implicit = settings.method.is_implicit() && dims.holonomic > 0;
+        let bridge = (implicit && !engine.is_fixed()).then(|| schemes::new(Method::Dop853, settings, system));
+        let node = Node { state: start.clone(), ..Node::new(dims) };
+        let mut run = Self {
+            scheme: schemes::new(settings.method, settings, system),
+            bridge,
+            bridging: None,
+            independent: true,
+            bridged: Vec::with_capacity(REMEMBERED),
+            schemes: Vec::with_capacity(8),
+            sigma: 1.0,
+            largest_sigma: 1.0,
+            sigma_row: vec![0.0; dims.rows()],
+            engine,
+            settings,
+            last: node.clone(),
+            trial: node.clone(),
+            before: node.clone(),
+            ahead: node.clone(),
+            pending: None,
+            node,
+            dense: Dense::new(dims),
+            dense_ready: false,
+            h: 0.0,
+            turn: 0,
+            origin: start.t,
+            start: start.t,
+            roots: vec![0.0; dims.roots],
+            samples: vec![0.0; dims.roots],
+            probe: vec![0.0; dims.roots],
+            crossed: Vec::with_capacity(dims.roots),
+            row: vec![0.0; dims.v],
+            power: vec![0.0; dims.work],
+            work: vec![0.0; dims.work],
+            zeno: Zeno::default(),
+        };
+        run.begin(system).map_err(|why| Halt { why, t: start.t, h: 0.0 })?;
+        Ok(run)
+    }
+
+    /// The first node, its modes, the first step.
+    fn begin(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        self.engine.settle(system, &mut self.node)?;
+        self.choose_modes(system)?;
+        self.sigma = self.engine.kkt.smallest_singular_value(&mut self.sigma_row);
+        self.independent = self.sigma > 1e-4;
+        self.largest_sigma = self.sigma.min(1.0);
+        self.h = self.first_step(system)?;
+        self.turn = 0;
+        self.scheme.restart(system, &mut self.engine, &self.node, self.h)?;
+        self.last.copy_from(&self.node);
+        Ok(())
+    }
+
+    /// Modes of a start: from the state a moment later, since a start on a switch belongs to the side to which it moves.
+    fn choose_modes(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        if self.engine.dims.modes == 0 {
+            return Ok(());
+        }
+        self.engine.follow_modes(system, &mut self.node.state);
+        self.engine.accelerate(system, &mut self.node)?;
+        for _ in 0..6 {
+            let moment = 1e-7 * self.moment();
+            self.trial.copy_from(&self.node);
+            self.drift(system, moment);
+            if !self.engine.follow_modes(system, &mut self.trial.state) {
+                break;
+            }
+            self.node.state.modes.copy_from_slice(&self.trial.state.modes);
+            self.engine.accelerate(system, &mut self.node)?;
+        }
+        Ok(())
+    }
+
+    /// Moves the trial node by `h` along its velocities and accelerations.
+    fn drift(&mut self, system: &dyn System, h: f64) {
+        let Node { state, a, zdot, .. } = &mut self.trial;
+        state.t += h;
+        for ((d, v), a) in self.row.iter_mut().zip(&state.v).zip(&*a) {
+            *d = h * (v + 0.5 * h * a);
+        }
+        system.retract(&mut state.q, &self.row);
+        state.v.iter_mut().zip(&*a).for_each(|(v, a)| *v += h * a);
+        state.z.iter_mut().zip(&*zdot).for_each(|(z, r)| *z += h * r);
+    }
+
+    /// A time in which the motion changes by something like its size, s.
+    fn moment(&self) -> f64 {
+        let e = &self.engine;
+        let v = self.node.state.v.iter().zip(&e.size_v).fold(0.0, |m, (v, s)| f64::max(m, v.abs() / s));
+        let a = self.node.a.iter().zip(&e.size_v).fold(0.0, |m, (a, s)| f64::max(m, a.abs() / s));
+        let shortest = v.max(a.sqrt());
+        if shortest > 0.0 { shortest.recip().min(1.0) } else { 1.0 }
+    }
+
+    /// First step by Hairer, Nørsett & Wanner (Solving ODEs I, 2nd ed., section II.4, "starting step size").
+    fn first_step(&mut self, system: &mut dyn System) -> Result<f64, Why> {
+        if let Control::Steps(steps) = self.settings.control {
+            return Ok(steps[0]);
+        }
+        let h0 = 0.01 * self.moment();
+        self.trial.copy_from(&self.node);
+        self.drift(system, h0);
+        self.engine.accelerate(system, &mut self.trial)?;
+        let (s, e) = (&self.node.state, &self.engine);
+        let first = e.step_norm(s, &s.v, &self.node.a, &self.node.zdot);
+        let difference = |x: &[f64], y: &[f64], out: &mut [f64]| out.iter_mut().zip(x.iter().zip(y)).for_each(|(o, (x, y))| *o = x - y);
+        difference(&self.trial.a, &self.node.a, &mut self.row);
+        self.trial.state.v.iter_mut().zip(&s.v).for_each(|(x, v)| *x -= v);
+        self.trial.zdot.iter_mut().zip(&self.node.zdot).for_each(|(x, r)| *x -= r);
+        let second = e.step_norm(s, &self.trial.state.v, &self.row, &self.trial.zdot) / h0;
+        let largest = first.max(second);
+        let h1 = if largest > 1e-15 { (0.01 / largest).powf(1.0 / (self.scheme.order() as f64 + 1.0)) } else { h0 };
+        Ok(h1.min(100.0 * h0))
+    }
+
+    /// The state reached, with its accelerations and multipliers; behind an event, the side after it.
+    pub fn node(&self) -> &Node {
+        &self.node
+    }
+
+    /// The begin of the last step.
+    pub fn last(&self) -> &Node {
+        &self.last
+    }
+
+    /// The state before the event at which the last step ended.
+    pub fn before(&self) -> &Node {
+        &self.before
+    }
+
+    /// Roots that were crossed at the event at which the last step ended.
+    pub fn crossed(&self) -> &[usize] {
+        &self.crossed
+    }
+
+    /// The step proposed next, s.
+    pub fn proposed(&self) -> f64 {
+        self.h
+    }
+
+    /// Times at which singular positions were bridged, s; the first [`REMEMBERED`] of them.
+    pub fn bridged(&self) -> &[f64] {
+        &self.bridged
+    }
+
+    /// Names of the schemes that have stepped, in the order of their first step.
+    pub fn schemes(&self) -> &[&'static str] {
+        &self.schemes
+    }
+
+    /// The scheme at work.
+    pub fn scheme_name(&self) -> &'static str {
+        self.bridging.map_or_else(|| self.scheme.name(), |_| "bridge")
+    }
+
+    /// The continuous solution over the last step (up to the event at which it ended).
+    ///
+    /// # Errors
+    /// If the system cannot be evaluated inside of the step.
+    pub fn dense(&mut self, system: &mut dyn System) -> Result<&Dense, Halt> {
+        self.interpolate(system).map_err(|why| Halt { why, t: self.last.state.t, h: self.h })?;
+        Ok(&self.dense)
+    }
+
+    fn interpolate(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        if !self.dense_ready {
+            let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
+            scheme.dense(system, &mut self.engine, &self.last, &self.node, &mut self.dense)?;
+            self.dense_ready = true;
+        }
+        Ok(())
+    }
+
+    /// The motion at time `t` (s) inside of the last step: projected on the constraints, with accelerations and multipliers.
+    ///
+    /// # Errors
+    /// If the system cannot be evaluated there.
+    pub fn at(&mut self, system: &mut dyn System, t: f64, out: &mut Node) -> Result<(), Halt> {
+        self.dense(system)?;
+        out.state.modes.copy_from_slice(&self.last.state.modes);
+        out.state.live.copy_from_slice(&self.last.state.live);
+        self.dense.evaluate(t, &mut out.state);
+        if !self.settings.locate {
+            self.engine.follow_modes(system, &mut out.state);
+        }
+        self.engine.settle(system, out).map_err(|why| Halt { why, t, h: self.h })
+    }
+
+    /// One step towards `until` (s), which is not passed.
+    ///
+    /// # Errors
+    /// If the run cannot go on; the node is the last good one.
+    pub fn advance(&mut self, system: &mut dyn System, until: f64) -> Result<Progress, Halt> {
+        let t = self.node.state.t;
+        self.step(system, until).map_err(|why| Halt { why, t, h: self.h })
+    }
+
+    fn step(&mut self, system: &mut dyn System, until: f64) -> Result<Progress, Why> {
+        if self.engine.counts.steps >= self.settings.most_steps {
+            return Err(Why::TooManySteps);
+        }
+        let left = until - self.node.state.t;
+        if left <= 0.0 {
+            return Ok(Progress::End);
+        }
+        if let Some(ends) = self.pending.take() {
+            return self.rest(system, ends);
+        }
+        let ends = self.attempt(system, until, left)?;
+        self.dense_ready = false;
+        self.engine.counts.steps += 1;
+        let name = self.scheme_name();
+        if !self.schemes.contains(&name) {
+            self.schemes.push(name);
+        }
+        std::mem::swap(&mut self.last, &mut self.node);
+        std::mem::swap(&mut self.node, &mut self.trial);
+        if let Control::Steps([h, other]) = self.settings.control
+            && h == other
+            && !self.scheme.chooses_steps()
+        {
+            // multiples of the step, without the sum of its rounding; a step cut short begins a new count
+            let multiple = self.origin + self.turn as f64 * h;
+            if !ends {
+                self.node.state.t = multiple;
+            } else if (until - multiple).abs() > 1e-6 * h {
+                (self.turn, self.origin) = (0, until);
+            }
+        }
+        if ends {
+            self.node.state.t = until;
+        }
+        self.end_bridge(system)?;
+        if !self.settings.locate {
+            if self.engine.follow_modes(system, &mut self.node.state) {
+                self.engine.accelerate(system, &mut self.node)?;
+            }
+            // implicit schemes have followed the modes themselves
+            self.engine.counts.stepped_over += usize::from(self.node.state.modes != self.last.state.modes);
+            self.balance(system)?;
+            return Ok(if ends { Progress::End } else { Progress::Step });
+        }
+        self.finish(system, ends)
+    }
+
+    /// Looks for roots within the last step, and ends it at the first or where it ends.
+    fn finish(&mut self, system: &mut dyn System, ends: bool) -> Result<Progress, Why> {
+        match self.crossing(system)? {
+            Some((theta, root)) => self.event(system, theta, root, ends),
+            None => {
+                self.balance(system)?;
+                Ok(if ends { Progress::End } else { Progress::Step })
+            }
+        }
+    }
+
+    /// The rest of a step in which something was recorded that left the motion as it was.
+    fn rest(&mut self, system: &mut dyn System, ends: bool) -> Result<Progress, Why> {
+        std::mem::swap(&mut self.last, &mut self.node);
+        self.node.copy_from(&self.ahead);
+        self.node.state.modes.copy_from_slice(&self.last.state.modes);
+        self.node.state.live.copy_from_slice(&self.last.state.live);
+        self.finish(system, ends)
+    }
+
+    /// Tries steps until one succeeds: `trial` is complete then. True if it ends at `until`.
+    fn attempt(&mut self, system: &mut dyn System, until: f64, left: f64) -> Result<bool, Why> {
+        let mut failures = 0;
+        loop {
+            let t = self.node.state.t;
+            let mut h = match self.settings.control {
+                Control::Steps(steps) => steps[self.turn % 2],
+                Control::Tolerance(_) => self.h,
+            };
+            let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
+            let itself = scheme.chooses_steps();
+            // a last step that is a little longer saves a very short one
+            let ends = itself || h * (1.0 + 1e-9) >= left;
+            if ends {
+                h = left;
+            } else if !self.engine.is_fixed() && 2.0 * h > left {
+                h = 0.5 * left;
+            }
+            if h.is_nan() || h <= 4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3) {
+                return Err(Why::StepSize);
+            }
+            let tried = scheme.attempt(system, &mut self.engine, &self.node, h, &mut self.trial);
+            if itself {
+                // what was offered is the way to the end, not the step
+                h = tried.map_or_else(|rejected| rejected.retry, |()| self.trial.state.t - t);
+            }
+            let (why, retry) = match tried {
+                Ok(()) => match self.complete(system, h) {
+                    Ok(true) => {
+                        let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
+                        let next = scheme.accept(&mut self.engine, &self.node, &self.trial);
+                        // what `until` cut short says nothing about the step that the error allows
+                        self.h = if ends && !itself && !self.engine.is_fixed() { next.max(self.h) } else { next };
+                        self.turn += 1;
+                        return Ok(ends && !(itself && self.trial.state.t < until - 4.0 * f64::EPSILON * until.abs()));
+                    }
+                    Ok(false) => continue,
+                    Err(why) => (why, 0.25 * h),
+                },
+                Err(rejected) => (rejected.why, rejected.retry),
+            };
+            self.engine.counts.rejected += 1;
+            failures += 1;
+            if self.engine.is_fixed() {
+                return Err(why);
+            }
+            if !matches!(why, Why::Error(_)) && self.begins_bridge(system, h, self.sigma < 0.2 * self.largest_sigma)? {
+                continue;
+            }
+            self.h = retry.min(0.9 * h);
+            if failures > 60 || t + self.h <= t {
+                return Err(if matches!(why, Why::Error(_)) { Why::StepSize } else { why });
+            }
+        }
+    }
+
+    /// Accelerations and multipliers of the trial; false if it lies in a singular position, so that a bridge has begun instead.
+    fn complete(&mut self, system: &mut dyn System, h: f64) -> Result<bool, Why> {
+        let explicit = self.bridging.is_some();
+        let scheme = active(&mut self.scheme, &mut self.bridge, explicit);
+        if !scheme.completes() {
+            self.engine.accelerate(system, &mut self.trial)?;
+        }
+        if self.bridge.is_none() || !self.independent {
+            return Ok(true);
+        }
+        let sigma = self.engine.kkt.smallest_singular_value(&mut self.sigma_row);
+        if !explicit && sigma < self.bridge_at() && self.begins_bridge(system, h, true)? {
+            return Ok(false);
+        }
+        self.sigma = sigma;
+        self.largest_sigma = self.largest_sigma.max(sigma);
+        Ok(true)
+    }
+}
+
+/// The scheme that steps.
+fn active<'a>(scheme: &'a mut Box<dyn Scheme>, bridge: &'a mut Option<Box<dyn Scheme>>, bridging: bool) -> &'a mut dyn Scheme {
+    match bridge {
+        Some(bridge) if bridging => bridge.as_mut(),
+        _ => scheme.as_mut(),
+    }
+}

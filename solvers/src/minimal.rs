@@ -1,0 +1,381 @@
+//! Minimal coordinates by coordinate partitioning (Wehage & Haug, J. Mech. Des. 104 (1982) 247-255): a system without holonomic
+//! rows, made of one with them.
+//!
+//! Velocities are divided into dependent and independent ones, v = (v_d, v_i), such that G_d is regular:
+//!
+//! ```text
+//! P = [−G_d⁻¹ G_i; I],   v = P v_i + p₀,  p₀ = [G_d⁻¹ ν; 0],   a = P a_i + ṗ,  ṗ = [G_d⁻¹ γ; 0]
+//! PᵀM P a_i + (ΨP)ᵀλ = Pᵀ(f − M ṗ),   ΨP a_i = γ_Ψ − Ψ ṗ
+//! ```
+//!
+//! Velocity-level rows Ψ stay rows. Coordinates are all those of the inner system; the part that depends on the others and on time
+//! is a guess only, from which every evaluation closes the loops at its own time by Newton's method. So rows may depend on time, and
+//! the branch of the linkage is the one nearest to where it was.
+
+use crate::engine::{Node, Why};
+use crate::kkt::row_scale;
+use crate::{At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use loops::Loops;
+use std::cell::RefCell;
+
+mod loops;
+
+/// Part of the quality at the start below which the chart is changed, unless the caller knows better.
+const POOR: f64 = 1e-3;
+
+/// Why a system has no minimal coordinates of this kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// The velocities asked for depend on each other, or there are more of them than degrees of freedom.
+    Dependent,
+    /// The loops cannot be closed at the start.
+    Open,
+    /// Forces depend on the reactions of the rows that are eliminated.
+    Friction,
+}
+
+/// A system in minimal coordinates.
+///
+/// q is the whole q of the inner system, v its independent velocities, λ the multipliers of its velocity-level rows. The chart (which
+/// velocities are independent) stands behind the inner modes in [`State::modes`], so that evaluations stay pure; the last root
+/// function watches it, and its crossing chooses another one and restarts the scheme. Its scale is the smallest singular value of
+/// diag(g_scale)^−½ G_d D_d^−½, and it is crossed at 1e-3 of the value at the start; see [`Minimal::change_chart_at`].
+///
+/// [`rate`](System::rate), [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they
+/// use those of the last evaluation. Where rows depend on time that changes the guess, no more.
+///
+/// The tangent is approximate: PᵀKP, PᵀCP and so on, without the derivatives of P and ṗ, which would need second and third
+/// derivatives of Φ. They are of the size of the velocities, so Newton's method converges like h|v|.
+#[derive(Clone, Debug)]
+pub struct Minimal<S> {
+    loops: RefCell<Loops<S>>,
+    dims: Dims,
+    inner: Dims,
+    pattern: Pattern,
+    /// Quality of the chart at the start, and the part of it below which the chart is changed.
+    quality: f64,
+    poor: f64,
+    /// M P (nv × n), and rows or columns of products with P.
+    product: Vec<f64>,
+    row: Vec<f64>,
+}
+
+impl<S: System> Minimal<S> {
+    /// Wraps a system that is consistent at `start`; the velocities `independent` are, and the missing ones are chosen by pivoting.
+    ///
+    /// # Errors
+    /// See [`Refused`].
+    pub fn new(inner: S, start: &State, independent: &[usize]) -> Result<Self, Refused> {
+        let of_inner = inner.dims();
+        let mut loops = Loops::new(inner, start, independent).ok_or(Refused::Dependent)?;
+        let n = loops.independent.len();
+        let dims = Dims { v: n, holonomic: 0, modes: of_inner.modes + n, roots: of_inner.roots + 1, ..of_inner };
+        let modes: Vec<i32> = start.modes.iter().copied().chain(loops.independent.iter().map(|&i| i as i32)).collect();
+        let v: Vec<f64> = loops.independent.iter().map(|&i| start.v[i]).collect();
+        if !loops.reach(At { t: start.t, q: &start.q, v: &v, z: &start.z, modes: &modes, live: &start.live }) {
+            return Err(Refused::Open);
+        }
+        let quality = loops.quality();
+        let product = vec![0.0; of_inner.v * n.max(of_inner.z)];
+        let row = vec![0.0; of_inner.v];
+        let pattern = Pattern::dense(dims);
+        let mut minimal = Self { loops: RefCell::new(loops), dims, inner: of_inner, pattern, quality, poor: POOR, product, row };
+        if minimal.rubs(&modes) {
+            return Err(Refused::Friction);
+        }
+        minimal.scale(At { t: start.t, q: &start.q, v: &v, z: &start.z, modes: &modes, live: &start.live });
+        Ok(minimal)
+    }
+
+    /// Whether forces change with the multipliers: asked where everything moves and carries.
+    fn rubs(&mut self, modes: &[i32]) -> bool {
+        let loops = self.loops.get_mut();
+        let State { t, q, z, live, .. } = loops.state.clone();
+        let v = vec![1.0; self.dims.v];
+        loops.reach(At { t, q: &q, v: &v, z: &z, modes, live: &live });
+        let (ones, rest) = (vec![1.0; self.inner.rows()], vec![0.0; self.inner.v]);
+        loops.inner.tangent(loops.state.at(), &rest, &ones, &mut loops.tangent);
+        loops.tangent.r_lambda.iter().any(|x| *x != 0.0)
+    }
+
+    /// Scales of the equations at the start.
+    fn scale(&mut self, at: At<'_>) {
+        let mut terms = Terms::new(self.dims);
+        self.terms(at, Stage::Position, &mut terms);
+        let n = self.dims.v;
+        let loops = self.loops.get_mut();
+        let inner = loops.inner.pattern();
+        let p = &mut self.pattern;
+        p.metric = (0..n).map(|i| if terms.mass[i * (n + 1)] > 0.0 { terms.mass[i * (n + 1)] } else { 1.0 }).collect();
+        p.g_scale = row_scale(&terms.g, &p.metric);
+        p.r_lambda = Sparsity::empty(n, self.dims.rows());
+        p.size_q = inner.size_q.clone();
+        p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
+        p.roots_by_reactions = inner.roots_by_reactions;
+    }
+
+    /// Changes the chart at this part of the quality at the start instead of 1e-3.
+    ///
+    /// A chart that degenerates ends in a turning point of its coordinates, and what it leaves as an error of the independent
+    /// coordinates reaches the other coordinates divided by its quality, their velocities by its square. A step that is chosen by the
+    /// error becomes short there in time; a given step may jump over the last good place, and Newton's method then fails. Where a
+    /// mechanism passes such positions, 0.1 or more is a better part (measured on a pendulum in x and y, `newmark` at 1e-5: an error
+    /// of 5e-3 with 1e-3, of 1e-3 with 0.1).
+    pub fn change_chart_at(&mut self, part: f64) {
+        self.poor = part;
+    }
+
+    /// The inner system.
+    pub fn inner_mut(&mut self) -> &mut S {
+        let loops = self.loops.get_mut();
+        loops.forget();
+        &mut loops.inner
+    }
+
+    /// The independent velocities of the chart used last.
+    pub fn independent(&self) -> Vec<usize> {
+        self.loops.borrow().independent.clone()
+    }
+
+    /// The state in minimal coordinates of a consistent state of the inner system, in the chart used last.
+    pub fn reduced(&self, inner: &State) -> State {
+        let loops = self.loops.borrow();
+        let chart = loops.independent.iter();
+        State {
+            v: chart.clone().map(|&i| inner.v[i]).collect(),
+            modes: inner.modes.iter().copied().chain(chart.map(|&i| i as i32)).collect(),
+            ..inner.clone()
+        }
+    }
+
+    /// The node of the inner system (closed q, all velocities, accelerations and multipliers) of one in minimal coordinates.
+    ///
+    /// # Errors
+    /// If the loops cannot be closed.
+    pub fn whole(&mut self, node: &Node, out: &mut Node) -> Result<(), Why> {
+        if !self.react(node.state.at(), &node.a, &node.lambda) {
+            return Err(Why::Constraints { row: 0, residual: f64::NAN });
+        }
+        let loops = self.loops.get_mut();
+        out.state.copy_from(&loops.state);
+        out.state.work.copy_from_slice(&node.state.work);
+        out.a.copy_from_slice(&loops.a);
+        out.lambda.copy_from_slice(&loops.lambda);
+        out.zdot.copy_from_slice(&node.zdot);
+        Ok(())
+    }
+
+    /// All multipliers of the inner system (m) for the accelerations of the independent velocities and the multipliers of the
+    /// velocity-level rows; not numbers where the loops cannot be closed.
+    pub fn lambda(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut [f64]) {
+        if self.react(at, a, lambda) {
+            out.copy_from_slice(&self.loops.get_mut().lambda);
+        } else {
+            out.fill(f64::NAN);
+        }
+    }
+
+    /// The inner state, its terms, accelerations and multipliers; false where the loops cannot be closed.
+    fn react(&mut self, at: At<'_>, a: &[f64], lambda: &[f64]) -> bool {
+        let loops = self.loops.get_mut();
+        let closed = loops.reach(at);
+        if closed {
+            loops.evaluate(Stage::Dynamics);
+            loops.react(a, lambda);
+        }
+        closed
+    }
+}
+
+/// out := Pᵀ X P for X (nv × nv) by way of X P (nv × n).
+fn congruent(x: &[f64], p: &[f64], n: usize, product: &mut [f64], out: &mut [f64]) {
+    let nv = p.len() / n.max(1);
+    let product = &mut product[..nv * n];
+    for (line, row) in product.chunks_exact_mut(n.max(1)).zip(x.chunks_exact(nv.max(1))) {
+        combine(row, p, line);
+    }
+    out.fill(0.0);
+    gather(p, n, product, out);
+}
+
+/// out := x P for a row x (nv).
+fn combine(x: &[f64], p: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    for (x, p) in x.iter().zip(p.chunks_exact(out.len().max(1))) {
+        out.iter_mut().zip(p).for_each(|(o, p)| *o += x * p);
+    }
+}
+
+/// out += Pᵀ X for X (nv × columns), columns = out.len()/n.
+fn gather(p: &[f64], n: usize, x: &[f64], out: &mut [f64]) {
+    let columns = out.len() / n.max(1);
+    for (p, line) in p.chunks_exact(n.max(1)).zip(x.chunks_exact(columns.max(1))) {
+        for (p, out) in p.iter().zip(out.chunks_exact_mut(columns.max(1))) {
+            out.iter_mut().zip(line).for_each(|(o, x)| *o += p * x);
+        }
+    }
+}
+
+/// rows · x for rows of the length of x.
+fn times(rows: &[f64], x: &[f64], out: &mut [f64]) {
+    for (out, row) in out.iter_mut().zip(rows.chunks_exact(x.len().max(1))) {
+        *out = row.iter().zip(x).map(|(r, x)| r * x).sum();
+    }
+}
+
+impl<S: System> System for Minimal<S> {
+    fn dims(&self) -> Dims {
+        self.dims
+    }
+
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
+        let loops = self.loops.get_mut();
+        let (n, h) = (self.dims.v, self.inner.holonomic);
+        if !loops.reach(at) {
+            out.mass.fill(f64::NAN);
+            out.force.fill(f64::NAN);
+            return;
+        }
+        if stage > Stage::Position {
+            loops.evaluate(stage);
+        }
+        let inner = &loops.terms;
+        congruent(&inner.mass, &loops.p, n, &mut self.product, &mut out.mass);
+        let psi = &inner.g[h * self.inner.v..];
+        for (out, row) in out.g.chunks_exact_mut(n.max(1)).zip(psi.chunks_exact(self.inner.v.max(1))) {
+            combine(row, &loops.p, out);
+        }
+        if stage > Stage::Position {
+            times(psi, &loops.drift, &mut out.nu);
+            out.nu.iter_mut().zip(&inner.nu[h..]).for_each(|(x, nu)| *x = nu - *x);
+            times(psi, &loops.bend, &mut out.gamma);
+            out.gamma.iter_mut().zip(&inner.gamma[h..]).for_each(|(x, gamma)| *x = gamma - *x);
+        }
+        if stage == Stage::Dynamics {
+            times(&inner.mass, &loops.bend, &mut self.row);
+            self.row.iter_mut().zip(&inner.force).for_each(|(x, f)| *x = f - *x);
+            combine(&self.row, &loops.p, &mut out.force);
+            out.zdot.copy_from_slice(&inner.zdot);
+        }
+    }
+
+    fn residual(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]) {
+        if !self.react(at, a, lambda) {
+            return r.fill(f64::NAN);
+        }
+        let loops = self.loops.get_mut();
+        let (nv, h) = (self.inner.v, self.inner.holonomic);
+        times(&loops.terms.mass, &loops.a, &mut self.row);
+        self.row.iter_mut().zip(&loops.terms.force).for_each(|(r, f)| *r -= f);
+        for (row, l) in loops.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
+            self.row.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
+        }
+        combine(&self.row, &loops.p, r);
+    }
+
+    fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
+        let closed = self.react(at, a, lambda);
+        let (n, nz, nv) = (self.dims.v, self.dims.z, self.inner.v);
+        let loops = self.loops.get_mut();
+        let Loops { inner, state, a, lambda, tangent, p, .. } = loops;
+        inner.tangent(state.at(), a, lambda, tangent);
+        congruent(&tangent.k, p, n, &mut self.product, &mut out.k);
+        congruent(&tangent.c, p, n, &mut self.product, &mut out.c);
+        out.r_z.fill(0.0);
+        if nz > 0 {
+            gather(p, n, &tangent.r_z, &mut out.r_z);
+        }
+        for (from, to) in [(&tangent.z_q, &mut out.z_q), (&tangent.z_v, &mut out.z_v)] {
+            for (to, from) in to.chunks_exact_mut(n.max(1)).zip(from.chunks_exact(nv.max(1))) {
+                combine(from, p, to);
+            }
+        }
+        out.z_z.copy_from_slice(&tangent.z_z);
+        out.r_lambda.fill(0.0);
+        if !closed {
+            out.k.fill(f64::NAN);
+        }
+    }
+
+    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        let mut loops = self.loops.borrow_mut();
+        let loops = &mut *loops;
+        loops.position(q);
+        loops.spread(v);
+        loops.full.iter_mut().zip(&loops.drift).for_each(|(x, p)| *x += p);
+        loops.inner.rate(q, &loops.full, qdot);
+    }
+
+    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+        self.loops.borrow_mut().moved(q, delta, false);
+    }
+
+    fn displace(&self, q: &mut [f64], u: &[f64]) {
+        self.loops.borrow_mut().moved(q, u, true);
+    }
+
+    fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
+        if w.is_empty() {
+            return;
+        }
+        if !self.react(at, a, lambda) {
+            return w.fill(f64::NAN);
+        }
+        let Loops { inner, state, a, lambda, .. } = self.loops.get_mut();
+        inner.power(state.at(), a, lambda, w);
+    }
+
+    fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
+        let (own, chart) = modes.split_at_mut(self.inner.modes);
+        chart.copy_from_slice(&at.modes[self.inner.modes..]);
+        own.copy_from_slice(&at.modes[..self.inner.modes]);
+        let loops = self.loops.get_mut();
+        if !own.is_empty() && loops.reach(at) {
+            loops.inner.modes(loops.state.at(), own);
+        }
+    }
+
+    fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {
+        let reactions = self.pattern.roots_by_reactions;
+        let closed = if reactions { self.react(at, a, lambda) } else { self.loops.get_mut().reach(at) };
+        let loops = self.loops.get_mut();
+        let (own, chart) = g.split_at_mut(self.inner.roots);
+        if !own.is_empty() {
+            loops.inner.roots(loops.state.at(), &loops.a, &loops.lambda, own);
+        }
+        chart[0] = if closed { loops.quality() / self.quality - self.poor } else { -self.poor };
+    }
+
+    fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
+        let loops = self.loops.get_mut();
+        loops.reach(state.at());
+        if root == self.inner.roots {
+            loops.choose_anew();
+            let chart = &mut state.modes[self.inner.modes..];
+            chart.iter_mut().zip(&loops.independent).for_each(|(m, &i)| *m = i as i32);
+            state.q.copy_from_slice(&loops.state.q);
+            state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
+            return Effect::Restart;
+        }
+        loops.state.work.copy_from_slice(&state.work);
+        let Loops { inner, state: whole, full, .. } = loops;
+        let effect = inner.cross(root, whole, full);
+        let (modes, _) = state.modes.split_at_mut(self.inner.modes);
+        modes.copy_from_slice(&whole.modes);
+        state.q.copy_from_slice(&whole.q);
+        state.z.copy_from_slice(&whole.z);
+        state.live.copy_from_slice(&whole.live);
+        state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
+        loops.forget();
+        let Effect::Impulse { restitution } = effect else { return effect };
+        combine(&loops.full, &loops.p, row);
+        // row·v has a part that rows which depend on time prescribe; the jump is meant of the whole
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let (free, prescribed) = (dot(row, &state.v), dot(&loops.full, &loops.drift));
+        Effect::Impulse { restitution: (1.0 + restitution) * (1.0 + prescribed / free) - 1.0 }
+    }
+}

@@ -1,0 +1,227 @@
+//! The explicit Runge-Kutta method DOP853 of Dormand & Prince on the equations of index 1, with projection after each step.
+//!
+//! Twelve stages of order 8, an error estimate combined from orders 5 and 3, and a continuous solution of order 7 from three
+//! more stages: Hairer, Nørsett & Wanner, Solving ODEs I, 2nd ed., sections II.5 and II.6. The error is that of the step before
+//! projection; the accelerations behind it are the first stage of the next step.
+
+use super::explicit::{Flow, Row, advance, rows};
+use crate::System;
+use crate::dense_output::Dense;
+use crate::engine::{Engine, Node, Rejected, Why};
+use crate::scheme::Scheme;
+use coefficients::*;
+use stiffness::Stiffness;
+
+pub(super) use stiffness::BORDER;
+
+mod coefficients;
+mod stiffness;
+#[cfg(test)]
+mod tests;
+
+/// Stage that begins the next step.
+const LAST: usize = 12;
+
+/// A step changes by factors between these; the first is for safety. Against the 0.9 of `dop853.f`, 0.8 makes half to a third of
+/// the drift of energy at the same tolerance, for 5 per cent fewer to 7 per cent more evaluations (measured: slider-crank,
+/// pendulum, 1000 s at 1e-11).
+const SAFETY: f64 = 0.8;
+const SHRINK: f64 = 0.333;
+const GROW: f64 = 6.0;
+
+/// The method with the stages of one step.
+pub(super) struct Dop853 {
+    flow: Flow,
+    /// y at the begin of the step.
+    y0: Vec<f64>,
+    /// y of a stage; behind a step, of stage 11, which lies at its end.
+    y: Vec<f64>,
+    /// y at the end of the step, before projection, then after it.
+    y1: Vec<f64>,
+    /// F of every stage, stage after stage.
+    k: Vec<f64>,
+    /// Errors of orders 5 and 3 over h.
+    e5: Vec<f64>,
+    e3: Vec<f64>,
+    stiffness: Stiffness,
+    h: f64,
+    factor: f64,
+    rejected: bool,
+}
+
+impl Dop853 {
+    /// Room for a system; `follow` takes the modes of every stage from its values.
+    pub(super) fn new(system: &dyn System, follow: bool) -> Self {
+        let flow = Flow::new(system, follow);
+        let vector = vec![0.0; flow.n];
+        Self {
+            y0: vector.clone(),
+            y: vector.clone(),
+            y1: vector.clone(),
+            k: vec![0.0; STAGES * flow.n],
+            e5: vector.clone(),
+            e3: vector,
+            stiffness: Stiffness::new(system),
+            h: 0.0,
+            factor: 1.0,
+            rejected: false,
+            flow,
+        }
+    }
+
+    /// Whether stability bounds the steps, not accuracy.
+    pub(super) fn stiff(&self) -> bool {
+        self.stiffness.stiff()
+    }
+
+    /// Estimate of h|λ| in the last step.
+    pub(super) fn product(&self) -> f64 {
+        self.stiffness.product
+    }
+
+    /// Estimate of |λ| in the last step, λ the largest eigenvalue, 1/s.
+    pub(super) fn fastest(&self) -> f64 {
+        self.stiffness.product / self.h
+    }
+
+    /// F of one more stage.
+    fn stage<const J: usize>(
+        &mut self,
+        system: &mut dyn System,
+        engine: &mut Engine,
+        from: &Node,
+        (number, row): (usize, &Row<J>),
+    ) -> Result<(), Why> {
+        let n = self.flow.n;
+        advance(self.h, row, &self.k, &self.y0, &mut self.y);
+        let rate = &mut self.k[number * n..][..n];
+        self.flow.rates(system, engine, (from.state.t + C[number] * self.h, &from.state.live), &self.y, rate)
+    }
+
+    /// The stages of a step behind the first, which is known.
+    fn stages(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node) -> Result<(), Why> {
+        self.stage(system, engine, from, (1, &A1))?;
+        self.stage(system, engine, from, (2, &A2))?;
+        self.stage(system, engine, from, (3, &A3))?;
+        self.stage(system, engine, from, (4, &A4))?;
+        self.stage(system, engine, from, (5, &A5))?;
+        self.stage(system, engine, from, (6, &A6))?;
+        self.stage(system, engine, from, (7, &A7))?;
+        self.stage(system, engine, from, (8, &A8))?;
+        self.stage(system, engine, from, (9, &A9))?;
+        self.stage(system, engine, from, (10, &A10))?;
+        self.stage(system, engine, from, (11, &A11))
+    }
+
+    /// y at the end of the step and both errors, in one pass over the stages.
+    fn sum(&mut self) {
+        let n = self.flow.n;
+        let rates = rows(&B, &self.k, n);
+        let (y0, y1, e5, e3) = (&self.y0[..n], &mut self.y1[..n], &mut self.e5[..n], &mut self.e3[..n]);
+        let [first, eighth, last] = rows(&B3, &self.k, n);
+        for i in 0..n {
+            let (mut sum, mut error) = (0.0, 0.0);
+            for ((rate, (_, b)), (_, e)) in rates.iter().zip(&B).zip(&E5) {
+                sum += b * rate[i];
+                error += e * rate[i];
+            }
+            y1[i] = y0[i] + self.h * sum;
+            e5[i] = error;
+            e3[i] = sum - B3[0].1 * first[i] - B3[1].1 * eighth[i] - B3[2].1 * last[i];
+        }
+    }
+
+    /// Takes y and F at the end of the step, projected, and looks at stability.
+    fn end(&mut self, system: &dyn System, to: &Node) {
+        let (n, s) = (self.flow.n, &to.state);
+        self.flow.join([&s.q, &s.v, &s.z], &mut self.y1);
+        let (stage, end) = self.k.split_at_mut(LAST * n);
+        self.flow.known(system, to, &mut end[..n]);
+        self.stiffness.estimate(self.h, [&self.y, &self.y1], [&stage[(LAST - 1) * n..], &end[..n]]);
+    }
+
+    /// The error, 1 at the tolerance: h e₅²/√(e₅² + e₃²/100) (equation 10.17 of section II.10).
+    fn error(&self, engine: &Engine, from: &Node) -> f64 {
+        let norm = |e: &[f64]| {
+            let [q, v, z] = self.flow.parts(e);
+            engine.norm(&from.state, q, v, z).powi(2)
+        };
+        let (five, three) = (norm(&self.e5), norm(&self.e3));
+        let root = (five + 0.01 * three).sqrt();
+        if root > 0.0 { self.h * five / root } else { root }
+    }
+}
+
+impl Scheme for Dop853 {
+    fn restart(&mut self, _: &mut dyn System, _: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
+        self.rejected = false;
+        self.stiffness.forget();
+        Ok(())
+    }
+
+    fn attempt(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, h: f64, to: &mut Node) -> Result<(), Rejected> {
+        let fails = |why| Rejected { why, retry: 0.25 * h };
+        self.h = h;
+        let n = self.flow.n;
+        self.flow.begin(system, from, &mut self.y0, &mut self.k[..n]);
+        self.stages(system, engine, from).map_err(fails)?;
+        self.sum();
+        if !engine.is_fixed() {
+            let error = self.error(engine, from);
+            self.factor = (SAFETY * error.powf(-0.125)).clamp(SHRINK, GROW);
+            if error.is_nan() || error > 1.0 {
+                self.rejected = true;
+                let factor = if error.is_finite() { self.factor } else { SHRINK };
+                return Err(Rejected { why: Why::Error(error), retry: h * factor });
+            }
+        }
+        self.flow.state(&from.state, from.state.t + h, &self.y1, &mut to.state);
+        engine.settle_step(system, to).map_err(fails)?;
+        self.end(system, to);
+        Ok(())
+    }
+
+    fn completes(&self) -> bool {
+        true
+    }
+
+    fn accept(&mut self, engine: &mut Engine, _: &Node, _: &Node) -> f64 {
+        self.stiffness.count();
+        let most = if std::mem::take(&mut self.rejected) { 1.0 } else { GROW };
+        if engine.is_fixed() { self.h } else { self.h * self.factor.min(most) }
+    }
+
+    /// The nested form y₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(r₄ + θ(r₅ + (1−θ)(r₆ + θ r₇)))))), in powers of θ. Its first three terms
+    /// are Hermite's cubic through the projected ends.
+    fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why> {
+        let n = self.flow.n;
+        self.stage(system, engine, from, (13, &A13))?;
+        self.stage(system, engine, from, (14, &A14))?;
+        self.stage(system, engine, from, (15, &A15))?;
+        out.begin(from.state.t, to.state.t - from.state.t, 8);
+        let h = self.h;
+        let (first, last) = (&self.k[..n], &self.k[LAST * n..][..n]);
+        for i in 0..n {
+            let sum = |row: &Row<12>| h * row.iter().map(|(j, c)| c * self.k[j * n + i]).sum::<f64>();
+            let r1 = self.y1[i] - self.y0[i];
+            let r2 = h * first[i] - r1;
+            let r3 = r1 - h * last[i] - r2;
+            let [r4, r5, r6, r7] = [sum(&D4), sum(&D5), sum(&D6), sum(&D7)];
+            out.set_entry(i, &powers(self.y0[i], [r1, r2, r3, r4, r5, r6, r7]));
+        }
+        Ok(())
+    }
+
+    fn order(&self) -> usize {
+        8
+    }
+
+    fn name(&self) -> &'static str {
+        "dop853"
+    }
+}
+
+/// Powers of θ of the nested form.
+fn powers(y0: f64, [r1, r2, r3, r4, r5, r6, r7]: [f64; 7]) -> [f64; 8] {
+    [y0, r1 + r2, r3 + r4 - r2, r5 + r6 - r3 - 2.0 * r4, r4 - 2.0 * r5 - 3.0 * r6 + r7, r5 + 3.0 * r6 - 3.0 * r7, 3.0 * r7 - r6, -r7]
+}
