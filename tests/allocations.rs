@@ -60,7 +60,8 @@ fn sample<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) {
             driven.position(1e-4 * f64::from(i), &modes).expect("a position");
             driven.rates(&modes);
             driven.forces(&modes);
-            observer.read(&mut driven, &modes);
+            let Driven { dynamics, q, v, a, reactions, .. } = &mut driven;
+            observer.read(dynamics, [q, v, a], reactions, &modes);
             observer.set_modes(&mut modes);
             observer.columns(&modes, &mut out);
         }

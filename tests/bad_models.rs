@@ -151,6 +151,38 @@ const FILES: &[(End, &[&str])] = &[
             "variant-changes-studies",
             "no-driver-for-the-range",
             "two-drivers-one-joint",
+            // motion in time
+            "state-without-unit",
+            "state-with-wrong-rate",
+            "state-without-rate",
+            "state-by-acceleration",
+            "state-by-rate-of-state",
+            "state-in-geometry",
+            "state-in-inverse",
+            "state-column-in-kinematics",
+            "state-in-start",
+            "event-of-a-condition",
+            "event-that-never-comes",
+            "event-changes-geometry",
+            "event-changes-a-source",
+            "restitution-over-one",
+            "restitution-of-a-driven-joint",
+            "limits-without-stiffness",
+            "limits-without-end",
+            "limits-exchanged",
+            "friction-of-a-force",
+            "dynamics-until-zero",
+            "dynamics-loose-tolerance",
+            "dynamics-rho-for-bdf",
+            "dynamics-rho-over-one",
+            "dynamics-alpha-for-hht",
+            "dynamics-alpha-alone",
+            "dynamics-newmark-at-position",
+            "dynamics-level-of-rk4",
+            "dynamics-level-of-minimal",
+            "dynamics-without-step",
+            "dynamics-step-over",
+            "dynamics-order-without-step",
             // physics
             "negative-mass",
             "negative-length",
@@ -169,7 +201,7 @@ const FILES: &[(End, &[&str])] = &[
             "no-driver",
             "freedom-left",
             "universal-not-crossed",
-            "dynamics-study",
+            "friction-by-coefficient",
             "statics-study",
             "no-studies",
         ],
@@ -385,7 +417,7 @@ fn generated_files_are_refused() {
 /// A bad study does not keep the others from running: the highest code wins.
 #[test]
 fn the_other_studies_still_run() {
-    for (file, code) in [("dynamics-study", 2), ("dead-point-on-the-way", 3)] {
+    for (file, code) in [("statics-study", 2), ("dead-point-on-the-way", 3)] {
         let out = Scratch::new(&format!("others-{file}"));
         let (found, stderr) = run(&bad(""), &["run", &format!("{file}.yaml"), "-o", "OUT", "--no-plots"], &out.0);
         assert_eq!(found, code, "{file}\n{stderr}");

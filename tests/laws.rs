@@ -6,11 +6,11 @@
 mod common;
 
 use common::{Noise, State, accelerate, close, mechanism, react, slope, spin, star_state, twist, vector, wrench};
-use grashof::dynamics::{self, Dynamics, Tangents};
+use grashof::dynamics::{self, Dynamics};
 use grashof::geometry::{Force, Motion, Planar, Space, Spatial};
 use grashof::mechanism::{Coordinates, EffortLaw, Mechanism, Rotor, StretchOf};
 use grashof::scalar::Dual;
-use grashof_solvers::Coloring;
+use grashof_solvers::{Coloring, Dims, Tangent};
 
 const PLANAR: &str = include_str!("common/planar.yaml");
 const SPATIAL: &str = include_str!("common/spatial.yaml");
@@ -352,12 +352,10 @@ fn tangents_are_derivatives_of_the_residual() {
         D: Space<S = Dual<{ dynamics::LANES }>>,
     {
         let lifted = m.lift::<Dual<{ dynamics::LANES }>>();
-        let mut evaluator = Dynamics::new(&lifted);
-        let pattern = dynamics::pattern(m);
-        let coloring = Coloring::new(&pattern);
-        let mut out = Tangents::default();
-        let at = dynamics::Point { t: s.t, q: &s.q, v: &s.v, a: &s.a, lambda: &s.lambda, modes: &s.modes };
-        dynamics::tangents::<G, D>(&mut evaluator, &coloring, &pattern, &at, &mut out);
+        let dims = Dims { q: m.nq, v: m.nv, holonomic: m.rows.len(), ..Dims::default() };
+        let mut out = Tangent::new(dims);
+        let at = dynamics::Point { t: s.t, q: &s.q, v: &s.v, z: &[], a: &s.a, lambda: &s.lambda, modes: &s.modes };
+        dynamics::Linearizer::<D>::new(&lifted).tangents(&at, &mut out);
         let residual = |s: &State| {
             let mut d = Dynamics::new(m);
             s.evaluate(&mut d);

@@ -197,7 +197,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
             let Measured::Turn { winding, .. } = m.gauges[gauge].measured else { continue };
             let turns = ((start.value - self.dynamics.work.readings[gauge].x) / TAU).round();
-            self.modes[m.switches + winding] += turns as i32;
+            self.modes[m.switches + winding] += 2 * turns as i32;
             self.dynamics.work.readings[gauge].x += turns * TAU;
         }
     }

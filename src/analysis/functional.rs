@@ -3,29 +3,30 @@
 use super::clock::Clock;
 use super::continuous::Curve;
 use super::extremum::Extremes;
-use super::motion::{Lost, Motion, Rows};
+use super::motion::Rows;
 use super::quadrature::integrals;
-use crate::geometry::Space;
 use crate::model::{FunctionalKind, Model, Study};
 
 /// A sampled motion, for functionals.
-pub(super) struct Functionals<'a, 'm, G: Space<S = f64>> {
+pub(super) struct Functionals<'a, C: Curve> {
     pub(super) clock: Clock,
-    pub(super) motion: &'a mut Motion<'m, G>,
+    /// Progress at both ends.
+    pub(super) ends: [f64; 2],
+    pub(super) curve: &'a mut C,
     pub(super) rows: &'a Rows,
     pub(super) extremes: &'a [Option<Extremes>],
     pub(super) breaks: &'a [f64],
 }
 
-impl<G: Space<S = f64>> Functionals<'_, '_, G> {
+impl<C: Curve> Functionals<'_, C> {
     /// The value of each functional of a study; `columns[i]` is the column that functional i is taken of.
-    pub(super) fn all(&mut self, model: &Model, study: &Study, parameters: &[f64], columns: &[usize]) -> Result<Vec<f64>, Lost> {
+    pub(super) fn all(&mut self, model: &Model, study: &Study, parameters: &[f64], columns: &[usize]) -> Result<Vec<f64>, C::Error> {
         let integral = |k: FunctionalKind| matches!(k, FunctionalKind::Mean | FunctionalKind::Integral);
-        let mut sums = vec![0.0; self.motion.columns()];
+        let mut sums = vec![0.0; self.curve.columns()];
         if study.functionals.iter().any(|f| integral(f.kind)) {
-            integrals(self.motion, self.breaks, &mut sums)?;
+            integrals(self.curve, self.breaks, &mut sums)?;
         }
-        let length = self.motion.ends[1] - self.motion.ends[0];
+        let length = self.ends[1] - self.ends[0];
         study
             .functionals
             .iter()
@@ -48,16 +49,16 @@ impl<G: Space<S = f64>> Functionals<'_, '_, G> {
     }
 
     /// The column at a place; behind a switch that stands just there; not defined outside of the range.
-    fn value(&mut self, s: f64, column: usize) -> Result<f64, Lost> {
+    fn value(&mut self, s: f64, column: usize) -> Result<f64, C::Error> {
         let slack = 1e-12 * self.clock.length;
-        let [low, high] = self.motion.ends;
+        let [low, high] = self.ends;
         if !(s >= low - slack && s <= high + slack) {
             return Ok(f64::NAN);
         }
         let s = s.clamp(low, high);
         let piece = self.breaks.partition_point(|b| *b <= s).clamp(1, self.breaks.len() - 1) - 1;
-        let mut out = vec![0.0; self.motion.columns()];
-        self.motion.eval(s, piece, &mut out)?;
+        let mut out = vec![0.0; self.curve.columns()];
+        self.curve.eval(s, piece, &mut out)?;
         Ok(out[column])
     }
 

@@ -11,6 +11,7 @@ pub mod continuous;
 pub mod driven;
 pub mod extremum;
 mod fold;
+pub mod forward;
 mod functional;
 pub mod hermite;
 mod hills;

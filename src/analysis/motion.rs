@@ -151,7 +151,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.switching.set_state(&self.driven.dynamics, &mut self.modes);
         }
         self.driven.forces(&self.modes);
-        self.observer.read(&mut self.driven, &self.modes);
+        let Driven { dynamics, q, v, a, reactions, .. } = &mut self.driven;
+        self.observer.read(dynamics, [q, v, a], reactions, &self.modes);
         if piece.is_none() {
             self.observer.set_modes(&mut self.modes);
         }
@@ -329,7 +330,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     fn distances(&mut self, s: f64, piece: usize) -> Result<Vec<Distance>, Lost> {
         self.solve(s, Some(piece))?;
         let mut out = std::mem::take(&mut self.distances);
-        self.switching.distances(&self.driven, &mut self.observer, &self.modes, &mut out);
+        self.switching.distances(&self.driven.dynamics, &mut self.observer, &self.modes, &mut out);
         let found = out.clone();
         self.distances = out;
         Ok(found)

@@ -1,6 +1,5 @@
 //! Columns: the quantities that expressions name, read from an evaluated mechanism, and the program that turns them into columns.
 
-use super::driven::Driven;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Id, Program};
 use crate::geometry::{Motion, Space};
@@ -21,6 +20,7 @@ pub struct Observer<G: Space> {
 #[derive(Clone, Copy, Debug)]
 enum Source<G: Space> {
     Time,
+    State(usize),
     Point {
         body: usize,
         at: G::Vector,
@@ -93,14 +93,25 @@ impl<G: Space<S = f64>> Observer<G> {
         }
     }
 
-    /// Reads all quantities after [`Driven::forces`].
-    pub fn read(&mut self, driven: &mut Driven<'_, G>, modes: &[i32]) {
-        let Driven { dynamics, a, reactions, v, q, .. } = driven;
+    /// Reads all quantities of an evaluated state (q, v, a) with its reactions.
+    pub fn read(&mut self, dynamics: &mut Dynamics<'_, G>, [q, v, a]: [&[f64]; 3], reactions: &Reactions<G>, modes: &[i32]) {
         dynamics.watch(q, v, modes);
         self.modes.copy_from_slice(modes);
         for (input, source) in &self.fills {
             self.inputs[*input] = source.read(dynamics, a, reactions, &mut self.modes);
         }
+    }
+
+    /// Whether a quantity needs more than positions, velocities and states: accelerations, reactions or applied forces.
+    #[must_use]
+    pub fn needs_forces(&self) -> bool {
+        self.fills.iter().any(|(_, source)| source.needs_forces())
+    }
+
+    /// Whether a switch of the columns does.
+    #[must_use]
+    pub fn switches_by_forces(&self) -> bool {
+        !self.program.switches().is_empty() && self.needs_forces()
     }
 
     /// Sets the modes of the columns' switches from the quantities read last.
@@ -163,17 +174,33 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::FrameMoment { axis } => Source::FrameMoment(axis),
         Quantity::InertiaEq => Source::InertiaEq,
         Quantity::InertiaEqSlope => Source::InertiaEqSlope,
+        Quantity::State(state) => Source::State(state),
         Quantity::Functional(_) | Quantity::Result(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
     }
 }
 
 impl<G: Space<S = f64>> Source<G> {
+    fn needs_forces(&self) -> bool {
+        match *self {
+            Self::Time | Self::State(_) | Self::Quaternion { .. } | Self::Given(_) | Self::Kinetic | Self::Potential => false,
+            Self::SpringEnergy(_) | Self::Momentum(_) => false,
+            Self::Point { order, .. }
+            | Self::Angle { order, .. }
+            | Self::Spin { order, .. }
+            | Self::Gauge { order, .. }
+            | Self::Stretch { order, .. }
+            | Self::Com { order, .. } => order > 1,
+            _ => true,
+        }
+    }
+
     fn read(&self, d: &mut Dynamics<'_, G>, a: &[f64], r: &Reactions<G>, modes: &mut [i32]) -> f64 {
         let w = &d.work;
         let m = d.mechanism;
         match *self {
             Self::Given(x) => x,
             Self::Time => d.t,
+            Self::State(state) => w.z[state],
             Self::Point { body, at, axis, order } => {
                 let p = w.poses[body].point(at);
                 G::component(trace::<G>(p, w.twists[body], r.accelerations[body], order), axis)

@@ -1,6 +1,7 @@
 //! What a study leaves: columns, scalars, extremes, findings; names and numbers, ready for output.
 
 use super::extremum::Extremes;
+use grashof_solvers::Counts;
 
 /// Result of one run of a study.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +30,8 @@ pub struct Outcome {
     pub findings: Vec<Finding>,
     /// Figures of the run that certify it.
     pub certificate: Certificate,
+    /// Events of the model in the order in which they happened.
+    pub events: Vec<Happened>,
     /// What the drawing shows.
     pub scene: Option<Scene>,
 }
@@ -61,8 +64,42 @@ pub struct Finding {
     pub path: String,
 }
 
+/// An event of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Happened {
+    /// Its name.
+    pub name: String,
+    /// When, s.
+    pub at: f64,
+}
+
+/// What certifies a motion in time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct March {
+    /// Schemes that stepped: `dop853`, `dop853, radau5`.
+    pub schemes: String,
+    /// Tolerance; none with a fixed step.
+    pub tolerance: Option<f64>,
+    /// Largest |E − E(0) − work|, J.
+    pub energy_drift: f64,
+    /// Largest of kinetic energy, change of potential energy and works, J.
+    pub energy_scale: f64,
+    /// Work of drivers, J.
+    pub drivers: f64,
+    /// Work of loads and motors, J.
+    pub loads: f64,
+    /// Work of dampers, J.
+    pub dampers: f64,
+    /// Energy that events have given or taken at once, J.
+    pub impacts: f64,
+    /// Largest residual of the velocity constraints over the rows, in units of size per second.
+    pub velocity: f64,
+    /// What was spent.
+    pub counts: Counts,
+}
+
 /// How well the rows satisfy the equations.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Certificate {
     /// Positions solved.
     pub evaluations: usize,
@@ -72,6 +109,8 @@ pub struct Certificate {
     pub constraint: f64,
     /// Largest |driver power + power of applied forces − dT/dt| over the rows, relative to the largest of its terms.
     pub power_balance: f64,
+    /// More of a motion in time.
+    pub march: Option<March>,
 }
 
 /// Outlines of the mechanism in a few positions, in the plane of the drawing.

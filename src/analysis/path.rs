@@ -232,7 +232,7 @@ impl<G: Space<S = f64>> Driven<'_, G> {
         for (gauge, reading) in m.gauges.iter().zip(&self.dynamics.work.readings) {
             if let Measured::Turn { winding, .. } = gauge.measured {
                 let off = (expected[winding] - reading.x) / std::f64::consts::TAU;
-                modes[m.switches + winding] += off.round() as i32;
+                modes[m.switches + winding] += 2 * off.round() as i32;
             }
         }
     }

@@ -10,29 +10,40 @@ use super::motion::{Lost, Motion, Rows};
 use super::observe::Observer;
 use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
-use super::{balance, scene};
+use super::{balance, forward, scene};
 use crate::dynamics::Dynamics;
 use crate::expression::Id;
+use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+use std::sync::Arc;
 
 /// Runs the study of a model once, at given parameter values (in file order).
 ///
 /// # Errors
 /// If it never began: the model has no mechanism, it cannot be assembled, or its drivers do not fit. A motion that stops on its
-/// way is an [`Outcome`] with `stopped`.
-pub fn run(model: &Model, study: &Study, parameters: &[f64], coordinates: Coordinates) -> Result<Outcome, Failure> {
-    match model.space {
-        Dimensions::Planar => run_in::<Planar<f64>>(model, study, parameters, coordinates),
-        Dimensions::Spatial => run_in::<Spatial<f64>>(model, study, parameters, coordinates),
+/// way is an [`Outcome`] with `stopped`. A motion in time asks `stop` between its steps, and takes its coordinates from the study.
+pub fn run(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    coordinates: Coordinates,
+    stop: &dyn Fn() -> bool,
+) -> Result<Outcome, Failure> {
+    match (&study.kind, model.space) {
+        (Kind::Dynamics(motion), Dimensions::Planar) => forward::run::<Planar<f64>>(model, study, motion, parameters, stop),
+        (Kind::Dynamics(motion), Dimensions::Spatial) => forward::run::<Spatial<f64>>(model, study, motion, parameters, stop),
+        (_, Dimensions::Planar) => run_in::<Planar<f64>>(model, study, parameters, coordinates),
+        (_, Dimensions::Spatial) => run_in::<Spatial<f64>>(model, study, parameters, coordinates),
     }
 }
 
 fn run_in<G: Space<S = f64>>(model: &Model, study: &Study, parameters: &[f64], coordinates: Coordinates) -> Result<Outcome, Failure> {
     let range = match &study.kind {
         Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => range,
-        Kind::Later(kind) => {
+        Kind::Dynamics(_) | Kind::Later(_) => {
+            let kind = if let Kind::Later(word) = study.kind { word } else { "dynamics" };
             return Err(Failure::Study {
                 code: "later",
                 message: format!("studies of the kind `{kind}` cannot be computed yet"),
@@ -135,18 +146,18 @@ fn clock<G: Space<S = f64>>(
 }
 
 /// The distinct expressions to watch: columns, what functionals are taken of, what only figures show.
-struct Watched {
-    ids: Vec<Id>,
+pub(super) struct Watched {
+    pub(super) ids: Vec<Id>,
     /// Index in `ids` of each functional's argument.
-    functionals: Vec<usize>,
+    pub(super) functionals: Vec<usize>,
     /// Index in `ids` of each column.
-    columns: Vec<usize>,
+    pub(super) columns: Vec<usize>,
     /// Index in `ids` of curves that figures show beyond the columns.
-    shown: Vec<usize>,
+    pub(super) shown: Vec<usize>,
 }
 
 impl Watched {
-    fn of(study: &Study) -> Self {
+    pub(super) fn of(study: &Study) -> Self {
         let mut ids: Vec<Id> = Vec::new();
         let mut index = |id: Id| {
             ids.iter().position(|x| *x == id).unwrap_or_else(|| {
@@ -214,11 +225,12 @@ fn observe<G: Space<S = f64>>(
     if results.is_empty() && study.results.iter().any(|r| r == "turns_fully") {
         results.push(if complete { 1.0 } else { 0.0 });
     }
-    let mut functionals = Functionals { clock, motion: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
+    let ends = motion.ends;
+    let mut functionals = Functionals { clock, ends, curve: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
     let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
     let scalars =
-        evaluate(model, study, parameters, mechanism, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
-    let expectations = expectations(model, study, parameters, mechanism, &found, &results);
+        evaluate(model, parameters, &mechanism.tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
+    let expectations = expectations(model, study, parameters, &mechanism.tables, &found, &results);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     Ok(Outcome {
         stopped,
@@ -233,12 +245,13 @@ fn observe<G: Space<S = f64>>(
         expectations,
         findings: findings(mechanism, &motion),
         certificate: certificate(&mut motion, &rows),
-        scene: Some(scene::scene(&mut motion)),
+        events: Vec::new(),
+        scene: Some(scene::of_motion(&mut motion)),
     })
 }
 
 /// Extremes by the independent variable instead of progress.
-fn in_variable(mut e: Extremes, clock: Clock) -> Extremes {
+pub(super) fn in_variable(mut e: Extremes, clock: Clock) -> Extremes {
     e.min.at = clock.value(e.min.at);
     e.max.at = clock.value(e.max.at);
     e
@@ -268,17 +281,15 @@ fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock
 }
 
 /// Values of scalar expressions from functionals and results.
-fn evaluate<G: Space<S = f64>>(
+pub(super) fn evaluate(
     model: &Model,
-    study: &Study,
     parameters: &[f64],
-    mechanism: &Mechanism<G>,
+    tables: &Arc<[Table]>,
     ids: &[Id],
     functionals: &[f64],
     results: &[f64],
 ) -> Vec<f64> {
-    debug_assert_eq!(functionals.len(), study.functionals.len());
-    let program = model.pool.program(ids, parameters, &mechanism.tables);
+    let program = model.pool.program(ids, parameters, tables);
     let mut inputs = vec![f64::NAN; model.inputs.len()];
     for &i in program.inputs() {
         inputs[i as usize] = match model.inputs[i as usize] {
@@ -295,11 +306,11 @@ fn evaluate<G: Space<S = f64>>(
     out
 }
 
-fn expectations<G: Space<S = f64>>(
+pub(super) fn expectations(
     model: &Model,
     study: &Study,
     parameters: &[f64],
-    mechanism: &Mechanism<G>,
+    tables: &Arc<[Table]>,
     functionals: &[f64],
     results: &[f64],
 ) -> Vec<Checked> {
@@ -310,7 +321,7 @@ fn expectations<G: Space<S = f64>>(
             let tolerance_id = match e.tolerance {
                 Tolerance::Within(id) | Tolerance::Relative(id) => id,
             };
-            let x = evaluate(model, study, parameters, mechanism, &[e.value, e.is, tolerance_id], functionals, results);
+            let x = evaluate(model, parameters, tables, &[e.value, e.is, tolerance_id], functionals, results);
             let tolerance = match e.tolerance {
                 Tolerance::Within(_) => x[2],
                 Tolerance::Relative(_) => x[2] * x[1].abs(),

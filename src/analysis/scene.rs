@@ -3,7 +3,7 @@
 use super::continuous::Curve;
 use super::motion::Motion;
 use super::outcome::{Scene, SceneJoint};
-use crate::geometry::Space;
+use crate::geometry::{Pose, Space};
 use crate::mechanism::{Measured, Mechanism, StretchOf};
 
 /// Positions that are drawn.
@@ -13,10 +13,29 @@ const TRACE: usize = 240;
 /// Traces at most, so that a picture of a large mechanism stays readable.
 const TRACES: usize = 8;
 
-/// Outlines over the whole motion; positions that cannot be reached are left out.
+/// Outlines over a whole driven motion; positions that cannot be reached are left out.
 #[must_use]
-pub(super) fn scene<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene {
+pub(super) fn of_motion<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene {
     let mechanism = motion.driven.dynamics.mechanism;
+    let (ends, length) = (motion.ends, motion.clock.length);
+    // the last position of a full turn is the first one again
+    let whole_turn = (length - std::f64::consts::TAU).abs() < 1e-9;
+    let mut nothing = vec![0.0; motion.columns()];
+    scene(mechanism, ends, whole_turn, &mut |s| {
+        let piece = motion.breaks.partition_point(|b| *b <= s).clamp(1, motion.breaks.len() - 1) - 1;
+        motion.eval(s, piece, &mut nothing).ok()?;
+        Some(motion.driven.dynamics.work.poses.clone())
+    })
+}
+
+/// Outlines of a mechanism at a few places between two `ends` of its motion, with `poses` of the bodies anywhere between them.
+#[must_use]
+pub(super) fn scene<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    [low, high]: [f64; 2],
+    whole_turn: bool,
+    poses: &mut dyn FnMut(f64) -> Option<Vec<Pose<G>>>,
+) -> Scene {
     let mut scene = Scene {
         bodies: mechanism.bodies.iter().skip(1).map(|b| (b.name.clone(), vec![])).collect(),
         joints: mechanism
@@ -41,15 +60,9 @@ pub(super) fn scene<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene {
     scene.traces = traced.iter().map(|(name, ..)| (name.clone(), vec![])).collect();
     let view = View::new::<G>(mechanism);
 
-    let [low, high] = motion.ends;
-    let whole_turn = (motion.clock.length - std::f64::consts::TAU).abs() < 1e-9;
-    // the last position of a full turn is the first one again
     let divisions = if whole_turn { POSES } else { POSES - 1 };
     for i in 0..POSES {
-        if !go(motion, low + (high - low) * i as f64 / divisions as f64) {
-            continue;
-        }
-        let poses = &motion.driven.dynamics.work.poses;
+        let Some(poses) = poses(low + (high - low) * i as f64 / divisions as f64) else { continue };
         for (b, points) in outlines.iter().enumerate() {
             scene.bodies[b].1.push(points.iter().map(|p| view.flat::<G>(poses[b + 1].point(*p))).collect());
         }
@@ -69,20 +82,12 @@ pub(super) fn scene<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene {
         }
     }
     for i in 0..=TRACE {
-        if go(motion, low + (high - low) * i as f64 / TRACE as f64) {
-            for ((_, body, at), out) in traced.iter().zip(&mut scene.traces) {
-                out.1.push(view.flat::<G>(motion.driven.dynamics.point(*body, *at)));
-            }
+        let Some(poses) = poses(low + (high - low) * i as f64 / TRACE as f64) else { continue };
+        for ((_, body, at), out) in traced.iter().zip(&mut scene.traces) {
+            out.1.push(view.flat::<G>(poses[*body].point(*at)));
         }
     }
     scene
-}
-
-/// Evaluates the motion at a progress; false if it is not reached.
-fn go<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64) -> bool {
-    let piece = motion.breaks.partition_point(|b| *b <= s).clamp(1, motion.breaks.len() - 1) - 1;
-    let mut nothing = vec![0.0; motion.columns()];
-    motion.eval(s, piece, &mut nothing).is_ok()
 }
 
 /// Points that outline a body: joint points, ends of its bar and the user's points.

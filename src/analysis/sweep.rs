@@ -71,7 +71,7 @@ pub fn sweep(model: &Model, study: &Study, threads: usize, stop: impl Fn() -> bo
                 return Run { at: points[i].clone(), result: Err(Failure::Numerical("interrupted".into())) };
             }
             let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(points[i].iter().copied()).collect();
-            let result = run(model, study, &parameters_with(model, &set), Coordinates::Joint);
+            let result = run(model, study, &parameters_with(model, &set), Coordinates::Joint, &stop);
             Run { at: points[i].clone(), result }
         },
         done,

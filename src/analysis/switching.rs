@@ -1,6 +1,5 @@
 //! Modes of all expressions of a mechanism and its columns: set from a state, and how far each is from its switch.
 
-use super::driven::Driven;
 use super::observe::Observer;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -29,7 +28,7 @@ impl Switching {
     /// Scratch for a mechanism and its columns.
     #[must_use]
     pub fn new<G: Space<S = f64>>(mechanism: &Mechanism<G>, observer: &Observer<G>) -> Self {
-        let programs = programs(mechanism);
+        let programs = mechanism.programs();
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         Self {
             inputs: vec![0.0; most(|p| p.inputs)],
@@ -52,7 +51,7 @@ impl Switching {
     /// Modes of functions and forces at the state evaluated last.
     pub fn set_state<G: Space<S = f64>>(&mut self, dynamics: &Dynamics<'_, G>, modes: &mut [i32]) {
         let m = dynamics.mechanism;
-        for program in [&m.position_program, &m.velocity_program, &m.force_program] {
+        for program in [&m.position_program, &m.velocity_program, &m.force_program, &m.state_program] {
             if !program.program.switches().is_empty() {
                 self.fill(dynamics, program);
                 program.program.set_modes(&self.inputs, &mut self.registers, modes);
@@ -63,17 +62,17 @@ impl Switching {
     /// Every switch with its distance in the present modes, each number once, at the state evaluated last.
     pub fn distances<G: Space<S = f64>>(
         &mut self,
-        driven: &Driven<'_, G>,
+        dynamics: &Dynamics<'_, G>,
         observer: &mut Observer<G>,
         modes: &[i32],
         out: &mut Vec<Distance>,
     ) {
         out.clear();
-        for program in programs(driven.dynamics.mechanism) {
+        for program in dynamics.mechanism.programs() {
             if program.program.switches().is_empty() {
                 continue;
             }
-            self.fill(&driven.dynamics, program);
+            self.fill(dynamics, program);
             let switches = program.program.switches();
             program.program.roots(&self.inputs, modes, &mut self.registers, &mut self.roots[..switches.len()]);
             for (k, &switch) in switches.iter().enumerate() {
@@ -94,10 +93,6 @@ impl Switching {
             self.inputs[input] = dynamics.leaf(leaf);
         }
     }
-}
-
-fn programs<G: Space>(m: &Mechanism<G>) -> [&StagedProgram; 4] {
-    [&m.time_program, &m.position_program, &m.velocity_program, &m.force_program]
 }
 
 fn push(out: &mut Vec<Distance>, distance: Distance) {

@@ -1,6 +1,7 @@
 //! The commands: what is printed, what is written, and the exit code. Nothing else of the program prints, reads a clock or exits.
 
 mod check;
+mod compare;
 mod completions;
 mod figures;
 mod files;
@@ -9,8 +10,10 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod schemes;
 mod study;
 mod units;
+mod verify;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::{IsTerminal, Write};
@@ -21,7 +24,7 @@ use std::process::ExitCode;
 pub(crate) mod code {
     /// All done.
     pub(crate) const DONE: u8 = 0;
-    /// An expectation is not met, or `check --strict` has findings.
+    /// An expectation is not met, `run --verify` finds no digit that stands, or `check --strict` has findings.
     pub(crate) const UNMET: u8 = 1;
     /// Usage, file or model.
     pub(crate) const INPUT: u8 = 2;
@@ -33,7 +36,7 @@ pub(crate) mod code {
 
 const CODES: &str = "Exit codes:
   0    done (rows of a sweep that failed for a stated reason included)
-  1    an `expect:` is not met, or `check --strict` has findings
+  1    an `expect:` is not met, `run --verify` finds no digit that stands, or `check --strict` has findings
   2    usage, file or model: nothing was computed
   3    numerical failure of a study, or of all runs of a sweep; rows up to there are kept
   130  interrupted";
@@ -88,6 +91,11 @@ enum Command {
         after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out"
     )]
     Run(run::Arguments),
+    /// Run a motion in time by several integrators and compare error, time and work
+    #[command(
+        after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study motion --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
+    )]
+    Compare(compare::Arguments),
     /// Look a model over: topology, freedom, redundant rows, masses, start
     #[command(after_help = "Examples:\n  grashof check models/crank_rocker.yaml\n  grashof check my.yaml --strict --json")]
     Check(check::Arguments),
@@ -117,6 +125,7 @@ pub(crate) fn main() -> ExitCode {
     };
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
+        Command::Compare(arguments) => compare::compare(arguments, &cli.common),
         Command::Check(arguments) => check::check(arguments, &cli.common),
         Command::New(arguments) => new::new(arguments),
         Command::Schema => schema::print(),

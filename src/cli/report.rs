@@ -32,7 +32,8 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
         value: *value,
         unit: unit(model, s.value, s.dimension),
     });
-    results.chain(own).collect()
+    let taken = study.take.iter().map(|t| Scalar { name: t.name.clone(), value: t.value, unit: t.dimension.si() });
+    taken.chain(results).chain(own).collect()
 }
 
 /// Results of kinematic kinds are lengths (balance) or counts.
@@ -55,7 +56,7 @@ pub(super) fn summary(model: &Model, study: &Study, outcome: &Outcome) -> String
             n => format!(", {n} switches"),
         }
     );
-    head + &output::summary(&scalars)
+    head + &march(outcome) + &output::summary(&scalars)
 }
 
 fn shown(x: Option<&f64>) -> String {
@@ -92,13 +93,53 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
 }
 
 fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
-    let c = outcome.certificate;
-    vec![
-        ("rows".into(), json_number(c.evaluations as f64)),
-        ("switches".into(), json_number(c.switches as f64)),
-        ("constraint_residual".into(), json_number(c.constraint)),
-        ("power_balance".into(), json_number(c.power_balance)),
-    ]
+    let c = &outcome.certificate;
+    let number = |name: &str, x: f64| (name.to_string(), json_number(x));
+    let count = |name: &str, n: usize| (name.to_string(), json_number(n as f64));
+    let mut all = vec![count("rows", c.evaluations), count("switches", c.switches), number("constraint_residual", c.constraint)];
+    let Some(m) = &c.march else {
+        all.push(number("power_balance", c.power_balance));
+        return all;
+    };
+    all.push(number("velocity_residual", m.velocity));
+    all.push(("integrator".into(), Value::String(m.schemes.clone())));
+    all.extend([
+        number("energy_drift", m.energy_drift),
+        number("energy_scale", m.energy_scale),
+        number("work_drivers", m.drivers),
+        number("work_loads", m.loads),
+        number("work_dampers", m.dampers),
+        number("work_impacts", m.impacts),
+        count("steps", m.counts.steps),
+        count("rejected", m.counts.rejected),
+        count("evaluations", m.counts.evaluations),
+        count("tangents", m.counts.tangents),
+        count("factorisations", m.counts.factorisations),
+        count("events", m.counts.events),
+        count("bridges", m.counts.bridges),
+        count("stepped_over", m.counts.stepped_over),
+    ]);
+    all
+}
+
+/// The certificate of a motion in time in three lines: energy, constraints, work.
+fn march(outcome: &Outcome) -> String {
+    let Some(m) = &outcome.certificate.march else { return String::new() };
+    let (c, k) = (&outcome.certificate, &m.counts);
+    let works: Vec<String> = [("drivers", m.drivers), ("loads", m.loads), ("dampers", m.dampers), ("impacts", m.impacts)]
+        .iter()
+        .filter(|(_, x)| x.abs() > 1e-12 * m.energy_scale)
+        .map(|(name, x)| format!("{name} {x:+.6} J"))
+        .collect();
+    let works = if works.is_empty() { String::new() } else { format!("; {}", works.join(", ")) };
+    let relative = if m.energy_scale > 0.0 { m.energy_drift / m.energy_scale } else { 0.0 };
+    let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));
+    let bridges = if k.bridges > 0 { format!(", {} bridges over singular positions", k.bridges) } else { String::new() };
+    let over = if k.stepped_over > 0 { format!(", {} switches stepped over", k.stepped_over) } else { String::new() };
+    format!(
+        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n",
+        m.energy_drift, m.energy_scale, c.constraint, m.velocity, m.schemes, k.steps, k.rejected, k.evaluations, k.factorisations, k.events
+    )
 }
 
 /// One row a run: swept parameters, results, scalars, reason.

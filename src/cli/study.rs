@@ -53,7 +53,7 @@ impl Job<'_> {
 
     /// A study of one run.
     fn single(&self, study: &Study) -> Finished {
-        let outcome = match run(self.model, study, &sweep::parameters(self.model), Coordinates::Joint) {
+        let outcome = match run(self.model, study, &sweep::parameters(self.model), Coordinates::Joint, &interrupted) {
             Ok(outcome) => outcome,
             Err(failure) => {
                 let code = self.explain(&failure);
@@ -63,8 +63,16 @@ impl Job<'_> {
         let mut code = code::DONE;
         if let Some(reason) = &outcome.stopped {
             let message = format!("study `{}` stopped on its way: {reason}", self.study);
-            self.tell_at("stopped", &study.place, message, "start elsewhere, change the lengths, or give a shorter range");
-            code = code::NUMERICAL;
+            let help = match study.kind {
+                Kind::Dynamics(_) => "what was computed up to there is kept; look at its last rows",
+                _ => "start elsewhere, change the lengths, or give a shorter range",
+            };
+            if interrupted() {
+                tell(&message);
+            } else {
+                self.tell_at("stopped", &study.place, message, help);
+            }
+            code = if interrupted() { code::INTERRUPTED } else { code::NUMERICAL };
         } else {
             code = code.max(self.expectations(&outcome));
         }
@@ -163,7 +171,8 @@ impl Job<'_> {
     }
 
     fn write(&self, staging: &Staging, code: u8, output: Output) -> Finished {
-        if interrupted() {
+        // a motion that was interrupted on its way keeps what it has; anything else is whole or absent
+        if interrupted() && code != code::INTERRUPTED {
             return Finished { code: code::INTERRUPTED, output: None };
         }
         match staging.commit(self.directory, self.study, self.studies) {
@@ -224,13 +233,12 @@ fn later(study: &Study) -> Option<Failure> {
     let (what, place) = match study.kind {
         Kind::Later(kind) => (format!("studies of the kind `{kind}`"), study.place.clone()),
         _ if study.solve.is_some() => ("`solve`".to_string(), beside("solve")),
-        _ if !study.take.is_empty() => ("`take`".to_string(), beside("take")),
         _ => return None,
     };
     Some(Failure::Study {
         code: "later",
         message: format!("{what} cannot be computed yet"),
         place,
-        help: "name the studies to run with `--study`; `kinematics`, `inverse`, `balance` and sweeps of them are there".into(),
+        help: "name the studies to run with `--study`; `kinematics`, `inverse`, `balance`, `dynamics` and sweeps of them are there".into(),
     })
 }

@@ -21,6 +21,16 @@ impl<G: Space> Dynamics<'_, G> {
         self.efforts();
     }
 
+    /// ż; after [`Dynamics::loads`].
+    pub fn rates(&mut self, modes: &[i32]) {
+        let program = &self.mechanism.state_program;
+        if program.outputs > 0 {
+            self.fill(program);
+            let w = &mut self.work;
+            program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.zdot);
+        }
+    }
+
     /// [`Dynamics::loads`] and f.
     pub fn forces(&mut self, modes: &[i32]) {
         self.loads(modes);

@@ -224,6 +224,7 @@ impl<G: Space> Dynamics<'_, G> {
             Leaf::Stretch { spring, order: 0 } => self.extent(self.mechanism.stretches[spring].of) - self.mechanism.stretches[spring].rest,
             Leaf::Stretch { spring, .. } => self.extent_rate(self.mechanism.stretches[spring].of),
             Leaf::Spin { body, axis } => G::spin_component(w.twists[body].w, axis),
+            Leaf::State(state) => w.z[state],
         }
     }
 

@@ -5,21 +5,12 @@
 
 use super::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Gauge, Leaf, Mechanism, Step, StretchOf};
+use crate::mechanism::{Leaf, Mechanism, StagedProgram, StretchOf};
 use crate::scalar::{Dual, Scalar};
-use grashof_solvers::{Coloring, Sparsity};
+use grashof_solvers::{Coloring, Sparsity, Tangent};
 
 /// Directions carried in one pass.
 pub const LANES: usize = 4;
-
-/// Dense tangents, row by row (nv × nv).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tangents {
-    /// K = ∂r/∂q.
-    pub k: Vec<f64>,
-    /// C = ∂r/∂v.
-    pub c: Vec<f64>,
-}
 
 /// A state with accelerations and multipliers.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +21,8 @@ pub struct Point<'a> {
     pub q: &'a [f64],
     /// Velocities (nv).
     pub v: &'a [f64],
+    /// First-order states (nz).
+    pub z: &'a [f64],
     /// Accelerations (nv).
     pub a: &'a [f64],
     /// Multipliers (rows).
@@ -42,96 +35,182 @@ pub struct Point<'a> {
 #[must_use]
 pub fn pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
     let mut groups: Vec<Vec<usize>> = m.bodies.iter().map(|b| b.path.clone()).collect();
-    let of_gauge = |g: &Gauge<G>| [m.bodies[g.a].path.clone(), m.bodies[g.b].path.clone()].concat();
-    groups.extend(m.gauges[..m.active_gauges].iter().map(of_gauge));
+    groups.extend((0..m.active_gauges).map(|g| of_gauge(m, g)));
     for f in &m.functions {
-        groups.push(f.gauges.iter().flat_map(|&g| of_gauge(&m.gauges[g])).collect());
+        groups.push(f.gauges.iter().flat_map(|&g| of_gauge(m, g)).collect());
     }
-    let of_stretch = |of: StretchOf| match of {
-        StretchOf::Gauge(g) => of_gauge(&m.gauges[g]),
-        StretchOf::Function(f) => m.functions[f].gauges.iter().flat_map(|&g| of_gauge(&m.gauges[g])).collect(),
-    };
     // a force given by a program may depend on every input of it and acts on its bodies
-    let mut law: Vec<usize> = Vec::new();
-    for &(_, leaf) in &m.force_program.fills {
-        match leaf {
-            Leaf::Time => {}
-            Leaf::Gauge { gauge, .. } => law.extend(of_gauge(&m.gauges[gauge])),
-            Leaf::Stretch { spring, .. } => law.extend(of_stretch(m.stretches[spring].of)),
-            Leaf::Spin { body, .. } => law.extend(&m.bodies[body].path),
-        }
-    }
+    let law = known_by(m, &m.force_program);
     if m.force_program.outputs > 0 {
         for pull in &m.pulls {
             groups.push([law.clone(), m.bodies[pull.body].path.clone(), m.bodies[pull.frame].path.clone()].concat());
         }
         for effort in &m.efforts {
-            groups.push([law.clone(), of_stretch(effort.along)].concat());
+            groups.push([law.clone(), of_stretch(m, effort.along)].concat());
         }
     }
     Sparsity::new(m.nv, m.nv, groups.iter().flat_map(|g| g.iter().flat_map(move |&i| g.iter().map(move |&k| (i, k)))))
 }
 
-/// K and C at a point, by an evaluator of the lifted mechanism; `coloring` is of [`pattern`].
-pub fn tangents<G, D>(lifted: &mut Dynamics<'_, D>, coloring: &Coloring, pattern: &Sparsity, at: &Point<'_>, out: &mut Tangents)
-where
-    G: Space<Lift<Dual<LANES>> = D>,
-    D: Space<S = Dual<LANES>>,
-{
-    let nv = lifted.mechanism.nv;
-    out.k.clear();
-    out.k.resize(nv * nv, 0.0);
-    out.c.clear();
-    out.c.resize(nv * nv, 0.0);
-    let constant = |x: &[f64]| x.iter().map(|x| Dual::constant(*x)).collect::<Vec<Dual<LANES>>>();
-    let (a, lambda) = (constant(at.a), constant(at.lambda));
-    let mut r = vec![Dual::constant(0.0); nv];
-    for first in (0..coloring.count).step_by(LANES) {
-        let lane = |k: usize| coloring.color[k].checked_sub(first).filter(|l| *l < LANES);
-        for velocity in [false, true] {
-            let (mut q, mut v) = (constant(at.q), constant(at.v));
-            if velocity {
-                for (k, v) in v.iter_mut().enumerate() {
-                    if let Some(l) = lane(k) {
-                        v.d[l] = 1.0;
-                    }
-                }
+/// Columns that a gauge knows.
+fn of_gauge<G: Space>(m: &Mechanism<G>, gauge: usize) -> Vec<usize> {
+    let g = &m.gauges[gauge];
+    [m.bodies[g.a].path.clone(), m.bodies[g.b].path.clone()].concat()
+}
+
+/// Columns that a stretch knows.
+fn of_stretch<G: Space>(m: &Mechanism<G>, of: StretchOf) -> Vec<usize> {
+    match of {
+        StretchOf::Gauge(g) => of_gauge(m, g),
+        StretchOf::Function(f) => m.functions[f].gauges.iter().flat_map(|&g| of_gauge(m, g)).collect(),
+    }
+}
+
+/// Columns that a program knows by its inputs.
+fn known_by<G: Space>(m: &Mechanism<G>, program: &StagedProgram) -> Vec<usize> {
+    let mut columns = Vec::new();
+    for &(_, leaf) in &program.fills {
+        match leaf {
+            Leaf::Time | Leaf::State(_) => {}
+            Leaf::Gauge { gauge, .. } => columns.extend(of_gauge(m, gauge)),
+            Leaf::Stretch { spring, .. } => columns.extend(of_stretch(m, m.stretches[spring].of)),
+            Leaf::Spin { body, .. } => columns.extend(&m.bodies[body].path),
+        }
+    }
+    columns
+}
+
+/// Exact tangents of a mechanism; sized once, then free of allocation.
+#[derive(Clone, Debug)]
+pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
+    dynamics: Dynamics<'m, D>,
+    pattern: Sparsity,
+    coloring: Coloring,
+    q: Vec<Dual<LANES>>,
+    v: Vec<Dual<LANES>>,
+    a: Vec<Dual<LANES>>,
+    lambda: Vec<Dual<LANES>>,
+    r: Vec<Dual<LANES>>,
+    /// A unit velocity, the coordinates, and N(q) of it.
+    unit: Vec<f64>,
+    plain: Vec<f64>,
+    qdot: Vec<f64>,
+}
+
+impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
+    /// A linearizer of the lifted mechanism.
+    #[must_use]
+    pub fn new(lifted: &'m Mechanism<D>) -> Self {
+        let (nq, nv, nz, rows) = (lifted.nq, lifted.nv, lifted.state_starts.len(), lifted.rows.len());
+        let pattern = pattern(lifted);
+        // the rates of states are further rows: every one may know what their program knows
+        let known = known_by(lifted, &lifted.state_program);
+        let entries = (0..nv).flat_map(|k| pattern.column(k).iter().map(move |&i| (i, k)));
+        let states = (0..nz).flat_map(|j| known.iter().map(move |&k| (nv + j, k)));
+        let coloring = Coloring::new(&Sparsity::new(nv + nz, nv, entries.chain(states)));
+        let zeros = |n: usize| vec![Dual::constant(0.0); n];
+        Self {
+            dynamics: Dynamics::new(lifted),
+            pattern,
+            coloring,
+            q: zeros(nq),
+            v: zeros(nv),
+            a: zeros(nv),
+            lambda: zeros(rows),
+            r: zeros(nv),
+            unit: vec![0.0; nv],
+            plain: vec![0.0; nq],
+            qdot: vec![0.0; nq],
+        }
+    }
+
+    /// K, C, ∂r/∂z and the derivatives of ż at a point; ∂r/∂λ is Gᵀ, so that `r_lambda` stays zero.
+    pub fn tangents(&mut self, at: &Point<'_>, out: &mut Tangent) {
+        for (lifted, plain) in [(&mut self.a, at.a), (&mut self.lambda, at.lambda)] {
+            constants(lifted, plain);
+        }
+        self.plain.copy_from_slice(at.q);
+        for first in (0..self.coloring.count).step_by(LANES) {
+            self.columns(first, false, at, out);
+            self.columns(first, true, at, out);
+        }
+        for first in (0..at.z.len()).step_by(LANES) {
+            self.states(first, at, out);
+        }
+    }
+
+    /// Columns whose colours are in the lanes from `first` on, by q or by v.
+    fn columns(&mut self, first: usize, by_velocity: bool, at: &Point<'_>, out: &mut Tangent) {
+        let (nv, nz) = (at.v.len(), at.z.len());
+        constants(&mut self.q, at.q);
+        constants(&mut self.v, at.v);
+        for k in 0..nv {
+            let Some(l) = lane(&self.coloring, first, k) else { continue };
+            if by_velocity {
+                self.v[k].d[l] = 1.0;
             } else {
-                seed(lifted.mechanism, &mut q, lane);
+                self.seed(k, l);
             }
-            lifted.terms(Dual::constant(at.t), &q, &v, at.modes);
-            lifted.residual(&a, &lambda, &mut r);
-            let target = if velocity { &mut out.c } else { &mut out.k };
-            for k in 0..nv {
-                if let Some(l) = lane(k) {
-                    for &i in pattern.column(k) {
-                        target[i * nv + k] = r[i].d[l];
-                    }
-                }
+        }
+        constants(&mut self.dynamics.work.z, at.z);
+        self.evaluate(at);
+        let (target, states) = if by_velocity { (&mut out.c, &mut out.z_v) } else { (&mut out.k, &mut out.z_q) };
+        for k in 0..nv {
+            let Some(l) = lane(&self.coloring, first, k) else { continue };
+            for &i in self.pattern.column(k) {
+                target[i * nv + k] = self.r[i].d[l];
+            }
+            for j in 0..nz {
+                states[j * nv + k] = self.dynamics.work.zdot[j].d[l];
+            }
+        }
+    }
+
+    /// Derivatives by the states in the lanes from `first` on.
+    fn states(&mut self, first: usize, at: &Point<'_>, out: &mut Tangent) {
+        let nz = at.z.len();
+        constants(&mut self.q, at.q);
+        constants(&mut self.v, at.v);
+        constants(&mut self.dynamics.work.z, at.z);
+        let last = nz.min(first + LANES);
+        for j in first..last {
+            self.dynamics.work.z[j].d[j - first] = 1.0;
+        }
+        self.evaluate(at);
+        for j in first..last {
+            for (i, r) in self.r.iter().enumerate() {
+                out.r_z[i * nz + j] = r.d[j - first];
+            }
+            for (i, rate) in self.dynamics.work.zdot.iter().enumerate() {
+                out.z_z[i * nz + j] = rate.d[j - first];
+            }
+        }
+    }
+
+    fn evaluate(&mut self, at: &Point<'_>) {
+        self.dynamics.terms(Dual::constant(at.t), &self.q, &self.v, at.modes);
+        self.dynamics.rates(at.modes);
+        self.dynamics.residual(&self.a, &self.lambda, &mut self.r);
+    }
+
+    /// The derivative of q ⊕ ε e_k in a lane: 1 for an axis, ½ q∘(0, e) for a quaternion.
+    fn seed(&mut self, k: usize, lane: usize) {
+        self.unit.fill(0.0);
+        self.unit[k] = 1.0;
+        self.dynamics.mechanism.rate(&self.plain, &self.unit, &mut self.qdot);
+        for (q, d) in self.q.iter_mut().zip(&self.qdot) {
+            if *d != 0.0 {
+                q.d[lane] = *d;
             }
         }
     }
 }
 
-/// Derivatives of q ⊕ ε e_k in the lanes of the columns: 1 for an axis, ½ q∘(0, e) for a quaternion.
-fn seed<D: Space<S = Dual<LANES>>>(mechanism: &Mechanism<D>, q: &mut [Dual<LANES>], lane: impl Fn(usize) -> Option<usize>) {
-    let mut qdot = vec![0.0; mechanism.nq];
-    let plain: Vec<f64> = q.iter().map(|x| x.x).collect();
-    for step in &mechanism.steps {
-        let (first, columns) = match *step {
-            Step::Axis { v, .. } => (v, 1),
-            Step::Ball { v, .. } => (v, 3),
-        };
-        for k in first..first + columns {
-            let Some(l) = lane(k) else { continue };
-            let mut e = vec![0.0; mechanism.nv];
-            e[k] = 1.0;
-            mechanism.rate(&plain, &e, &mut qdot);
-            for (q, d) in q.iter_mut().zip(&qdot) {
-                if *d != 0.0 {
-                    q.d[l] = *d;
-                }
-            }
-        }
-    }
+/// The lane of column k among those from `first` on.
+fn lane(coloring: &Coloring, first: usize, k: usize) -> Option<usize> {
+    coloring.color[k].checked_sub(first).filter(|l| *l < LANES)
+}
+
+fn constants(out: &mut [Dual<LANES>], x: &[f64]) {
+    out.iter_mut().zip(x).for_each(|(out, x)| *out = Dual::constant(*x));
 }

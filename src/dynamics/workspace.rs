@@ -52,6 +52,10 @@ pub struct Workspace<G: Space> {
     pub efforts: Vec<G::S>,
     /// Outputs of the force program.
     pub force_outputs: Vec<G::S>,
+    /// First-order states z (nz): written by the caller before `loads`.
+    pub z: Vec<G::S>,
+    /// ż (nz).
+    pub zdot: Vec<G::S>,
     /// Right-hand side f (nv).
     pub force: Vec<G::S>,
     /// Mass matrix M, row by row (nv × nv).
@@ -74,7 +78,7 @@ impl<G: Space> Workspace<G> {
     pub fn new(mechanism: &Mechanism<G>) -> Self {
         let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
-        let programs = [&mechanism.time_program, &mechanism.position_program, &mechanism.velocity_program, &mechanism.force_program];
+        let programs = mechanism.programs();
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         Self {
             motions: zeros(mechanism.time_program.outputs),
@@ -96,6 +100,8 @@ impl<G: Space> Workspace<G> {
             unbalanced: vec![Force::default(); bodies],
             efforts: zeros(mechanism.efforts.len()),
             force_outputs: zeros(mechanism.force_program.outputs),
+            z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
+            zdot: zeros(mechanism.state_starts.len()),
             force: zeros(nv),
             mass: zeros(nv * nv),
             sums: vec![Force::default(); bodies],

@@ -38,6 +38,7 @@ impl Pool {
             }
             let new = match node {
                 Node::Parameter(i) => copy.constant(parameters.get(i as usize).copied().unwrap_or(f64::NAN)),
+                Node::Input(i) if self.given(i).is_some() => copy.constant(self.given(i).unwrap_or(f64::NAN)),
                 Node::Table { table, order, x, .. } => match (copy.constant_value(of(x)), tables.get(table as usize)) {
                     (Some(x), Some(table)) => copy.constant(table.eval(x, table.segment(x), order)),
                     _ => copy.simplify(node.map(of)),

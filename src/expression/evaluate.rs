@@ -34,7 +34,7 @@ impl Pool {
         match node {
             Node::Const(bits) => f64::from_bits(bits),
             Node::Parameter(i) => parameters.get(i as usize).copied().unwrap_or(f64::NAN),
-            Node::Input(_) => f64::NAN,
+            Node::Input(i) => self.given(i).unwrap_or(f64::NAN),
             Node::Neg(a) => -value(a),
             Node::Add(a, b) => value(a) + value(b),
             Node::Sub(a, b) => value(a) - value(b),

@@ -191,6 +191,8 @@ pub struct Pool {
     pub(super) conditions: Vec<bool>,
     pub(super) switches: Vec<Switch>,
     pub(super) switch_index: HashMap<Test, u32>,
+    /// Inputs that are numbers known beforehand.
+    pub(super) given: Vec<(u32, f64)>,
 }
 
 impl Pool {
@@ -225,6 +227,17 @@ impl Pool {
             Node::Const(bits) => Some(f64::from_bits(bits)),
             _ => None,
         }
+    }
+
+    /// Makes an input a number: values and programs see it as a constant from now on.
+    pub fn give(&mut self, input: u32, value: f64) {
+        self.given.retain(|(known, _)| *known != input);
+        self.given.push((input, value));
+    }
+
+    /// The number that an input was given.
+    pub(super) fn given(&self, input: u32) -> Option<f64> {
+        self.given.iter().find(|(known, _)| *known == input).map(|(_, value)| *value)
     }
 
     /// Every switch; a node's `switch` and a program's modes count in this list.

@@ -60,6 +60,7 @@ pub fn build<G: Space>(model: &Model, parameters: &[f64], coordinates: Coordinat
     }
     builder.constraints();
     builder.forces();
+    builder.states();
     builder.gauges_of_programs();
     builder.mechanism.active_gauges = builder.mechanism.gauges.len();
     builder.remaining_slots();
@@ -86,6 +87,7 @@ struct Builder<'m, G: Space> {
     velocity: Vec<Id>,
     time: Vec<Id>,
     force: Vec<Id>,
+    states: Vec<Id>,
     faults: Vec<BuildFault>,
 }
 

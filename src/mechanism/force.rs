@@ -30,6 +30,8 @@ pub enum Leaf {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// A first-order state.
+    State(usize),
 }
 
 /// A program with the sources of its inputs.

@@ -64,7 +64,7 @@ pub enum Measured<G: Space> {
     },
     /// Planar: unwrapped angle of b relative to a, rad.
     Angle,
-    /// Spatial: angle of the direction f of b in the plane (e₁, e₂) of a, rad; `winding` is the mode that counts turns.
+    /// Spatial: angle of the direction f of b in the plane (e₁, e₂) of a, rad; `winding` is the mode that counts half turns.
     Turn {
         /// First direction in a.
         e1: G::Vector,
@@ -153,7 +153,10 @@ impl<G: Space> Gauge<G> {
             Measured::Turn { e1, e2, f, winding } => {
                 let (e1, e2, f) = (G::rotate(xa.r, e1), G::rotate(xa.r, e2), G::rotate(xb.r, f));
                 let (c, s) = (G::dot(f, e1), G::dot(f, e2));
-                out.x = s.atan2(c) + G::S::constant(self.shift + std::f64::consts::TAU * f64::from(windings[winding]));
+                // measured from the half turn counted, so that the value is smooth a quarter turn beyond it on either side
+                let half = windings[winding];
+                let sign = if half & 1 == 0 { 1.0 } else { -1.0 };
+                out.x = s.scale(sign).atan2(c.scale(sign)) + G::S::constant(self.shift + std::f64::consts::PI * f64::from(half));
                 // θ̇ = (c ṡ − s ċ)/(c² + s²)
                 let k = G::S::constant(1.0) / (c * c + s * s);
                 out.wrench = Force::couple((G::moment(f, e2) * c - G::moment(f, e1) * s) * k);

@@ -124,6 +124,10 @@ pub struct Mechanism<G: Space> {
     pub time_program: StagedProgram,
     /// Forces of loads, springs with laws and motors.
     pub force_program: StagedProgram,
+    /// ż of the first-order states.
+    pub state_program: StagedProgram,
+    /// First-order states at the start.
+    pub state_starts: Vec<f64>,
     /// Tables of the model as numbers, shared with the programs of outputs.
     pub tables: Arc<[Table]>,
     /// Gravity, m/s².
@@ -145,6 +149,12 @@ impl<G: Space> Mechanism<G> {
             }
         }
         q
+    }
+
+    /// Its programs by stage: time, position, velocity, forces, states.
+    #[must_use]
+    pub fn programs(&self) -> [&StagedProgram; 5] {
+        [&self.time_program, &self.position_program, &self.velocity_program, &self.force_program, &self.state_program]
     }
 
     /// Modes before anything is known of the state: all 0.
@@ -176,6 +186,23 @@ impl<G: Space> Mechanism<G> {
                     for (out, x) in qdot[*i..i + 4].iter_mut().zip(half) {
                         *out = 0.5 * x;
                     }
+                }
+            }
+        }
+    }
+
+    /// q := the solution of q = q̂ + N(q) u, q̂ coming in by `q` (nq), u (nv).
+    ///
+    /// For a quaternion q − ½ q∘(0, u) = q̂, so q = q̂∘(1, u/2)/(1 + |u|²/4), since (1, −u/2)∘(1, u/2) = 1 + |u|²/4.
+    pub fn displace(&self, q: &mut [f64], u: &[f64]) {
+        for step in &self.steps {
+            match step {
+                Step::Axis { q: i, v: k, .. } => q[*i] += u[*k],
+                Step::Ball { q: i, v: k, .. } => {
+                    let half = [0.5 * u[*k], 0.5 * u[k + 1], 0.5 * u[k + 2]];
+                    let product = multiply_quaternion([q[*i], q[i + 1], q[i + 2], q[i + 3]], [1.0, half[0], half[1], half[2]]);
+                    let size = 1.0 + half.iter().map(|x| x * x).sum::<f64>();
+                    q[*i..i + 4].iter_mut().zip(product).for_each(|(q, x)| *q = x / size);
                 }
             }
         }
@@ -234,6 +261,8 @@ impl<G: Space> Mechanism<G> {
             velocity_program: self.velocity_program.clone(),
             time_program: self.time_program.clone(),
             force_program: self.force_program.clone(),
+            state_program: self.state_program.clone(),
+            state_starts: self.state_starts.clone(),
             tables: Arc::clone(&self.tables),
             gravity: G::lift_vector::<D>(self.gravity),
             switches: self.switches,

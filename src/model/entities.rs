@@ -51,8 +51,12 @@ pub struct Model {
     pub springs: Vec<Spring>,
     /// Motors in file order.
     pub motors: Vec<Motor>,
+    /// First-order states in file order; [`Quantity::State`] counts them.
+    pub states: Vec<FirstOrder>,
     /// Measures in file order.
     pub measures: Vec<Measure>,
+    /// Events in file order.
+    pub events: Vec<Event>,
     /// Entries of `start` in file order.
     pub start: Vec<Start>,
     /// The study that the model was merged for, if any.
@@ -200,27 +204,19 @@ pub struct Joint {
     pub zero: Option<Id>,
     /// `damping`, N m s/rad or N s/m.
     pub damping: Option<Id>,
-    /// `friction: { coulomb, stick_speed }`.
-    pub friction: Option<(Id, Option<Id>)>,
-    /// `limits: { from, to, stiffness, damping }`.
-    pub limits: Option<Limits>,
+    /// Force or torque of the end stops (`limits`) on the second body along the coordinate, by coordinate and rate; N or N m.
+    ///
+    /// Below `from`: max(0, stiffness · (from − x) − damping · x'); above `to`: min(0, stiffness · (to − x) − damping · x').
+    /// A stop pushes and never pulls.
+    pub limit_force: Option<Id>,
+    /// Dry friction of a given size, −coulomb · clamp(x'/`stick_speed`, −1, 1), on the second body along the coordinate; N or N m.
+    pub friction_force: Option<Id>,
+    /// Dry friction by a coefficient, whose size depends on the reaction: coefficient and `stick_speed` (rad/s or m/s).
+    pub friction_coefficient: Option<(Id, Option<Id>)>,
     /// `cut: true`: keep this joint off the spanning tree.
     pub cut: bool,
     /// Where it stands.
     pub place: Place,
-}
-
-/// End stops of a joint.
-#[derive(Clone, Debug)]
-pub struct Limits {
-    /// Lower end.
-    pub from: Option<Id>,
-    /// Upper end.
-    pub to: Option<Id>,
-    /// Stiffness of the stop.
-    pub stiffness: Option<Id>,
-    /// Damping of the stop.
-    pub damping: Option<Id>,
 }
 
 /// Kind of a joint.
@@ -329,6 +325,22 @@ pub enum LoadOn {
     Joint { joint: usize, effort: Id },
 }
 
+impl Model {
+    /// Puts numbers for the scalars that the study takes from others, in the order of its `take`.
+    pub fn give(&mut self, taken: &[f64]) {
+        for (input, quantity) in self.inputs.iter().enumerate() {
+            if let Quantity::Taken(k) = quantity
+                && let Some(value) = taken.get(*k)
+            {
+                self.pool.give(input as u32, *value);
+            }
+        }
+        if let Some(study) = &mut self.study {
+            study.take.iter_mut().zip(taken).for_each(|(take, value)| take.value = *value);
+        }
+    }
+}
+
 /// A spring, damper or both.
 #[derive(Clone, Debug)]
 pub struct Spring {
@@ -398,6 +410,61 @@ pub struct Measure {
     pub value: Id,
     /// Where it stands.
     pub place: Place,
+}
+
+/// A first-order state x with x' = rate: a current, a temperature, a signal behind a filter.
+#[derive(Clone, Debug)]
+pub struct FirstOrder {
+    /// Its name.
+    pub name: String,
+    /// Its dimension, that of `start`.
+    pub dimension: Dimension,
+    /// Its value at t = 0, of parameters and tables; 0 if silent.
+    pub start: Id,
+    /// Its time rate, of positions, velocities, t, springs and states.
+    pub rate: Id,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What happens where an expression crosses zero.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Its name.
+    pub name: String,
+    /// What crosses zero.
+    pub when: Id,
+    /// In which direction it counts.
+    pub crossing: Crossing,
+    /// `action: stop`: the run ends there.
+    pub stop: bool,
+    /// Parameters that change there, by index in [`Model::parameters`], and their new values. All are taken from the state
+    /// and the parameters before the event.
+    pub set: Vec<(usize, Id)>,
+    /// An impact in a joint.
+    pub restitution: Option<Restitution>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Direction in which an event's expression crosses zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// Either way.
+    Both,
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+}
+
+/// An impact: the rate of a joint's coordinate after it is −e times the rate before.
+#[derive(Clone, Copy, Debug)]
+pub struct Restitution {
+    /// The joint; it has one coordinate.
+    pub joint: usize,
+    /// Coefficient of restitution, of what is known before the impact.
+    pub e: Id,
 }
 
 /// One entry of `start`.

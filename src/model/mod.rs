@@ -30,7 +30,7 @@ pub use document::{Document, Selection};
 pub use entities::*;
 pub use schema::schema;
 pub use study::*;
-pub use vocabulary::{Level, Quantity};
+pub use vocabulary::{Known, Quantity};
 
 #[cfg(test)]
 mod tests;

@@ -42,6 +42,7 @@ pub(crate) enum Entity {
     Load(usize),
     Spring(usize),
     Motor(usize),
+    State(usize),
     Measure(usize),
     Event(usize),
 }
@@ -59,6 +60,7 @@ impl Entity {
             Self::Load(_) => "a load",
             Self::Spring(_) => "a spring",
             Self::Motor(_) => "a motor",
+            Self::State(_) => "a state",
             Self::Measure(_) => "a measure",
             Self::Event(_) => "an event",
         }
@@ -69,7 +71,7 @@ impl Entity {
 type Section = (&'static str, fn(usize) -> Entity);
 
 /// The sections whose keys share the name space. Body 0 is the ground.
-const SECTIONS: [Section; 11] = [
+const SECTIONS: [Section; 12] = [
     ("parameters", Entity::Parameter),
     ("tables", Entity::Table),
     ("bodies", |i| Entity::Body(i + 1)),
@@ -79,6 +81,7 @@ const SECTIONS: [Section; 11] = [
     ("loads", Entity::Load),
     ("springs", Entity::Spring),
     ("motors", Entity::Motor),
+    ("states", Entity::State),
     ("measures", Entity::Measure),
     ("events", Entity::Event),
 ];
@@ -104,7 +107,9 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<
                         .at(Spot::Key)
                         .help(help),
                 );
-            } else if matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::Measure(_)) && unit(name).is_some() {
+            } else if matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::State(_) | Entity::Measure(_))
+                && unit(name).is_some()
+            {
                 let message = format!("`{name}` is a unit");
                 faults.push(
                     Fault::new(

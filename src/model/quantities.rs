@@ -80,6 +80,10 @@ pub(crate) struct World<'a> {
     pub(crate) parameters: Vec<Option<Dimension>>,
     /// Dimensions of tables.
     pub(crate) tables: Vec<Option<(Dimension, Dimension)>>,
+    /// Dimensions of first-order states; `None` where `start` is faulty.
+    pub(crate) states: Vec<Option<Dimension>>,
+    /// Rates of the states as far as they are lowered.
+    pub(crate) rates: Vec<Option<(Id, Reach)>>,
     /// Measures as far as they are lowered.
     pub(crate) measures: Vec<Option<(Symbol, Reach)>>,
     /// Dimension of the stretch of each spring.
@@ -213,6 +217,15 @@ impl<'a> World<'a> {
                 Some(motor) => self.of_motor(pool, motor, head, rest),
                 None => Err(silent()),
             },
+            Entity::State(state) if rest.is_empty() => match self.states.get(state).copied().flatten() {
+                Some(dimension) => Ok(Found::Leaf(Quantity::State(state), dimension)),
+                None => Err(silent()),
+            },
+            Entity::State(_) => Err(unknown(
+                format!("`{path}`: `{head}` is a state"),
+                "the state's name alone, or `rate(..)` of it",
+                Some(format!("write `{head}`")),
+            )),
             _ => Err(unknown(
                 format!("`{path}`: `{head}` is {}", entity.what()),
                 "a quantity of a body, joint, driver, spring or motor",

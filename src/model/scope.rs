@@ -3,32 +3,40 @@
 use super::names::Entity;
 use super::quantities::{World, silent, unknown};
 use super::suggest;
-use super::vocabulary::{Level, Quantity};
+use super::vocabulary::{Known, Quantity};
 use crate::expression::{Dimension, Id, Lowered, Pool, Scope, Symbol, Unknown};
 
 /// What an expression needs to be known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Reach {
     /// The highest level of a name in it.
-    pub(crate) level: Level,
+    pub(crate) level: Known,
     /// Whether reactions are in it.
     pub(crate) reactions: bool,
     /// Whether springs are in it.
     pub(crate) springs: bool,
+    /// Whether first-order states are in it.
+    pub(crate) states: bool,
 }
 
 impl Reach {
     /// Of a number.
-    pub(crate) const CONSTANT: Self = Self { level: Level::Constant, reactions: false, springs: false };
+    pub(crate) const CONSTANT: Self = Self { level: Known::Constant, reactions: false, springs: false, states: false };
 
     /// Of a leaf.
     pub(crate) fn of(quantity: Quantity) -> Self {
-        Self { level: quantity.level(), reactions: quantity.is_reaction(), springs: quantity.needs_springs() }
+        let states = matches!(quantity, Quantity::State(_));
+        Self { level: quantity.level(), reactions: quantity.is_reaction(), springs: quantity.needs_springs(), states }
     }
 
     /// Of an expression of both.
     pub(crate) fn join(self, other: Self) -> Self {
-        Self { level: self.level.max(other.level), reactions: self.reactions || other.reactions, springs: self.springs || other.springs }
+        Self {
+            level: self.level.max(other.level),
+            reactions: self.reactions || other.reactions,
+            springs: self.springs || other.springs,
+            states: self.states || other.states,
+        }
     }
 }
 
@@ -36,13 +44,15 @@ impl Reach {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allow {
     /// Highest level.
-    pub(crate) level: Level,
+    pub(crate) level: Known,
     /// Whether tables may be called.
     pub(crate) tables: bool,
     /// Whether reactions may be named.
     pub(crate) reactions: bool,
     /// Whether quantities of springs may be named.
     pub(crate) springs: bool,
+    /// Whether first-order states may be named, where velocities may be.
+    pub(crate) states: bool,
     /// The field, for messages: `a load`.
     pub(crate) what: &'static str,
 }
@@ -50,18 +60,18 @@ pub(crate) struct Allow {
 impl Allow {
     /// Parameters only.
     pub(crate) const PARAMETER: Self =
-        Self { level: Level::Constant, tables: false, reactions: false, springs: false, what: "a parameter" };
+        Self { level: Known::Constant, tables: false, reactions: false, springs: false, states: true, what: "a parameter" };
     /// Parameters and tables.
     pub(crate) const CONSTANT: Self = Self { tables: true, what: "this value", ..Self::PARAMETER };
     /// `t`, parameters and tables.
-    pub(crate) const DRIVER: Self = Self { level: Level::Time, what: "a driver", ..Self::CONSTANT };
+    pub(crate) const DRIVER: Self = Self { level: Known::Time, what: "a driver", ..Self::CONSTANT };
     /// Positions, without those of springs.
-    pub(crate) const POSITION: Self = Self { level: Level::Position, what: "this expression", ..Self::CONSTANT };
+    pub(crate) const POSITION: Self = Self { level: Known::Position, what: "this expression", ..Self::CONSTANT };
     /// Positions and velocities.
-    pub(crate) const LOAD: Self = Self { level: Level::Velocity, springs: true, what: "a load", ..Self::CONSTANT };
+    pub(crate) const LOAD: Self = Self { level: Known::Velocity, springs: true, what: "a load", ..Self::CONSTANT };
     /// Everything that a state has.
     pub(crate) const MEASURE: Self =
-        Self { level: Level::Acceleration, reactions: true, springs: true, what: "a measure", ..Self::CONSTANT };
+        Self { level: Known::Acceleration, reactions: true, springs: true, what: "a measure", ..Self::CONSTANT };
 }
 
 /// Names that only one study knows.
@@ -82,6 +92,8 @@ pub(crate) struct Functionals {
     pub(crate) independent: Option<Dimension>,
     /// Whether the study finds reactions.
     pub(crate) reactions: bool,
+    /// Whether the study follows first-order states.
+    pub(crate) states: bool,
     /// The study's kind, for messages.
     pub(crate) kind: &'static str,
 }
@@ -107,29 +119,42 @@ impl View<'_, '_, '_> {
         why
     }
 
+    /// Whether a path begins with something that has a name, but is not decoded yet.
+    fn undecoded(&self, path: &str) -> bool {
+        let (sound, head) = (&self.world.sound, path.split('.').next().unwrap_or(path));
+        match self.world.names.get(head) {
+            Some(Entity::Driver(i)) => *i >= sound.drivers.len(),
+            Some(Entity::Motor(i)) => *i >= sound.motors.len(),
+            Some(Entity::Spring(i)) => *i >= sound.springs.len(),
+            Some(Entity::State(i)) => *i >= self.world.states.len(),
+            _ => false,
+        }
+    }
+
     fn admit(&mut self, path: &str, (symbol, reach): (Symbol, Reach)) -> Result<Symbol, Unknown> {
         let allow = self.allow;
         let in_scalar = self.local.functionals.is_some() && self.outside.is_none();
         if reach.level > allow.level {
             let is = match reach.level {
-                Level::Constant | Level::Time => format!("`{path}` varies in time"),
-                Level::Position => format!("`{path}` is a position"),
-                Level::Velocity => format!("`{path}` is a velocity, or needs one"),
-                Level::Acceleration if reach.reactions => format!("`{path}` is a reaction, or needs one"),
-                Level::Acceleration => format!("`{path}` is an acceleration, or needs one"),
-                Level::Study => format!("`{path}` is known only after the study"),
+                Known::Constant | Known::Time => format!("`{path}` varies in time"),
+                Known::Position => format!("`{path}` is a position"),
+                Known::Velocity if reach.states => format!("`{path}` is a first-order state, or needs one"),
+                Known::Velocity => format!("`{path}` is a velocity, or needs one"),
+                Known::Acceleration if reach.reactions => format!("`{path}` is a reaction, or needs one"),
+                Known::Acceleration => format!("`{path}` is an acceleration, or needs one"),
+                Known::Study => format!("`{path}` is known only after the study"),
             };
-            if in_scalar && reach.level < Level::Study {
+            if in_scalar && reach.level < Known::Study {
                 let help = Some(format!("take one number of it: `mean({path})`, `max({path})`, `last({path})`, `value({path}, at)`"));
                 return Err(
                     self.refuse("varies", unknown(format!("`{path}` varies during the study"), "one number for the whole study", help))
                 );
             }
             let may = match allow.level {
-                Level::Constant => "parameters",
-                Level::Time => "`t` and parameters",
-                Level::Position => "positions, `t` and parameters",
-                Level::Velocity => "positions, velocities, `t` and parameters",
+                Known::Constant => "parameters",
+                Known::Time => "`t` and parameters",
+                Known::Position => "positions, `t` and parameters",
+                Known::Velocity => "positions, velocities, `t` and parameters",
                 _ => "quantities of the mechanism, `t` and parameters",
             };
             let what = allow.what;
@@ -141,6 +166,13 @@ impl View<'_, '_, '_> {
             return Err(self.refuse(
                 "wrong-level",
                 unknown(format!("`{path}` is a reaction, or needs one"), format!("{} finds no forces", allow.what), help),
+            ));
+        }
+        if reach.states && !allow.states {
+            let help = Some("use `dynamics`, which computes motion in time".to_owned());
+            return Err(self.refuse(
+                "wrong-level",
+                unknown(format!("`{path}` is a first-order state, or needs one"), format!("{} follows no states", allow.what), help),
             ));
         }
         if reach.springs && !allow.springs {
@@ -171,8 +203,8 @@ impl Scope for View<'_, '_, '_> {
                 return match self.world.measures.get(i).copied().flatten() {
                     Some(measure) => self.admit(path, measure),
                     // before the measures are lowered only parameters may be named
-                    None if self.allow.level <= Level::Time => {
-                        let may = if self.allow.level == Level::Time { "`t` and parameters" } else { "parameters" };
+                    None if self.allow.level <= Known::Time => {
+                        let may = if self.allow.level == Known::Time { "`t` and parameters" } else { "parameters" };
                         let expected = format!("{} may use only {may}", self.allow.what);
                         Err(self.refuse("wrong-level", unknown(format!("`{path}` is a measure"), expected, None)))
                     }
@@ -186,9 +218,14 @@ impl Scope for View<'_, '_, '_> {
             _ => {}
         }
         // inside of a parameter nothing of the mechanism is known yet
-        if self.allow.level == Level::Constant && self.local.functionals.is_none() && self.world.known_head(path) {
+        if self.allow.level == Known::Constant && self.local.functionals.is_none() && self.world.known_head(path) {
             let expected = format!("{} may use only parameters", self.allow.what);
             return Err(self.refuse("wrong-level", unknown(format!("`{path}` is no parameter"), expected, None)));
+        }
+        // what is decoded after the drivers is no function of time
+        if self.allow.level <= Known::Time && self.undecoded(path) {
+            let expected = format!("{} may use only `t` and parameters", self.allow.what);
+            return Err(self.refuse("wrong-level", unknown(format!("`{path}` is known only with the motion"), expected, None)));
         }
         match self.world.quantity(pool, path) {
             Ok(found) => {
@@ -220,6 +257,12 @@ impl Scope for View<'_, '_, '_> {
         if quantity == Quantity::Time {
             return Some(pool.constant(1.0));
         }
+        if let Quantity::State(i) = quantity {
+            // of one whose own fault was reported anything will do
+            let (rate, reach) = self.world.rates.get(i).copied().flatten().unwrap_or((pool.constant(0.0), Reach::CONSTANT));
+            self.reach = self.reach.join(reach);
+            return Some(rate);
+        }
         let rate = quantity.rate()?;
         self.reach = self.reach.join(Reach::of(rate));
         Some(self.world.input(pool, rate))
@@ -239,7 +282,7 @@ impl Scope for View<'_, '_, '_> {
             let found = format!("`{name}(..)` in a `{}` study", functionals.kind);
             return Err(self.refuse("wrong-level", unknown(found, expected, None)));
         }
-        let inside = Allow { reactions: functionals.reactions, what: functionals.kind, ..Allow::MEASURE };
+        let inside = Allow { reactions: functionals.reactions, states: functionals.states, what: functionals.kind, ..Allow::MEASURE };
         self.outside = Some((self.allow, self.reach));
         self.allow = inside;
         Ok(())
@@ -248,7 +291,7 @@ impl Scope for View<'_, '_, '_> {
     fn leave_functional(&mut self) {
         if let Some((allow, reach)) = self.outside.take() {
             self.allow = allow;
-            self.reach = reach.join(Reach { level: Level::Study, ..Reach::CONSTANT });
+            self.reach = reach.join(Reach { level: Known::Study, ..Reach::CONSTANT });
         }
     }
 

@@ -46,6 +46,8 @@ pub enum Kind {
     Inverse(Range),
     /// Masses moved until the centre of mass stands still: (body, index in its `attached`).
     Balance { moved: Vec<(usize, usize)>, range: Range },
+    /// Motion in time.
+    Dynamics(Forward),
     /// Read and checked; acts in a later version. The word is the kind's key.
     Later(&'static str),
 }
@@ -66,6 +68,91 @@ pub enum Over {
     Driver(Id),
     /// Time from 0, s.
     Time(Id),
+}
+
+/// Motion in time from the start position: `dynamics`.
+#[derive(Clone, Debug)]
+pub struct Forward {
+    /// End of the run, s.
+    pub until: Id,
+    /// Output step, s; every step of the integrator if none.
+    pub every: Option<Id>,
+    /// How the step is chosen.
+    pub control: Control,
+    /// The scheme.
+    pub integrator: Integrator,
+    /// `newmark`: weight of the acceleration in the displacement (textbook β); `hht`: its α, in [−1/3, 0].
+    pub alpha: Option<Id>,
+    /// `newmark`: weight of the acceleration in the velocity (textbook γ). Given if and only if `alpha` is.
+    pub beta: Option<Id>,
+    /// `generalized-alpha`: spectral radius at infinite frequency, in [0, 1].
+    pub rho: Option<Id>,
+    /// `bdf` with a fixed step: its order, 1 to 5.
+    pub order: Option<usize>,
+    /// Which constraint rows are imposed; the scheme's own choice if none.
+    pub level: Option<Level>,
+    /// Coordinates of the computation.
+    pub chart: Chart,
+    /// Whether switches are located; else a scheme of fixed step marches across them.
+    pub locate: bool,
+}
+
+/// How the step of an integrator is chosen.
+#[derive(Clone, Copy, Debug)]
+pub enum Control {
+    /// By a relative tolerance, in (0, 0.1]; 1e-8 if none.
+    Tolerance(Option<Id>),
+    /// Fixed, s.
+    Step(Id),
+}
+
+/// Schemes for motion in time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Chosen by the program, explicit first.
+    Auto,
+    /// Newmark's family.
+    Newmark,
+    /// Hilber, Hughes and Taylor.
+    Hht,
+    /// Chung and Hulbert.
+    GeneralizedAlpha,
+    /// Backward differences of order 1 to 5.
+    Bdf,
+    /// Radau IIA of order 5.
+    Radau5,
+    /// Dormand and Prince of order 8.
+    Dop853,
+    /// The classical Runge-Kutta scheme.
+    Rk4,
+    /// Central differences.
+    CentralDifference,
+    /// IDA of SUNDIALS.
+    Ida,
+}
+
+/// Which constraint rows an integrator imposes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Positions and velocities (Gear, Gupta and Leimkuhler), index 2.
+    Stabilized,
+    /// Positions, index 3.
+    Position,
+    /// Velocities, index 2.
+    Velocity,
+    /// Accelerations, index 1, with projection.
+    Acceleration,
+}
+
+/// Coordinates of motion in time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chart {
+    /// Joint coordinates of a spanning tree, closed loops as rows.
+    Joint,
+    /// Every body free, every joint as rows.
+    Cartesian,
+    /// Independent coordinates alone.
+    Minimal,
 }
 
 /// A swept parameter.
@@ -109,6 +196,10 @@ pub struct Take {
     pub study: String,
     /// Its scalar.
     pub scalar: String,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its value, once [`Model::give`](super::Model::give) has brought it; until then not a number.
+    pub value: f64,
 }
 
 /// One column of the results.

@@ -1,13 +1,12 @@
-//! The tables of fields: every key of the format, once.
+//! The tables of fields: every key of the format, once. Those of studies stand in `studies`.
+
+mod studies;
+
+pub(crate) use studies::{INTEGRATORS, MOST_RUNS, STUDY, STUDY_KINDS};
 
 use super::fields::Shape::{Count, Either, Flag, Formula, Later, List, Map, Name, Named, Patch, Text, Value, Word};
 use super::fields::{Choice, Field, Keys, Shape, Size, Table, Want};
 use crate::expression::Dimension as D;
-
-/// Most intervals of a study.
-pub(crate) const MOST_SAMPLES: u64 = 10_000_000;
-/// Most runs of a sweep.
-pub(crate) const MOST_RUNS: u64 = 1_000_000;
 
 const fn need(key: &'static str, shape: Shape, doc: &'static str) -> Field {
     Field { key, shape, required: true, doc }
@@ -69,6 +68,7 @@ pub(crate) static FILE: Table = Table {
             Named(Keys::Reference, "a quantity", &Either(&[COORDINATE_OR_RATE, Map(&ROTATION)])),
             "Initial values of joint and body quantities: plain values are exact, values with `~` in front are guesses.",
         ),
+        may("states", Named(Keys::Name, "a state", &Map(&STATE)), "First-order states: quantities given by their time rate."),
         may(
             "measures",
             Named(Keys::Name, "a measure", &Formula("an expression of t and of quantities of the mechanism")),
@@ -194,8 +194,16 @@ static FRICTION: Table = Table {
     what: "friction",
     choices: &[],
     fields: &[
-        need("coulomb", NUMBER, "Coefficient of friction."),
-        may("stick_speed", Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)")), "Below this speed the joint sticks."),
+        need(
+            "coulomb",
+            Value(Want::Varies("a torque (N m) or a force (N), as the joint has it, or a coefficient of friction")),
+            "Torque or force of the friction; a plain number is a coefficient of friction.",
+        ),
+        may(
+            "stick_speed",
+            Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)")),
+            "Below this speed the joint sticks; 1 mm/s or 1e-3 rad/s if silent.",
+        ),
     ],
 };
 
@@ -205,8 +213,8 @@ static LIMITS: Table = Table {
     fields: &[
         may("from", COORDINATE, "Lower end."),
         may("to", COORDINATE, "Upper end."),
-        may("stiffness", STIFFNESS, "Stiffness of the stop."),
-        may("damping", DAMPING, "Damping of the stop."),
+        need("stiffness", STIFFNESS, "Stiffness of the stop, in N/m or N m/rad."),
+        may("damping", DAMPING, "Damping of the stop, which never pulls; 0 if silent."),
     ],
 };
 
@@ -308,13 +316,22 @@ static ROTATION: Table = Table {
     ],
 };
 
+static STATE: Table = Table {
+    what: "a state",
+    choices: &[],
+    fields: &[
+        need("rate", Formula("an expression of positions, velocities, t and states"), "Time rate of the state, which it may name."),
+        may("start", ANY, "Value at t = 0, 0 if silent; its unit is that of the state."),
+    ],
+};
+
 static EVENT: Table = Table {
     what: "an event",
     choices: &[],
     fields: &[
         need("when", Formula("an expression that crosses zero"), "What crosses zero."),
         may("crossing", Word(&["both", "rising", "falling"]), "In which direction."),
-        may("action", Word(&["record", "stop"]), "What happens then."),
+        may("action", Word(&["record", "stop"]), "Whether the run goes on."),
         may("set", Named(Keys::Reference, "a parameter", &ANY), "Parameters that change then."),
         may("restitution", Map(&RESTITUTION), "Impact in a joint."),
     ],
@@ -324,165 +341,4 @@ static RESTITUTION: Table = Table {
     what: "restitution",
     choices: &[],
     fields: &[need("joint", JOINT_NAME, "The joint."), need("e", NUMBER, "Coefficient of restitution.")],
-};
-
-/// The kinds of studies.
-pub(crate) const STUDY_KINDS: [&str; 7] = ["kinematics", "inverse", "dynamics", "statics", "modes", "periodic", "balance"];
-const COLUMN: Shape = Name("the name of a measure or a quantity such as `rocker.tip.x`");
-
-pub(crate) static STUDY: Table = Table {
-    what: "a study",
-    choices: &[one_of(&STUDY_KINDS)],
-    fields: &[
-        may("kinematics", Map(&RANGE), "Positions, velocities and accelerations over a range."),
-        may("inverse", Map(&RANGE), "Kinematics with driver efforts and reactions."),
-        may("dynamics", Map(&DYNAMICS), "Motion in time."),
-        may("statics", Map(&STATICS), "Equilibrium."),
-        may("modes", Map(&MODES), "Eigenvalues and shapes about a pose."),
-        may("periodic", Map(&PERIODIC), "Periodic regime."),
-        may("balance", Map(&BALANCE), "Attached masses moved until the centre of mass stands still."),
-        may("about", Text, "What the study is for."),
-        may(
-            "variant",
-            Either(&[Name("the name of a variant"), List(&Name("the name of a variant"), Size::AtLeast(0))]),
-            "Variants, applied in order.",
-        ),
-        may("set", Named(Keys::Reference, "a parameter", &ANY), "Parameters for this study."),
-        may(
-            "take",
-            Named(Keys::Name, "a scalar of another study", &Name("a scalar of another study, `STUDY.SCALAR`")),
-            "Scalars of other studies.",
-        ),
-        may(
-            "sweep",
-            Named(Keys::Reference, "a parameter", &Either(&[Map(&SPAN), List(&ANY, Size::AtLeast(1))])),
-            "Parameters that run through values; several: the grid.",
-        ),
-        may("solve", Map(&SOLVE), "A parameter varied until a scalar meets its target."),
-        may("columns", List(&COLUMN, Size::AtLeast(1)), "Columns of the CSV, in order."),
-        may(
-            "scalars",
-            Named(Keys::Name, "a scalar", &Formula("an expression of functionals, parameters and scalars")),
-            "Numbers of the whole study.",
-        ),
-        may("plot", Named(Keys::Title, "a figure", &Either(&[Map(&PLOT), List(&COLUMN, Size::AtLeast(1))])), "Figures."),
-        may("expect", Named(Keys::Reference, "a scalar or an expression", &Map(&EXPECT)), "What must come out; if not, exit code 1."),
-    ],
-};
-
-static RANGE: Table = Table {
-    what: "a range",
-    choices: &[],
-    fields: &[
-        need(
-            "over",
-            Value(Want::Varies("an angle or a length of the one driver, or a time")),
-            "Range: of the one driver from its start, or a time.",
-        ),
-        need("samples", Count(1, MOST_SAMPLES), "Number of equal intervals; one row more."),
-    ],
-};
-
-static BALANCE: Table = Table {
-    what: "a balance",
-    choices: &[],
-    fields: &[
-        need(
-            "move",
-            List(&Name("an attached mass `body.mass`"), Size::AtLeast(1)),
-            "Attached masses that are moved along the line from the body's origin through their point.",
-        ),
-        need(
-            "over",
-            Value(Want::Varies("an angle or a length of the one driver, or a time")),
-            "Range: of the one driver from its start, or a time.",
-        ),
-        need("samples", Count(1, MOST_SAMPLES), "Number of equal intervals; one row more."),
-    ],
-};
-
-/// Integrators by name; the first is the default.
-const INTEGRATORS: [&str; 10] =
-    ["auto", "newmark", "hht", "generalized-alpha", "bdf", "radau5", "dop853", "rk4", "central-difference", "ida"];
-
-static DYNAMICS: Table = Table {
-    what: "a dynamics study",
-    choices: &[at_most_one(&["tolerance", "step"])],
-    fields: &[
-        need("until", TIME, "End of the run."),
-        may("every", TIME, "Output step; all steps if silent."),
-        may("tolerance", NUMBER, "Relative tolerance; 1e-8 if silent."),
-        may("step", TIME, "Fixed step, instead of a tolerance."),
-        may("integrator", Word(&INTEGRATORS), "Scheme."),
-        may("alpha", NUMBER, "Of the Newmark family: weight of the displacement (newmark), or the scheme's alpha."),
-        may("beta", NUMBER, "Of the Newmark family: weight of the velocity."),
-        may("rho", NUMBER, "Spectral radius at infinity of generalized-alpha."),
-        may("level", Word(&["stabilized", "position", "velocity", "acceleration"]), "Constraint rows that are imposed."),
-        may("coordinates", Word(&["joint", "cartesian", "minimal"]), "Coordinates."),
-        may("switches", Word(&["locate", "step-over"]), "Whether switches are located."),
-    ],
-};
-
-static STATICS: Table =
-    Table { what: "a statics study", choices: &[], fields: &[need("from", Word(&["start"]), "Where the search begins.")] };
-
-static MODES: Table = Table {
-    what: "a modes study",
-    choices: &[],
-    fields: &[
-        may("at", Word(&["start", "statics"]), "The pose."),
-        may("damped", Flag, "Whether damping counts."),
-        may("methods", List(&Word(&["library", "jacobi", "power"]), Size::AtLeast(1)), "Eigensolvers that are compared."),
-    ],
-};
-
-static PERIODIC: Table = Table {
-    what: "a periodic study",
-    choices: &[],
-    fields: &[
-        need("over", Name("the name of a measure or quantity, or `t`"), "What advances by one period."),
-        need("by", ANY, "By how much."),
-        need("of", Name("the name of a measure or quantity"), "Whose mean and extremes are found."),
-    ],
-};
-
-static SPAN: Table = Table {
-    what: "a span of values",
-    choices: &[],
-    fields: &[
-        need("from", ANY, "First value."),
-        need("to", ANY, "Last value."),
-        need("count", Count(1, MOST_RUNS), "Number of values."),
-        may("spacing", Word(&["linear", "log"]), "Equal differences or equal ratios."),
-    ],
-};
-
-static SOLVE: Table = Table {
-    what: "a solve",
-    choices: &[],
-    fields: &[
-        need("vary", Name("the name of a parameter"), "The parameter."),
-        need("between", List(&ANY, Size::Exactly(2)), "Its bounds."),
-        need("target", Named(Keys::Reference, "a scalar", &ANY), "The scalar and its target."),
-    ],
-};
-
-static PLOT: Table = Table {
-    what: "a figure",
-    choices: &[],
-    fields: &[
-        need("show", List(&COLUMN, Size::AtLeast(1)), "What is drawn."),
-        may("over", COLUMN, "What it is drawn over; the independent variable if silent."),
-        may("in", Text, "Unit of the horizontal axis."),
-    ],
-};
-
-static EXPECT: Table = Table {
-    what: "an expectation",
-    choices: &[one_of(&["within", "relative"])],
-    fields: &[
-        need("is", ANY, "The value."),
-        may("within", ANY, "Largest absolute difference."),
-        may("relative", NUMBER, "Largest difference relative to the value."),
-    ],
 };

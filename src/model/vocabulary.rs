@@ -56,6 +56,8 @@ pub enum Quantity {
     InertiaEq,
     /// Derivative of [`Quantity::InertiaEq`] by the driver's coordinate.
     InertiaEqSlope,
+    /// A first-order state, `model.states[i]`.
+    State(usize),
     /// Only in `scalars` and `expect`: `study.functionals[i]`.
     Functional(usize),
     /// Only in `scalars` and `expect`: a result of the study's kind, by index in `study.results` (`turns_fully`, `kappa`, `residual`).
@@ -64,9 +66,9 @@ pub enum Quantity {
     Taken(usize),
 }
 
-/// What a state must be known to for a quantity to be known.
+/// How far the motion must be known for a quantity to be known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
+pub enum Known {
     /// Needs parameters alone.
     Constant,
     /// Needs t.
@@ -84,32 +86,35 @@ pub enum Level {
 impl Quantity {
     /// What must be known for it to be known.
     #[must_use]
-    pub fn level(self) -> Level {
+    pub fn level(self) -> Known {
         let by_order = |order| match order {
-            0 => Level::Position,
-            1 => Level::Velocity,
-            _ => Level::Acceleration,
+            0 => Known::Position,
+            1 => Known::Velocity,
+            _ => Known::Acceleration,
         };
         match self {
-            Self::Time => Level::Time,
+            Self::Time => Known::Time,
             Self::Point { order, .. }
             | Self::Angle { order, .. }
             | Self::Spin { order, .. }
             | Self::Joint { order, .. }
             | Self::Stretch { order, .. }
             | Self::Com { order, .. } => by_order(order),
-            Self::Quaternion { .. } | Self::SpringEnergy { .. } | Self::Potential => Level::Position,
-            Self::SpringForce { .. } | Self::MotorTorque { .. } | Self::Kinetic | Self::Momentum { .. } | Self::InertiaEq => {
-                Level::Velocity
-            }
-            Self::Shaking { .. } | Self::ShakingMoment { .. } | Self::InertiaEqSlope => Level::Acceleration,
+            Self::Quaternion { .. } | Self::SpringEnergy { .. } | Self::Potential => Known::Position,
+            Self::SpringForce { .. }
+            | Self::MotorTorque { .. }
+            | Self::Kinetic
+            | Self::Momentum { .. }
+            | Self::InertiaEq
+            | Self::State(_) => Known::Velocity,
+            Self::Shaking { .. } | Self::ShakingMoment { .. } | Self::InertiaEqSlope => Known::Acceleration,
             Self::Force { .. }
             | Self::Moment { .. }
             | Self::DriverEffort { .. }
             | Self::DriverPower { .. }
             | Self::Frame { .. }
-            | Self::FrameMoment { .. } => Level::Acceleration,
-            Self::Functional(_) | Self::Result(_) | Self::Taken(_) => Level::Study,
+            | Self::FrameMoment { .. } => Known::Acceleration,
+            Self::Functional(_) | Self::Result(_) | Self::Taken(_) => Known::Study,
         }
     }
 
@@ -133,7 +138,8 @@ impl Quantity {
         matches!(self, Self::Stretch { .. } | Self::SpringForce { .. } | Self::SpringEnergy { .. } | Self::Potential)
     }
 
-    /// The quantity that is its time rate; `None` where there is none among the quantities.
+    /// The quantity that is its time rate; `None` where there is none among the quantities (the rate of a state is an
+    /// expression, `FirstOrder::rate`).
     #[must_use]
     pub fn rate(self) -> Option<Self> {
         Some(match self {

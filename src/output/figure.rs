@@ -24,6 +24,8 @@ pub struct Figure {
     pub marks: Vec<Mark>,
     /// One unit of x is as long as one of y: for paths in the plane.
     pub equal: bool,
+    /// Unit and quantity of panels whose curves are not named after their quantity.
+    pub quantities: Vec<(String, String)>,
 }
 
 /// What an axis says and how it runs.
@@ -112,7 +114,8 @@ fn layout(figure: &Figure) -> Scene {
     let all = |axis: fn(&(f64, f64)) -> f64| figure.curves.iter().flat_map(move |curve| curve.points.iter().map(axis));
     let ordered = figure.curves.iter().all(|curve| thin::is_ordered(&curve.points));
     let mut x = Ruler::over(all(|point| point.0), &figure.x, &figure.x.unit, figure.equal);
-    x.pad(if ordered { 0.0 } else { 0.05 });
+    // on a logarithmic axis the ends are results like all others, and their dots must not be cut
+    x.pad(if ordered && figure.x.scale == Scale::Linear { 0.0 } else { 0.05 });
 
     let unit = |curve: &Curve| curve.unit.clone().unwrap_or_else(|| figure.y.unit.clone());
     let mixed = groups.len() == 1 && figure.curves.iter().any(|curve| unit(curve) != unit(&figure.curves[0]));
@@ -151,6 +154,9 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         // The names are in the legend anyway: on the axis they stand only if they are few.
         let joined = names.join(", ");
         axis.label = if names.len() <= 3 && joined.chars().count() <= 36 { joined } else { String::new() };
+    }
+    if let Some((_, quantity)) = figure.quantities.iter().find(|(known, _)| known == unit) {
+        axis.label.clone_from(quantity);
     }
     let mut y = Ruler::over(values, &axis, unit, figure.equal);
     y.pad(0.06);
@@ -272,6 +278,17 @@ mod tests {
             }
         }
         assert!(svg(&Figure::default()).contains("no values"));
+    }
+
+    #[test]
+    fn panels_can_be_named_after_their_quantity() {
+        let points = vec![(1e-6, 1.0), (1e-3, 10.0)];
+        let curves = vec![curve("rk4", Some("s"), points.clone()), curve("rk4", Some(""), points)];
+        let axis = Axis { label: "error".into(), scale: Scale::Log, ..Axis::default() };
+        let quantities = vec![("s".into(), "time".into()), (String::new(), "evaluations".into())];
+        let figure = Figure { x: axis.clone(), y: Axis { label: String::new(), ..axis }, curves, quantities, ..Figure::default() };
+        let svg = svg(&figure);
+        assert!(svg.contains(">time in s<") && svg.contains(">evaluations<") && svg.contains(">error<"), "{svg}");
     }
 
     #[test]

@@ -40,7 +40,8 @@ pub(crate) fn mechanism<G: Space<S = f64>>(text: &str, coordinates: Coordinates)
 pub(crate) fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
     let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    let outcome = run(&model, &study, &sweep::parameters(&model), coordinates).unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
+    let outcome =
+        run(&model, &study, &sweep::parameters(&model), coordinates, &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
     assert_eq!(outcome.stopped, None, "{name} stopped");
     outcome
 }

@@ -115,13 +115,13 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
             }
             range.samples = 12;
         }
-        Kind::Later(_) => return Fate::Refused,
+        Kind::Dynamics(_) | Kind::Later(_) => return Fate::Refused,
     }
     let _ = survey(&model, &sweep::parameters(&model));
     let grid = sweep::grid(&model, &study);
     let set: Vec<(usize, f64)> =
         study.sweep.iter().map(|s| s.parameter).zip(grid.get(choice % grid.len().max(1)).cloned().unwrap_or_default()).collect();
-    match run(&model, &study, &sweep::parameters_with(&model, &set), Coordinates::Joint) {
+    match run(&model, &study, &sweep::parameters_with(&model, &set), Coordinates::Joint, &|| false) {
         Ok(outcome) => {
             assert!(outcome.places.iter().all(|x| x.is_finite()), "places {:?}", outcome.places);
             if outcome.stopped.is_some() { Fate::Failed } else { Fate::Ran }

@@ -28,6 +28,7 @@ impl<G: Space> Builder<'_, G> {
         }
         for index in 0..self.model.joints.len() {
             self.joint_damping(index);
+            self.joint_contact(index);
         }
         for index in 0..self.model.loads.len() {
             self.load(index);
@@ -187,6 +188,16 @@ impl<G: Space> Builder<'_, G> {
         self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
     }
 
+    /// End stops and dry friction of a given size.
+    fn joint_contact(&mut self, index: usize) {
+        let joint = &self.model.joints[index];
+        for effort in [joint.limit_force, joint.friction_force].into_iter().flatten() {
+            if let Some(gauge) = self.coordinate(index, &joint.place) {
+                self.drive_effort(gauge, effort);
+            }
+        }
+    }
+
     fn load(&mut self, index: usize) {
         let load = &self.model.loads[index];
         match &load.on {
@@ -221,6 +232,15 @@ impl<G: Space> Builder<'_, G> {
             let inertia = self.not_negative(inertia, place, "the rotor inertia is");
             let gear = motor.gear.map_or(1.0, |g| self.number(g, place));
             self.mechanism.rotors.push(Rotor { gauge, inertia: G::S::constant(gear * gear * inertia) });
+        }
+    }
+
+    /// First-order states: where they begin, and their rates.
+    pub(super) fn states(&mut self) {
+        for state in &self.model.states {
+            let start = self.number(state.start, &state.place);
+            self.mechanism.state_starts.push(start);
+            self.states.push(state.rate);
         }
     }
 

@@ -115,22 +115,13 @@ impl<G: Space> Builder<'_, G> {
             _ => 0.0,
         };
         let zero = self.optional(joint.zero, place);
-        if joint.friction.is_some() {
+        if joint.friction_coefficient.is_some() {
             self.fault(
                 "later",
                 &format!("{place}.friction"),
-                "joint friction".into(),
-                "nothing: dry friction is not computed yet",
-                Some("use `damping` for viscous friction, or remove it".into()),
-            );
-        }
-        if joint.limits.is_some() {
-            self.fault(
-                "later",
-                &format!("{place}.limits"),
-                "joint limits".into(),
-                "nothing: end stops are not computed yet",
-                Some("remove them".into()),
+                "joint friction by a coefficient".into(),
+                "a torque or force: friction by the reaction is not computed yet",
+                Some("give `coulomb` a unit, as `coulomb: 2 N m`, or use `damping` for viscous friction".into()),
             );
         }
         Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }

@@ -42,6 +42,8 @@ impl<'m, G: Space> Builder<'m, G> {
                 velocity_program: none(),
                 time_program: none(),
                 force_program: none(),
+                state_program: none(),
+                state_starts: vec![],
                 tables: Arc::from([]),
                 gravity: G::Vector::default(),
                 switches: 0,
@@ -57,6 +59,7 @@ impl<'m, G: Space> Builder<'m, G> {
             velocity: vec![],
             time: vec![],
             force: vec![],
+            states: vec![],
             faults: vec![],
         };
         let gravity = builder.triple(&model.gravity, "gravity");
@@ -66,7 +69,7 @@ impl<'m, G: Space> Builder<'m, G> {
 
     /// Makes the gauges that the inputs of programs are read from, so that they count among the active ones.
     pub(super) fn gauges_of_programs(&mut self) {
-        let outputs = [&self.position, &self.velocity, &self.time, &self.force].map(|ids| self.pool.inputs_of(ids));
+        let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(|ids| self.pool.inputs_of(ids));
         for input in outputs.into_iter().flatten() {
             self.leaf(self.inputs[input as usize]);
         }
@@ -74,7 +77,7 @@ impl<'m, G: Space> Builder<'m, G> {
 
     /// Programs and counts; the mechanism is complete.
     pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::BuildFault>> {
-        let outputs = [&self.position, &self.velocity, &self.time, &self.force].map(Clone::clone);
+        let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(Clone::clone);
         let mut programs = outputs.map(|ids| self.program(&ids)).into_iter();
         if !self.faults.is_empty() {
             return Err(self.faults);
@@ -84,6 +87,7 @@ impl<'m, G: Space> Builder<'m, G> {
             &mut self.mechanism.velocity_program,
             &mut self.mechanism.time_program,
             &mut self.mechanism.force_program,
+            &mut self.mechanism.state_program,
         ] {
             if let Some(program) = programs.next() {
                 *slot = program;
@@ -120,6 +124,7 @@ impl<'m, G: Space> Builder<'m, G> {
             Quantity::Time => Some(Leaf::Time),
             Quantity::Stretch { spring, order } if order < 2 => Some(Leaf::Stretch { spring, order }),
             Quantity::Spin { body, axis, order: 1 } => Some(Leaf::Spin { body, axis }),
+            Quantity::State(state) => Some(Leaf::State(state)),
             _ => self.gauge_of(quantity).map(|(gauge, order)| Leaf::Gauge { gauge, order }),
         }
     }

@@ -16,6 +16,14 @@ pub(crate) enum Rule {
     Positive(&'static str),
     /// Finite and not 0.
     NotZero(&'static str),
+    /// Finite and not above a bound; the words say what it is.
+    AtMost(f64, &'static str),
+    /// Finite and between two bounds, which count; the words say what it is.
+    Within(f64, f64, &'static str),
+    /// Two values, the first one below the second.
+    Rising,
+    /// Weights alpha and beta of Newmark's scheme that work with constraints at position level.
+    ConstrainedNewmark,
     /// Not all zero.
     Direction,
     /// Two points, components one after the other, that differ.
@@ -153,6 +161,21 @@ impl Check<'_> {
         }
         let first = x.first().copied().unwrap_or(0.0);
         match self.rule {
+            Rule::AtMost(most, what) if first > most => {
+                let expected = format!("at most {most}");
+                fault("too-large", format!("{what} is {first}"), &expected).map(|fault| fault.help(VALUE))
+            }
+            Rule::Within(least, most, what) if !(least..=most).contains(&first) => {
+                let expected = format!("a value from {} to {}", short(least), short(most));
+                fault("out-of-range", format!("{what} is {first}"), &expected).map(|fault| fault.help(VALUE))
+            }
+            Rule::Rising if x.len() == 2 && x[0] >= x[1] => {
+                fault("not-rising", format!("from {} to {}", x[0], x[1]), "a lower end below the upper one")
+                    .map(|fault| fault.help("exchange `from` and `to`, or check the parameters that they are made of"))
+            }
+            Rule::ConstrainedNewmark => {
+                super::dynamics::newmark_fault(layers.source(&self.steps), first, x.get(1).copied().unwrap_or(first))
+            }
             Rule::NotNegative(what) if first < 0.0 => {
                 fault("negative", format!("{what} is {first}"), "a value that is not negative").map(|fault| fault.help(SIGN))
             }
@@ -179,6 +202,13 @@ impl Check<'_> {
     }
 }
 
+/// A bound as a person writes it: a third is `1/3`.
+fn short(x: f64) -> String {
+    if (3.0 * x).fract() == 0.0 && x.fract() != 0.0 { format!("{}/3", 3.0 * x) } else { x.to_string() }
+}
+
+/// The remedy for a value that is out of its range.
+const VALUE: &str = "check it and the parameters that it is made of";
 /// The remedy for a value of the wrong sign.
 const SIGN: &str = "check its sign and the parameters that it is made of";
 

@@ -13,7 +13,7 @@ use crate::model::vocabulary::Quantity;
 
 impl<'n> Decoder<'n> {
     fn column_allow(frame: &Frame<'_>) -> Allow {
-        Allow { reactions: frame.offer.reactions, what: frame.offer.word, ..Allow::MEASURE }
+        Allow { reactions: frame.offer.reactions, states: frame.offer.states, what: frame.offer.word, ..Allow::MEASURE }
     }
 
     pub(super) fn columns(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Column> {
@@ -35,7 +35,7 @@ impl<'n> Decoder<'n> {
         columns
     }
 
-    /// Independent variable, time, measures, drivers.
+    /// Independent variable, time, states, measures, drivers.
     fn default_columns(&mut self, frame: &Frame<'_>) -> Vec<Column> {
         if frame.offer.independent.is_none() {
             return Vec::new();
@@ -48,9 +48,12 @@ impl<'n> Decoder<'n> {
         }
         let time = self.world.input(&mut self.pool, Quantity::Time);
         columns.push(Column { name: "time".to_owned(), dimension: Dimension::TIME, value: time });
+        let states = if frame.offer.states { self.section("states") } else { Vec::new() };
+        columns.extend(states.into_iter().filter_map(|(name, _)| self.quiet(name)));
         for (i, (name, _)) in self.section("measures").into_iter().enumerate() {
             if let Some((symbol, reach)) = self.world.measures.get(i).copied().flatten()
                 && (frame.offer.reactions || !reach.reactions)
+                && (frame.offer.states || !reach.states)
                 && columns.iter().all(|c| c.name != name)
             {
                 columns.push(Column { name: name.to_owned(), dimension: symbol.dimension, value: symbol.id });

@@ -1,4 +1,4 @@
-//! Couplings, drivers, loads, springs, motors and events.
+//! Couplings, drivers, motors and loads.
 
 use super::Decoder;
 use super::checks::Rule;
@@ -11,13 +11,13 @@ use crate::model::names::Entity;
 use crate::model::scope::Allow;
 use crate::model::shape::clip;
 use crate::model::suggest;
-use crate::model::vocabulary::{Level, Quantity};
+use crate::model::vocabulary::{Known, Quantity};
 
 impl<'n> Decoder<'n> {
     /// A value that may vary as `allow` says; if it is constant it must be finite.
-    fn varying(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Want, allow: Allow) -> Option<Id> {
+    pub(super) fn varying(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Want, allow: Allow) -> Option<Id> {
         let (id, reach) = self.value(node, at, want, allow)?;
-        if reach.level == Level::Constant {
+        if reach.level == Known::Constant {
             self.check(Rule::Finite, &[id], at);
         }
         Some(id)
@@ -58,7 +58,7 @@ impl<'n> Decoder<'n> {
             let allow = Allow { what: "a coupling", ..Allow::POSITION };
             let here = at.key("zero");
             let (id, reach) = self.value(Some(zero), &here, Want::Any, allow)?;
-            if reach.level < Level::Position {
+            if reach.level < Known::Position {
                 self.fault(
                     "no-coordinate",
                     &here,
@@ -290,29 +290,6 @@ impl<'n> Decoder<'n> {
             ids.push(self.varying(Some(Node::Plain(item)), &here.index(i), Want::Of(dimension), Allow::LOAD));
         }
         ids.into_iter().collect()
-    }
-
-    /// Events are read and checked; they act in a later version.
-    pub(super) fn events(&mut self) {
-        let section = At::ROOT.key("events");
-        for (name, node) in self.section("events") {
-            let at = section.key(name);
-            let _ = self.value(node.get("when"), &at.key("when"), Want::Any, Allow { what: "an event", ..Allow::MEASURE });
-            let set_at = at.key("set");
-            for (parameter, value) in node.get("set").map(Node::entries).unwrap_or_default() {
-                let here = set_at.key(parameter);
-                if let Some(i) = self.parameter_named(parameter, &here, true)
-                    && let Some(dimension) = self.world.parameters.get(i).copied().flatten()
-                {
-                    let _ = self.value(Some(value), &here, Want::Of(dimension), Allow { what: "an event", ..Allow::MEASURE });
-                }
-            }
-            if let Some(restitution) = node.get("restitution") {
-                let here = at.key("restitution");
-                let _ = self.joint_named(restitution.get("joint"), &here.key("joint"));
-                let _ = self.size(restitution.get("e"), &here.key("e"), Dimension::NONE, "the coefficient of restitution");
-            }
-        }
     }
 
     /// The parameter of a name; the fault is reported, at the key or at the value.

@@ -3,7 +3,7 @@
 use super::Decoder;
 use super::checks::Rule;
 use crate::expression::{Dimension, Id};
-use crate::model::entities::{Joint, JointKind, Limits, PointRef};
+use crate::model::entities::{Joint, JointKind, PointRef};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
@@ -54,28 +54,13 @@ impl<'n> Decoder<'n> {
         let rate = single.map_or(Dimension::FREQUENCY, |c| c.dimension(1));
         let zero = self.coordinate(node, "zero", at, single);
         let damping = self.of(node, "damping", at, effort.div(rate));
-        let friction = node.get("friction").and_then(|inner| {
-            let here = at.key("friction");
-            let coulomb = self.size(inner.get("coulomb"), &here.key("coulomb"), Dimension::NONE, "the coefficient of friction");
-            let stick_speed = self.size(inner.get("stick_speed"), &here.key("stick_speed"), rate, "the speed");
-            Some((coulomb?, stick_speed))
-        });
-        let limits = node.get("limits").map(|inner| {
-            let here = at.key("limits");
-            let stiffness = effort.div(single.map_or(Dimension::NONE, |c| c.dimension(0)));
-            if inner.get("from").is_none() && inner.get("to").is_none() {
-                self.fault("missing-key", &here, "limits without an end", "`from` or `to`").spot = Spot::Key;
-            }
-            Limits {
-                from: self.coordinate(inner, "from", &here, single),
-                to: self.coordinate(inner, "to", &here, single),
-                stiffness: self.of(inner, "stiffness", &here, stiffness),
-                damping: self.of(inner, "damping", &here, effort.div(rate)),
-            }
-        });
+        let friction = node.get("friction").map(|inner| self.friction(name, inner, &at.key("friction"), single)).unwrap_or_default();
+        let limit_force = node.get("limits").and_then(|inner| self.limits(name, inner, &at.key("limits"), single));
         let cut = matches!(node.get("cut"), Some(Node::Plain(serde_yaml::Value::Bool(true))));
         let (a, b) = ends?;
-        Some(Joint { name: name.to_owned(), kind, a, b, axis, to, zero, damping, friction, limits, cut, place: self.place(at) })
+        let (friction_force, friction_coefficient) = (friction.force, friction.coefficient);
+        let (name, place) = (name.to_owned(), self.place(at));
+        Some(Joint { name, kind, a, b, axis, to, zero, damping, limit_force, friction_force, friction_coefficient, cut, place })
     }
 
     /// The two points of `key: [a, b]`, which belong to different bodies.

@@ -3,8 +3,9 @@
 use super::checks::Rule;
 use super::studies::Offer;
 use super::{Decoder, Origin};
-use crate::expression::Dimension;
-use crate::model::fault::At;
+use crate::expression::{Dimension, Id};
+use crate::model::entities::LoadOn;
+use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -14,6 +15,7 @@ use crate::model::shape::clip;
 use crate::model::study::{Kind, Over, Range};
 use crate::model::suggest;
 use crate::model::tables::STUDY_KINDS;
+use crate::model::vocabulary::Quantity;
 use serde_yaml::Value;
 
 impl<'n> Decoder<'n> {
@@ -21,32 +23,26 @@ impl<'n> Decoder<'n> {
         let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some())?;
         let inner = node.get(word)?;
         let here = at.key(word);
-        let later = |independent, first, results| (Kind::Later(word), Offer { word, independent, first, reactions: true, results });
+        let later =
+            |independent, first, results| (Kind::Later(word), Offer { word, independent, first, reactions: true, states: true, results });
         match word {
             "kinematics" | "inverse" => {
                 let (range, independent, first) = self.range(inner, &here)?;
+                if word == "inverse" {
+                    self.no_states_in_loads(&here);
+                }
                 let turns = vec![("turns_fully".to_owned(), Dimension::NONE)];
                 let (kind, reactions, results) = match word {
                     "kinematics" => (Kind::Kinematics(range), false, turns),
                     _ => (Kind::Inverse(range), true, Vec::new()),
                 };
-                Some((kind, Offer { word, independent: Some(independent), first, reactions, results }))
+                Some((kind, Offer { word, independent: Some(independent), first, reactions, states: false, results }))
             }
             "balance" => self.balance(inner, &here),
             "dynamics" => {
-                for (key, dimension, what) in [
-                    ("until", Dimension::TIME, "the time"),
-                    ("every", Dimension::TIME, "the time"),
-                    ("step", Dimension::TIME, "the step"),
-                    ("tolerance", Dimension::NONE, "the tolerance"),
-                ] {
-                    let id = self.of(inner, key, &here, dimension);
-                    self.check_key(Rule::Positive(what), id, &here, key);
-                }
-                for key in ["alpha", "beta", "rho"] {
-                    self.of(inner, key, &here, Dimension::NONE);
-                }
-                Some(later(Some(Dimension::TIME), None, Vec::new()))
+                let (independent, results) = (Some(Dimension::TIME), Vec::new());
+                let offer = Offer { word, independent, first: None, reactions: true, states: true, results };
+                Some((Kind::Dynamics(self.forward(inner, &here)?), offer))
             }
             "periodic" => {
                 let named = |decoder: &mut Self, key: &'n str| -> Option<(String, Dimension)> {
@@ -67,6 +63,30 @@ impl<'n> Decoder<'n> {
                 Some(later(Some(independent), first, results))
             }
             _ => Some(later(None, None, Vec::new())),
+        }
+    }
+
+    /// Loads by first-order states are known in motion in time alone.
+    fn no_states_in_loads(&mut self, at: &At<'_, 'n>) {
+        let model = &self.world.model;
+        let state_in = |ids: &[Id]| {
+            self.pool.inputs_of(ids).into_iter().find_map(|input| match model.inputs[input as usize] {
+                Quantity::State(i) => Some(model.states[i].name.clone()),
+                _ => None,
+            })
+        };
+        let found = model.loads.iter().find_map(|load| {
+            let state = match &load.on {
+                LoadOn::Point { force, torque, .. } => state_in(&[&force[..], &torque[..]].concat()),
+                LoadOn::Joint { effort, .. } => state_in(&[*effort]),
+            };
+            Some((load.name.clone(), state?))
+        });
+        if let Some((load, state)) = found {
+            let message = format!("the load `{load}` needs the state `{state}`");
+            let fault = self.fault("wrong-level", at, message, "`inverse` follows no states");
+            fault.spot = Spot::Key;
+            fault.help = Some("use `dynamics`, which computes motion in time, or remove the load in a variant".to_owned());
         }
     }
 
@@ -157,7 +177,7 @@ impl<'n> Decoder<'n> {
         results.push(("residual".to_owned(), Dimension::LENGTH));
         let (range, independent, first) = self.range(node, at)?;
         sound.then(|| {
-            let offer = Offer { word: "balance", independent: Some(independent), first, reactions: false, results };
+            let offer = Offer { word: "balance", independent: Some(independent), first, reactions: false, states: false, results };
             (Kind::Balance { moved, range }, offer)
         })
     }

@@ -4,13 +4,17 @@
 mod bodies;
 mod checks;
 mod columns;
+mod dynamics;
+mod events;
 mod forces;
 mod joints;
 mod kinds;
+mod measures;
 mod order;
 mod scalars;
 mod springs;
 mod start;
+mod stops;
 mod studies;
 mod values;
 
@@ -90,7 +94,9 @@ impl<'n> Decoder<'n> {
             loads: Vec::new(),
             springs: Vec::new(),
             motors: Vec::new(),
+            states: Vec::new(),
             measures: Vec::new(),
+            events: Vec::new(),
             start: Vec::new(),
             study: None,
             variants: layers.patches.iter().map(|(name, _)| (*name).to_owned()).collect(),
@@ -102,6 +108,8 @@ impl<'n> Decoder<'n> {
             listed,
             parameters: Vec::new(),
             tables: Vec::new(),
+            states: Vec::new(),
+            rates: Vec::new(),
             measures: Vec::new(),
             stretches: Vec::new(),
             sound: Sound::default(),
@@ -117,6 +125,7 @@ impl<'n> Decoder<'n> {
         decoder.drivers();
         decoder.motors();
         decoder.springs_by_name();
+        decoder.states_by_name();
         decoder.measures();
         decoder.springs();
         decoder.couplings();
@@ -186,8 +195,8 @@ impl<'n> Decoder<'n> {
             Ok(lowered) => {
                 // `rate` raises the level of what it is taken of
                 let forbidden = reach.level > allow.level || reach.reactions && !allow.reactions;
-                if forbidden && reach.level < super::vocabulary::Level::Study {
-                    let words = if reach.level == super::vocabulary::Level::Acceleration { "an acceleration" } else { "a velocity" };
+                if forbidden && reach.level < super::vocabulary::Known::Study {
+                    let words = if reach.level == super::vocabulary::Known::Acceleration { "an acceleration" } else { "a velocity" };
                     let place = self.place(at);
                     let fault = Fault::new("wrong-level", place, format!("this rate is {words}"), format!("{} may not use it", allow.what));
                     self.faults.push(fault.at(origin.spot(0..text.len())));

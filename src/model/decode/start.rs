@@ -113,6 +113,12 @@ impl<'n> Decoder<'n> {
                 Quantity::Joint { .. } | Quantity::Angle { .. } | Quantity::Point { .. } | Quantity::Spin { .. } => {
                     refused(format!("`{path}` is an acceleration"))
                 }
+                Quantity::State(_) => {
+                    let fault = self.fault("wrong-start", at, format!("`{path}` is a first-order state"), EXPECTED);
+                    fault.spot = Spot::Key;
+                    fault.help = Some(format!("its first value stands with it: `states: {{ {path}: {{ start: ... }} }}`"));
+                    return None;
+                }
                 _ => refused(format!("`{path}` cannot be given at the start")),
             },
             Found::Made(..) => refused(format!("`{path}` is computed from several quantities")),

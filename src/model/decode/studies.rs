@@ -47,6 +47,8 @@ pub(super) struct Offer {
     pub(super) first: Option<String>,
     /// Whether reactions are found.
     pub(super) reactions: bool,
+    /// Whether first-order states are followed.
+    pub(super) states: bool,
     /// Results with their dimensions.
     pub(super) results: Vec<(String, Dimension)>,
 }
@@ -119,7 +121,7 @@ impl<'n> Decoder<'n> {
             None => {
                 // so that the rest is still read
                 let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some()).unwrap_or("study");
-                (None, Offer { word, independent: Some(Dimension::NONE), first: None, reactions: true, results: Vec::new() })
+                (None, Offer { word, independent: Some(Dimension::NONE), first: None, reactions: true, states: true, results: Vec::new() })
             }
         };
         let sweep = self.sweep(node, &at, &mut local);
@@ -187,6 +189,7 @@ impl<'n> Decoder<'n> {
             self.free_name(name, &here, "a taken scalar");
             let Some(text) = value.text() else { continue };
             let mut symbol = None;
+            let mut dimension = Dimension::NONE;
             if let Some((study, scalar)) = text.split_once('.') {
                 match taken(study) {
                     Taken::Waiting => {}
@@ -195,9 +198,10 @@ impl<'n> Decoder<'n> {
                         self.fault("unknown-study", &here, format!("unknown study `{}`", clip(study)), "a study of this file").help = help;
                     }
                     Taken::Known(scalars) => match scalars.iter().find(|(known, _)| known == scalar) {
-                        Some((_, Some(dimension))) => {
+                        Some((_, Some(known))) => {
+                            dimension = *known;
                             let id = self.world.input(&mut self.pool, Quantity::Taken(takes.len()));
-                            symbol = Some((Symbol { id, dimension: *dimension }, Reach::CONSTANT));
+                            symbol = Some((Symbol { id, dimension }, Reach::CONSTANT));
                         }
                         Some((_, None)) => {}
                         None => {
@@ -209,7 +213,7 @@ impl<'n> Decoder<'n> {
                         }
                     },
                 }
-                takes.push(Take { name: name.to_owned(), study: study.to_owned(), scalar: scalar.to_owned() });
+                takes.push(Take { name: name.to_owned(), study: study.to_owned(), scalar: scalar.to_owned(), dimension, value: f64::NAN });
             } else {
                 self.fault("wrong-type", &here, format!("found `{}`", clip(text)), "a scalar of another study, `STUDY.SCALAR`");
             }
@@ -221,7 +225,9 @@ impl<'n> Decoder<'n> {
     /// Refuses a local name that means something else in the model.
     pub(super) fn free_name(&mut self, name: &str, at: &At<'_, '_>, what: &str) {
         let why = match self.world.names.get(name) {
-            Some(entity @ (Entity::Parameter(_) | Entity::Measure(_) | Entity::Table(_))) => Some(format!("the name of {}", entity.what())),
+            Some(entity @ (Entity::Parameter(_) | Entity::State(_) | Entity::Measure(_) | Entity::Table(_))) => {
+                Some(format!("the name of {}", entity.what()))
+            }
             _ => crate::model::names::taken(name).map(str::to_owned),
         };
         let why = why.or_else(|| crate::expression::unit(name).map(|_| "a unit".to_owned()));
@@ -361,6 +367,7 @@ impl<'n> Decoder<'n> {
             all: Vec::new(),
             independent: frame.offer.independent,
             reactions: frame.offer.reactions,
+            states: frame.offer.states,
             kind: frame.offer.word,
         });
     }

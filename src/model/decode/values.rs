@@ -1,10 +1,10 @@
-//! Parameters, tables and measures: named values that may need one another in any order.
+//! Parameters and tables, and the drafts of values that may need one another in any order.
 
 use super::checks::Rule;
 use super::order::{order, tell};
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
-use crate::model::entities::{Between, Beyond, Measure, Parameter, SpringOn, Table};
+use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -91,7 +91,7 @@ impl<'n> Decoder<'n> {
         }
     }
 
-    fn cycle(&mut self, cycle: &[usize], name: impl Fn(usize) -> (String, &'static str)) {
+    pub(super) fn cycle(&mut self, cycle: &[usize], name: impl Fn(usize) -> (String, &'static str)) {
         let Some(first) = cycle.first() else { return };
         let (entry, section) = name(*first);
         let told = tell(cycle, |i| name(i).0);
@@ -160,83 +160,20 @@ impl<'n> Decoder<'n> {
             self.world.model.tables.push(Table { name: name.to_owned(), points, x, y, between, beyond, place });
         }
     }
-
-    /// Measures, and the stretches of springs that are expressions: both may name each other.
-    pub(super) fn measures(&mut self) {
-        let measures = self.section("measures");
-        let springs = self.section("springs");
-        let section = [At::ROOT.key("measures"), At::ROOT.key("springs")];
-        let mut drafts = Vec::new();
-        for (name, node) in &measures {
-            drafts.push(self.draft(Some(*node), &section[0].key(name)));
-        }
-        // index of the spring of each later draft
-        let mut stretched = Vec::new();
-        for (i, (name, node)) in springs.iter().enumerate() {
-            if let Some(stretch) = node.get("stretch") {
-                let spring = section[1].key(name);
-                drafts.push(self.draft(Some(stretch), &spring.key("stretch")));
-                stretched.push(i);
-            }
-        }
-        let count = measures.len();
-        let names = &self.world.names;
-        let find = |name: &str| match names.get(name) {
-            Some(Entity::Measure(i)) => Some(*i),
-            Some(Entity::Spring(i)) => stretched.iter().position(|s| s == i).map(|k| count + k),
-            _ => None,
-        };
-        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, find)).collect();
-        let (order, cycles) = order(&needs);
-        let mut in_cycle = vec![false; drafts.len()];
-        for cycle in &cycles {
-            self.cycle(cycle, |i| match i.checked_sub(count) {
-                None => (measures[i].0.to_owned(), "measures"),
-                Some(k) => (springs[stretched[k]].0.to_owned(), "springs"),
-            });
-            cycle.iter().for_each(|i| in_cycle[*i] = true);
-        }
-        self.world.measures = vec![None; count];
-        let mut dimensions = vec![Dimension::NONE; count];
-        for i in order {
-            if in_cycle[i] {
-                continue;
-            }
-            if i < count {
-                let at = section[0].key(measures[i].0);
-                if let Some((lowered, reach)) = self.finish(&drafts[i], &at, Allow::MEASURE, &mut Local::default()) {
-                    dimensions[i] = lowered.dimension;
-                    let symbol = crate::expression::Symbol { id: lowered.id, dimension: lowered.dimension };
-                    self.world.measures[i] = Some((symbol, reach));
-                }
-            } else {
-                let file = stretched[i - count];
-                let spring_at = section[1].key(springs[file].0);
-                let at = spring_at.key("stretch");
-                let allow = Allow { what: "a spring's `stretch`", ..Allow::POSITION };
-                let lowered = self.finish(&drafts[i], &at, allow, &mut Local::default());
-                if let (Some((lowered, _)), Some(index)) = (lowered, self.world.sound.springs.get(file).copied().flatten()) {
-                    self.world.stretches[index] = Some(lowered.dimension);
-                    self.world.model.springs[index].on = SpringOn::Stretch(lowered.id);
-                }
-            }
-        }
-        for (i, (name, _)) in measures.iter().enumerate() {
-            if let Some((symbol, _)) = self.world.measures[i] {
-                let place = self.place(&section[0].key(name));
-                self.world.model.measures.push(Measure { name: (*name).to_owned(), dimension: dimensions[i], value: symbol.id, place });
-            }
-        }
-    }
 }
 
 /// Indices of what a draft names, each once. `find` gives the index of a first name.
 pub(super) fn needs(draft: &Draft<'_>, find: impl Fn(&str) -> Option<usize>) -> Vec<usize> {
+    named(draft, |head, _| find(head))
+}
+
+/// The same, where `find` also learns whether the name stands inside of `rate(..)`.
+pub(super) fn named(draft: &Draft<'_>, find: impl Fn(&str, bool) -> Option<usize>) -> Vec<usize> {
     let mut found = Vec::new();
     if let Draft::Parsed(expr, _) = draft {
-        paths(expr, &mut |path| {
+        paths(expr, false, &mut |path, in_rate| {
             let head = path.split('.').next().unwrap_or(path);
-            if let Some(i) = find(head)
+            if let Some(i) = find(head, in_rate)
                 && !found.contains(&i)
             {
                 found.push(i);
@@ -246,20 +183,21 @@ pub(super) fn needs(draft: &Draft<'_>, find: impl Fn(&str) -> Option<usize>) -> 
     found
 }
 
-/// Every path of an expression. Its height is bounded by the parser.
-pub(super) fn paths(expr: &Expr, f: &mut impl FnMut(&str)) {
+/// Every path of an expression, and whether a rate is taken of it. Its height is bounded by the parser.
+fn paths(expr: &Expr, in_rate: bool, f: &mut impl FnMut(&str, bool)) {
     match &expr.kind {
         Kind::Number(_) | Kind::Quantity(..) => {}
-        Kind::Path(path) => f(path),
-        Kind::Call(_, _, all) | Kind::And(all) | Kind::Or(all) => all.iter().for_each(|e| paths(e, f)),
-        Kind::Negate(a) | Kind::Not(a) => paths(a, f),
+        Kind::Path(path) => f(path, in_rate),
+        Kind::Call(name, _, all) => all.iter().for_each(|e| paths(e, in_rate || name == "rate", f)),
+        Kind::And(all) | Kind::Or(all) => all.iter().for_each(|e| paths(e, in_rate, f)),
+        Kind::Negate(a) | Kind::Not(a) => paths(a, in_rate, f),
         Kind::Sum(first, rest) | Kind::Product(first, rest) => {
-            paths(first, f);
-            rest.iter().for_each(|(_, e)| paths(e, f));
+            paths(first, in_rate, f);
+            rest.iter().for_each(|(_, e)| paths(e, in_rate, f));
         }
         Kind::Power(a, b) | Kind::Compare(_, a, b) => {
-            paths(a, f);
-            paths(b, f);
+            paths(a, in_rate, f);
+            paths(b, in_rate, f);
         }
     }
 }

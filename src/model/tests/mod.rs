@@ -1,6 +1,7 @@
 //! Whole files: the drafts decode, variants and settings win in their order, bad files are told what is wrong, and nothing panics.
 
 mod bad;
+mod motion;
 mod mutations;
 
 use super::*;
@@ -107,7 +108,7 @@ fn kinds_results_and_functionals() {
     let texts: Vec<&str> = study.functionals.iter().map(|f| f.text.as_str()).collect();
     assert_eq!(texts, ["mean(drive.torque)", "mean(drive.power)", "max(drive.torque)", "value(phi2, 0 deg)"]);
     assert_eq!(study.expect.len(), 3);
-    assert!(matches!(model("crank_rocker", "start-up").study.unwrap().kind, Kind::Later("dynamics")));
+    assert!(matches!(model("crank_rocker", "start-up").study.unwrap().kind, Kind::Dynamics(_)));
     let fluctuation = model("crank_rocker", "fluctuation").study.unwrap();
     assert_eq!(fluctuation.results, ["period", "omega_mean", "omega_max", "omega_min", "floquet"]);
     let plot = &fluctuation.plots[0];

@@ -1,0 +1,126 @@
+//! Why a run did not begin or did not end, in words: what happened to which joint at what time, and what to try.
+
+use super::setup::Plan;
+use super::system::{Mechanical, Root};
+use crate::analysis::outcome::Failure;
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::mechanism::Mechanism;
+use crate::model::{Model, Study};
+use crate::scalar::Dual;
+use grashof_solvers::minimal::Refused;
+use grashof_solvers::{Control, Halt, Why};
+
+/// Why a run has stopped on its way.
+pub(super) fn halt<G, D>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G, D>, plan: &Plan, halt: &Halt) -> String
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let t = halt.t;
+    let fixed = matches!(plan.settings.control, Control::Steps(_));
+    match halt.why {
+        Why::Zeno(root) => format!(
+            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or use `switches: step-over` with a fixed `step`",
+            root_name(model, system, root)
+        ),
+        Why::Error(_) | Why::StepSize => format!(
+            "at t = {t:.6} s the step has shrunk to {:.1e} s and the error is still too large: a force grows without bound there, or is rougher than the tolerance allows; look at the motion just before, or ask for a larger `tolerance`",
+            halt.h
+        ),
+        Why::Newton if fixed => {
+            format!("at t = {t:.6} s Newton's method does not converge with the step {:.1e} s: give a shorter `step`", halt.h)
+        }
+        Why::Newton => format!(
+            "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks or a force jumps there; look at the motion just before",
+            halt.h
+        ),
+        _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
+    }
+}
+
+/// What is wrong with a state.
+fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
+    match *why {
+        Why::NotFinite(v) => format!("a force on {} is not a number: look at tables and expressions of loads that act there", name_of_velocity(mechanism, v)),
+        Why::Singular => "the accelerations are not determined: a body that can move has no mass or inertia, or the position is singular; give masses to all moving bodies".into(),
+        Why::Constraints { row, residual } => format!(
+            "{} cannot be closed, {residual:.1e} remains: the mechanism locks there; check lengths and limits",
+            mechanism.name_of_row(row)
+        ),
+        Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
+        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unavailable => "the state cannot be continued".into(),
+    }
+}
+
+/// The body that a velocity moves, in words.
+fn name_of_velocity<G: Space>(mechanism: &Mechanism<G>, v: usize) -> String {
+    let node = mechanism.nodes.iter().find(|n| n.columns.contains(&v));
+    node.map_or_else(|| "the mechanism".into(), |n| format!("body `{}`", mechanism.bodies[n.body].name))
+}
+
+/// A root in words.
+fn root_name<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize) -> String
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let m = system.dynamics.mechanism;
+    let switch = match system.roots.get(root) {
+        Some(&Root::Force { program, k }) => m.programs()[program].program.switches().get(k).copied(),
+        Some(&Root::Column { k }) => system.observer.program().switches().get(k).copied(),
+        Some(&Root::Event(event)) => return format!("the event `{}`", model.events[event].name),
+        _ => None,
+    };
+    match switch.and_then(|s| model.pool.switches().get(s as usize)) {
+        Some(switch) => format!("the switch `{}`", switch.text),
+        None => "a switch".into(),
+    }
+}
+
+/// Why a run has not begun.
+pub(super) fn no_start<G: Space>(study: &Study, mechanism: &Mechanism<G>, halt: &Halt) -> Failure {
+    let massless: Vec<String> = mechanism
+        .nodes
+        .iter()
+        .filter(|n| crate::scalar::Scalar::value(mechanism.bodies[n.body].mass.mass) <= 0.0)
+        .map(|n| format!("`{}`", mechanism.bodies[n.body].name))
+        .collect();
+    if halt.why == Why::Singular && !massless.is_empty() {
+        return Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "the accelerations at the start are not determined: {} {} no mass and can move by {}",
+                massless.join(", "),
+                if massless.len() == 1 { "has" } else { "have" },
+                if massless.len() == 1 { "itself" } else { "themselves" }
+            ),
+            place: "bodies".into(),
+            help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
+        };
+    }
+    Failure::Study {
+        code: "no-start",
+        message: format!("the motion cannot begin: {}", cause(mechanism, &halt.why)),
+        place: study.place.clone(),
+        help: "look at `grashof check`, which shows the start position and the freedom that is left".into(),
+    }
+}
+
+/// Why there are no minimal coordinates.
+pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
+    let (message, help) = match why {
+        Refused::Dependent => (
+            "the joint coordinates with exact values in `start` depend on each other, or are more than the degrees of freedom",
+            "keep an exact value for as many joints as there are degrees of freedom, and put `~` before the others",
+        ),
+        Refused::Open => ("the loops cannot be closed at the start", "look at `grashof check`"),
+        Refused::Friction => ("forces depend on reactions of joints that minimal coordinates leave out", "use `coordinates: joint`"),
+    };
+    Failure::Study {
+        code: "no-minimal-coordinates",
+        message: message.into(),
+        place: format!("{}.coordinates", study.place),
+        help: help.into(),
+    }
+}

@@ -1,0 +1,438 @@
+//! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
+
+use super::balance::Balance;
+use super::explain;
+use super::setup::Plan;
+use super::system::{Mechanical, Watched};
+use super::trajectory::Trajectory;
+use crate::analysis::assemble::{Assembled, assemble};
+use crate::analysis::observe::Observer;
+use crate::analysis::outcome::{Certificate, Failure, Finding, Happened};
+use crate::analysis::sweep::parameters_with;
+use crate::dynamics::LANES;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, build};
+use crate::model::{Model, Study};
+use crate::scalar::Dual;
+use grashof_solvers::minimal::Minimal;
+use grashof_solvers::{Control, Counts, Dense, Dims, Engine, Halt, Integration, Node, Progress, Settings, Stage, State, System};
+use std::cell::OnceCell;
+
+/// Bytes that the steps of a run may take.
+const MOST_BYTES: usize = 3 << 30;
+
+/// Changes of parameters in one run.
+const MOST_ERAS: usize = 5000;
+
+/// A mechanism with the same on dual numbers, at given parameters; and what follows when an event changes them.
+pub(super) struct Eras<G: Space<S = f64>> {
+    pub(super) mechanism: Mechanism<G>,
+    lifted: Mechanism<G::Lift<Dual<LANES>>>,
+    parameters: Vec<f64>,
+    start: Assembled,
+    next: OnceCell<Box<Eras<G>>>,
+}
+
+impl<G: Space<S = f64>> Eras<G> {
+    /// The mechanism at the start.
+    ///
+    /// # Errors
+    /// If the model has none, or it cannot be assembled.
+    pub(super) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
+        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+        let start =
+            assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+        let lifted = mechanism.lift();
+        Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
+    }
+
+    /// The first era.
+    pub(super) fn first(&self) -> &Self {
+        self
+    }
+
+    /// The mechanism from an event on that has set parameters; rows keep where the start has anchored them.
+    fn change(&self, model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<&Self, Failure> {
+        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+        for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
+            if row.anchored {
+                (row.offset, row.anchored) = (before.offset, before.anchored);
+            }
+        }
+        let lifted = mechanism.lift();
+        let next = Self { mechanism, lifted, parameters: parameters.to_vec(), start: self.start.clone(), next: OnceCell::new() };
+        Ok(self.next.get_or_init(|| Box::new(next)))
+    }
+}
+
+/// The system that is integrated: with all coordinates, or with independent ones alone.
+enum Charted<'m, G: Space<S = f64>> {
+    Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
+    Minimal(Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>),
+}
+
+impl<'m, G: Space<S = f64>> Charted<'m, G> {
+    fn system(&mut self) -> &mut dyn System {
+        match self {
+            Self::Whole(system) => &mut **system,
+            Self::Minimal(system) => &mut **system,
+        }
+    }
+
+    fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
+        match self {
+            Self::Whole(system) => system,
+            Self::Minimal(system) => system.inner_mut(),
+        }
+    }
+
+    fn reduced(&self, state: &State) -> State {
+        match self {
+            Self::Whole(_) => state.clone(),
+            Self::Minimal(system) => system.reduced(state),
+        }
+    }
+
+    /// The node in all coordinates.
+    fn whole(&mut self, node: &Node, out: &mut Node) {
+        match self {
+            Self::Whole(_) => out.copy_from(node),
+            Self::Minimal(system) => {
+                // what cannot be closed has been refused by the integrator before
+                let _ = system.whole(node, out);
+            }
+        }
+    }
+}
+
+/// What a run has left.
+pub(super) struct Recorded<'m, G: Space<S = f64>> {
+    pub(super) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    pub(super) stopped: Option<String>,
+    pub(super) events: Vec<Happened>,
+    pub(super) certificate: Certificate,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// Runs a plan; the trajectory has the columns `ids`.
+///
+/// # Errors
+/// If the run did not begin.
+pub(super) fn march<'m, G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    plan: &Plan,
+    ids: &[Id],
+    eras: &'m Eras<G>,
+    parameters: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Result<Recorded<'m, G>, Failure> {
+    let (all, watched) = watched(model, &eras.mechanism, ids);
+    let follow = !plan.settings.locate;
+    let machine = |era: &'m Eras<G>| {
+        let observer = Observer::new(model, &era.mechanism, &era.parameters, &all);
+        Mechanical::new(&era.mechanism, &era.lifted, &era.start, observer, watched.clone())
+    };
+    let first = machine(eras);
+    let dims = first.dims();
+    let mut trajectory = Trajectory::new(first, ids.len(), follow);
+    let mut flow = Flow {
+        model,
+        study,
+        plan,
+        stop,
+        trajectory: &mut trajectory,
+        events: Vec::new(),
+        balance: Balance::default(),
+        changed: Vec::new(),
+        set_from: ids.len(),
+    };
+    let mut era = eras;
+    let mut state = begin(eras, dims);
+    let mut count = 0;
+    let stopped = loop {
+        match flow.era(era, machine(era), &mut state, count == 0)? {
+            After::Done => break None,
+            After::Stopped(why) => break Some(why),
+            After::Changed => {
+                count += 1;
+                if count > MOST_ERAS {
+                    break Some(format!("events have set parameters {MOST_ERAS} times; at t = {} s", state.t));
+                }
+                let set = flow.changed.clone();
+                let values = swept(study, parameters).into_iter().chain(set).collect::<Vec<_>>();
+                era = era.change(model, &parameters_with(model, &values), plan.coordinates)?;
+                flow.trajectory.era(machine(era));
+            }
+        }
+    };
+    let Flow { events, balance, .. } = flow;
+    let (certificate, findings) = balance.finish(plan);
+    Ok(Recorded { trajectory, stopped, events, certificate, findings })
+}
+
+/// What an integration alone has come to: nothing is recorded but its end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bare {
+    /// Time reached, s.
+    pub t: f64,
+    /// Columns of the study there.
+    pub columns: Vec<f64>,
+    /// Largest |E − E(0) − work|, J, of the end alone.
+    pub energy_drift: f64,
+    /// Largest residuals of positions and velocities at the end, in units of size.
+    pub residuals: [f64; 2],
+    /// What was spent.
+    pub counts: Counts,
+    /// Why it has stopped on its way.
+    pub stopped: Option<String>,
+}
+
+/// Integrates a plan to its end, for measurements: `timer` is called with true when the steps begin and with false when they end.
+///
+/// # Errors
+/// If the run did not begin.
+pub(super) fn bare<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    plan: &Plan,
+    ids: &[Id],
+    eras: &Eras<G>,
+    timer: &mut dyn FnMut(bool),
+) -> Result<Bare, Failure> {
+    let (all, watched) = watched(model, &eras.mechanism, ids);
+    let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
+    let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
+    let dims = system.dims();
+    let state = begin(eras, dims);
+    let mut chart = chart(study, plan, system, eras, &state)?;
+    let mut node = Node::new(dims);
+    let mut balance = Balance::default();
+    let settings = Settings { balance: false, ..plan.settings };
+    let start = chart.reduced(&state);
+    timer(true);
+    let begun = Integration::new(chart.system(), settings, &start);
+    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &halt))?;
+    chart.whole(run.node(), &mut node);
+    balance.begin(chart.mechanical(), &node, true);
+    let stopped = loop {
+        match run.advance(chart.system(), plan.until) {
+            Ok(Progress::Step | Progress::Event) => {}
+            Ok(Progress::End | Progress::Stopped) => break None,
+            Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+        }
+    };
+    timer(false);
+    chart.whole(run.node(), &mut node);
+    balance.end(chart.mechanical(), &node, &run, Counts::default());
+    let mut columns = vec![0.0; all.len()];
+    let mut engine = Engine::new(chart.mechanical(), Control::Tolerance(1e-8));
+    engine.evaluate(chart.mechanical(), node.state.at(), Stage::Velocity);
+    let residuals = [engine.position_residual(), engine.velocity_residual(&node.state.v)];
+    chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
+    chart.mechanical().columns(&node.state.modes, &mut columns);
+    columns.truncate(ids.len());
+    let drift = balance.finish(plan).0.march.map_or(0.0, |m| m.energy_drift);
+    Ok(Bare { t: node.state.t, columns, energy_drift: drift, residuals, counts: run.engine.counts, stopped })
+}
+
+/// The state at the assembled start.
+fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) -> State {
+    let mut state = State::new(dims);
+    state.q.copy_from_slice(&eras.start.q);
+    state.v.copy_from_slice(&eras.start.v);
+    state.z.copy_from_slice(&eras.mechanism.state_starts);
+    state.modes[..eras.start.modes.len()].copy_from_slice(&eras.start.modes);
+    state
+}
+
+/// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start`.
+fn chart<'m, G: Space<S = f64>>(
+    study: &Study,
+    plan: &Plan,
+    system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+    era: &Eras<G>,
+    state: &State,
+) -> Result<Charted<'m, G>, Failure> {
+    if !plan.minimal {
+        return Ok(Charted::Whole(Box::new(system)));
+    }
+    let asked = era.mechanism.starts.iter().filter(|s| !s.guess);
+    let independent: Vec<usize> = asked
+        .filter_map(|s| match s.asked {
+            Asked::Gauge { gauge, order: 0 } => match era.mechanism.gauges[gauge].measured {
+                Measured::Coordinate { along, .. } => Some(along.v),
+                _ => None,
+            },
+            _ => None,
+        })
+        .collect();
+    let minimal = Minimal::new(system, state, &independent);
+    minimal.map(|m| Charted::Minimal(Box::new(m))).map_err(|why| explain::no_chart(study, &why))
+}
+
+/// Parameters that the study itself varies, with their present values.
+fn swept(study: &Study, parameters: &[f64]) -> Vec<(usize, f64)> {
+    let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
+    varied.map(|p| (p, parameters[p])).collect()
+}
+
+/// Columns, then event functions, restitutions and new values of parameters as one list; and the events that watch them.
+fn watched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, ids: &[Id]) -> (Vec<Id>, Vec<Watched>) {
+    let mut all = ids.to_vec();
+    let mut watched = Vec::new();
+    for event in &model.events {
+        let output = all.len();
+        all.push(event.when);
+        let impact = event.restitution.as_ref().and_then(|r| {
+            all.push(r.e);
+            Some((*mechanism.joints[r.joint].slots.first()?, all.len() - 1))
+        });
+        watched.push(Watched { output, crossing: event.crossing, stops: event.stop || !event.set.is_empty(), impact });
+    }
+    for event in &model.events {
+        all.extend(event.set.iter().map(|(_, id)| *id));
+    }
+    (all, watched)
+}
+
+/// How an era has ended.
+enum After {
+    Done,
+    Stopped(String),
+    Changed,
+}
+
+/// A run in progress.
+struct Flow<'a, 'm, G: Space<S = f64>> {
+    model: &'a Model,
+    study: &'a Study,
+    plan: &'a Plan,
+    stop: &'a dyn Fn() -> bool,
+    trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    events: Vec<Happened>,
+    balance: Balance,
+    /// Parameters that events have set.
+    changed: Vec<(usize, f64)>,
+    /// Number of columns: event functions follow them among the outputs.
+    set_from: usize,
+}
+
+impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
+    /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
+    fn era(
+        &mut self,
+        era: &'m Eras<G>,
+        system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        state: &mut State,
+        first: bool,
+    ) -> Result<After, Failure> {
+        let dims = system.dims();
+        let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
+        let mut chart = chart(self.study, self.plan, system, era, state)?;
+        let start = chart.reduced(state);
+        let begun = Integration::new(chart.system(), self.plan.settings, &start);
+        let mut run = match begun {
+            Ok(run) => run,
+            Err(halt) if first => return Err(explain::no_start(self.study, &era.mechanism, &halt)),
+            Err(halt) => return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt))),
+        };
+        let (mut last, mut node) = (Node::new(dims), Node::new(dims));
+        let mut dense = Dense::new(dims);
+        chart.whole(run.node(), &mut node);
+        self.trajectory.piece(&node);
+        self.balance.begin(chart.mechanical(), &node, first);
+        let ended = loop {
+            if (self.stop)() {
+                break After::Stopped(format!("interrupted at t = {} s", node.state.t));
+            }
+            let progress = match run.advance(chart.system(), self.plan.until) {
+                Ok(progress) => progress,
+                Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+            };
+            let happened = matches!(progress, Progress::Event | Progress::Stopped);
+            std::mem::swap(&mut last, &mut node);
+            chart.whole(if happened { run.before() } else { run.node() }, &mut node);
+            if node.state.t <= last.state.t && !happened {
+                break After::Done;
+            }
+            if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
+                break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt));
+            }
+            self.balance.step(chart.mechanical(), &node, self.plan.until);
+            if happened {
+                let counted = self.happened(&mut chart, &run);
+                std::mem::swap(&mut last, &mut node);
+                chart.whole(run.node(), &mut node);
+                self.balance.jump(chart.mechanical(), [&last, &node]);
+                if progress == Progress::Stopped {
+                    break self.stopped_by(&mut chart, &last, &counted);
+                }
+                self.trajectory.piece(&node);
+            }
+            if self.trajectory.size() > MOST_BYTES {
+                break After::Stopped(format!("the steps no longer fit into memory at t = {} s", node.state.t));
+            }
+            if progress == Progress::End {
+                break After::Done;
+            }
+        };
+        self.balance.end(chart.mechanical(), &node, &run, inner.counts);
+        state.copy_from(&node.state);
+        Ok(ended)
+    }
+
+    /// Adds the last step to the trajectory.
+    fn record(
+        &mut self,
+        chart: &mut Charted<'m, G>,
+        run: &mut Integration,
+        inner: &mut Engine,
+        dense: &mut Dense,
+        [last, node]: [&Node; 2],
+    ) -> Result<(), Halt> {
+        match chart {
+            Charted::Whole(system) => self.trajectory.step(run.dense(&mut **system)?, node.state.t),
+            Charted::Minimal(system) => {
+                let made = dense.hermite(system.inner_mut(), inner, last, node);
+                made.map_err(|why| Halt { why, t: last.state.t, h: run.proposed() })?;
+                self.trajectory.step(dense, node.state.t);
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes the events of the model that the last step has ended at; their numbers.
+    fn happened(&mut self, chart: &mut Charted<'m, G>, run: &Integration) -> Vec<usize> {
+        let state = &run.node().state;
+        let system = chart.mechanical();
+        let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
+        let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
+        self.events.extend(counted.iter().map(|&e| Happened { name: self.model.events[e].name.clone(), at: state.t }));
+        counted
+    }
+
+    /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
+    fn stopped_by(&mut self, chart: &mut Charted<'m, G>, before: &Node, counted: &[usize]) -> After {
+        if counted.iter().any(|&e| self.model.events[e].stop) {
+            return After::Done;
+        }
+        let system = chart.mechanical();
+        system.observe(&before.state.at(), &before.a, &before.lambda);
+        let mut outputs = vec![0.0; system.observer.program().outputs()];
+        system.columns(&before.state.modes, &mut outputs);
+        let functions = self.model.events.iter().map(|e| 1 + usize::from(e.restitution.is_some())).sum::<usize>();
+        let mut place = self.set_from + functions;
+        for (i, event) in self.model.events.iter().enumerate() {
+            for &(parameter, _) in &event.set {
+                if counted.contains(&i) {
+                    self.changed.retain(|(p, _)| *p != parameter);
+                    self.changed.push((parameter, outputs[place]));
+                }
+                place += 1;
+            }
+        }
+        After::Changed
+    }
+}

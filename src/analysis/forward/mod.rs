@@ -1,0 +1,173 @@
+//! Motion in time: the study kind `dynamics`.
+//!
+//! `system` shows a mechanism to the integrators, `march` runs one of them and records, `trajectory` is the motion as a curve,
+//! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
+
+mod balance;
+mod explain;
+mod march;
+mod setup;
+mod system;
+mod trajectory;
+
+pub use balance::Verified;
+pub use march::Bare;
+pub use setup::{is_available, method};
+
+use super::clock::Clock;
+use super::continuous::{Curve, Samples};
+use super::extremum::extrema;
+use super::functional::Functionals;
+use super::motion::Rows;
+use super::outcome::{Failure, Outcome};
+use super::run::{Watched, evaluate, expectations, in_variable};
+use super::scene;
+use crate::dynamics::LANES;
+use crate::geometry::{Planar, Pose, Space, Spatial};
+use crate::model::{Dimensions, Forward, Model, Study};
+use crate::scalar::Dual;
+use march::{Eras, Recorded};
+use trajectory::{Off, Trajectory};
+
+/// Most numbers in the rows of a run: 4 GB of them.
+const MOST_NUMBERS: f64 = 5e8;
+
+/// Runs a dynamic study; `stop` is asked between steps, and ends the run where it is.
+///
+/// # Errors
+/// If it never began.
+pub(super) fn run<G>(
+    model: &Model,
+    study: &Study,
+    forward: &Forward,
+    parameters: &[f64],
+    stop: &dyn Fn() -> bool,
+) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let plan = setup::plan(model, study, forward, parameters)?;
+    let watched = Watched::of(study);
+    check_rows(study, &plan, watched.ids.len().max(1))?;
+    let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+    let Recorded { mut trajectory, stopped, events, certificate, findings } =
+        march::march(model, study, &plan, &watched.ids, &eras, parameters, stop)?;
+
+    let lost = |off: Off| Failure::Numerical(format!("the state at t = {} s could not be evaluated", off.at));
+    let breaks = trajectory.breaks();
+    let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;
+    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
+    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+    let extremes = extrema(&mut trajectory, samples, &breaks).map_err(lost)?;
+    let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(lost(Off { at: 0.0 })) };
+    let clock = Clock::of_time(plan.until);
+    let mut functionals =
+        Functionals { clock, ends: [from, to], curve: &mut trajectory, rows: &rows, extremes: &extremes, breaks: &breaks };
+    let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
+    let tables = &eras.first().mechanism.tables;
+    let scalars = evaluate(model, parameters, tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &[]);
+    let expectations = if stopped.is_none() { expectations(model, study, parameters, tables, &found, &[]) } else { Vec::new() };
+    let certificate = balance::residuals(&mut trajectory, &rows, certificate);
+    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    let n = rows.places.len();
+    let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
+    Ok(Outcome {
+        stopped,
+        parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
+        independent: "time".into(),
+        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+        rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+        places: rows.places,
+        results: Vec::new(),
+        scalars,
+        extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+        expectations,
+        findings,
+        certificate,
+        events,
+        scene: Some(scene),
+    })
+}
+
+/// Integrates a dynamic study without recording anything but its end; see [`Bare`].
+///
+/// # Errors
+/// If it never began.
+pub fn bare(model: &Model, study: &Study, forward: &Forward, parameters: &[f64], timer: &mut dyn FnMut(bool)) -> Result<Bare, Failure> {
+    fn in_space<G>(
+        model: &Model,
+        study: &Study,
+        forward: &Forward,
+        parameters: &[f64],
+        timer: &mut dyn FnMut(bool),
+    ) -> Result<Bare, Failure>
+    where
+        G: Space<S = f64>,
+        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+    {
+        let plan = setup::plan(model, study, forward, parameters)?;
+        let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+        let ids: Vec<_> = study.columns.iter().map(|c| c.value).collect();
+        march::bare(model, study, &plan, &ids, &eras, timer)
+    }
+    match model.space {
+        Dimensions::Planar => in_space::<Planar<f64>>(model, study, forward, parameters, timer),
+        Dimensions::Spatial => in_space::<Spatial<f64>>(model, study, forward, parameters, timer),
+    }
+}
+
+/// Rows on the grid of the study, or at every step, with both sides of every switch.
+fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>) -> Result<Rows, Off>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let mut rows = Rows::default();
+    for (piece, ends) in breaks.windows(2).enumerate() {
+        let places = match every {
+            None => trajectory.ends_of(piece),
+            Some(every) => {
+                let inside = (ends[0] / every).floor() as i64..=(ends[1] / every).ceil() as i64;
+                let near = 1e-9 * every;
+                let grid = inside.map(|k| k as f64 * every).filter(|t| *t > ends[0] + near && *t < ends[1] - near);
+                std::iter::once(ends[0]).chain(grid).chain([ends[1]]).collect()
+            }
+        };
+        for t in places {
+            let mut out = vec![0.0; trajectory.columns()];
+            trajectory.eval(t, piece, &mut out)?;
+            rows.places.push(t);
+            rows.pieces.push(piece);
+            rows.values.push(out);
+        }
+    }
+    Ok(rows)
+}
+
+/// Poses of the bodies at a time.
+fn pose<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
+    trajectory.go(t, piece).ok()?;
+    Some(trajectory.system(piece).dynamics.work.poses.clone())
+}
+
+/// Refuses more rows than fit in memory.
+fn check_rows(study: &Study, plan: &setup::Plan, columns: usize) -> Result<(), Failure> {
+    let step = plan.every.or(plan.fixed_step());
+    let rows = step.map_or(0.0, |step| plan.until / step);
+    if rows * columns as f64 <= MOST_NUMBERS {
+        return Ok(());
+    }
+    let key = if plan.every.is_some() { "every" } else { "step" };
+    Err(Failure::Study {
+        code: "too-many-rows",
+        message: format!("the study asks for {rows:.3e} rows of {columns} numbers"),
+        place: format!("{}.{key}", study.place),
+        help: format!("ask for a longer output step, as `every: {}`", plan.until / 1000.0),
+    })
+}

@@ -1,0 +1,112 @@
+//! What a dynamic study asks for, as numbers and as settings of the integrators.
+
+use crate::analysis::outcome::Failure;
+use crate::mechanism::Coordinates;
+use crate::model::{self, Chart, Forward, Integrator, Model, Study};
+use grashof_solvers::{Control, Level, Method, Settings, schemes};
+
+/// A study in numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) until: f64,
+    pub(super) every: Option<f64>,
+    pub(super) settings: Settings,
+    pub(super) coordinates: Coordinates,
+    pub(super) minimal: bool,
+}
+
+impl Plan {
+    /// The fixed step, s.
+    pub(super) fn fixed_step(&self) -> Option<f64> {
+        match self.settings.control {
+            Control::Steps([h, _]) => Some(h),
+            Control::Tolerance(_) => None,
+        }
+    }
+}
+
+/// Tolerance of a study that gives none.
+const TOLERANCE: f64 = 1e-8;
+
+/// The scheme by the name of an integrator; parameters of the Newmark family at their usual values.
+#[must_use]
+pub fn method(integrator: Integrator) -> Method {
+    match integrator {
+        Integrator::Auto => Method::Auto,
+        Integrator::Newmark => Method::Newmark { displacement: 0.25, velocity: 0.5 },
+        Integrator::Hht => Method::Hht { alpha: -0.05 },
+        Integrator::GeneralizedAlpha => Method::GeneralizedAlpha { rho: 0.8 },
+        Integrator::Bdf => Method::Bdf { order: None },
+        Integrator::Radau5 => Method::Radau5,
+        Integrator::Dop853 => Method::Dop853,
+        Integrator::Rk4 => Method::Rk4,
+        Integrator::CentralDifference => Method::CentralDifference,
+        Integrator::Ida => Method::Ida,
+    }
+}
+
+/// Whether this program was built with a scheme.
+#[must_use]
+pub fn is_available(integrator: Integrator) -> bool {
+    schemes::available(method(integrator))
+}
+
+/// The numbers of a study.
+///
+/// # Errors
+/// If one cannot be used, or the scheme is not in this program.
+pub(super) fn plan(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> Result<Plan, Failure> {
+    let value = |id| model.pool.value(id, parameters);
+    let positive = |key: &str, x: f64, unit: &str| {
+        let fault = Failure::Study {
+            code: "not-positive",
+            message: format!("`{key}` is {x}{unit}"),
+            place: format!("{}.{key}", study.place),
+            help: format!("give a positive number for `{key}`"),
+        };
+        if x > 0.0 && x.is_finite() { Ok(x) } else { Err(fault) }
+    };
+    let until = positive("until", value(forward.until), " s")?;
+    let every = forward.every.map(|id| positive("every", value(id), " s")).transpose()?;
+    let control = match forward.control {
+        model::Control::Step(id) => {
+            let h = positive("step", value(id), " s")?;
+            Control::Steps([h, h])
+        }
+        model::Control::Tolerance(id) => {
+            Control::Tolerance(id.map_or(Ok(TOLERANCE), |id| positive("tolerance", value(id), ""))?.max(1e-14))
+        }
+    };
+    if !is_available(forward.integrator) {
+        return Err(Failure::Study {
+            code: "no-ida",
+            message: "the integrator `ida` (SUNDIALS) is not part of this program".into(),
+            place: format!("{}.integrator", study.place),
+            help: "build it with `cargo build --release --features sundials` (needs cmake, make and clang), or use `bdf`".into(),
+        });
+    }
+    let mut method = method(forward.integrator);
+    let [alpha, beta, rho] = [forward.alpha, forward.beta, forward.rho].map(|id| id.map(value));
+    match &mut method {
+        Method::Newmark { displacement, velocity } => {
+            (*displacement, *velocity) = (alpha.unwrap_or(*displacement), beta.unwrap_or(*velocity));
+        }
+        Method::Hht { alpha: x } => *x = alpha.unwrap_or(*x),
+        Method::GeneralizedAlpha { rho: x } => *x = rho.unwrap_or(*x),
+        Method::Bdf { order } => *order = forward.order,
+        _ => {}
+    }
+    let level = match forward.level {
+        None | Some(model::Level::Stabilized) => Level::Stabilized,
+        Some(model::Level::Position) => Level::Position,
+        Some(model::Level::Velocity) => Level::Velocity,
+        Some(model::Level::Acceleration) => Level::Acceleration,
+    };
+    Ok(Plan {
+        until,
+        every,
+        settings: Settings { method, level, control, locate: forward.locate, balance: true, ..Settings::default() },
+        coordinates: if forward.chart == Chart::Cartesian { Coordinates::Cartesian } else { Coordinates::Joint },
+        minimal: forward.chart == Chart::Minimal,
+    })
+}

@@ -1,0 +1,440 @@
+//! A mechanism as integrators see it: the terms by `dynamics`, and every switch, event and winding as a root.
+//!
+//! | root | positive | behind it |
+//! |---|---|---|
+//! | switch of a load, spring, driver, state | inside its mode | the neighbouring mode; the scheme starts afresh |
+//! | switch of a column alone | the same | the same mode number, without effect on the motion |
+//! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
+//! | event of the model | on its present side of zero | the other side; what the event does |
+//!
+//! `modes` hold the switches of all expressions, then the windings, then the side of each event.
+
+use crate::analysis::observe::Observer;
+use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern};
+use crate::geometry::Space;
+use crate::mechanism::{EffortLaw, Measured, Mechanism};
+use crate::model::Crossing;
+use crate::scalar::Dual;
+use grashof_solvers::kkt::row_scale;
+use grashof_solvers::{At, Dims, Effect, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+
+/// What an event of the model does where its function crosses zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Watched {
+    /// Output of the observer's program that crosses.
+    pub(super) output: usize,
+    /// Direction that counts.
+    pub(super) crossing: Crossing,
+    /// Whether the run stops there, or pauses for its parameters to change.
+    pub(super) stops: bool,
+    /// Gauge of an impact, and output of the observer's program that is its restitution.
+    pub(super) impact: Option<(usize, usize)>,
+}
+
+/// Where a root comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Root {
+    /// Switch number `k` of program `program` of the mechanism.
+    Force { program: usize, k: usize },
+    /// Switch number `k` of the observer's program.
+    Column { k: usize },
+    /// Winding number, of a gauge.
+    Winding { gauge: usize, winding: usize },
+    /// An event of the model.
+    Event(usize),
+}
+
+/// A mechanism with its columns and events.
+pub(super) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(super) dynamics: Dynamics<'m, G>,
+    pub(super) observer: Observer<G>,
+    pub(super) reactions: Reactions<G>,
+    pub(super) roots: Vec<Root>,
+    linearizer: Linearizer<'m, D>,
+    dims: Dims,
+    pattern: Pattern,
+    events: Vec<Watched>,
+    kkt: Kkt,
+    a: Vec<f64>,
+    lambda: Vec<f64>,
+    inputs: Vec<f64>,
+    registers: Vec<f64>,
+    /// Roots of one program, and all outputs of the observer.
+    scratch: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+/// Powers whose work is integrated: of drivers, of loads and motors, of dampers.
+pub(super) const WORKS: usize = 3;
+
+impl<'m, G, D> Mechanical<'m, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// The system of a mechanism and the same lifted; scales are those of an assembled start.
+    pub(super) fn new(
+        mechanism: &'m Mechanism<G>,
+        lifted: &'m Mechanism<D>,
+        start: &super::super::assemble::Assembled,
+        observer: Observer<G>,
+        events: Vec<Watched>,
+    ) -> Self {
+        let (nv, rows, nz) = (mechanism.nv, mechanism.rows.len(), mechanism.state_starts.len());
+        let mut roots = Vec::new();
+        let mut seen = Vec::new();
+        for (program, staged) in mechanism.programs().iter().enumerate() {
+            for (k, switch) in staged.program.switches().iter().enumerate() {
+                if !seen.contains(switch) {
+                    seen.push(*switch);
+                    roots.push(Root::Force { program, k });
+                }
+            }
+        }
+        for (k, switch) in observer.program().switches().iter().enumerate() {
+            if !seen.contains(switch) {
+                roots.push(Root::Column { k });
+            }
+        }
+        for (gauge, g) in mechanism.gauges.iter().enumerate() {
+            if let Measured::Turn { winding, .. } = g.measured {
+                roots.push(Root::Winding { gauge, winding });
+            }
+        }
+        roots.extend((0..events.len()).map(Root::Event));
+        let dims = Dims {
+            q: mechanism.nq,
+            v: nv,
+            z: nz,
+            holonomic: rows,
+            nonholonomic: 0,
+            modes: mechanism.switches + mechanism.windings + events.len(),
+            live: 0,
+            roots: roots.len(),
+            work: WORKS,
+        };
+        let mut dynamics = Dynamics::new(mechanism);
+        dynamics.time(0.0, &start.modes);
+        dynamics.position(&start.q, &start.modes);
+        let block = pattern(mechanism);
+        let size: Vec<f64> = super::super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
+        let mut size_q = vec![1.0; mechanism.nq];
+        for step in &mechanism.steps {
+            if let crate::mechanism::Step::Axis { q, v, .. } = step {
+                size_q[*q] = size[*v];
+            }
+        }
+        let pattern = Pattern {
+            mass: block.clone(),
+            g: Sparsity::dense(rows, nv),
+            k: block.clone(),
+            c: block,
+            r_z: Sparsity::dense(nv, nz),
+            r_lambda: Sparsity::empty(nv, rows),
+            z_q: Sparsity::dense(nz, nv),
+            z_v: Sparsity::dense(nz, nv),
+            z_z: Sparsity::dense(nz, nz),
+            g_scale: row_scale(&dynamics.work.g, &start.metric),
+            metric: start.metric.clone(),
+            size_q,
+            size_v: size,
+            roots_by_reactions: observer.switches_by_forces() || (!events.is_empty() && observer.needs_forces()),
+        };
+        let mut kkt = Kkt::new(nv, rows);
+        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
+        let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
+        Self {
+            reactions: dynamics.reactions(),
+            linearizer: Linearizer::new(lifted),
+            outputs: vec![0.0; observer.program().outputs()],
+            inputs: vec![0.0; most(|p| p.inputs)],
+            registers: vec![0.0; most(|p| p.program.registers())],
+            scratch: vec![0.0; switches],
+            a: vec![0.0; nv],
+            lambda: vec![0.0; rows],
+            dynamics,
+            observer,
+            roots,
+            dims,
+            pattern,
+            events,
+            kkt,
+        }
+    }
+
+    /// Modes that the mechanism and its columns know.
+    fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
+        let m = self.dynamics.mechanism;
+        &modes[..m.switches + m.windings]
+    }
+
+    fn kinematics(&mut self, at: &At<'_>) {
+        self.dynamics.work.z.copy_from_slice(at.z);
+        self.dynamics.time(at.t, at.modes);
+        self.dynamics.position(at.q, at.modes);
+        self.dynamics.velocity(at.v, at.modes);
+    }
+
+    /// Evaluates a state with its accelerations and reads the columns' quantities.
+    pub(super) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
+        self.kinematics(at);
+        self.dynamics.loads(at.modes);
+        self.dynamics.react(a, lambda, &mut self.reactions);
+        let own = self.own(at.modes);
+        self.observer.read(&mut self.dynamics, [at.q, at.v, a], &self.reactions, own);
+    }
+
+    /// Columns and event functions at the state observed last.
+    pub(super) fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
+        self.observer.columns(modes, out);
+    }
+
+    /// The observer's inputs at a state; accelerations only if they are needed, by an own solution where none are given.
+    fn look(&mut self, at: &At<'_>, given: Option<(&[f64], &[f64])>) {
+        if !self.pattern.roots_by_reactions {
+            self.kinematics(at);
+            let own = self.own(at.modes);
+            let Self { dynamics, observer, reactions, a, .. } = self;
+            observer.read(dynamics, [at.q, at.v, a], reactions, own);
+            return;
+        }
+        if let Some((a, lambda)) = given {
+            return self.observe(at, a, lambda);
+        }
+        self.kinematics(at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        let w = &self.dynamics.work;
+        if self.kkt.factor(&w.mass, &w.g).is_ok() {
+            self.kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
+        }
+        let (a, lambda) = (std::mem::take(&mut self.a), std::mem::take(&mut self.lambda));
+        self.observe(at, &a, &lambda);
+        (self.a, self.lambda) = (a, lambda);
+    }
+
+    /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.
+    fn with_program(&mut self, program: usize, run: impl FnOnce(&crate::expression::Program, &[f64], &mut [f64], &mut [f64])) {
+        let staged = self.dynamics.mechanism.programs()[program];
+        for &(input, leaf) in &staged.fills {
+            self.inputs[input] = self.dynamics.leaf(leaf);
+        }
+        run(&staged.program, &self.inputs, &mut self.registers, &mut self.scratch);
+    }
+
+    /// The direction that counts for an event that has left `side`.
+    fn counts(&self, event: usize, side: i32) -> bool {
+        match self.events[event].crossing {
+            Crossing::Both => true,
+            Crossing::Rising => side < 0,
+            Crossing::Falling => side > 0,
+        }
+    }
+
+    /// The model's event behind a root that was crossed, if it counts in the direction in which it went; `state` is behind it.
+    pub(super) fn event_of(&self, root: usize, state: &State) -> Option<usize> {
+        let Root::Event(event) = self.roots[root] else { return None };
+        let m = self.dynamics.mechanism;
+        let before = -state.modes[m.switches + m.windings + event];
+        self.counts(event, before).then_some(event)
+    }
+}
+
+impl<G, D> System for Mechanical<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    fn dims(&self) -> Dims {
+        self.dims
+    }
+
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
+        self.kinematics(&at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        let w = &mut self.dynamics.work;
+        out.phi.copy_from_slice(&w.phi);
+        // the same entries are written at every evaluation, the others are zero in both
+        std::mem::swap(&mut out.g, &mut w.g);
+        std::mem::swap(&mut out.mass, &mut w.mass);
+        if stage >= Stage::Velocity {
+            out.nu.copy_from_slice(&w.nu);
+            out.gamma.copy_from_slice(&w.gamma);
+        }
+        if stage >= Stage::Dynamics {
+            out.force.copy_from_slice(&w.force);
+            if self.dims.z > 0 {
+                self.dynamics.rates(at.modes);
+                out.zdot.copy_from_slice(&self.dynamics.work.zdot);
+            }
+        }
+    }
+
+    fn residual(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]) {
+        self.kinematics(&at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        self.dynamics.residual(a, lambda, r);
+    }
+
+    fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
+        let point = Point { t: at.t, q: at.q, v: at.v, z: at.z, a, lambda, modes: at.modes };
+        self.linearizer.tangents(&point, out);
+    }
+
+    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.dynamics.mechanism.rate(q, v, qdot);
+    }
+
+    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+        self.dynamics.mechanism.retract(q, delta);
+    }
+
+    fn displace(&self, q: &mut [f64], u: &[f64]) {
+        self.dynamics.mechanism.displace(q, u);
+    }
+
+    /// Power of drivers −λᵀν, of loads and motors, of dampers: what changes the energy, W.
+    fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
+        let _ = a;
+        self.kinematics(&at);
+        self.dynamics.loads(at.modes);
+        let m = self.dynamics.mechanism;
+        let work = &self.dynamics.work;
+        w[0] = -work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
+        w[1] = 0.0;
+        w[2] = 0.0;
+        for node in &m.nodes {
+            let gravity = G::dot(m.gravity, work.twists[node.body].v) * work.inertias[node.body].m
+                + G::dot(m.gravity, G::turn(work.twists[node.body].w, work.inertias[node.body].h));
+            w[1] += work.applied[node.body].power(work.twists[node.body]) - gravity;
+        }
+        for (effort, size) in m.efforts.iter().zip(&work.efforts) {
+            let rate = self.dynamics.extent_rate(effort.along);
+            match effort.law {
+                EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => w[2] -= damping * rate * rate,
+                EffortLaw::Drive { .. } => w[1] += size * rate,
+            }
+        }
+    }
+
+    fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
+        modes.copy_from_slice(at.modes);
+        let m = self.dynamics.mechanism;
+        // a function of positions may switch and feed the others: twice settles what depends on it
+        for _ in 0..2 {
+            let own: &[i32] = modes;
+            self.kinematics(&At { modes: own, ..at });
+            for program in 0..m.programs().len() {
+                self.with_program(program, |p, inputs, registers, _| p.set_modes(inputs, registers, modes));
+            }
+        }
+        self.look(&At { modes, ..at }, None);
+        self.observer.set_modes(modes);
+        self.observer.columns(modes, &mut self.outputs);
+        for (event, watched) in self.events.iter().enumerate() {
+            let x = self.outputs[watched.output];
+            if x != 0.0 {
+                modes[m.switches + m.windings + event] = if x < 0.0 { -1 } else { 1 };
+            }
+        }
+        for root in &self.roots {
+            if let Root::Winding { gauge, winding } = *root {
+                let half = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, modes[m.switches + winding]);
+                modes[m.switches + winding] += (half / std::f64::consts::PI).round() as i32;
+            }
+        }
+    }
+
+    fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {
+        self.look(&at, Some((a, lambda)));
+        let m = self.dynamics.mechanism;
+        // whose roots are in the scratch: the programs of the mechanism by number, then that of the columns
+        let of_columns = m.programs().len();
+        let mut filled = usize::MAX;
+        if !self.events.is_empty() {
+            self.observer.columns(at.modes, &mut self.outputs);
+        }
+        for (i, g) in g.iter_mut().enumerate() {
+            *g = match self.roots[i] {
+                Root::Force { program, k } => {
+                    if filled != program {
+                        self.with_program(program, |p, inputs, registers, roots| {
+                            p.roots(inputs, at.modes, registers, &mut roots[..p.switches().len()]);
+                        });
+                        filled = program;
+                    }
+                    self.scratch[k]
+                }
+                Root::Column { k } => {
+                    if filled != of_columns {
+                        let count = self.observer.program().switches().len();
+                        self.observer.roots(at.modes, &mut self.scratch[..count]);
+                        filled = of_columns;
+                    }
+                    self.scratch[k]
+                }
+                Root::Winding { gauge, winding } => {
+                    let off = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, at.modes[m.switches + winding]);
+                    0.75 * std::f64::consts::PI - off.abs()
+                }
+                Root::Event(event) => f64::from(at.modes[m.switches + m.windings + event]) * self.outputs[self.events[event].output],
+            };
+        }
+    }
+
+    fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
+        let m = self.dynamics.mechanism;
+        self.look(&state.at(), None);
+        match self.roots[root] {
+            Root::Force { program, k } => {
+                let modes = &mut state.modes;
+                self.with_program(program, |p, inputs, registers, roots| {
+                    p.roots(inputs, modes, registers, &mut roots[..p.switches().len()]);
+                    modes[p.switches()[k] as usize] = p.neighbour(k, modes, registers);
+                });
+                Effect::Restart
+            }
+            Root::Column { k } => {
+                let count = self.observer.program().switches().len();
+                self.observer.roots(&state.modes, &mut self.scratch[..count]);
+                let switch = self.observer.program().switches()[k] as usize;
+                state.modes[switch] = self.observer.neighbour(k, &state.modes);
+                Effect::Record
+            }
+            Root::Winding { gauge, winding } => {
+                let mode = &mut state.modes[m.switches + winding];
+                *mode += if off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, *mode) > 0.0 { 1 } else { -1 };
+                Effect::Record
+            }
+            Root::Event(event) => {
+                self.observer.columns(&state.modes, &mut self.outputs);
+                let side = &mut state.modes[m.switches + m.windings + event];
+                let before = *side;
+                *side = -before;
+                if !self.counts(event, before) {
+                    return Effect::Record;
+                }
+                let watched = self.events[event];
+                if watched.stops {
+                    return Effect::Stop;
+                }
+                let Some((gauge, restitution)) = watched.impact else { return Effect::Record };
+                row.fill(0.0);
+                m.gauges[gauge].project(&self.dynamics.work.readings[gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
+                Effect::Impulse { restitution: self.outputs[restitution] }
+            }
+        }
+    }
+}
+
+/// Angle from the centre of the half turn that is counted, rad.
+fn off_centre(x: f64, shift: f64, half: i32) -> f64 {
+    x - shift - std::f64::consts::PI * f64::from(half)
+}

@@ -1,0 +1,200 @@
+//! A motion in time as a curve: the continuous solution of every step, evaluated anywhere.
+
+use super::system::Mechanical;
+use crate::analysis::continuous::Curve;
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::scalar::Dual;
+use grashof_solvers::{Control, Dense, Engine, Node, Stage, System};
+
+/// One step: polynomials in θ = (t − begin)/h on [begin, end], end ≤ begin + h.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// Begin of the polynomials, and where the motion leaves them, s.
+    begin: f64,
+    end: f64,
+    h: f64,
+    /// First coefficient and number of coefficients.
+    first: usize,
+    count: usize,
+}
+
+/// A stretch of the motion without switches: its modes, its parameters.
+#[derive(Clone, Debug)]
+struct Piece {
+    era: usize,
+    modes: Vec<i32>,
+    /// First step and the one behind the last.
+    steps: (usize, usize),
+    from: f64,
+    to: f64,
+}
+
+/// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
+pub(super) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(super) system: Mechanical<'m, G, D>,
+    pub(super) engine: Engine,
+}
+
+/// A state of the trajectory could not be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Off {
+    /// Time, s.
+    pub(super) at: f64,
+}
+
+/// A motion in time.
+pub(super) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(super) eras: Vec<Era<'m, G, D>>,
+    /// State, accelerations and multipliers evaluated last.
+    pub(super) node: Node,
+    steps: Vec<Step>,
+    pieces: Vec<Piece>,
+    coefficients: Vec<f64>,
+    dense: Dense,
+    columns: usize,
+    out: Vec<f64>,
+    /// Whether modes are taken from each state: the integrator has marched across switches.
+    follow: bool,
+    /// The step found last.
+    near: usize,
+}
+
+impl<'m, G, D> Trajectory<'m, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// An empty one of `columns` columns, to be filled from an era on.
+    pub(super) fn new(first: Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
+        let dims = first.dims();
+        let outputs = first.observer.program().outputs();
+        let mut trajectory = Self {
+            eras: Vec::new(),
+            node: Node::new(dims),
+            steps: Vec::new(),
+            pieces: Vec::new(),
+            coefficients: Vec::new(),
+            dense: Dense::new(dims),
+            columns,
+            out: vec![0.0; outputs],
+            follow,
+            near: 0,
+        };
+        trajectory.era(first);
+        trajectory
+    }
+
+    /// Begins another era.
+    pub(super) fn era(&mut self, system: Mechanical<'m, G, D>) {
+        let engine = Engine::new(&system, Control::Tolerance(1e-8));
+        self.eras.push(Era { system, engine });
+    }
+
+    /// Begins a piece at a node.
+    pub(super) fn piece(&mut self, node: &Node) {
+        let (t, n) = (node.state.t, self.steps.len());
+        let modes = node.state.modes[..self.node.state.modes.len()].to_vec();
+        // an event at the begin of a piece leaves nothing of it
+        if self.pieces.last().is_some_and(|p| p.from >= t) {
+            self.pieces.pop();
+        }
+        self.pieces.push(Piece { era: self.eras.len() - 1, modes, steps: (n, n), from: t, to: t });
+    }
+
+    /// Adds a step of the present piece, which ends at `end` (s).
+    pub(super) fn step(&mut self, dense: &Dense, end: f64) {
+        let first = self.coefficients.len();
+        let coefficients = dense.coefficients();
+        self.coefficients.extend_from_slice(coefficients);
+        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len() });
+        if let Some(piece) = self.pieces.last_mut() {
+            (piece.to, piece.steps.1) = (end, self.steps.len());
+        }
+    }
+
+    /// Bytes in use by steps.
+    pub(super) fn size(&self) -> usize {
+        std::mem::size_of_val(&self.coefficients[..]) + std::mem::size_of_val(&self.steps[..])
+    }
+
+    /// Times of the begin, of every switch, and of the end.
+    pub(super) fn breaks(&self) -> Vec<f64> {
+        let first = self.pieces.first().map_or(0.0, |p| p.from);
+        std::iter::once(first).chain(self.pieces.iter().map(|p| p.to)).collect()
+    }
+
+    /// Ends of the steps of a piece, with its begin.
+    pub(super) fn ends_of(&self, piece: usize) -> Vec<f64> {
+        let p = &self.pieces[piece];
+        std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().map(|s| s.end)).collect()
+    }
+
+    /// The mechanism of the piece that was evaluated last.
+    pub(super) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
+        let era = self.pieces.get(piece).map_or(0, |p| p.era);
+        &mut self.eras[era].system
+    }
+
+    /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
+    /// the constraints.
+    pub(super) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let off = Off { at: t };
+        let p = self.pieces.get(piece).ok_or(off)?;
+        let (low, high) = p.steps;
+        if low == high {
+            return Err(off);
+        }
+        if !(self.near >= low && self.near < high && self.steps[self.near].begin <= t && t <= self.steps[self.near].end) {
+            self.near = (low + self.steps[low..high].partition_point(|s| s.end < t)).min(high - 1);
+        }
+        let step = self.steps[self.near];
+        self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
+        self.dense.evaluate(t, &mut self.node.state);
+        self.node.state.modes.copy_from_slice(&p.modes);
+        let Era { system, engine } = &mut self.eras[p.era];
+        if self.follow {
+            engine.follow_modes(system, &mut self.node.state);
+        }
+        // the end of a whole step is the scheme's own
+        let own = t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h;
+        let done = if own { engine.accelerate(system, &mut self.node) } else { engine.settle(system, &mut self.node) };
+        done.map_err(|_| off)?;
+        let Node { state, a, lambda, .. } = &self.node;
+        system.observe(&state.at(), a, lambda);
+        Ok(())
+    }
+
+    /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
+    pub(super) fn residuals(&mut self, piece: usize) -> [f64; 2] {
+        let Era { system, engine } = &mut self.eras[self.pieces[piece].era];
+        engine.evaluate(system, self.node.state.at(), Stage::Velocity);
+        [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
+    }
+
+    /// All outputs of the observer at the state evaluated last.
+    pub(super) fn outputs(&mut self, piece: usize) -> &[f64] {
+        let era = self.pieces[piece].era;
+        self.eras[era].system.columns(&self.node.state.modes, &mut self.out);
+        &self.out
+    }
+}
+
+impl<G, D> Curve for Trajectory<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    type Error = Off;
+
+    fn columns(&self) -> usize {
+        self.columns
+    }
+
+    fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        self.go(t, piece)?;
+        let n = self.columns;
+        out.copy_from_slice(&self.outputs(piece)[..n]);
+        Ok(())
+    }
+}

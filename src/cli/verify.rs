@@ -1,0 +1,309 @@
+//! `run --verify`: a motion in time computed twice more, and how many digits of its columns stand.
+//!
+//! With the same scheme at a tenth of the tolerance (half of a fixed step), and with one of another family. If errors follow the
+//! tolerance, the first of two runs at τ and rτ is off by |y − y'|/(1 − r), which is 10/9 of the difference (Richardson). A
+//! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension, and an energy in
+//! units of the largest energy or work of the run: what is zero but for rounding has no digits to lose.
+
+use super::progress::interrupted;
+use super::schemes::{self, Steps, word};
+use super::units::unit;
+use grashof::analysis::outcome::{Failure, Outcome};
+use grashof::analysis::run::run;
+use grashof::analysis::sweep::{grid, parameters, parameters_with};
+use grashof::expression::Dimension;
+use grashof::mechanism::Coordinates;
+use grashof::model::{Column, Forward, Integrator, Kind, Model, Quantity, Study};
+use grashof::output::number;
+
+/// Rows of a run that has no output step.
+const ROWS: f64 = 400.0;
+/// Digits from which on two runs agree.
+const ENOUGH: f64 = 1.0;
+/// Digits of a double.
+const MOST: f64 = 16.0;
+/// Differences that are rounding, whatever the column, SI.
+const ROUNDING: f64 = 1e-13;
+/// What a column counts at least, of the largest one of its dimension.
+const LEAST: f64 = 1e-3;
+
+/// How well a study agrees with another computation of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Verified {
+    /// With what: `tolerance 1e-9`, `radau5`.
+    with: String,
+    /// Digits of the column that agrees least, at its worst row.
+    digits: f64,
+    /// Why there are none, if there are none.
+    because: Option<String>,
+}
+
+/// What is said of a study, and whether it stands.
+pub(super) struct Verdict {
+    pub(super) line: String,
+    pub(super) agrees: bool,
+}
+
+/// Computes a motion in time again in other ways; none if the study is no such motion, or if it was interrupted.
+///
+/// # Errors
+/// If the study itself did not begin.
+pub(super) fn verify(model: &Model) -> Result<Option<Verdict>, Failure> {
+    let Some(study) = &model.study else { return Ok(None) };
+    let Kind::Dynamics(forward) = &study.kind else { return Ok(None) };
+    let mut worst: Option<[Verified; 2]> = None;
+    let points = if study.sweep.is_empty() { vec![Vec::new()] } else { grid(model, study) };
+    let count = points.len();
+    for at in points {
+        let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(at).collect();
+        let values = if set.is_empty() { parameters(model) } else { parameters_with(model, &set) };
+        let found = match one(model, study, forward, &values) {
+            Ok(found) => found,
+            // a run that cannot begin is a row with its reason, not a disagreement
+            Err(_) if count > 1 => continue,
+            Err(failure) => return Err(failure),
+        };
+        if interrupted() {
+            return Ok(None);
+        }
+        let Some(found) = found else { continue };
+        worst = Some(match worst {
+            None => found,
+            Some([a, b]) => {
+                let [c, d] = found;
+                [if c.digits < a.digits { c } else { a }, if d.digits < b.digits { d } else { b }]
+            }
+        });
+    }
+    Ok(worst.map(|both| Verdict { line: said(&both, count), agrees: both.iter().all(|v| v.because.is_none()) }))
+}
+
+/// `verify: 7.3 digits against tolerance 1e-9; 0 digits, because ...`
+fn said(both: &[Verified], runs: usize) -> String {
+    let one = |v: &Verified| match &v.because {
+        None => format!("{:.1} digits against {}", v.digits, v.with),
+        Some(why) => format!("0 digits, because {why}"),
+    };
+    let of = if runs > 1 { format!(" (the worst of {runs} runs)") } else { String::new() };
+    format!("verify: {}{of}", both.iter().map(one).collect::<Vec<_>>().join("; "))
+}
+
+/// One run beside its two others; none if it stops on its way, which is told elsewhere.
+fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> Result<Option<[Verified; 2]>, Failure> {
+    let mut model = model.clone();
+    let steps = schemes::steps(&model, forward, parameters);
+    let until = model.pool.value(forward.until, parameters);
+    let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
+    let compute = |model: &mut Model, by: Integrator, steps: Steps| {
+        let study = schemes::changed(model, study, forward, by, steps, Some(every));
+        run(model, &study, parameters, Coordinates::Joint, &interrupted)
+    };
+    let base = compute(&mut model, forward.integrator, steps)?;
+    if base.stopped.is_some() {
+        return Ok(None);
+    }
+    let (finer, factor, with) = finer(forward, steps);
+    let witness = schemes::witness(forward.integrator);
+    // a fixed step has no tolerance that the witness could share
+    let tight = match steps {
+        Steps::Tolerance(x) => (0.1 * x).max(1e-13),
+        Steps::Fixed(_) => 1e-10,
+    };
+    let others = [(forward.integrator, finer, factor, with), (witness, Steps::Tolerance(tight), 1.0, word(witness).to_string())];
+    let [a, b] = others.map(|(by, steps, factor, with)| {
+        let other = compute(&mut model, by, steps);
+        Comparison { model: &model, study, base: &base, every, events: forward.locate }.verified(other, factor, with)
+    });
+    Ok(Some([a, b]))
+}
+
+/// Rows for a run that has none of its own: about 400, at steps of the integrator if these are fixed.
+fn output_step(steps: Steps, until: f64) -> f64 {
+    match steps {
+        Steps::Fixed(h) => h * (until / (ROWS * h)).ceil().max(1.0),
+        Steps::Tolerance(_) => until / ROWS,
+    }
+}
+
+/// Finer steps of the same scheme, the factor from the difference to the error, and what it is called.
+fn finer(forward: &Forward, steps: Steps) -> (Steps, f64, String) {
+    match steps {
+        Steps::Tolerance(x) => {
+            let finer = (0.1 * x).max(1e-14);
+            // no tolerance below the smallest one: the difference is what there is
+            (Steps::Tolerance(finer), if finer < x { 1.0 / (1.0 - finer / x) } else { 1.0 }, format!("tolerance {}", short(finer)))
+        }
+        Steps::Fixed(h) => {
+            let order = match forward.integrator {
+                Integrator::Rk4 => 4,
+                Integrator::Dop853 | Integrator::Auto => 8,
+                Integrator::Radau5 => 5,
+                Integrator::Bdf => forward.order.unwrap_or(1) as i32,
+                _ => 2,
+            };
+            (Steps::Fixed(0.5 * h), 1.0 / (1.0 - 0.5f64.powi(order)), format!("a step of {} s", short(0.5 * h)))
+        }
+    }
+}
+
+/// Six digits of a number.
+fn short(x: f64) -> String {
+    number(format!("{x:.5e}").parse().unwrap_or(x))
+}
+
+/// A run that is compared with others of the same study.
+struct Comparison<'a> {
+    model: &'a Model,
+    study: &'a Study,
+    base: &'a Outcome,
+    /// Output step, s.
+    every: f64,
+    /// Whether both locate switches, so that they must find the same.
+    events: bool,
+}
+
+impl Comparison<'_> {
+    fn verified(&self, other: Result<Outcome, Failure>, factor: f64, with: String) -> Verified {
+        match self.digits(other, factor, &with) {
+            Ok(digits) => Verified { with, digits, because: None },
+            Err(why) => Verified { with, digits: 0.0, because: Some(why) },
+        }
+    }
+
+    /// Digits that agree, or why none do.
+    fn digits(&self, other: Result<Outcome, Failure>, factor: f64, with: &str) -> Result<f64, String> {
+        let other = other.map_err(|failure| format!("{with} did not begin: {}", failure.reason()))?;
+        if let Some(reason) = &other.stopped {
+            return Err(format!("{with} stopped on its way: {reason}"));
+        }
+        if self.events {
+            self.same_events(&other, with)?;
+        }
+        let scales = self.scales();
+        let mut worst = (0.0, 0, 0, 0);
+        for (i, k) in self.pairs(&other) {
+            for (c, scale) in scales.iter().enumerate() {
+                let (x, y) = (self.base.rows[i][c], other.rows[k][c]);
+                let off = if x.is_nan() && y.is_nan() || (x - y).abs() <= ROUNDING { 0.0 } else { factor * (x - y).abs() / scale };
+                // what is defined in one of them alone is a difference, too
+                let off = if off.is_nan() { f64::INFINITY } else { off };
+                if off > worst.0 {
+                    worst = (off, i, k, c);
+                }
+            }
+        }
+        let (off, i, k, c) = worst;
+        let digits = (-off.log10()).min(MOST);
+        if digits >= ENOUGH {
+            return Ok(digits);
+        }
+        let column = &self.study.columns[c];
+        let unit = unit(self.model, column.value, column.dimension);
+        let value = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
+        let [x, y] = [self.base.rows[i][c], other.rows[k][c]].map(value);
+        Err(format!("`{}` is {x} at t = {:.6} s, and {y} with {with}", column.name, self.base.places[i]))
+    }
+
+    /// Whether the other run has the same events and switches in the same order.
+    fn same_events(&self, other: &Outcome, with: &str) -> Result<(), String> {
+        let pairs = self.base.events.iter().zip(&other.events);
+        if let Some((k, (a, b))) = pairs.enumerate().find(|(_, (a, b))| a.name != b.name) {
+            return Err(format!("event {} is `{}` at t = {:.6} s, and `{}` at t = {:.6} s with {with}", k + 1, a.name, a.at, b.name, b.at));
+        }
+        for (what, a, b) in
+            [("events", self.base.events.len(), other.events.len()), ("switches", self.base.switches.len(), other.switches.len())]
+        {
+            if a != b {
+                return Err(format!("there are {a} {what}, and {b} with {with}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Rows of both runs that belong together: rows of the grid, and both sides of every switch if both runs have them.
+    fn pairs(&self, other: &Outcome) -> Vec<(usize, usize)> {
+        if !self.events {
+            return matched(&self.base.places, &other.places, 0..self.base.places.len(), 0..other.places.len(), self.every);
+        }
+        let [mine, others] = [pieces(self.base), pieces(other)];
+        let inside = mine.into_iter().zip(others).flat_map(|(a, b)| {
+            let ends = [(a.start, b.start), (a.end - 1, b.end - 1)];
+            let inner = matched(&self.base.places, &other.places, a.start + 1..a.end - 1, b.start + 1..b.end - 1, self.every);
+            ends.into_iter().chain(inner)
+        });
+        inside.collect()
+    }
+
+    /// The size of each column.
+    fn scales(&self) -> Vec<f64> {
+        let largest = |c: usize| self.base.rows.iter().map(|r| r[c].abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        let columns = &self.study.columns;
+        let sizes: Vec<f64> = (0..columns.len()).map(largest).collect();
+        let energy = self.base.certificate.march.as_ref().map_or(0.0, |m| m.energy_scale);
+        let least = |c: &Column| {
+            let alike = columns.iter().zip(&sizes).filter(|(other, _)| other.dimension == c.dimension).map(|(_, size)| *size);
+            let least = LEAST * alike.fold(0.0, f64::max);
+            if self.is_energy(c) { least.max(energy) } else { least }
+        };
+        columns.iter().zip(&sizes).map(|(c, size)| size.max(least(c)).max(ROUNDING)).collect()
+    }
+
+    /// Whether a column is made of energies, not of torques, which have the same dimension.
+    fn is_energy(&self, column: &Column) -> bool {
+        let energies =
+            |i: u32| matches!(self.model.inputs[i as usize], Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. });
+        column.dimension == Dimension::ENERGY && self.model.pool.inputs_of(&[column.value]).into_iter().any(energies)
+    }
+}
+
+/// Rows of each piece between switches.
+fn pieces(outcome: &Outcome) -> Vec<std::ops::Range<usize>> {
+    let begins = std::iter::once(0).chain(outcome.switches.iter().map(|i| i + 1));
+    let ends = outcome.switches.iter().map(|i| i + 1).chain([outcome.places.len()]);
+    begins.zip(ends).map(|(begin, end)| begin..end).collect()
+}
+
+/// Rows at the same times; those of one range alone are left out.
+fn matched(a: &[f64], b: &[f64], mine: std::ops::Range<usize>, others: std::ops::Range<usize>, every: f64) -> Vec<(usize, usize)> {
+    let near = 1e-6 * every;
+    let mut k = others.start;
+    let mut out = Vec::new();
+    for i in mine {
+        while k < others.end && b[k] < a[i] - near {
+            k += 1;
+        }
+        if k < others.end && (b[k] - a[i]).abs() <= near {
+            out.push((i, k));
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_at_the_same_times_are_paired() {
+        let a = [0.0, 0.1, 0.2, 0.25, 0.3];
+        let b = [0.0, 0.1, 0.2 + 1e-9, 0.26, 0.3];
+        assert_eq!(matched(&a, &b, 0..5, 0..5, 0.1), [(0, 0), (1, 1), (2, 2), (4, 4)]);
+        assert_eq!(matched(&a, &b, 3..2, 0..5, 0.1), []);
+    }
+
+    #[test]
+    fn pieces_lie_between_switches() {
+        let outcome = Outcome { places: vec![0.0, 0.1, 0.1, 0.2], switches: vec![1], ..Outcome::default() };
+        assert_eq!(pieces(&outcome), [0..2, 2..4]);
+    }
+
+    #[test]
+    fn disagreement_is_said_with_its_reason() {
+        let good = Verified { with: "tolerance 1e-9".into(), digits: 7.31, because: None };
+        let bad = Verified { with: "radau5".into(), digits: 0.0, because: Some("there are 2 events, and 3 with radau5".into()) };
+        assert_eq!(
+            said(&[good, bad], 1),
+            "verify: 7.3 digits against tolerance 1e-9; 0 digits, because there are 2 events, and 3 with radau5"
+        );
+    }
+}

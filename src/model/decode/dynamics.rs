@@ -1,0 +1,219 @@
+//! Motion in time: keys, their ranges, and which of them go together.
+
+use super::Decoder;
+use super::checks::Rule;
+use crate::expression::{Dimension, Id};
+use crate::model::fault::{At, Fault, Spot};
+use crate::model::merge::Node;
+use crate::model::study::{Chart, Control, Forward, Integrator, Level};
+use crate::model::tables::INTEGRATORS;
+
+/// Integrators in the order of their words.
+const SCHEMES: [Integrator; 10] = [
+    Integrator::Auto,
+    Integrator::Newmark,
+    Integrator::Hht,
+    Integrator::GeneralizedAlpha,
+    Integrator::Bdf,
+    Integrator::Radau5,
+    Integrator::Dop853,
+    Integrator::Rk4,
+    Integrator::CentralDifference,
+    Integrator::Ida,
+];
+
+/// Keys that belong to some integrators alone.
+const OWN: [(&str, &[&str]); 4] =
+    [("alpha", &["newmark", "hht"]), ("beta", &["newmark"]), ("rho", &["generalized-alpha"]), ("order", &["bdf"])];
+
+/// Largest relative tolerance.
+const LOOSEST: f64 = 0.1;
+
+impl<'n> Decoder<'n> {
+    pub(super) fn forward(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<Forward> {
+        let word = |key: &str| node.get(key).and_then(Node::text);
+        let chosen = word("integrator").and_then(|word| INTEGRATORS.iter().position(|known| *known == word)).unwrap_or(0);
+        let (name, integrator) = (INTEGRATORS[chosen], SCHEMES[chosen]);
+        let until = self.duration(node, "until", at, "the time");
+        let every = self.duration(node, "every", at, "the time");
+        let control = self.control(node, at);
+        self.belong(node, at, name);
+        self.step_wanted(node, at, name);
+        let level = match word("level") {
+            Some("stabilized") => Some(Level::Stabilized),
+            Some("position") => Some(Level::Position),
+            Some("velocity") => Some(Level::Velocity),
+            Some("acceleration") => Some(Level::Acceleration),
+            _ => None,
+        };
+        let chart = match word("coordinates") {
+            Some("cartesian") => Chart::Cartesian,
+            Some("minimal") => Chart::Minimal,
+            _ => Chart::Joint,
+        };
+        if level.is_some() {
+            self.level_exists(at, name, integrator, chart);
+        }
+        let [alpha, beta, rho] = ["alpha", "beta", "rho"].map(|key| self.of(node, key, at, Dimension::NONE));
+        self.weights(at, integrator, level, [alpha, beta, rho]);
+        let order = super::kinds::count(node, "order");
+        let locate = word("switches") != Some("step-over");
+        Some(Forward { until: until?, every, control: control?, integrator, alpha, beta, rho, order, level, chart, locate })
+    }
+
+    /// A time above 0.
+    fn duration(&mut self, node: Node<'n>, key: &'n str, at: &At<'_, 'n>, what: &'static str) -> Option<Id> {
+        let id = self.of(node, key, at, Dimension::TIME);
+        self.check_key(Rule::Positive(what), id, at, key);
+        id
+    }
+
+    fn control(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<Control> {
+        if node.get("step").is_some() {
+            return self.duration(node, "step", at, "the step").map(Control::Step);
+        }
+        let tolerance = self.of(node, "tolerance", at, Dimension::NONE);
+        self.check_key(Rule::Positive("the tolerance"), tolerance, at, "tolerance");
+        self.check_key(Rule::AtMost(LOOSEST, "the tolerance"), tolerance, at, "tolerance");
+        Some(Control::Tolerance(tolerance))
+    }
+
+    /// Refuses parameters of other integrators.
+    fn belong(&mut self, node: Node<'n>, at: &At<'_, 'n>, name: &str) {
+        for (key, owners) in OWN {
+            if node.get(key).is_none() || owners.contains(&name) {
+                continue;
+            }
+            let list: Vec<String> = owners.iter().map(|owner| format!("`integrator: {owner}`")).collect();
+            let here = at.key(key);
+            let fault = self.fault("wrong-option", &here, format!("`{key}` with the integrator `{name}`"), list.join(" or "));
+            fault.spot = Spot::Key;
+            fault.help = Some("remove it, or name that integrator".to_owned());
+        }
+        let [alpha, beta] = ["alpha", "beta"].map(|key| node.get(key).is_some());
+        if name == "newmark" && alpha != beta {
+            let (given, other, value) = if alpha { ("alpha", "beta", "1/2") } else { ("beta", "alpha", "1/4") };
+            let fault = self.fault("missing-key", &at.key(given), format!("`{given}` without `{other}`"), "both weights, or neither");
+            fault.spot = Spot::Key;
+            fault.help = Some(format!("add `{other}:`, for example `{other}: {value}`"));
+        }
+    }
+
+    /// What cannot do without a fixed step.
+    fn step_wanted(&mut self, node: Node<'n>, at: &At<'_, 'n>, name: &str) {
+        if node.get("step").is_some() {
+            return;
+        }
+        let mut wants = |key: &'n str, what: &str, help: &str| {
+            let fault = self.fault("missing-key", &at.key(key), format!("{what} without a fixed step"), "`step`");
+            fault.help = Some(help.to_owned());
+        };
+        if name == "central-difference" {
+            wants("integrator", "`central-difference`", "add `step:`, instead of a tolerance; or use `dop853`, which chooses its steps");
+        }
+        if node.get("switches").and_then(Node::text) == Some("step-over") {
+            wants("switches", "`step-over`", "add `step:`, or locate the switches");
+        }
+        if node.get("order").is_some() {
+            wants("order", "`order`", "add `step:`, or remove `order`: with a tolerance `bdf` chooses it");
+        }
+    }
+
+    /// Refuses a choice of constraint rows where there is none.
+    fn level_exists(&mut self, at: &At<'_, 'n>, name: &str, integrator: Integrator, chart: Chart) {
+        let explicit = matches!(integrator, Integrator::Dop853 | Integrator::Rk4 | Integrator::CentralDifference);
+        let (message, expected) = if chart == Chart::Minimal {
+            ("`level` with `coordinates: minimal`".to_owned(), "no `level`: independent coordinates leave no constraint rows")
+        } else if explicit {
+            (
+                format!("`level` with `{name}`"),
+                "no `level`: an explicit integrator takes accelerations, and projects positions and velocities",
+            )
+        } else {
+            return;
+        };
+        let fault = self.fault("wrong-option", &at.key("level"), message, expected);
+        fault.spot = Spot::Key;
+        fault.help = Some("remove `level`".to_owned());
+    }
+
+    /// Ranges of the parameters of the Newmark family.
+    fn weights(&mut self, at: &At<'_, 'n>, integrator: Integrator, level: Option<Level>, [alpha, beta, rho]: [Option<Id>; 3]) {
+        match integrator {
+            Integrator::Hht => self.check_key(Rule::Within(-1.0 / 3.0, 0.0, "alpha"), alpha, at, "alpha"),
+            Integrator::GeneralizedAlpha => self.check_key(Rule::Within(0.0, 1.0, "rho"), rho, at, "rho"),
+            Integrator::Newmark => {
+                self.check_key(Rule::NotNegative("alpha"), alpha, at, "alpha");
+                self.check_key(Rule::NotNegative("beta"), beta, at, "beta");
+                if level == Some(Level::Position) {
+                    // silent: the trapezoidal rule
+                    let weights = [alpha.unwrap_or_else(|| self.pool.constant(0.25)), beta.unwrap_or_else(|| self.pool.constant(0.5))];
+                    self.check(Rule::ConstrainedNewmark, &weights, &at.key("level"));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Why Newmark's scheme cannot be used with constraints at position level; `None` where it can.
+///
+/// Where a constraint prescribes the displacement, q₊ = q + h v + h² ((1/2 − β) a + β a₊) and v₊ = v + h ((1 − γ) a + γ a₊)
+/// leave for the error of the acceleration, with v eliminated, β a₊₊ + (γ + 1/2 − 2β) a₊ + (1/2 + β − γ) a = 0. Its
+/// roots lie inside of the unit circle if γ > 1/2 and 2β > γ; with γ = 1/2 they lie on it if 4β > 1. At (1/6, 1/2) they are
+/// −2 ± √3: the constraint forces grow 3.7 times a step. `alpha` is β, `beta` is γ.
+pub(super) fn unstable_at_position_level(alpha: f64, beta: f64) -> Option<String> {
+    if beta >= 0.5 && 2.0 * alpha > beta {
+        return None;
+    }
+    let (a, b, c) = (alpha, beta + 0.5 - 2.0 * alpha, 0.5 + alpha - beta);
+    let real = b * b - 4.0 * a * c;
+    let root = if a == 0.0 {
+        f64::INFINITY
+    } else if real >= 0.0 {
+        (b.abs() + real.sqrt()) / (2.0 * a)
+    } else {
+        (c / a).sqrt()
+    };
+    let how = if root > 1.0 + 1e-9 { format!("{root:.2} times each step") } else { "step by step".to_owned() };
+    Some(format!("`newmark` with alpha = {alpha:.4}, beta = {beta:.4}: errors of the constraint forces grow {how}"))
+}
+
+/// The fault of weights that are unstable there.
+pub(super) fn newmark_fault(place: String, alpha: f64, beta: f64) -> Option<Fault> {
+    let message = unstable_at_position_level(alpha, beta)?;
+    let expected = "at `level: position` a beta of at least 1/2 and an alpha above beta/2";
+    Some(Fault::new("unstable", place, message, expected).help("use `level: stabilized`, or for example `alpha: 0.3025, beta: 0.6`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The recursion itself, step by step: q stays 0, the accelerations must not grow.
+    fn growth(alpha: f64, beta: f64) -> f64 {
+        let (mut v, mut a, steps) = (0.3, 1.0, 400);
+        for _ in 0..steps {
+            // 0 = v + (1/2 − β) a + β a₊ with h = 1
+            let next: f64 = -(v + (0.5 - alpha) * a) / alpha;
+            v += (1.0 - beta) * a + beta * next;
+            a = next;
+            if a.abs() > 1e100 {
+                return f64::INFINITY;
+            }
+        }
+        a.abs()
+    }
+
+    #[test]
+    fn the_refused_weights_are_those_that_grow() {
+        for (alpha, beta) in [(1.0 / 6.0, 0.5), (0.25, 0.5), (0.2, 0.6), (0.3, 0.45), (0.25, 0.55)] {
+            assert!(unstable_at_position_level(alpha, beta).is_some() && growth(alpha, beta) > 10.0, "{alpha} {beta}");
+        }
+        for (alpha, beta) in [(0.26, 0.5), (0.3025, 0.6), (1.0, 1.5), (0.4, 0.7)] {
+            assert!(unstable_at_position_level(alpha, beta).is_none() && growth(alpha, beta) < 10.0, "{alpha} {beta}");
+        }
+        assert!(unstable_at_position_level(1.0 / 6.0, 0.5).unwrap().contains("3.73 times"));
+        assert!(unstable_at_position_level(0.0, 0.5).is_some());
+    }
+}
