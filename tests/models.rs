@@ -62,7 +62,7 @@ fn blocks(page: &str) -> Vec<(usize, String)> {
 
 /// Whether the studies of a block ask for what is read and checked, but not computed.
 fn reads_only(block: &str) -> bool {
-    ["dynamics:", "statics:", "modes:", "periodic:", "solve:", "take:"].iter().any(|word| block.contains(word))
+    ["statics:", "modes:", "periodic:", "solve:", "take:"].iter().any(|word| block.contains(word))
 }
 
 #[test]

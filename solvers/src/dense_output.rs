@@ -134,12 +134,12 @@ impl Dense {
         let (second0, second1) = rest.split_at_mut(nq);
         for (node, rate, second) in [(from, rate0, second0), (to, rate1, second1)] {
             let s = &node.state;
-            system.rate(&s.q, &s.v, rate);
+            system.rate(s.t, &s.q, &s.v, rate);
             // N is affine in q, so Ṅ v = N(q + q̇) v − N(q) v
             sum.iter_mut().zip(&s.q).zip(&*rate).for_each(|((x, q), r)| *x = q + r);
-            system.rate(sum, &s.v, second);
+            system.rate(s.t, sum, &s.v, second);
             second.iter_mut().zip(&*rate).for_each(|(x, r)| *x -= r);
-            system.rate(&s.q, &node.a, sum);
+            system.rate(s.t, &s.q, &node.a, sum);
             second.iter_mut().zip(&*sum).for_each(|(x, r)| *x += r);
         }
         for i in 0..nq {

@@ -154,6 +154,9 @@ const PROJECTIONS: usize = 12;
 const REPEATED: usize = 10;
 const CLOSED: f64 = 4e-15;
 
+/// Round-off of Φ in parts of the largest coordinate: far from zero, positions cannot be closed any better.
+const FAR: f64 = f64::EPSILON;
+
 /// A correction below this (in units of size) leaves a residual of its square.
 const SQUARE_ENOUGH: f64 = 1e-7;
 
@@ -162,12 +165,10 @@ impl Engine {
     pub fn new(system: &dyn System, control: Control) -> Self {
         let dims = system.dims();
         let pattern = system.pattern();
-        let mut kkt = Kkt::new(dims.v, dims.rows());
-        kkt.set_scale(&pattern.metric, &pattern.g_scale);
         Self {
             dims,
             terms: Terms::new(dims),
-            kkt,
+            kkt: Kkt::of_pattern(pattern),
             counts: Counts::default(),
             control,
             size_q: pattern.size_q.clone(),
@@ -269,6 +270,7 @@ impl Engine {
         // a correction of v is to be expected unless it may be neglected
         let exact = rows && slack == 0.0;
         let stage = if exact { Stage::Velocity } else { Stage::Dynamics };
+        let rounded = FAR * state.q.iter().zip(&self.size_q).fold(0.0, |m, (q, s)| f64::max(m, q.abs() / s - 1.0));
         if self.dims.holonomic > 0 {
             self.evaluate(system, state.at(), Stage::Position);
             if self.position_residual() > 1e-15 {
@@ -278,7 +280,7 @@ impl Engine {
         self.evaluate(system, state.at(), stage);
         // in a singular position E leaves a part of each correction to be done
         for _ in 0..REPEATED {
-            if self.dims.holonomic == 0 || self.position_residual() <= CLOSED {
+            if self.dims.holonomic == 0 || self.position_residual() <= CLOSED + rounded {
                 break;
             }
             self.close(system, state)?;

@@ -107,12 +107,16 @@ pub struct Integration {
     start: f64,
     roots: Vec<f64>,
     samples: Vec<f64>,
+    /// Roots one look before those of `roots`.
+    older: Vec<f64>,
     probe: Vec<f64>,
     crossed: Vec<usize>,
     row: Vec<f64>,
     power: Vec<f64>,
     work: Vec<f64>,
     zeno: Zeno,
+    /// The last number that was not finite, and when.
+    spoiled: Option<(Why, f64)>,
 }
 
 impl Integration {
@@ -153,12 +157,14 @@ impl Integration {
             start: start.t,
             roots: vec![0.0; dims.roots],
             samples: vec![0.0; dims.roots],
+            older: vec![0.0; dims.roots],
             probe: vec![0.0; dims.roots],
             crossed: Vec::with_capacity(dims.roots),
             row: vec![0.0; dims.v],
             power: vec![0.0; dims.work],
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
+            spoiled: None,
         };
         run.begin(system).map_err(|why| Halt { why, t: start.t, h: 0.0 })?;
         Ok(run)
@@ -409,7 +415,7 @@ impl Integration {
                 h = 0.5 * left;
             }
             if h.is_nan() || h <= 4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3) {
-                return Err(Why::StepSize);
+                return Err(self.too_short(t, Why::StepSize));
             }
             let tried = scheme.attempt(system, &mut self.engine, &self.node, h, &mut self.trial);
             if itself {
@@ -433,6 +439,9 @@ impl Integration {
             };
             self.engine.counts.rejected += 1;
             failures += 1;
+            if matches!(why, Why::NotFinite(_)) {
+                self.spoiled = Some((why, t));
+            }
             if self.engine.is_fixed() {
                 return Err(why);
             }
@@ -441,8 +450,16 @@ impl Integration {
             }
             self.h = retry.min(0.9 * h);
             if failures > 60 || t + self.h <= t {
-                return Err(if matches!(why, Why::Error(_)) { Why::StepSize } else { why });
+                return Err(self.too_short(t, if matches!(why, Why::Error(_)) { Why::StepSize } else { why }));
             }
+        }
+    }
+
+    /// Why steps have become too short at `t`: numbers that were not finite just ahead say more than the error.
+    fn too_short(&self, t: f64, why: Why) -> Why {
+        match self.spoiled {
+            Some((spoiled, at)) if (t - at).abs() <= 1e-6 * (t - self.start).abs() => spoiled,
+            _ => why,
         }
     }
 

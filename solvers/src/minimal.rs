@@ -41,8 +41,8 @@ pub enum Refused {
 /// function watches it, and its crossing chooses another one and restarts the scheme. Its scale is the smallest singular value of
 /// diag(g_scale)^−½ G_d D_d^−½, and it is crossed at 1e-3 of the value at the start; see [`Minimal::change_chart_at`].
 ///
-/// [`rate`](System::rate), [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they
-/// use those of the last evaluation. Where rows depend on time that changes the guess, no more.
+/// [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they use those of the last
+/// evaluation. Where rows depend on time that changes the guess, no more.
 ///
 /// The tangent is approximate: PᵀKP, PᵀCP and so on, without the derivatives of P and ṗ, which would need second and third
 /// derivatives of Φ. They are of the size of the velocities, so Newton's method converges like h|v|.
@@ -301,13 +301,14 @@ impl<S: System> System for Minimal<S> {
         }
     }
 
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+    fn rate(&self, t: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         let mut loops = self.loops.borrow_mut();
         let loops = &mut *loops;
+        loops.at_time(t);
         loops.position(q);
         loops.spread(v);
         loops.full.iter_mut().zip(&loops.drift).for_each(|(x, p)| *x += p);
-        loops.inner.rate(q, &loops.full, qdot);
+        loops.inner.rate(t, q, &loops.full, qdot);
     }
 
     fn retract(&self, q: &mut [f64], delta: &[f64]) {
@@ -371,11 +372,11 @@ impl<S: System> System for Minimal<S> {
         state.live.copy_from_slice(&whole.live);
         state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
         loops.forget();
-        let Effect::Impulse { restitution } = effect else { return effect };
+        let Effect::Impulse { restitution, stops } = effect else { return effect };
         combine(&loops.full, &loops.p, row);
         // row·v has a part that rows which depend on time prescribe; the jump is meant of the whole
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let (free, prescribed) = (dot(row, &state.v), dot(&loops.full, &loops.drift));
-        Effect::Impulse { restitution: (1.0 + restitution) * (1.0 + prescribed / free) - 1.0 }
+        Effect::Impulse { restitution: (1.0 + restitution) * (1.0 + prescribed / free) - 1.0, stops }
     }
 }

@@ -101,6 +101,8 @@ pub enum Effect {
     Impulse {
         /// Coefficient of restitution, 0 (plastic) to 1 (elastic).
         restitution: f64,
+        /// Whether the run ends there, too.
+        stops: bool,
     },
 }
 
@@ -125,8 +127,8 @@ pub trait System {
     /// Derivatives of [`residual`](Self::residual) and of ż.
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent);
 
-    /// q̇ = N(q) v (nq).
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+    /// q̇ = N(q) v (nq); where loops are closed inside of a system, the part that time prescribes as well.
+    fn rate(&self, t: f64, q: &[f64], v: &[f64], qdot: &mut [f64]);
 
     /// q := q ⊕ δ, the motion by the finite displacement δ (nv) in the frame of v; the norm of a quaternion is kept.
     fn retract(&self, q: &mut [f64], delta: &[f64]);

@@ -60,7 +60,7 @@ impl System for Driven {
         out.c[0] = inertia(at.q[0])[1] * at.v[0] - drive(at.v[0])[1];
     }
 
-    fn rate(&self, _: &[f64], v: &[f64], qdot: &mut [f64]) {
+    fn rate(&self, _: f64, _: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot[0] = v[0];
     }
 

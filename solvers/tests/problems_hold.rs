@@ -136,7 +136,7 @@ fn starts_are_consistent() {
 fn motion_by_a_displacement_has_the_rate_of_the_velocity() {
     for p in probes() {
         let mut rate = vec![0.0; p.dims().q];
-        p.problem.rate(&p.state.q, &p.state.v, &mut rate);
+        p.problem.rate(p.state.t, &p.state.q, &p.state.v, &mut rate);
         let moved = slope(p.h, p.dims().q, |e, q| q.copy_from_slice(&p.later(e, &[], &[]).q));
         close(p.problem.name(), &moved, &rate, DIFFERENCE);
     }
@@ -148,7 +148,7 @@ fn an_implicit_displacement_solves_its_equation() {
         let u = random(p.dims().v, 5);
         let (mut q, mut step) = (p.state.q.clone(), vec![0.0; p.dims().q]);
         p.problem.displace(&mut q, &u);
-        p.problem.rate(&q, &u, &mut step);
+        p.problem.rate(p.state.t, &q, &u, &mut step);
         close(p.problem.name(), &minus(&q, &step), &p.state.q, 1e-15);
     }
 }
@@ -345,7 +345,7 @@ fn a_crossing_leads_to_the_mode_of_the_other_side() {
     let mut row = [0.0];
     let mut ball = BouncingBall::new(1.0, 0.5);
     let mut state = ball.start();
-    assert_eq!(grashof_solvers::System::cross(&mut ball, 0, &mut state, &mut row), Effect::Impulse { restitution: 0.5 });
+    assert_eq!(grashof_solvers::System::cross(&mut ball, 0, &mut state, &mut row), Effect::Impulse { restitution: 0.5, stops: false });
     assert_eq!(row, [1.0]);
 }
 

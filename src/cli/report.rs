@@ -103,6 +103,8 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
     };
     all.push(number("velocity_residual", m.velocity));
     all.push(("integrator".into(), Value::String(m.schemes.clone())));
+    let happened = outcome.events.iter().map(|e| serde_json::json!({ "name": e.name, "at": json_number(e.at) }));
+    all.push(("happened".into(), Value::Array(happened.collect())));
     all.extend([
         number("energy_drift", m.energy_drift),
         number("energy_scale", m.energy_scale),
@@ -139,7 +141,19 @@ fn march(outcome: &Outcome) -> String {
     format!(
         "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n",
         m.energy_drift, m.energy_scale, c.constraint, m.velocity, m.schemes, k.steps, k.rejected, k.evaluations, k.factorisations, k.events
-    )
+    ) + &happened(outcome)
+}
+
+/// The first events of the model, in a line.
+fn happened(outcome: &Outcome) -> String {
+    const SHOWN: usize = 6;
+    if outcome.events.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = outcome.events.iter().take(SHOWN).map(|e| format!("{} at {}", e.name, shown(Some(&e.at)))).collect();
+    let more = outcome.events.len().saturating_sub(SHOWN);
+    let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+    format!("  happened: {}{more}\n", shown.join(", "))
 }
 
 /// One row a run: swept parameters, results, scalars, reason.

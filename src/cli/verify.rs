@@ -15,6 +15,7 @@ use grashof::expression::Dimension;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Column, Forward, Integrator, Kind, Model, Quantity, Study};
 use grashof::output::number;
+use std::ops::Range;
 
 /// Rows of a run that has no output step.
 const ROWS: f64 = 400.0;
@@ -24,6 +25,8 @@ const ENOUGH: f64 = 1.0;
 const MOST: f64 = 16.0;
 /// Differences that are rounding, whatever the column, SI.
 const ROUNDING: f64 = 1e-13;
+/// Times that are one, in output steps.
+const NEAR: f64 = 1e-6;
 /// What a column counts at least, of the largest one of its dimension.
 const LEAST: f64 = 1e-3;
 
@@ -210,9 +213,8 @@ impl Comparison<'_> {
         if let Some((k, (a, b))) = pairs.enumerate().find(|(_, (a, b))| a.name != b.name) {
             return Err(format!("event {} is `{}` at t = {:.6} s, and `{}` at t = {:.6} s with {with}", k + 1, a.name, a.at, b.name, b.at));
         }
-        for (what, a, b) in
-            [("events", self.base.events.len(), other.events.len()), ("switches", self.base.switches.len(), other.switches.len())]
-        {
+        let switches = |outcome| pieces(outcome, NEAR * self.every).len().saturating_sub(1);
+        for (what, a, b) in [("events", self.base.events.len(), other.events.len()), ("switches", switches(self.base), switches(other))] {
             if a != b {
                 return Err(format!("there are {a} {what}, and {b} with {with}"));
             }
@@ -225,7 +227,7 @@ impl Comparison<'_> {
         if !self.events {
             return matched(&self.base.places, &other.places, 0..self.base.places.len(), 0..other.places.len(), self.every);
         }
-        let [mine, others] = [pieces(self.base), pieces(other)];
+        let [mine, others] = [self.base, other].map(|outcome| pieces(outcome, NEAR * self.every));
         let inside = mine.into_iter().zip(others).flat_map(|(a, b)| {
             let ends = [(a.start, b.start), (a.end - 1, b.end - 1)];
             let inner = matched(&self.base.places, &other.places, a.start + 1..a.end - 1, b.start + 1..b.end - 1, self.every);
@@ -256,16 +258,18 @@ impl Comparison<'_> {
     }
 }
 
-/// Rows of each piece between switches.
-fn pieces(outcome: &Outcome) -> Vec<std::ops::Range<usize>> {
+/// Rows of each piece between switches that lasts longer than `near`, s: between switches of one instant there is no motion to
+/// compare, and which of them comes first is a matter of rounding.
+fn pieces(outcome: &Outcome, near: f64) -> Vec<Range<usize>> {
     let begins = std::iter::once(0).chain(outcome.switches.iter().map(|i| i + 1));
     let ends = outcome.switches.iter().map(|i| i + 1).chain([outcome.places.len()]);
-    begins.zip(ends).map(|(begin, end)| begin..end).collect()
+    let lasts = |r: &Range<usize>| r.end > r.start && outcome.places[r.end - 1] - outcome.places[r.start] > near;
+    begins.zip(ends).map(|(begin, end)| begin..end).filter(lasts).collect()
 }
 
 /// Rows at the same times; those of one range alone are left out.
-fn matched(a: &[f64], b: &[f64], mine: std::ops::Range<usize>, others: std::ops::Range<usize>, every: f64) -> Vec<(usize, usize)> {
-    let near = 1e-6 * every;
+fn matched(a: &[f64], b: &[f64], mine: Range<usize>, others: Range<usize>, every: f64) -> Vec<(usize, usize)> {
+    let near = NEAR * every;
     let mut k = others.start;
     let mut out = Vec::new();
     for i in mine {
@@ -292,9 +296,10 @@ mod tests {
     }
 
     #[test]
-    fn pieces_lie_between_switches() {
-        let outcome = Outcome { places: vec![0.0, 0.1, 0.1, 0.2], switches: vec![1], ..Outcome::default() };
-        assert_eq!(pieces(&outcome), [0..2, 2..4]);
+    fn pieces_lie_between_switches_of_different_instants() {
+        let outcome = Outcome { places: vec![0.0, 0.1, 0.1, 0.1 + 1e-12, 0.1 + 1e-12, 0.2], switches: vec![1, 3], ..Outcome::default() };
+        assert_eq!(pieces(&outcome, 1e-9), [0..2, 4..6]);
+        assert_eq!(pieces(&outcome, 0.0), [0..2, 2..4, 4..6]);
     }
 
     #[test]

@@ -90,12 +90,16 @@ fn all_coordinates_in_the_plane_and_in_space() {
     let mut verdict = Verdict::default();
     for driven in [false, true] {
         for seed in 1..=4 {
-            let dynamics = |coordinates: &str| format!("until: 0.6 s, every: 20 ms, tolerance: {TOLERANCE}, coordinates: {coordinates}");
-            let (one, right) = go(&five_bar("planar", driven, seed), &dynamics("joint"));
+            let dynamics = |coordinates: &str, tolerance: f64| {
+                format!("until: 0.6 s, every: 20 ms, tolerance: {tolerance:e}, coordinates: {coordinates}")
+            };
+            let (one, right) = go(&five_bar("planar", driven, seed), &dynamics("joint", TOLERANCE));
             for (space, coordinates) in
                 [("planar", "cartesian"), ("planar", "minimal"), ("spatial", "joint"), ("spatial", "cartesian"), ("spatial", "minimal")]
             {
-                let (other, found) = go(&five_bar(space, driven, seed), &dynamics(coordinates));
+                // only the independent coordinates are in the error test there, and the linkage makes more of their errors
+                let asked = if coordinates == "minimal" { 0.1 * TOLERANCE } else { TOLERANCE };
+                let (other, found) = go(&five_bar(space, driven, seed), &dynamics(coordinates, asked));
                 let what = format!("{space} {coordinates}{}", if driven { ", driven" } else { "" });
                 verdict.close(&what, format_args!("seed {seed}"), apart(&found, &right, 0.02, 30), 0.0, 2.0 * AMPLIFIED * TOLERANCE);
                 let steps = [&one, &other].map(|r| certified(r, "run", "steps"));

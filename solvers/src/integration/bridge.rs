@@ -9,6 +9,22 @@ use crate::System;
 use crate::engine::Why;
 
 impl Integration {
+    /// How near the rows are to dependence at the node: σ in parts of the largest one seen, and the rows that have the greatest
+    /// part in it, the greatest first. For messages: this costs a factorisation.
+    pub fn dependence(&mut self, system: &mut dyn System) -> (f64, Vec<usize>) {
+        let mut part = vec![0.0; self.engine.dims.rows()];
+        let mut sigma = f64::INFINITY;
+        if self.engine.accelerate(system, &mut self.node).is_ok() {
+            for _ in 0..4 {
+                sigma = self.engine.kkt.smallest_singular_value(&mut part);
+            }
+        }
+        let largest = part.iter().fold(0.0, |m, x| f64::max(m, x.abs()));
+        let mut rows: Vec<usize> = (0..part.len()).filter(|&i| part[i].abs() > 0.02 * largest).collect();
+        rows.sort_by(|&i, &j| part[j].abs().total_cmp(&part[i].abs()));
+        (sigma / self.largest_sigma, rows)
+    }
+
     /// σ below which implicit steps are no longer trusted: noise ε of the constraints becomes noise εω/σ² in the velocities.
     pub(super) fn bridge_at(&self) -> f64 {
         (1e-6 / self.engine.tolerance().sqrt()).clamp(1e-3, 0.1) * self.largest_sigma

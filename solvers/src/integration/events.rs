@@ -10,6 +10,15 @@ const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// A root is located to this part of the step.
 const LOCATED: f64 = 1e-11;
 
+/// Where a function that is positive at −1, 0 and 1 may be negative between: the lowest point of the parabola through the three
+/// values, if that is far below them.
+fn dip([a, b, c]: [f64; 3]) -> Option<f64> {
+    let bend = a - 2.0 * b + c;
+    let x = 0.5 * (a - c) / bend;
+    let lowest = b - 0.125 * (a - c) * (a - c) / bend;
+    (bend > 0.0 && x.abs() < 1.0 && lowest < 0.3 * a.min(b).min(c)).then_some(x)
+}
+
 impl Integration {
     /// The first root that leaves its positive side within the last step: θ just behind it, and its number.
     pub(super) fn crossing(&mut self, system: &mut dyn System) -> Result<Option<(f64, usize)>, Why> {
@@ -33,11 +42,26 @@ impl Integration {
                     if first.is_none_or(|(x, _)| place < x) {
                         first = Some((place, root));
                     }
+                } else if from > 0.0
+                    && let Some(dip) = dip([self.older[root], g0, g1])
+                {
+                    // positive at three looks, but perhaps not between them
+                    let x = from + dip * (look - from);
+                    self.look(system, x)?;
+                    if self.probe[root] < 0.0 {
+                        let (a, fa) = if dip < 0.0 { (2.0 * from - look, self.older[root]) } else { (from, g0) };
+                        let value = self.probe[root];
+                        let place = if fa > 0.0 { self.locate(system, root, [a, x], [fa, value])? } else { a };
+                        if first.is_none_or(|(x, _)| place < x) {
+                            first = Some((place, root));
+                        }
+                    }
                 }
             }
             if first.is_some() {
                 return Ok(first);
             }
+            std::mem::swap(&mut self.older, &mut self.roots);
             self.roots.copy_from_slice(&self.samples);
             from = look;
         }
@@ -107,9 +131,10 @@ impl Integration {
                 Effect::Record => {}
                 Effect::Stop => stop = true,
                 Effect::Restart => restart = true,
-                Effect::Impulse { restitution } => {
+                Effect::Impulse { restitution, stops } => {
                     self.engine.impulse(system, &mut self.node.state, &self.row, restitution)?;
                     restart = true;
+                    stop |= stops;
                 }
             }
             self.engine.settle(system, &mut self.node)?;

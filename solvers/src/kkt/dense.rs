@@ -56,6 +56,7 @@ macro_rules! sized {
         }
     };
 }
+pub(super) use sized;
 
 impl<T: Number> Lu<T> {
     /// Room for an n × n matrix; it holds zeros and no factorisation yet.
@@ -175,11 +176,11 @@ fn normalize(x: &mut [f64]) -> f64 {
 }
 
 /// The first K² numbers as a square matrix.
-fn square<T, const K: usize>(a: &[T]) -> Option<&[[T; K]; K]> {
+pub(super) fn square<T, const K: usize>(a: &[T]) -> Option<&[[T; K]; K]> {
     a.as_chunks::<K>().0.first_chunk()
 }
 
-fn square_mut<T, const K: usize>(a: &mut [T]) -> Option<&mut [[T; K]; K]> {
+pub(super) fn square_mut<T, const K: usize>(a: &mut [T]) -> Option<&mut [[T; K]; K]> {
     a.as_chunks_mut::<K>().0.first_chunk_mut()
 }
 

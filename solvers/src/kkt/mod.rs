@@ -13,6 +13,7 @@
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 
+mod definite;
 pub mod dense;
 pub mod factor;
 pub mod number;
@@ -25,25 +26,30 @@ pub mod sparse;
 pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, metric, row_scale};
 
-use dense::{Lu, Singular};
+use crate::{Pattern, Sparsity};
+use dense::{Lu, Singular, sized, square, square_mut};
+use factor::{DENSE_UP_TO, Factor};
 
 /// Solver of M a + Gᵀλ = f, G a = γ; sized at construction, then free of allocation.
 ///
-/// It has two forms. The general one serves every system. The *determinate* one serves as many rows as velocities (a driven
-/// mechanism without freedom) in positions that are not singular: a = G⁻¹γ, λ = G⁻ᵀ(f − M a) from one factorisation of G alone.
+/// Up to [`DENSE_UP_TO`] unknowns the matrix is factored as a quasi-definite one, and by elimination with pivots where M is
+/// singular; above, by elimination, dense or sparse.
 #[derive(Clone, Debug)]
 pub struct Kkt {
     nv: usize,
     rows: usize,
-    determinate: bool,
     /// Powers of two near D^−½, then near diag(G D⁻¹ Gᵀ)^−½ (nv + m).
     scale: Vec<f64>,
     /// Scaled E (m).
     e: Vec<f64>,
-    /// General: scaled [M Gᵀ; G 0] (n × n). Determinate: M (nv × nv).
+    /// Scaled [M Gᵀ; G 0] (n × n); not kept by the sparse form.
     matrix: Vec<f64>,
-    /// General: of the scaled [M Gᵀ; G −E]. Determinate: of the scaled G.
-    lu: Lu,
+    /// L D Lᵀ of the scaled [M Gᵀ; G −E]: L (n × n), 1/D (n).
+    l: Vec<f64>,
+    inverse: Vec<f64>,
+    /// Whether L D Lᵀ holds; else it is `factors` that do.
+    definite: bool,
+    factors: Factors,
     /// Scaled right-hand side (nv + m).
     rhs: Vec<f64>,
     /// Scaled solution (nv + m).
@@ -52,31 +58,97 @@ pub struct Kkt {
     r: Vec<f64>,
 }
 
-/// Steps of iterative refinement in the general form.
+/// An elimination with pivots.
+#[derive(Clone, Debug)]
+enum Factors {
+    Dense(Lu),
+    Sparse(Box<Sparse>),
+}
+
+/// A sparse matrix with its factors.
+#[derive(Clone, Debug)]
+struct Sparse {
+    factor: Factor<f64>,
+    /// Row, column and source of each entry, column after column.
+    entries: Vec<(usize, usize, Source)>,
+    /// Scaled entries with −E, and without.
+    values: Vec<f64>,
+    plain: Vec<f64>,
+}
+
+/// Where an entry comes from: place in M, place in G, number of a row's E.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Mass(usize),
+    Row(usize),
+    Regular(usize),
+}
+
+/// Steps of iterative refinement.
 const REFINEMENTS: usize = 2;
 
 impl Kkt {
-    /// The general form for `nv` velocities and `rows` constraint rows, with scales of one.
+    /// A dense one for `nv` velocities and `rows` constraint rows, with scales of one.
     pub fn new(nv: usize, rows: usize) -> Self {
-        Self::with_form(nv, rows, false)
-    }
-
-    /// The determinate form for n velocities and n rows.
-    pub fn determinate(n: usize) -> Self {
-        Self::with_form(n, n, true)
-    }
-
-    fn with_form(nv: usize, rows: usize, determinate: bool) -> Self {
         let n = nv + rows;
-        let order = if determinate { nv } else { n };
+        let small = if n <= DENSE_UP_TO { n } else { 0 };
+        Self {
+            matrix: vec![0.0; n * n],
+            l: vec![0.0; small * small],
+            inverse: vec![0.0; small],
+            factors: Factors::Dense(Lu::new(n)),
+            ..Self::vectors(nv, rows)
+        }
+    }
+
+    /// One for the pattern of a system, with its scales; sparse where that pays.
+    pub fn of_pattern(pattern: &Pattern) -> Self {
+        let (nv, rows) = (pattern.g.columns(), pattern.g.rows());
+        let n = nv + rows;
+        let mut kkt = if n <= DENSE_UP_TO { Self::new(nv, rows) } else { Self::sparse(nv, rows, pattern) };
+        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        kkt
+    }
+
+    fn sparse(nv: usize, rows: usize, pattern: &Pattern) -> Self {
+        let n = nv + rows;
+        let mut places: Vec<(usize, usize)> = Vec::new();
+        for j in 0..nv {
+            places.extend(pattern.mass.column(j).iter().map(|&i| (i, j)));
+            places.extend(pattern.g.column(j).iter().flat_map(|&i| [(nv + i, j), (j, nv + i)]));
+        }
+        places.extend((nv..n).map(|i| (i, i)));
+        let whole = Sparsity::new(n, n, places);
+        let factor = Factor::new(&whole);
+        if matches!(factor, Factor::Dense(_)) {
+            return Self::new(nv, rows);
+        }
+        let source = |i: usize, j: usize| match (i < nv, j < nv) {
+            (true, true) => Source::Mass(i * nv + j),
+            (true, false) => Source::Row((j - nv) * nv + i),
+            (false, true) => Source::Row((i - nv) * nv + j),
+            (false, false) => Source::Regular(i - nv),
+        };
+        let entries: Vec<_> =
+            (0..n).flat_map(|j| whole.column(j).iter().map(move |&i| (i, j))).map(|(i, j)| (i, j, source(i, j))).collect();
+        let values = vec![0.0; entries.len()];
+        let sparse = Sparse { factor, plain: values.clone(), values, entries };
+        Self { factors: Factors::Sparse(Box::new(sparse)), ..Self::vectors(nv, rows) }
+    }
+
+    /// Vectors without matrices.
+    fn vectors(nv: usize, rows: usize) -> Self {
+        let n = nv + rows;
         Self {
             nv,
             rows,
-            determinate,
             scale: vec![1.0; n],
             e: vec![REGULARIZATION; rows],
-            matrix: vec![0.0; order * order],
-            lu: Lu::new(order),
+            matrix: Vec::new(),
+            l: Vec::new(),
+            inverse: Vec::new(),
+            definite: false,
+            factors: Factors::Dense(Lu::new(0)),
             rhs: vec![0.0; n],
             x: vec![0.0; n],
             r: vec![0.0; n],
@@ -100,119 +172,138 @@ impl Kkt {
         }
     }
 
-    /// Whether this is the determinate form.
-    pub fn is_determinate(&self) -> bool {
-        self.determinate
-    }
-
     /// Factors the matrix of M (nv × nv) and G (m × nv).
     ///
-    /// Fails where M is singular on the free motions (a massless freedom), where a number is not finite and, in the
-    /// determinate form, where G is singular.
+    /// Fails where M is singular on the free motions (a massless freedom), and where a number is not finite.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        let nv = self.nv;
-        if nv == 0 {
-            return if self.determinate { Ok(()) } else { self.factor_general(mass, g) };
+        if let Factors::Sparse(sparse) = &mut self.factors {
+            return sparse.factor(mass, g, &self.scale, &self.e);
         }
-        if !self.determinate {
-            return self.factor_general(mass, g);
-        }
-        let (d, s) = self.scale.split_at(nv);
-        self.matrix.copy_from_slice(mass);
-        let rows = self.lu.matrix_mut().chunks_exact_mut(nv).zip(g.chunks_exact(nv)).zip(s);
-        for ((out, row), s) in rows {
-            for ((out, g), d) in out.iter_mut().zip(row).zip(d) {
-                *out = g * s * d;
-            }
-        }
-        self.lu.factor_in_place()
+        self.fill(mass, g);
+        self.definite = self.quasi_definite();
+        if self.definite { Ok(()) } else { self.eliminate() }
     }
 
-    fn factor_general(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+    /// Factors the dense matrix by elimination with pivots.
+    fn eliminate(&mut self) -> Result<(), Singular> {
+        self.definite = false;
+        let Factors::Dense(lu) = &mut self.factors else { return Ok(()) };
         let (nv, n) = (self.nv, self.nv + self.rows);
-        let (d, s) = self.scale.split_at(nv);
-        // upper rows [M Gᵀ], lower rows [G 0]
-        for (i, row) in self.matrix.chunks_exact_mut(n.max(1)).enumerate() {
-            let (left, right) = row.split_at_mut(nv);
-            if i < nv {
-                for (j, x) in left.iter_mut().enumerate() {
-                    *x = mass[i * nv + j] * d[i] * d[j];
-                }
-                for (j, x) in right.iter_mut().enumerate() {
-                    *x = g[j * nv + i] * s[j] * d[i];
-                }
-            } else {
-                for (j, x) in left.iter_mut().enumerate() {
-                    *x = g[(i - nv) * nv + j] * s[i - nv] * d[j];
-                }
-            }
-        }
-        let work = self.lu.matrix_mut();
+        let work = lu.matrix_mut();
         work.copy_from_slice(&self.matrix);
         for (j, e) in self.e.iter().enumerate() {
             work[(nv + j) * (n + 1)] = -e;
         }
-        self.lu.factor_in_place()
+        lu.factor_in_place()
+    }
+
+    /// The scaled matrix without E.
+    fn fill(&mut self, mass: &[f64], g: &[f64]) {
+        let (nv, n) = (self.nv, self.nv + self.rows);
+        if nv == 0 {
+            return;
+        }
+        let (d, s) = self.scale.split_at(nv);
+        let (upper, lower) = self.matrix.split_at_mut(nv * n);
+        for ((out, row), di) in upper.chunks_exact_mut(n).zip(mass.chunks_exact(nv)).zip(d) {
+            for ((x, m), dj) in out.iter_mut().zip(row).zip(d) {
+                *x = m * di * dj;
+            }
+        }
+        for (i, ((out, row), si)) in lower.chunks_exact_mut(n).zip(g.chunks_exact(nv)).zip(s).enumerate() {
+            for (j, ((x, g), dj)) in out.iter_mut().zip(row).zip(d).enumerate() {
+                *x = g * si * dj;
+                upper[j * n + nv + i] = *x;
+            }
+        }
+    }
+
+    /// Factors by L D Lᵀ; false if the matrix is too large for it, or M is nearly singular.
+    fn quasi_definite(&mut self) -> bool {
+        let (nv, n) = (self.nv, self.nv + self.rows);
+        if n > DENSE_UP_TO || n == 0 {
+            return false;
+        }
+        self.l.copy_from_slice(&self.matrix);
+        for (j, e) in self.e.iter().enumerate() {
+            self.l[(nv + j) * (n + 1)] = -e;
+        }
+        macro_rules! small {
+            ($k:literal) => {
+                match (square_mut::<f64, $k>(&mut self.l), self.inverse.first_chunk_mut()) {
+                    (Some(l), Some(inverse)) => definite::factor::<$k>(l, inverse, nv),
+                    _ => false,
+                }
+            };
+        }
+        sized!(n, small, false)
+    }
+
+    /// x := the solution with the right-hand side x, by the factors at hand, with `refinements` against the matrix without E.
+    fn apply(&mut self, refinements: usize) {
+        if self.definite {
+            macro_rules! small {
+                ($k:literal) => {
+                    if let (Some(matrix), Some(l), Some(inverse), Some(x)) =
+                        (square::<f64, $k>(&self.matrix), square::<f64, $k>(&self.l), self.inverse.first_chunk(), self.x.first_chunk_mut())
+                    {
+                        definite::refined::<$k>(matrix, l, inverse, x, refinements);
+                    }
+                };
+            }
+            sized!(self.nv + self.rows, small, ());
+            return;
+        }
+        self.rhs.copy_from_slice(&self.x);
+        match &mut self.factors {
+            Factors::Dense(lu) => lu.solve(&mut self.x),
+            Factors::Sparse(sparse) => sparse.factor.solve(&mut self.x),
+        }
+        // x += [M Gᵀ; G −E]⁻¹ (b − [M Gᵀ; G 0] x)
+        for _ in 0..refinements {
+            self.r.copy_from_slice(&self.rhs);
+            match &mut self.factors {
+                Factors::Dense(lu) => {
+                    subtract_product(&self.matrix, &self.x, &mut self.r);
+                    lu.solve(&mut self.r);
+                }
+                Factors::Sparse(sparse) => {
+                    sparse.subtract_product(&self.x, &mut self.r);
+                    sparse.factor.solve(&mut self.r);
+                }
+            }
+            self.x.iter_mut().zip(&self.r).for_each(|(x, r)| *x += r);
+        }
     }
 
     /// Accelerations `a` (nv) and multipliers `lambda` (m) of the forces `f` (nv) and the right-hand side `gamma` (m).
     ///
     /// With M as metric, f = 0 and γ = −Φ the same gives the shortest correction onto the constraints.
     pub fn solve(&mut self, f: &[f64], gamma: &[f64], a: &mut [f64], lambda: &mut [f64]) {
-        if self.determinate {
-            return self.solve_determinate(f, gamma, a, lambda);
-        }
         let nv = self.nv;
-        for ((b, x), s) in self.rhs.iter_mut().zip(f.iter().chain(gamma)).zip(&self.scale) {
+        for ((b, x), s) in self.x.iter_mut().zip(f.iter().chain(gamma)).zip(&self.scale) {
             *b = x * s;
         }
-        self.x.copy_from_slice(&self.rhs);
-        self.lu.solve(&mut self.x);
-        // x += [M Gᵀ; G −E]⁻¹ (b − [M Gᵀ; G 0] x); without rows there is no E to take away
-        let refinements = if self.rows == 0 { 0 } else { REFINEMENTS };
-        for _ in 0..refinements {
-            self.r.copy_from_slice(&self.rhs);
-            subtract_product(&self.matrix, &self.x, &mut self.r);
-            self.lu.solve(&mut self.r);
-            self.x.iter_mut().zip(&self.r).for_each(|(x, r)| *x += r);
+        // without rows there is no E to take away
+        self.apply(if self.rows == 0 { 0 } else { REFINEMENTS });
+        let (d, s) = self.scale.split_at(nv);
+        for ((out, x), d) in a.iter_mut().zip(&self.x).zip(d) {
+            *out = x * d;
         }
-        for (out, (x, s)) in a.iter_mut().chain(lambda).zip(self.x[..nv].iter().chain(&self.x[nv..]).zip(&self.scale)) {
+        for ((out, x), s) in lambda.iter_mut().zip(&self.x[nv..]).zip(s) {
             *out = x * s;
         }
-    }
-
-    fn solve_determinate(&mut self, f: &[f64], gamma: &[f64], a: &mut [f64], lambda: &mut [f64]) {
-        let nv = self.nv;
-        let (d, s) = self.scale.split_at(nv);
-        let (a, lambda) = (&mut a[..nv], &mut lambda[..nv]);
-        // a = G⁻¹ γ
-        for ((a, gamma), s) in a.iter_mut().zip(gamma).zip(s) {
-            *a = gamma * s;
-        }
-        self.lu.solve(a);
-        a.iter_mut().zip(d).for_each(|(a, d)| *a *= d);
-        // λ = G⁻ᵀ (f − M a)
-        let rows = self.matrix.chunks_exact(nv.max(1));
-        for (((lambda, f), row), d) in lambda.iter_mut().zip(f).zip(rows).zip(d) {
-            *lambda = d * (f - dense::dot(row, a));
-        }
-        self.lu.solve_transposed(lambda);
-        lambda.iter_mut().zip(s).for_each(|(lambda, s)| *lambda *= s);
     }
 
     /// Estimate of σ, the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½, by one inverse iteration on the factorisation;
     /// 1 for independent rows, 0 in a singular position, infinite without rows.
     ///
     /// `row` (m) keeps the vector from call to call (zeros at first): the combination of scaled rows that is nearest to
-    /// dependence. In the general form M stands in the place of D and E hides what is below 1e-4; a factor of about 2 is
-    /// what to expect.
+    /// dependence. M stands in the place of D, and E hides what is below 1e-4; a factor of about 2 is what to expect.
     pub fn smallest_singular_value(&mut self, row: &mut [f64]) -> f64 {
         let nv = self.nv;
         if self.rows == 0 {
             return f64::INFINITY;
-        }
-        if self.determinate {
-            return self.lu.smallest_singular_value(1, row, &mut self.x[..nv]);
         }
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut length = norm(row);
@@ -223,15 +314,30 @@ impl Kkt {
         // λ' = −(G M⁻¹ Gᵀ + E)⁻¹ λ, so |λ| / |λ'| tends to σ² + E
         self.x[..nv].fill(0.0);
         self.x[nv..].iter_mut().zip(&*row).for_each(|(x, y)| *x = y / length);
-        self.lu.solve(&mut self.x);
+        self.apply(0);
         let grown = norm(&self.x[nv..]);
         row.iter_mut().zip(&self.x[nv..]).for_each(|(y, x)| *y = x / grown);
         (grown.recip() - REGULARIZATION).max(0.0).sqrt()
     }
+}
 
-    /// The factorisation: its pivots tell the condition.
-    pub fn lu(&self) -> &Lu {
-        &self.lu
+impl Sparse {
+    fn factor(&mut self, mass: &[f64], g: &[f64], scale: &[f64], e: &[f64]) -> Result<(), Singular> {
+        for ((value, plain), &(i, j, source)) in self.values.iter_mut().zip(&mut self.plain).zip(&self.entries) {
+            (*plain, *value) = match source {
+                Source::Mass(at) => [mass[at] * scale[i] * scale[j]; 2].into(),
+                Source::Row(at) => [g[at] * scale[i] * scale[j]; 2].into(),
+                Source::Regular(row) => (0.0, -e[row]),
+            };
+        }
+        self.factor.factor(&self.values)
+    }
+
+    /// r −= matrix · x, without E.
+    fn subtract_product(&self, x: &[f64], r: &mut [f64]) {
+        for (&(i, j, _), value) in self.entries.iter().zip(&self.plain) {
+            r[i] -= value * x[j];
+        }
     }
 }
 

@@ -161,6 +161,14 @@ impl<S: System> Loops<S> {
         self.known = false;
     }
 
+    /// Takes a time; modes and parameters stay those of the last evaluation.
+    pub(super) fn at_time(&mut self, t: f64) {
+        if self.state.t != t {
+            self.state.t = t;
+            self.known = false;
+        }
+    }
+
     /// Takes time, modes and parameters of a state, and its chart from the last modes.
     pub(super) fn take(&mut self, at: At<'_>) {
         let (modes, chart) = at.modes.split_at(self.dims.modes);

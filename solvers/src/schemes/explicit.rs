@@ -48,7 +48,7 @@ impl Flow {
     pub(super) fn known(&self, system: &dyn System, node: &Node, rate: &mut [f64]) {
         let (q, rest) = rate.split_at_mut(self.dims.q);
         let (v, z) = rest.split_at_mut(self.dims.v);
-        system.rate(&node.state.q, &node.state.v, q);
+        system.rate(node.state.t, &node.state.q, &node.state.v, q);
         v.copy_from_slice(&node.a);
         z.copy_from_slice(&node.zdot);
     }
@@ -70,8 +70,10 @@ impl Flow {
         }
         let (qdot, rest) = rate.split_at_mut(self.dims.q);
         let (a, zdot) = rest.split_at_mut(self.dims.v);
-        system.rate(q, v, qdot);
-        engine.accelerations(system, At { t, q, v, z, modes: &self.modes, live }, a, &mut self.lambda, zdot)
+        // the rates of positions may depend on time, too: they are those of the state evaluated last
+        engine.accelerations(system, At { t, q, v, z, modes: &self.modes, live }, a, &mut self.lambda, zdot)?;
+        system.rate(t, q, v, qdot);
+        Ok(())
     }
 
     /// q, v and z of y.

@@ -84,7 +84,7 @@ impl Ida {
                 to.copy_from_slice(from);
             }
             mu.fill(0.0);
-            system.rate(&state.q, &state.v, qdot);
+            system.rate(state.t, &state.q, &state.v, qdot);
         });
         if let Control::Steps(steps) = engine.control {
             self.solver.set_longest(steps[0].min(steps[1]));

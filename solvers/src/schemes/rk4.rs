@@ -56,7 +56,7 @@ fn step(
     stage.copy_from(from);
     sums.iter_mut().for_each(|s| s.fill(0.0));
     for (place, weight) in [(0.5, 1.0 / 6.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 3.0), (0.0, 1.0 / 6.0)] {
-        system.rate(&stage.state.q, &stage.state.v, rate);
+        system.rate(stage.state.t, &stage.state.q, &stage.state.v, rate);
         let add = |sum: &mut [f64], rate: &[f64]| sum.iter_mut().zip(rate).for_each(|(s, r)| *s += weight * r);
         add(&mut sums[0], rate);
         add(&mut sums[1], &stage.a);

@@ -107,7 +107,7 @@ macro_rules! stored {
 /// q̇ = v.
 macro_rules! vectors {
     () => {
-        fn rate(&self, _: &[f64], v: &[f64], qdot: &mut [f64]) {
+        fn rate(&self, _: f64, _: &[f64], v: &[f64], qdot: &mut [f64]) {
             qdot.copy_from_slice(v);
         }
 

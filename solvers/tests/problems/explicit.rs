@@ -45,7 +45,7 @@ impl Explicit {
     fn slope(&mut self, problem: &mut dyn Problem, state: &State) -> Slope {
         self.accelerate(problem, state.at());
         let (mut qdot, mut power) = (vec![0.0; state.q.len()], vec![0.0; state.work.len()]);
-        problem.rate(&state.q, &state.v, &mut qdot);
+        problem.rate(state.t, &state.q, &state.v, &mut qdot);
         problem.power(state.at(), &self.a, &self.lambda, &mut power);
         [qdot, self.a.clone(), self.terms.zdot.clone(), power]
     }
@@ -95,7 +95,7 @@ impl Explicit {
             let mut row = vec![0.0; state.v.len()];
             match problem.cross(root, state, &mut row) {
                 Effect::Stop => break,
-                Effect::Impulse { restitution } => self.strike(problem, state, &row, restitution),
+                Effect::Impulse { restitution, .. } => self.strike(problem, state, &row, restitution),
                 Effect::Record | Effect::Restart => {}
             }
         }

@@ -77,7 +77,7 @@ impl System for BouncingBall {
 
     fn cross(&mut self, _: usize, _: &mut State, row: &mut [f64]) -> Effect {
         row[0] = 1.0;
-        Effect::Impulse { restitution: self.restitution }
+        Effect::Impulse { restitution: self.restitution, stops: false }
     }
 }
 

@@ -35,7 +35,7 @@ fn put(matrix: &mut [f64], n: usize, row: usize, column: usize, block: [[f64; 3]
 /// Coordinates that are one quaternion, velocities ω in the body's frame.
 macro_rules! attitude {
     () => {
-        fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
             quat::rate(q, v, qdot);
         }
 
@@ -294,7 +294,7 @@ impl System for HeavyTopCartesian {
         put(&mut out.c, 6, 3, 3, gyroscopic(CENTRAL, three(&at.v[3..])).1);
     }
 
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+    fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot[..3].copy_from_slice(&v[..3]);
         quat::rate(&q[3..], &v[3..], &mut qdot[3..]);
     }

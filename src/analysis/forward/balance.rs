@@ -16,17 +16,6 @@ use grashof_solvers::{Control, Counts, Integration, Node};
 /// Energies looked at in the course of a run.
 const LOOKS: f64 = 400.0;
 
-/// How well two runs of a study agree.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Verified {
-    /// What was compared with: `tolerance 1e-9`, `radau5`.
-    pub with: String,
-    /// Digits that agree, of the largest value of the column that agrees least.
-    pub digits: f64,
-    /// Why there are none, if there are none.
-    pub because: Option<String>,
-}
-
 /// Energies and counters of a run so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Balance {

@@ -2,8 +2,9 @@
 
 use super::setup::Plan;
 use super::system::{Mechanical, Root};
+use crate::analysis::assemble::{Assembled, units};
 use crate::analysis::outcome::Failure;
-use crate::dynamics::LANES;
+use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, Study};
@@ -21,7 +22,7 @@ where
     let fixed = matches!(plan.settings.control, Control::Steps(_));
     match halt.why {
         Why::Zeno(root) => format!(
-            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or use `switches: step-over` with a fixed `step`",
+            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
             root_name(model, system, root)
         ),
         Why::Error(_) | Why::StepSize => format!(
@@ -37,6 +38,27 @@ where
         ),
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
+}
+
+/// The rows that become dependent where a run has stopped in a nearly singular position; none elsewhere, or if the reason is another.
+pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, rows): &(f64, Vec<usize>)) -> Option<String> {
+    if *sigma >= 0.05 || sigma.is_nan() || rows.is_empty() || matches!(halt.why, Why::Zeno(_) | Why::NotFinite(_) | Why::TooManySteps) {
+        return None;
+    }
+    let mut names: Vec<String> = Vec::new();
+    // a driver among them is what a person looks for
+    let drives = mechanism.drives.iter().map(|d| d.row).filter(|row| rows.contains(row));
+    for row in drives.chain(rows.iter().copied()) {
+        let name = mechanism.name_of_row(row);
+        if !names.contains(&name) && names.len() < 3 {
+            names.push(name);
+        }
+    }
+    Some(format!(
+        "at t = {:.6} s the motion cannot go on: in a nearly singular position (a dead point, or links in a line) {} contradict each other; start elsewhere, change lengths, or end the run before",
+        halt.t,
+        names.join(" and ")
+    ))
 }
 
 /// What is wrong with a state.
@@ -79,7 +101,20 @@ where
 }
 
 /// Why a run has not begun.
-pub(super) fn no_start<G: Space>(study: &Study, mechanism: &Mechanism<G>, halt: &Halt) -> Failure {
+pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G>, start: &Assembled, halt: &Halt) -> Failure {
+    if halt.why == Why::Singular
+        && let Some((body, how)) = unresisted(mechanism, start)
+    {
+        return Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
+                if how == "turn" { "inertia" } else { "mass" }
+            ),
+            place: format!("bodies.{body}"),
+            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
+        };
+    }
     let massless: Vec<String> = mechanism
         .nodes
         .iter()
@@ -105,6 +140,19 @@ pub(super) fn no_start<G: Space>(study: &Study, mechanism: &Mechanism<G>, halt: 
         place: study.place.clone(),
         help: "look at `grashof check`, which shows the start position and the freedom that is left".into(),
     }
+}
+
+/// A body that can move along a coordinate without resistance of any mass, and how it moves.
+fn unresisted<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<(String, &'static str)> {
+    let mut dynamics = Dynamics::new(mechanism);
+    dynamics.terms(0.0, &start.q, &start.v, &start.modes);
+    let nv = mechanism.nv;
+    let mass = |k: usize| dynamics.work.mass[k * (nv + 1)];
+    let largest = (0..nv).fold(0.0, |m, k| f64::max(m, mass(k)));
+    let k = (0..nv).find(|&k| mass(k) <= 1e-14 * largest)?;
+    let node = mechanism.nodes.iter().find(|n| n.columns.contains(&k))?;
+    let slides = units(mechanism)[k] != 0;
+    Some((mechanism.bodies[node.body].name.clone(), if slides { "slide" } else { "turn" }))
 }
 
 /// Why there are no minimal coordinates.

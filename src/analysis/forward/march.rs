@@ -22,6 +22,9 @@ use std::cell::OnceCell;
 /// Bytes that the steps of a run may take.
 const MOST_BYTES: usize = 3 << 30;
 
+/// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
+const PARTS: usize = 6;
+
 /// Changes of parameters in one run.
 const MOST_ERAS: usize = 5000;
 
@@ -169,6 +172,7 @@ pub(super) fn march<'m, G: Space<S = f64>>(
     };
     let Flow { events, balance, .. } = flow;
     let (certificate, findings) = balance.finish(plan);
+    trajectory.finish();
     Ok(Recorded { trajectory, stopped, events, certificate, findings })
 }
 
@@ -213,7 +217,7 @@ pub(super) fn bare<G: Space<S = f64>>(
     let start = chart.reduced(&state);
     timer(true);
     let begun = Integration::new(chart.system(), settings, &start);
-    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &halt))?;
+    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
     chart.whole(run.node(), &mut node);
     balance.begin(chart.mechanical(), &node, true);
     let stopped = loop {
@@ -335,7 +339,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let begun = Integration::new(chart.system(), self.plan.settings, &start);
         let mut run = match begun {
             Ok(run) => run,
-            Err(halt) if first => return Err(explain::no_start(self.study, &era.mechanism, &halt)),
+            Err(halt) if first => return Err(explain::no_start(self.study, &era.mechanism, &era.start, &halt)),
             Err(halt) => return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt))),
         };
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
@@ -349,7 +353,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
             let progress = match run.advance(chart.system(), self.plan.until) {
                 Ok(progress) => progress,
-                Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+                Err(halt) => break After::Stopped(self.explain(era, &mut chart, &mut run, &halt)),
             };
             let happened = matches!(progress, Progress::Event | Progress::Stopped);
             std::mem::swap(&mut last, &mut node);
@@ -383,6 +387,15 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         Ok(ended)
     }
 
+    /// Why a run cannot go on, with the joints and drivers that lock.
+    fn explain(&self, era: &Eras<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
+        let locked = match chart {
+            Charted::Whole(system) => explain::locked(&era.mechanism, halt, &run.dependence(&mut **system)),
+            Charted::Minimal(_) => None,
+        };
+        locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
+    }
+
     /// Adds the last step to the trajectory.
     fn record(
         &mut self,
@@ -392,13 +405,29 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         dense: &mut Dense,
         [last, node]: [&Node; 2],
     ) -> Result<(), Halt> {
-        match chart {
-            Charted::Whole(system) => self.trajectory.step(run.dense(&mut **system)?, node.state.t),
-            Charted::Minimal(system) => {
-                let made = dense.hermite(system.inner_mut(), inner, last, node);
-                made.map_err(|why| Halt { why, t: last.state.t, h: run.proposed() })?;
-                self.trajectory.step(dense, node.state.t);
+        let system = match chart {
+            Charted::Whole(system) => {
+                self.trajectory.step(run.dense(&mut **system)?, node.state.t, true);
+                return Ok(());
             }
+            Charted::Minimal(system) => system,
+        };
+        // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
+        let parts = if self.plan.fixed_step().is_some() { 1 } else { PARTS };
+        let (t, h) = (last.state.t, node.state.t - last.state.t);
+        let [mut reduced, mut from, mut to] = [run.node().clone(), last.clone(), last.clone()];
+        for part in 1..=parts {
+            let end = part == parts;
+            if end {
+                to.copy_from(node);
+            } else {
+                run.at(&mut **system, t + h * part as f64 / parts as f64, &mut reduced)?;
+                system.whole(&reduced, &mut to).map_err(|why| Halt { why, t, h })?;
+            }
+            let made = dense.hermite(system.inner_mut(), inner, &from, &to);
+            made.map_err(|why| Halt { why, t, h })?;
+            self.trajectory.step(dense, to.state.t, end);
+            std::mem::swap(&mut from, &mut to);
         }
         Ok(())
     }

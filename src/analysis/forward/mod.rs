@@ -10,7 +10,6 @@ mod setup;
 mod system;
 mod trajectory;
 
-pub use balance::Verified;
 pub use march::Bare;
 pub use setup::{is_available, method};
 

@@ -12,7 +12,7 @@
 use crate::analysis::observe::Observer;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern};
 use crate::geometry::Space;
-use crate::mechanism::{EffortLaw, Measured, Mechanism};
+use crate::mechanism::{EffortLaw, Measured, Mechanism, RowKind};
 use crate::model::Crossing;
 use crate::scalar::Dual;
 use grashof_solvers::kkt::row_scale;
@@ -126,7 +126,7 @@ where
         }
         let pattern = Pattern {
             mass: block.clone(),
-            g: Sparsity::dense(rows, nv),
+            g: known_by_rows(mechanism),
             k: block.clone(),
             c: block,
             r_z: Sparsity::dense(nv, nz),
@@ -288,7 +288,7 @@ where
         self.linearizer.tangents(&point, out);
     }
 
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+    fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.dynamics.mechanism.rate(q, v, qdot);
     }
 
@@ -422,16 +422,28 @@ where
                     return Effect::Record;
                 }
                 let watched = self.events[event];
-                if watched.stops {
-                    return Effect::Stop;
-                }
-                let Some((gauge, restitution)) = watched.impact else { return Effect::Record };
+                let Some((gauge, restitution)) = watched.impact else {
+                    return if watched.stops { Effect::Stop } else { Effect::Record };
+                };
                 row.fill(0.0);
                 m.gauges[gauge].project(&self.dynamics.work.readings[gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
-                Effect::Impulse { restitution: self.outputs[restitution] }
+                Effect::Impulse { restitution: self.outputs[restitution], stops: watched.stops }
             }
         }
     }
+}
+
+/// Entries that G may have.
+fn known_by_rows<G: Space>(m: &Mechanism<G>) -> Sparsity {
+    let entries = m.rows.iter().enumerate().flat_map(|(row, r)| {
+        let gauges: Vec<usize> = match r.kind {
+            RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => vec![gauge],
+            RowKind::Ratio { first, second, .. } => vec![first, second],
+            RowKind::Function(f) => m.functions[f].gauges.clone(),
+        };
+        gauges.into_iter().flat_map(move |g| m.gauges[g].columns.iter().map(move |&(k, _)| (row, k))).collect::<Vec<_>>()
+    });
+    Sparsity::new(m.rows.len(), m.nv, entries)
 }
 
 /// Angle from the centre of the half turn that is counted, rad.

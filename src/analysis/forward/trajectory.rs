@@ -17,6 +17,8 @@ struct Step {
     /// First coefficient and number of coefficients.
     first: usize,
     count: usize,
+    /// Whether a step of the integrator ends here, not a part of one.
+    whole: bool,
 }
 
 /// A stretch of the motion without switches: its modes, its parameters.
@@ -102,14 +104,21 @@ where
         self.pieces.push(Piece { era: self.eras.len() - 1, modes, steps: (n, n), from: t, to: t });
     }
 
-    /// Adds a step of the present piece, which ends at `end` (s).
-    pub(super) fn step(&mut self, dense: &Dense, end: f64) {
+    /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
+    pub(super) fn step(&mut self, dense: &Dense, end: f64, whole: bool) {
         let first = self.coefficients.len();
         let coefficients = dense.coefficients();
         self.coefficients.extend_from_slice(coefficients);
-        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len() });
+        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole });
         if let Some(piece) = self.pieces.last_mut() {
             (piece.to, piece.steps.1) = (end, self.steps.len());
+        }
+    }
+
+    /// Forgets a last piece in which no step was made.
+    pub(super) fn finish(&mut self) {
+        if self.pieces.len() > 1 && self.pieces.last().is_some_and(|p| p.steps.0 == p.steps.1) {
+            self.pieces.pop();
         }
     }
 
@@ -127,7 +136,7 @@ where
     /// Ends of the steps of a piece, with its begin.
     pub(super) fn ends_of(&self, piece: usize) -> Vec<f64> {
         let p = &self.pieces[piece];
-        std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().map(|s| s.end)).collect()
+        std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().filter(|s| s.whole).map(|s| s.end)).collect()
     }
 
     /// The mechanism of the piece that was evaluated last.

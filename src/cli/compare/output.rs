@@ -33,7 +33,9 @@ impl Compared<'_> {
         let [a, b] = self.references.of.map(|(by, tolerance)| format!("{} at {tolerance:e}", word(by)));
         match self.references.agree {
             Some(off) => format!("references: {a} (for implicit integrators) and {b} (for explicit ones) agree to {off:.1e}"),
-            None => format!("reference: {a} alone, the other family does not get through"),
+            None => format!(
+                "reference: {a} alone, since the other family does not get through; errors of its own family may be larger than they seem"
+            ),
         }
     }
 }

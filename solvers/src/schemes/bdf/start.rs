@@ -130,7 +130,7 @@ impl Start {
     /// The node, and y − h ẏ before it.
     fn taylor(&mut self, system: &dyn System, node: &Node, h: f64, history: &mut History) {
         let s = &node.state;
-        system.rate(&s.q, &s.v, &mut self.rate);
+        system.rate(s.t, &s.q, &s.v, &mut self.rate);
         let past = &mut self.node.state;
         for (x, x0, rate) in [(&mut past.q, &s.q, &self.rate), (&mut past.v, &s.v, &node.a), (&mut past.z, &s.z, &node.zdot)] {
             for ((x, x0), r) in x.iter_mut().zip(x0).zip(rate) {
@@ -171,7 +171,7 @@ impl Start {
         stage.copy_from(node);
         sums.iter_mut().for_each(|s| s.fill(0.0));
         for (place, weight) in [(0.5, 1.0 / 6.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 3.0), (0.0, 1.0 / 6.0)] {
-            system.rate(&stage.state.q, &stage.state.v, rate);
+            system.rate(stage.state.t, &stage.state.q, &stage.state.v, rate);
             for (sum, rate) in sums.iter_mut().zip([&*rate, &stage.a, &stage.zdot]) {
                 sum.iter_mut().zip(rate).for_each(|(s, r)| *s += weight * r);
             }

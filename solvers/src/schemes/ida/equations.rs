@@ -155,7 +155,7 @@ impl Lent<'_> {
         for j in 0..nv {
             unit.fill(0.0);
             unit[j] = 1.0;
-            self.system.rate(&state.q, unit, &mut rate[0]);
+            self.system.rate(state.t, &state.q, unit, &mut rate[0]);
             (0..nq).for_each(|i| n[i * nv + j] = rate[0][i]);
         }
         let product = gram.matrix_mut();
@@ -201,12 +201,12 @@ impl Lent<'_> {
         let Work { state, layout, tangent, u, inverse, bend, rate, .. } = &mut *self.work;
         let (nq, nv, size) = (state.q.len(), u.len(), layout.size());
         let [here, there] = rate;
-        self.system.rate(&state.q, u, here);
+        self.system.rate(state.t, &state.q, u, here);
         let blocks = [(&tangent.k, 1.0), (&tangent.z_q, -1.0), (&*bend, 1.0), (&self.engine.terms.g, 1.0)];
         for (j, column) in out.chunks_exact_mut(size).take(nq).enumerate() {
             let (q, nudge) = (state.q[j], NUDGE.sqrt() * self.engine.size_q[j]);
             state.q[j] = q + nudge;
-            self.system.rate(&state.q, u, there);
+            self.system.rate(state.t, &state.q, u, there);
             state.q[j] = q;
             let [rates, rest @ ..] = layout.split_mut(column);
             for (i, r) in rates.iter_mut().enumerate() {
@@ -260,7 +260,7 @@ impl Equations for Lent<'_> {
         let [_, v, _, lambda, _] = layout.split(y);
         let [r_q, r_v, r_z, r_lambda, r_mu] = layout.split_mut(out);
         let Work { state, u, .. } = &*self.work;
-        self.system.rate(&state.q, u, r_q);
+        self.system.rate(state.t, &state.q, u, r_q);
         r_q.iter_mut().zip(qdot).for_each(|(r, rate)| *r = rate - *r);
         residual(self.system, self.engine, state.at(), vdot, lambda, r_v);
         let terms = &self.engine.terms;

@@ -77,7 +77,7 @@ impl Estimate {
     /// e from the rates of `scratch` and the stages, then x.
     fn filter(&mut self, system: &mut dyn System, engine: &Engine, from: &Node, stages: &mut Stages, h: f64) -> f64 {
         let begin = &self.scratch;
-        system.rate(&begin.state.q, &begin.state.v, &mut self.rate);
+        system.rate(begin.state.t, &begin.state.q, &begin.state.v, &mut self.rate);
         let [s0, s1, s2] = &stages.stage;
         let [e0, e1, e2] = ERROR;
         let [r0, r1, r2] = ERROR_OF_RATES;
@@ -100,7 +100,7 @@ impl Estimate {
         for ((d, v), correction) in self.d.iter_mut().zip(&self.v).zip(&self.x) {
             *d = c * v + correction;
         }
-        system.rate(&from.state.q, &self.d, &mut self.rate);
+        system.rate(from.state.t, &from.state.q, &self.d, &mut self.rate);
         self.q.iter_mut().zip(&self.rate).for_each(|(q, r)| *q += r);
         engine.norm(&from.state, &self.q, &self.v, &self.z)
     }

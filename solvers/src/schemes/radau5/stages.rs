@@ -272,7 +272,7 @@ impl Stages {
             self.stage[i].state = state;
         }
         for stage in &mut self.stage {
-            system.rate(&stage.state.q, &stage.state.v, &mut stage.rate);
+            system.rate(stage.state.t, &stage.state.q, &stage.state.v, &mut stage.rate);
         }
         for sweep in 0..SWEEPS {
             let mut moved = false;
@@ -299,7 +299,7 @@ impl Stages {
         system.displace(&mut self.place, &self.displacement);
         let moved = stage.state.q.iter().zip(&self.place).any(|(q, p)| (q - p).abs() > 4.0 * f64::EPSILON * (1.0 + p.abs()));
         stage.state.q.copy_from_slice(&self.place);
-        system.rate(&stage.state.q, &stage.state.v, &mut stage.rate);
+        system.rate(stage.state.t, &stage.state.q, &stage.state.v, &mut stage.rate);
         moved
     }
 

@@ -1,0 +1,31 @@
+//! Motion in time by the program: reference values, reduced equations, agreement of coordinates, energies, events, faults.
+
+#[path = "dynamics/agreement.rs"]
+mod agreement;
+#[path = "../benches/closed_form/mod.rs"]
+mod closed_form;
+#[path = "dynamics/crank_rocker.rs"]
+mod crank_rocker;
+#[path = "dynamics/events.rs"]
+mod events;
+#[path = "dynamics/faults.rs"]
+mod faults;
+mod reference;
+
+use reference::program::{Run, Table};
+
+/// A scalar of a study.
+fn scalar(run: &Run, study: &str, name: &str) -> f64 {
+    run.json(study)["scalars"][name].as_f64().unwrap_or(f64::NAN)
+}
+
+/// A figure of the certificate of a study.
+fn certified(run: &Run, study: &str, name: &str) -> f64 {
+    run.json(study)["certificate"][name].as_f64().unwrap_or(f64::NAN)
+}
+
+/// Independent variable of the rows that stand twice: before and after a switch or an event.
+fn doubled(table: &Table) -> Vec<f64> {
+    let sides = table.sides();
+    table.rows.iter().zip(sides).filter(|(_, side)| *side < 0).map(|(row, _)| row[0]).collect()
+}
