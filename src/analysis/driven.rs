@@ -43,7 +43,7 @@ enum Solver {
     /// As many rows as velocities: one factorisation of G, its rows scaled to unit size (rows; and the same for each entry).
     Square { lu: Lu, scale: Vec<f64>, entries: Vec<f64> },
     /// Redundant rows: the regularised system with the mass metric (nv × nv) in the place of M.
-    Redundant { kkt: Kkt, metric: Vec<f64>, probe: Vec<f64> },
+    Redundant { kkt: Box<Kkt>, metric: Vec<f64>, probe: Vec<f64> },
 }
 
 /// A correction below this leaves an error below round-off, and moves everything linearly to within round-off.
@@ -75,7 +75,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             }
             // a force in no special direction
             let probe = start.metric.iter().enumerate().map(|(i, d)| d.sqrt() * (1.0 + 0.37 * (i as f64 * 2.39).sin())).collect();
-            Solver::Redundant { kkt, metric, probe }
+            Solver::Redundant { kkt: Box::new(kkt), metric, probe }
         };
         let unit = super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size.recip() }).collect();
         let reactions = dynamics.reactions();

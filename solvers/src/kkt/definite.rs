@@ -19,14 +19,14 @@ pub(super) fn factor<const N: usize>(a: &mut [[f64; N]; N], inverse: &mut [f64; 
         let inv = 1.0 / d;
         inverse[k] = inv;
         let mut column = [0.0; N];
-        for i in k + 1..N {
-            column[i] = a[i][k];
-            a[i][k] *= inv;
+        for (row, x) in a.iter_mut().zip(&mut column).skip(k + 1) {
+            *x = row[k];
+            row[k] *= inv;
         }
-        for i in k + 1..N {
-            let l = a[i][k];
-            for j in k + 1..=i {
-                a[i][j] -= l * column[j];
+        for (i, row) in a.iter_mut().enumerate().skip(k + 1) {
+            let l = row[k];
+            for (x, c) in row[k + 1..=i].iter_mut().zip(&column[k + 1..=i]) {
+                *x -= l * c;
             }
         }
     }

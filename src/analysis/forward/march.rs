@@ -347,6 +347,15 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         chart.whole(run.node(), &mut node);
         self.trajectory.piece(&node);
         self.balance.begin(chart.mechanical(), &node, first);
+        // what crosses in the same instant as the event that began this era
+        let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
+        if !at_once.is_empty() {
+            self.note(&at_once, node.state.t);
+            state.copy_from(&node.state);
+            if self.ends_or_sets(&at_once) {
+                return Ok(self.stopped_by(&mut chart, &node, &at_once));
+            }
+        }
         let ended = loop {
             if (self.stop)() {
                 break After::Stopped(format!("interrupted at t = {} s", node.state.t));
@@ -438,8 +447,18 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let system = chart.mechanical();
         let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
         let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
-        self.events.extend(counted.iter().map(|&e| Happened { name: self.model.events[e].name.clone(), at: state.t }));
+        let t = state.t;
+        self.note(&counted, t);
         counted
+    }
+
+    fn note(&mut self, counted: &[usize], at: f64) {
+        self.events.extend(counted.iter().map(|&e| Happened { name: self.model.events[e].name.clone(), at }));
+    }
+
+    /// Whether one of these events ends the run or sets parameters.
+    fn ends_or_sets(&self, counted: &[usize]) -> bool {
+        counted.iter().any(|&e| self.model.events[e].stop || !self.model.events[e].set.is_empty())
     }
 
     /// A run that was stopped by events: ended by one of them, or to go on with other parameters.

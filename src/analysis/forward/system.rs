@@ -239,6 +239,12 @@ where
         let before = -state.modes[m.switches + m.windings + event];
         self.counts(event, before).then_some(event)
     }
+
+    /// Events whose side differs between two lists of modes, and which count in that direction: they have happened between them.
+    pub(super) fn flipped(&self, before: &[i32], after: &[i32]) -> Vec<usize> {
+        let first = self.dynamics.mechanism.switches + self.dynamics.mechanism.windings;
+        (0..self.events.len()).filter(|e| before[first + e] != after[first + e] && self.counts(*e, before[first + e])).collect()
+    }
 }
 
 impl<G, D> System for Mechanical<'_, G, D>
