@@ -162,7 +162,7 @@ impl Kkt {
         self.set_scale(&metric, &g_scale);
     }
 
-    /// Takes the scales D (nv) and diag(G D⁻¹ Gᵀ) (m) of a [`Pattern`](crate::Pattern).
+    /// Takes the scales D (nv) and diag(G D⁻¹ Gᵀ) (m) of a [`Pattern`].
     pub fn set_scale(&mut self, metric: &[f64], g_scale: &[f64]) {
         for (s, x) in self.scale.iter_mut().zip(metric.iter().chain(g_scale)) {
             *s = scale::root_inverse(*x);
