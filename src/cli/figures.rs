@@ -8,6 +8,9 @@ use grashof::expression::Dimension;
 use grashof::model::{Model, Plot, Shown, ShownWhat, Study};
 use grashof::output::{Axis, Curve, Drawing, Figure, Link, LinkKind, Outline, Placement, Scale, Symbol, SymbolKind, Trace};
 
+/// Switches that are marked by lines in a figure, at most.
+const MOST_MARKED: usize = 16;
+
 /// Figures of curves: one curve for each shown column of each run, runs told apart by their labels.
 pub(super) fn figures(model: &Model, study: &Study, runs: &[(Option<String>, &Outcome)]) -> Vec<(String, Figure)> {
     study
@@ -50,9 +53,11 @@ fn figure(model: &Model, study: &Study, plot: &Plot, runs: &[(Option<String>, &O
         },
     );
     scale_x(&mut curves, factor);
-    // lines at switches help where there is one run; with many they would cover the curves
+    // lines at switches help where there is one run with a few; many would cover the curves
     let breaks = match (&plot.over, runs) {
-        (None, [(_, outcome)]) => outcome.switches.iter().map(|&i| outcome.places[i] / factor).collect(),
+        (None, [(_, outcome)]) if outcome.switches.len() <= MOST_MARKED => {
+            outcome.switches.iter().map(|&i| outcome.places[i] / factor).collect()
+        }
         _ => vec![],
     };
     let same_plane = plot.over.is_some() && plot.show.iter().chain(&plot.over).all(|s| s.dimension == Dimension::LENGTH);
