@@ -23,7 +23,7 @@ use std::cell::OnceCell;
 const MOST_BYTES: usize = 3 << 30;
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
-const PARTS: usize = 6;
+const PARTS: usize = 10;
 
 /// Changes of parameters in one run.
 const MOST_ERAS: usize = 5000;
