@@ -93,12 +93,13 @@ fn all_coordinates_in_the_plane_and_in_space() {
             let dynamics = |coordinates: &str, tolerance: f64| {
                 format!("until: 0.6 s, every: 20 ms, tolerance: {tolerance:e}, coordinates: {coordinates}")
             };
-            let (one, right) = go(&five_bar("planar", driven, seed), &dynamics("joint", TOLERANCE));
+            // more exact than what is compared with it
+            let (one, right) = go(&five_bar("planar", driven, seed), &dynamics("joint", 0.1 * TOLERANCE));
             for (space, coordinates) in
                 [("planar", "cartesian"), ("planar", "minimal"), ("spatial", "joint"), ("spatial", "cartesian"), ("spatial", "minimal")]
             {
-                // only the independent coordinates are in the error test there, and the linkage makes more of their errors
-                let asked = if coordinates == "minimal" { 0.1 * TOLERANCE } else { TOLERANCE };
+                // only the independent coordinates are in the error test there, and a poor chart makes much more of their errors
+                let asked = if coordinates == "minimal" { 0.01 * TOLERANCE } else { TOLERANCE };
                 let (other, found) = go(&five_bar(space, driven, seed), &dynamics(coordinates, asked));
                 let what = format!("{space} {coordinates}{}", if driven { ", driven" } else { "" });
                 verdict.close(&what, format_args!("seed {seed}"), apart(&found, &right, 0.02, 30), 0.0, 2.0 * AMPLIFIED * TOLERANCE);
