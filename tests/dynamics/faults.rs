@@ -61,6 +61,19 @@ fn a_force_without_bound() {
 }
 
 #[test]
+fn a_fixed_step_that_is_too_long_from_the_start_on() {
+    let run = run("gravity: [0, -9.81 m/s^2]
+bodies: { upper: { bar: { length: 1 m, mass: 1 kg } }, lower: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { P: { revolute: [ground, upper.start] }, Q: { revolute: [upper.end, lower.start] } }
+start: { P.angle: 0 deg, Q.angle: 10 deg, P.omega: 30 rad/s, Q.omega: -90 rad/s }
+studies:
+  run: { dynamics: { until: 2 s, integrator: generalized-alpha, rho: 0.8, step: 0.5 s, coordinates: cartesian } }
+");
+    told(&run, 3, &["t = 0.0", "does not converge", "shorter `step`"]);
+    assert!(run.files().is_empty());
+}
+
+#[test]
 fn chatter_on_a_switch() {
     let run = car("-2 N*sign(S.velocity)", "S.position: 0 m, S.velocity: 1 m/s", "until: 1 s, every: 10 ms");
     told(&run, 3, &["t = 0.5", "sign", "clamp", "step-over"]);

@@ -53,6 +53,9 @@ where
     let Recorded { mut trajectory, stopped, events, certificate, findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, stop)?;
 
+    if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
+        return Err(Failure::Numerical(reason.clone()));
+    }
     let lost = |off: Off| Failure::Numerical(format!("the state at t = {} s could not be evaluated", off.at));
     let breaks = trajectory.breaks();
     let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;

@@ -115,6 +115,11 @@ where
         }
     }
 
+    /// Whether no step was made.
+    pub(super) fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
     /// Forgets a last piece in which no step was made.
     pub(super) fn finish(&mut self) {
         if self.pieces.len() > 1 && self.pieces.last().is_some_and(|p| p.steps.0 == p.steps.1) {
