@@ -93,7 +93,7 @@ enum Command {
     Run(run::Arguments),
     /// Run a motion in time by several integrators and compare error, time and work
     #[command(
-        after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study motion --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
+        after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study squeeze --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
     )]
     Compare(compare::Arguments),
     /// Look a model over: topology, freedom, redundant rows, masses, start
