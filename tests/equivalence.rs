@@ -4,6 +4,7 @@ mod common;
 
 use common::{columns, study};
 use grashof::analysis::outcome::Outcome;
+use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
 use std::fmt::Write;
 
@@ -255,5 +256,21 @@ fn a_pin_in_a_slot_is_a_block_that_slides_and_turns() {
             *row = kept.iter().map(|c| row[*c]).collect();
         }
         same("quick return", &names, &in_space, &in_plane, |_| true, TOLERANCE);
+    }
+}
+
+/// q = q̂ + N(q) u is what an implicit step asks of the coordinates; its closed form against the equation.
+#[test]
+fn implicit_displacements_solve_their_equation() {
+    let m = common::mechanism::<Spatial<f64>>(include_str!("common/spatial.yaml"), Coordinates::Cartesian);
+    let mut q = m.drawn();
+    let turn: Vec<f64> = (0..m.nv).map(|k| 0.3 * (1.7 * k as f64).sin()).collect();
+    m.retract(&mut q, &turn);
+    let (before, u): (Vec<f64>, Vec<f64>) = (q.clone(), (0..m.nv).map(|k| 0.4 * (2.3 * k as f64 + 0.5).cos()).collect());
+    m.displace(&mut q, &u);
+    let mut rate = vec![0.0; m.nq];
+    m.rate(&q, &u, &mut rate);
+    for ((q, before), rate) in q.iter().zip(&before).zip(&rate) {
+        assert!((q - before - rate).abs() < 1e-15, "{q} is not {before} + {rate}");
     }
 }

@@ -131,6 +131,48 @@ fn integrators_agree() {
 }
 
 #[test]
+fn every_scheme_goes_the_same_way() {
+    let mut verdict = Verdict::default();
+    let plane = five_bar("planar", false, 5);
+    // a rod on a ball joint with a free box tied to its end: quaternions of the tree, and as cartesian coordinates a ball that is cut
+    let space = "grashof: 1
+name: rod and box
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+bodies:
+  rod: { bar: { length: 0.5 m, width: 4 cm, height: 2 cm, mass: 1 kg } }
+  crate: { box: { size: [10 cm, 20 cm, 30 cm], mass: 2 kg } }
+joints: { S: { spherical: [ground, rod.start] } }
+springs: { tie: { between: [rod.end, crate.origin], stiffness: 60 N/m, length: 0.2 m, damping: 0.3 N s/m } }
+start: { rod.wx: 4 rad/s, rod.wy: -2 rad/s, rod.wz: 7 rad/s, crate.x: 0.6 m, crate.y: 0.3 m, crate.wx: 5 rad/s, crate.wy: 0.2 rad/s, crate.wz: 1 rad/s }
+studies:
+"
+    .to_string();
+    let columns = "[time, rod.end.x, rod.end.y, rod.end.vz, crate.x, crate.vy, crate.qw, crate.wy, tie.force, energy.total]";
+    let spatial = |dynamics: &str| {
+        let text = format!("{space}  run:\n    dynamics: {{ {dynamics} }}\n    columns: {columns}\n");
+        run_text(&text, &["--no-plots"]).succeeded().table("run")
+    };
+    let exact = "until: 0.5 s, every: 20 ms, tolerance: 1e-11, integrator: dop853";
+    let (in_plane, in_space) = (go(&plane, exact).1, spatial(exact));
+    for (dynamics, within) in [
+        ("integrator: bdf, tolerance: 1e-9", 1e-6),
+        ("integrator: radau5, tolerance: 1e-9", 1e-6),
+        ("integrator: auto, tolerance: 1e-9", 1e-6),
+        ("integrator: bdf, tolerance: 1e-8, coordinates: cartesian", 1e-5),
+        ("integrator: radau5, tolerance: 1e-8, coordinates: cartesian", 1e-5),
+        ("integrator: hht, step: 0.1 ms", 1e-4),
+        ("integrator: generalized-alpha, step: 0.1 ms, coordinates: cartesian", 1e-4),
+        ("integrator: generalized-alpha, step: 0.1 ms, level: position, coordinates: cartesian", 1e-4),
+    ] {
+        let dynamics = format!("until: 0.5 s, every: 20 ms, {dynamics}");
+        verdict.close("plane", &dynamics, apart(&go(&plane, &dynamics).1, &in_plane, 0.02, 25), 0.0, within);
+        verdict.close("space", &dynamics, apart(&spatial(&dynamics), &in_space, 0.02, 25), 0.0, within);
+    }
+    verdict.give("schemes");
+}
+
+#[test]
 fn energies_balance() {
     // motor, damped hinge, damped spring, table load with kinks, flywheel: everything that does work
     let text = "grashof: 1
