@@ -20,6 +20,8 @@ pub struct Outcome {
     pub rows: Vec<Vec<f64>>,
     /// Results of the kind, in the order of `study.results`.
     pub results: Vec<f64>,
+    /// Lists that the kind gives, as the eigenvalues of `modes`.
+    pub lists: Vec<List>,
     /// Scalars, in the order of `study.scalars`.
     pub scalars: Vec<f64>,
     /// Extremes of each column over the independent variable; none where a column is not defined.
@@ -32,8 +34,19 @@ pub struct Outcome {
     pub certificate: Certificate,
     /// Events of the model in the order in which they happened.
     pub events: Vec<Happened>,
-    /// What the drawing shows.
-    pub scene: Option<Scene>,
+    /// Drawings of the mechanism: the name of each, and what it shows.
+    pub scenes: Vec<(String, Scene)>,
+}
+
+/// A named list of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct List {
+    /// Its name: `eigenvalues`.
+    pub name: String,
+    /// Its unit, SI; empty if it has none.
+    pub unit: String,
+    /// The numbers.
+    pub values: Vec<f64>,
 }
 
 /// One checked expectation.

@@ -10,12 +10,13 @@ use super::motion::{Lost, Motion, Rows};
 use super::observe::Observer;
 use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
-use super::{balance, forward, scene};
-use crate::dynamics::Dynamics;
+use super::{balance, forward, modes, periodic, scene, statics};
+use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
 use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::scalar::Dual;
 use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
 use std::sync::Arc;
 
@@ -31,27 +32,42 @@ pub fn run(
     coordinates: Coordinates,
     stop: &dyn Fn() -> bool,
 ) -> Result<Outcome, Failure> {
-    match (&study.kind, model.space) {
-        (Kind::Dynamics(motion), Dimensions::Planar) => forward::run::<Planar<f64>>(model, study, motion, parameters, stop),
-        (Kind::Dynamics(motion), Dimensions::Spatial) => forward::run::<Spatial<f64>>(model, study, motion, parameters, stop),
-        (_, Dimensions::Planar) => run_in::<Planar<f64>>(model, study, parameters, coordinates),
-        (_, Dimensions::Spatial) => run_in::<Spatial<f64>>(model, study, parameters, coordinates),
+    match model.space {
+        Dimensions::Planar => run_in::<Planar<f64>>(model, study, parameters, coordinates, stop),
+        Dimensions::Spatial => run_in::<Spatial<f64>>(model, study, parameters, coordinates, stop),
     }
 }
 
-fn run_in<G: Space<S = f64>>(model: &Model, study: &Study, parameters: &[f64], coordinates: Coordinates) -> Result<Outcome, Failure> {
-    let range = match &study.kind {
-        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => range,
-        Kind::Dynamics(_) | Kind::Later(_) => {
-            let kind = if let Kind::Later(word) = study.kind { word } else { "dynamics" };
-            return Err(Failure::Study {
-                code: "later",
-                message: format!("studies of the kind `{kind}` cannot be computed yet"),
-                place: study.place.clone(),
-                help: "run the others with `--study`, or use `kinematics` or `inverse`".into(),
-            });
+fn run_in<G>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    coordinates: Coordinates,
+    stop: &dyn Fn() -> bool,
+) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    match &study.kind {
+        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => {
+            driven::<G>(model, study, range, parameters, coordinates)
         }
-    };
+        Kind::Dynamics(motion) => forward::run::<G>(model, study, motion, parameters, stop),
+        Kind::Statics => statics::run::<G>(model, study, parameters, stop),
+        Kind::Modes(asked) => modes::run::<G>(model, study, asked, parameters, stop),
+        Kind::Periodic(asked) => periodic::run::<G>(model, study, asked, parameters, stop),
+    }
+}
+
+/// A study of a motion that its drivers prescribe.
+fn driven<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    range: &Range,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<Outcome, Failure> {
     let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
     let start = assembled(&mut mechanism)?;
     drivers_fit(&mechanism, &start, model, study)?;
@@ -222,7 +238,7 @@ fn observe<G: Space<S = f64>>(
             unit.1
         )
     });
-    if results.is_empty() && study.results.iter().any(|r| r == "turns_fully") {
+    if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
         results.push(if complete { 1.0 } else { 0.0 });
     }
     let ends = motion.ends;
@@ -240,13 +256,14 @@ fn observe<G: Space<S = f64>>(
         switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
         rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
         results,
+        lists: Vec::new(),
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
         findings: findings(mechanism, &motion),
         certificate: certificate(&mut motion, &rows),
         events: Vec::new(),
-        scene: Some(scene::of_motion(&mut motion)),
+        scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
     })
 }
 

@@ -6,6 +6,9 @@ use super::outcome::{Scene, SceneJoint};
 use crate::geometry::{Pose, Space};
 use crate::mechanism::{Measured, Mechanism, StretchOf};
 
+/// Name of the drawing of a motion.
+pub(super) const MECHANISM: &str = "mechanism";
+
 /// Positions that are drawn.
 const POSES: usize = 6;
 /// Places along each trace.

@@ -4,7 +4,6 @@ use super::units::unit;
 use grashof::analysis::extremum::Extremum;
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::sweep::Run;
-use grashof::expression::Dimension;
 use grashof::model::{Model, Study};
 use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
 use serde_json::Value;
@@ -22,11 +21,9 @@ pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
 
 /// Names, units and values of the results of the kind and of the scalars.
 fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
-    let results = study.results.iter().zip(&outcome.results).map(|(name, value)| Scalar {
-        name: name.clone(),
-        value: *value,
-        unit: result_unit(name),
-    });
+    // a kind may name results that this mechanism does not have, as the frequency of a mode
+    let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
+    let results = present.map(|(r, value)| Scalar { name: r.name.clone(), value: *value, unit: r.dimension.si() });
     let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar {
         name: s.name.clone(),
         value: *value,
@@ -34,11 +31,6 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     });
     let taken = study.take.iter().map(|t| Scalar { name: t.name.clone(), value: t.value, unit: t.dimension.si() });
     taken.chain(results).chain(own).collect()
-}
-
-/// Results of kinematic kinds are lengths (balance) or counts.
-fn result_unit(name: &str) -> String {
-    if name == "turns_fully" { String::new() } else { Dimension::LENGTH.si() }
 }
 
 /// The table of scalars for stdout, or the number of rows where there is none.
@@ -85,7 +77,9 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
         study: study.name.clone(),
         status: if outcome.stopped.is_some() { "failed" } else { "done" }.into(),
         parameters: outcome.parameters.clone(),
-        scalars: scalars(model, study, outcome).into_iter().map(|s| (s.name, json_number(s.value))).collect(),
+        scalars: (scalars(model, study, outcome).into_iter().map(|s| (s.name, json_number(s.value))))
+            .chain(outcome.lists.iter().map(|list| (list.name.clone(), json_numbers(&list.values))))
+            .collect(),
         extrema,
         certificate: certificate(outcome),
         findings,
@@ -160,7 +154,7 @@ fn happened(outcome: &Outcome) -> String {
 pub(super) fn sweep_rows(model: &Model, study: &Study, runs: &[Run]) -> Table {
     let swept = study.sweep.iter().map(|s| &model.parameters[s.parameter]);
     let mut columns: Vec<Header> = swept.map(|p| Header::new(p.name.clone(), p.dimension.si())).collect();
-    columns.extend(study.results.iter().map(|name| Header::new(name.clone(), result_unit(name))));
+    columns.extend(study.results.iter().map(|r| Header::new(r.name.clone(), r.dimension.si())));
     columns.extend(study.scalars.iter().map(|s| Header::new(s.name.clone(), unit(model, s.value, s.dimension))));
     let (results, scalars) = (study.results.len(), study.scalars.len());
     let mut rows = Vec::new();
@@ -175,7 +169,7 @@ pub(super) fn sweep_rows(model: &Model, study: &Study, runs: &[Run]) -> Table {
             }
             Err(failure) => {
                 // a range that could not be begun is not a full turn
-                row.extend(study.results.iter().map(|name| if name == "turns_fully" { 0.0 } else { f64::NAN }));
+                row.extend(study.results.iter().map(|r| if r.name == "turns_fully" { 0.0 } else { f64::NAN }));
                 row.extend(std::iter::repeat_n(f64::NAN, scalars));
                 reasons.push(failure.reason());
             }

@@ -191,7 +191,7 @@ fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Comm
     if let Some(reason) = &outcome.stopped {
         return Err(refuse(&format!("which stopped on its way: {reason}"), "see to that study first", code::NUMERICAL));
     }
-    let results = study.results.iter().cloned().zip(outcome.results.iter().copied());
+    let results = study.results.iter().map(|r| r.name.clone()).zip(outcome.results.iter().copied());
     let own = study.scalars.iter().map(|s| s.name.clone()).zip(outcome.scalars.iter().copied());
     let taken = study.take.iter().map(|t| (t.name.clone(), t.value));
     Ok(results.chain(own).chain(taken).collect())

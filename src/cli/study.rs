@@ -144,18 +144,18 @@ impl Job<'_> {
 
     /// Renders figures and the drawing of the mechanism, several at a time.
     fn draw(&self, staging: &mut Staging, figures: Vec<(String, grashof::output::Figure)>, outcome: &Outcome) {
-        let drawing = outcome.scene.as_ref().map(|s| figures::drawing(self.model, s));
-        let count = figures.len() + usize::from(drawing.is_some());
+        let drawings: Vec<_> = outcome.scenes.iter().map(|(name, scene)| (name, figures::drawing(self.model, scene))).collect();
+        let count = figures.len() + drawings.len();
         let progress = Progress::new(self.study, count, self.common.quiet);
         let pictures = par::map(
             count,
             self.common.threads(),
             |i| match figures.get(i) {
                 Some((name, figure)) => (name.clone(), grashof::output::render_figure(figure)),
-                None => (
-                    "mechanism".to_string(),
-                    grashof::output::render_drawing(drawing.as_ref().unwrap_or(&grashof::output::Drawing::default())),
-                ),
+                None => {
+                    let (name, drawing) = &drawings[i - figures.len()];
+                    ((*name).clone(), grashof::output::render_drawing(drawing))
+                }
             },
             || progress.step(),
         );
@@ -230,11 +230,8 @@ impl Job<'_> {
 /// What the model language has and this version does not compute.
 fn later(study: &Study) -> Option<Failure> {
     let beside = |key: &str| format!("studies.{}.{key}", study.name);
-    let (what, place) = match study.kind {
-        Kind::Later(kind) => (format!("studies of the kind `{kind}`"), study.place.clone()),
-        _ if study.solve.is_some() => ("`solve`".to_string(), beside("solve")),
-        _ => return None,
-    };
+    study.solve.as_ref()?;
+    let (what, place) = ("`solve`", beside("solve"));
     Some(Failure::Study {
         code: "later",
         message: format!("{what} cannot be computed yet"),

@@ -17,7 +17,7 @@ mod tangent;
 mod workspace;
 
 pub use reaction::Reactions;
-pub use tangent::{LANES, Linearizer, Point, pattern};
+pub use tangent::{LANES, Linearizer, Point, RowTangent, pattern};
 pub use workspace::Workspace;
 
 use crate::geometry::Space;

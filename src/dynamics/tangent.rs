@@ -31,6 +31,18 @@ pub struct Point<'a> {
     pub modes: &'a [i32],
 }
 
+/// Derivatives of the rates of the constraint rows at fixed a; dense and row-major (rows × nv), by q along velocities as
+/// [`Tangent`] has them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RowTangent {
+    /// ∂(G v − ν)/∂q.
+    pub velocity_q: Vec<f64>,
+    /// ∂(G a − γ)/∂q.
+    pub acceleration_q: Vec<f64>,
+    /// ∂(G a − γ)/∂v.
+    pub acceleration_v: Vec<f64>,
+}
+
 /// Entries that K or C may have: columns i and k meet if one body's path, one gauge or one force law knows both.
 #[must_use]
 pub fn pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
@@ -185,6 +197,52 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
                 out.z_z[i * nz + j] = rate.d[j - first];
             }
         }
+    }
+
+    /// How the rates of the constraint rows change with the state. Rows know most columns, so each column has a lane of its own.
+    pub fn rows(&mut self, at: &Point<'_>) -> RowTangent {
+        let (nv, rows) = (at.v.len(), at.lambda.len());
+        let mut out = RowTangent {
+            velocity_q: vec![0.0; rows * nv],
+            acceleration_q: vec![0.0; rows * nv],
+            acceleration_v: vec![0.0; rows * nv],
+        };
+        self.plain.copy_from_slice(at.q);
+        for (first, by_velocity) in (0..nv).step_by(LANES).flat_map(|first| [(first, false), (first, true)]) {
+            constants(&mut self.q, at.q);
+            constants(&mut self.v, at.v);
+            constants(&mut self.dynamics.work.z, at.z);
+            let last = nv.min(first + LANES);
+            for k in first..last {
+                if by_velocity {
+                    self.v[k].d[k - first] = 1.0;
+                } else {
+                    self.seed(k, k - first);
+                }
+            }
+            let Self { dynamics, q, v, .. } = self;
+            dynamics.time(Dual::constant(at.t), at.modes);
+            dynamics.position(q, at.modes);
+            dynamics.velocity(v, at.modes);
+            let w = &dynamics.work;
+            for i in 0..rows {
+                let g = &w.g[i * nv..(i + 1) * nv];
+                let (mut speed, mut acceleration) = (-w.nu[i], -w.gamma[i]);
+                for ((g, v), a) in g.iter().zip(&*v).zip(at.a) {
+                    speed += *g * *v;
+                    acceleration += g.scale(*a);
+                }
+                for k in first..last {
+                    if by_velocity {
+                        out.acceleration_v[i * nv + k] = acceleration.d[k - first];
+                    } else {
+                        out.velocity_q[i * nv + k] = speed.d[k - first];
+                        out.acceleration_q[i * nv + k] = acceleration.d[k - first];
+                    }
+                }
+            }
+        }
+        out
     }
 
     fn evaluate(&mut self, at: &Point<'_>) {

@@ -24,8 +24,8 @@ pub struct Study {
     pub columns_given: bool,
     /// Scalars in file order; leaves are functionals, results and parameters.
     pub scalars: Vec<Scalar>,
-    /// Names of the scalars that the kind itself gives (`turns_fully`; the moved masses and `residual` of a balance).
-    pub results: Vec<String>,
+    /// Scalars that the kind itself gives (`turns_fully`; the moved masses and `residual` of a balance).
+    pub results: Vec<StudyResult>,
     /// Functionals over the whole study that scalars and expectations use.
     pub functionals: Vec<Functional>,
     /// Figures.
@@ -34,6 +34,15 @@ pub struct Study {
     pub expect: Vec<Expectation>,
     /// Where it stands.
     pub place: Place,
+}
+
+/// A scalar that the kind of a study gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyResult {
+    /// Its name.
+    pub name: String,
+    /// Its dimension.
+    pub dimension: Dimension,
 }
 
 /// Kind of a study.
@@ -48,8 +57,12 @@ pub enum Kind {
     Balance { moved: Vec<(usize, usize)>, range: Range },
     /// Motion in time.
     Dynamics(Forward),
-    /// Read and checked; acts in a later version. The word is the kind's key.
-    Later(&'static str),
+    /// Equilibrium, from the start position.
+    Statics,
+    /// Eigenvalues and shapes about a pose.
+    Modes(Modes),
+    /// Periodic regime.
+    Periodic(Periodic),
 }
 
 /// Range of a kinematic study.
@@ -95,6 +108,39 @@ pub struct Forward {
     pub chart: Chart,
     /// Whether switches are located; else a scheme of fixed step marches across them.
     pub locate: bool,
+}
+
+/// Vibrations about a held pose: `modes`.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// Whether the pose is an equilibrium that is searched from the start; else the start itself.
+    pub at_equilibrium: bool,
+    /// Whether damping counts.
+    pub damped: bool,
+    /// Eigensolvers, each once.
+    pub methods: Vec<Eigensolver>,
+}
+
+/// How eigenvalues are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Eigensolver {
+    /// By the linear algebra library.
+    Library,
+    /// Jacobi's rotations.
+    Jacobi,
+    /// Inverse iteration with deflation.
+    Power,
+}
+
+/// The regime in which a mechanism settles: `periodic`.
+#[derive(Clone, Debug)]
+pub struct Periodic {
+    /// What advances by one period; none: the time.
+    pub over: Option<Id>,
+    /// By how much, in its unit.
+    pub by: Id,
+    /// The quantity whose mean and extremes are found.
+    pub of: Id,
 }
 
 /// How the step of an integrator is chosen.

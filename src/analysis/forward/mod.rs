@@ -82,13 +82,14 @@ where
         rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
         places: rows.places,
         results: Vec::new(),
+        lists: Vec::new(),
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
         findings,
         certificate,
         events,
-        scene: Some(scene),
+        scenes: vec![(scene::MECHANISM.into(), scene)],
     })
 }
 

@@ -12,19 +12,20 @@ use crate::model::names::Entity;
 use crate::model::quantities::Coordinate;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
-use crate::model::study::{Kind, Over, Range};
+use crate::model::study::{Eigensolver, Kind, Modes, Over, Periodic, Range};
 use crate::model::suggest;
 use crate::model::tables::STUDY_KINDS;
 use crate::model::vocabulary::Quantity;
 use serde_yaml::Value;
+
+/// Frequencies of a `modes` study that have a name: `frequency_1`, ...
+const NAMED_MODES: usize = 12;
 
 impl<'n> Decoder<'n> {
     pub(super) fn kind(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Offer)> {
         let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some())?;
         let inner = node.get(word)?;
         let here = at.key(word);
-        let later =
-            |independent, first, results| (Kind::Later(word), Offer { word, independent, first, reactions: true, states: true, results });
         match word {
             "kinematics" | "inverse" => {
                 let (range, independent, first) = self.range(inner, &here)?;
@@ -44,26 +45,58 @@ impl<'n> Decoder<'n> {
                 let offer = Offer { word, independent, first: None, reactions: true, states: true, results };
                 Some((Kind::Dynamics(self.forward(inner, &here)?), offer))
             }
-            "periodic" => {
-                let named = |decoder: &mut Self, key: &'n str| -> Option<(String, Dimension)> {
-                    let text = inner.get(key)?.text()?;
-                    let allow = Allow { what: "a periodic study", ..Allow::MEASURE };
-                    let (lowered, _) = decoder.lower(text, Origin::Value(text, 0), &here.key(key), allow, &mut Local::default())?;
-                    Some((text.to_owned(), lowered.dimension))
-                };
-                let (over, of) = (named(self, "over"), named(self, "of"));
-                let (over, independent) = over?;
-                let by = self.number(inner.get("by"), &here.key("by"), Want::Of(independent));
-                self.check_key(Rule::NotZero("the period"), by, &here, "by");
-                let (of, dimension) = of?;
-                let mut results = vec![("period".to_owned(), Dimension::TIME)];
-                results.extend(["mean", "max", "min"].map(|which| (format!("{of}_{which}"), dimension)));
-                results.push(("floquet".to_owned(), Dimension::NONE));
-                let first = (over != "t" && over != "time").then_some(over);
-                Some(later(Some(independent), first, results))
+            "periodic" => self.periodic(inner, &here),
+            "statics" => {
+                let results = vec![("stable".to_owned(), Dimension::NONE)];
+                let independent = Some(Dimension::TIME);
+                Some((Kind::Statics, Offer { word, independent, first: None, reactions: true, states: true, results }))
             }
-            _ => Some(later(None, None, Vec::new())),
+            _ => {
+                let methods = inner.get("methods").map(Node::items).unwrap_or_default();
+                let mut solvers = Vec::new();
+                for method in methods.iter().filter_map(Value::as_str) {
+                    let solver = match method {
+                        "jacobi" => Eigensolver::Jacobi,
+                        "power" => Eigensolver::Power,
+                        _ => Eigensolver::Library,
+                    };
+                    if !solvers.contains(&solver) {
+                        solvers.push(solver);
+                    }
+                }
+                let modes = Modes {
+                    at_equilibrium: inner.get("at").and_then(Node::text) == Some("statics"),
+                    damped: matches!(inner.get("damped"), Some(Node::Plain(Value::Bool(true)))),
+                    methods: if solvers.is_empty() { vec![Eigensolver::Library] } else { solvers },
+                };
+                let results = (1..=NAMED_MODES).map(|i| (format!("frequency_{i}"), Dimension::NONE.div(Dimension::TIME))).collect();
+                Some((Kind::Modes(modes), Offer { word, independent: None, first: None, reactions: true, states: true, results }))
+            }
         }
+    }
+
+    /// `periodic: { over, by, of }`.
+    fn periodic(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> Option<(Kind, Offer)> {
+        let named = |decoder: &mut Self, key: &'n str| {
+            let text = inner.get(key)?.text()?;
+            let allow = Allow { what: "a periodic study", ..Allow::MEASURE };
+            let (lowered, _) = decoder.lower(text, Origin::Value(text, 0), &here.key(key), allow, &mut Local::default())?;
+            Some((text.to_owned(), lowered))
+        };
+        let (over, of) = (named(self, "over"), named(self, "of"));
+        let (over, progress) = over?;
+        let by = self.number(inner.get("by"), &here.key("by"), Want::Of(progress.dimension));
+        self.check_key(Rule::NotZero("the period"), by, here, "by");
+        let (of, quantity) = of?;
+        let timed = over == "t" || over == "time";
+        let word = of.replace('.', "_");
+        let mut results = vec![("period".to_owned(), Dimension::TIME)];
+        results.extend(["mean", "max", "min"].map(|which| (format!("{word}_{which}"), quantity.dimension)));
+        results.push(("floquet".to_owned(), Dimension::NONE));
+        let kind = Kind::Periodic(Periodic { over: (!timed).then_some(progress.id), by: by?, of: quantity.id });
+        let first = (!timed).then_some(over);
+        let independent = Some(progress.dimension);
+        Some((kind, Offer { word: "periodic", independent, first, reactions: true, states: true, results }))
     }
 
     /// Loads by first-order states are known in motion in time alone.

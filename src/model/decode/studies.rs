@@ -10,7 +10,7 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::scope::{Allow, Functionals, Local, Reach};
 use crate::model::shape::clip;
-use crate::model::study::{Solve, Study, Sweep, Take, Values};
+use crate::model::study::{Solve, Study, StudyResult, Sweep, Take, Values};
 use crate::model::suggest;
 use crate::model::tables::{MOST_RUNS, STUDY_KINDS};
 use crate::model::vocabulary::Quantity;
@@ -127,7 +127,8 @@ impl<'n> Decoder<'n> {
         let sweep = self.sweep(node, &at, &mut local);
         let mut frame =
             Frame { local, offer, swept: sweep.iter().map(|s| s.parameter).collect(), scalars: Vec::new(), results: Vec::new() };
-        let results: Vec<String> = frame.offer.results.iter().map(|(name, _)| name.clone()).collect();
+        let result = |(name, dimension): &(String, Dimension)| StudyResult { name: name.clone(), dimension: *dimension };
+        let results = frame.offer.results.iter().map(result).collect();
         let columns_given = node.get("columns").is_some();
         let columns = self.columns(node, &at, &mut frame);
         let scalars = self.scalars(node, &at, &mut frame);

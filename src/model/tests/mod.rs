@@ -95,13 +95,18 @@ fn columns_expand_as_the_format_says() {
     assert_eq!(names, ["time", "rod2.end.x", "rod2.end.y", "rod2.end.z", "energy.kinetic", "energy.potential", "energy.total"]);
 }
 
+/// Names of a study's results.
+fn names(study: &Study) -> Vec<&str> {
+    study.results.iter().map(|r| r.name.as_str()).collect()
+}
+
 #[test]
 fn kinds_results_and_functionals() {
     let balanced = model("crank_rocker", "balanced").study.unwrap();
-    assert_eq!(balanced.results, ["kappa", "lambda", "residual"]);
+    assert_eq!(names(&balanced), ["kappa", "lambda", "residual"]);
     assert!(matches!(balanced.kind, Kind::Balance { ref moved, .. } if *moved == [(1, 0), (3, 1)]));
     let lengths = model("crank_rocker", "lengths").study.unwrap();
-    assert_eq!(lengths.results, ["turns_fully"]);
+    assert_eq!(names(&lengths), ["turns_fully"]);
     assert!(matches!(&lengths.sweep[0].values, Values::List(values) if values.len() == 7));
     let turn = model("crank_rocker", "one-turn");
     let study = turn.study.as_ref().unwrap();
@@ -110,7 +115,7 @@ fn kinds_results_and_functionals() {
     assert_eq!(study.expect.len(), 3);
     assert!(matches!(model("crank_rocker", "start-up").study.unwrap().kind, Kind::Dynamics(_)));
     let fluctuation = model("crank_rocker", "fluctuation").study.unwrap();
-    assert_eq!(fluctuation.results, ["period", "omega_mean", "omega_max", "omega_min", "floquet"]);
+    assert_eq!(names(&fluctuation), ["period", "omega_mean", "omega_max", "omega_min", "floquet"]);
     let plot = &fluctuation.plots[0];
     assert_eq!((plot.show[0].what, plot.over.as_ref().unwrap().what), (ShownWhat::Scalar(0), ShownWhat::Parameter(18)));
 }
