@@ -334,7 +334,7 @@ fn gravity_and_springs_take_from_their_energies() {
         for &effort in &m.spring_efforts {
             let damping = match m.efforts[effort].law {
                 EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => damping,
-                EffortLaw::Drive { .. } => 0.0,
+                EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => 0.0,
             };
             let rate = d.extent_rate(m.efforts[effort].along);
             power.push(-(w.efforts[effort] + damping * rate) * rate);

@@ -7,6 +7,7 @@
 //!
 //! The same matrix serves three times: the shortest way back to the constraints is meant in the metric M.
 
+use crate::friction::Friction;
 use crate::kkt::Kkt;
 use crate::{At, Dims, Stage, State, System, Terms};
 
@@ -93,6 +94,8 @@ pub enum Why {
         /// What remains.
         residual: f64,
     },
+    /// Friction by reactions has no accelerations that obey its law (Painlevé's paradox).
+    Friction,
     /// The step has become too small to change the time.
     StepSize,
     /// Events pile up; the root that crossed last.
@@ -130,6 +133,8 @@ pub struct Engine {
     pub terms: Terms,
     /// Solver of the KKT matrix factored last.
     pub kkt: Kkt,
+    /// Accelerations where forces depend on reactions.
+    pub friction: Option<Friction>,
     /// What was spent so far.
     pub counts: Counts,
     /// How steps are chosen.
@@ -169,6 +174,7 @@ impl Engine {
             dims,
             terms: Terms::new(dims),
             kkt: Kkt::of_pattern(pattern),
+            friction: Friction::of_pattern(dims, pattern),
             counts: Counts::default(),
             control,
             size_q: pattern.size_q.clone(),
@@ -198,7 +204,7 @@ impl Engine {
     /// Accelerations, multipliers and ż at a state (index 1).
     ///
     /// # Errors
-    /// If the KKT matrix is singular or a force is not finite.
+    /// If the KKT matrix is singular, a force is not finite, or friction by reactions has no solution.
     pub fn accelerations(
         &mut self,
         system: &mut dyn System,
@@ -209,8 +215,21 @@ impl Engine {
     ) -> Result<(), Why> {
         self.evaluate(system, at, Stage::Dynamics);
         self.factor()?;
-        self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
+        self.solve(system, at, a, lambda, zdot)
+    }
+
+    /// a, λ and ż by the terms and factors at hand, which are those of `at`.
+    fn solve(&mut self, system: &mut dyn System, at: At<'_>, a: &mut [f64], lambda: &mut [f64], zdot: &mut [f64]) -> Result<(), Why> {
         zdot.copy_from_slice(&self.terms.zdot);
+        if let Some(friction) = &mut self.friction {
+            // the same from any guess: an evaluation knows nothing of those before it
+            a.fill(0.0);
+            lambda.fill(0.0);
+            self.counts.factorisations += 1;
+            friction.solve(&self.terms, &mut |l, f, slope| system.rub(at, l, f, slope), a, lambda)?;
+        } else {
+            self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
+        }
         match a.iter().chain(&*zdot).position(|x| !x.is_finite()) {
             Some(i) => Err(self.not_finite(i)),
             None => Ok(()),
@@ -247,14 +266,9 @@ impl Engine {
 
     fn settle_within(&mut self, system: &mut dyn System, node: &mut Node, slack: f64) -> Result<(), Why> {
         self.project_within(system, &mut node.state, slack)?;
-        let Node { a, lambda, zdot, .. } = node;
+        let Node { state, a, lambda, zdot } = node;
         // the factors are those of this position, and the terms those of this position and velocity
-        self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
-        zdot.copy_from_slice(&self.terms.zdot);
-        match a.iter().chain(&*zdot).position(|x| !x.is_finite()) {
-            Some(i) => Err(self.not_finite(i)),
-            None => Ok(()),
-        }
+        self.solve(system, state.at(), a, lambda, zdot)
     }
 
     /// Moves a state to the constraints; leaves terms and factors of the state reached.

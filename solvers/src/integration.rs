@@ -115,7 +115,7 @@ pub struct Integration {
     power: Vec<f64>,
     work: Vec<f64>,
     zeno: Zeno,
-    /// The last number that was not finite, and when.
+    /// The last number that was not finite, or friction without a solution, and when.
     spoiled: Option<(Why, f64)>,
 }
 
@@ -439,7 +439,7 @@ impl Integration {
             };
             self.engine.counts.rejected += 1;
             failures += 1;
-            if matches!(why, Why::NotFinite(_)) {
+            if matches!(why, Why::NotFinite(_) | Why::Friction) {
                 self.spoiled = Some((why, t));
             }
             if self.engine.is_fixed() {

@@ -14,6 +14,7 @@
 pub mod coloring;
 pub mod dense_output;
 pub mod engine;
+pub mod friction;
 pub mod integration;
 pub mod kkt;
 pub mod matrix;
@@ -32,6 +33,7 @@ mod noise;
 pub use coloring::Coloring;
 pub use dense_output::Dense;
 pub use engine::{Control, Counts, Engine, Node, Rejected, Why};
+pub use friction::Friction;
 pub use integration::{Halt, Integration, Progress, Settings};
 pub use kkt::Kkt;
 pub use kkt::dense::{Lu, Singular};

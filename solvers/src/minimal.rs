@@ -30,8 +30,6 @@ pub enum Refused {
     Dependent,
     /// The loops cannot be closed at the start.
     Open,
-    /// Forces depend on the reactions of the rows that are eliminated.
-    Friction,
 }
 
 /// A system in minimal coordinates.
@@ -44,8 +42,12 @@ pub enum Refused {
 /// [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they use those of the last
 /// evaluation. Where rows depend on time that changes the guess, no more.
 ///
+/// Forces f_λ that depend on the reactions are those of the accelerations that the state has with them: the whole equations are
+/// solved at each evaluation, and f_λ counts among the forces here.
+///
 /// The tangent is approximate: PᵀKP, PᵀCP and so on, without the derivatives of P and ṗ, which would need second and third
-/// derivatives of Φ. They are of the size of the velocities, so Newton's method converges like h|v|.
+/// derivatives of Φ, and with f_λ held. What is missing is of the size of the velocities and of the coefficients of friction, so
+/// Newton's method converges like h|v| and like these.
 #[derive(Clone, Debug)]
 pub struct Minimal<S> {
     loops: RefCell<Loops<S>>,
@@ -80,22 +82,8 @@ impl<S: System> Minimal<S> {
         let row = vec![0.0; of_inner.v];
         let pattern = Pattern::dense(dims);
         let mut minimal = Self { loops: RefCell::new(loops), dims, inner: of_inner, pattern, quality, poor: POOR, product, row };
-        if minimal.rubs(&modes) {
-            return Err(Refused::Friction);
-        }
         minimal.scale(At { t: start.t, q: &start.q, v: &v, z: &start.z, modes: &modes, live: &start.live });
         Ok(minimal)
-    }
-
-    /// Whether forces change with the multipliers: asked where everything moves and carries.
-    fn rubs(&mut self, modes: &[i32]) -> bool {
-        let loops = self.loops.get_mut();
-        let State { t, q, z, live, .. } = loops.state.clone();
-        let v = vec![1.0; self.dims.v];
-        loops.reach(At { t, q: &q, v: &v, z: &z, modes, live: &live });
-        let (ones, rest) = (vec![1.0; self.inner.rows()], vec![0.0; self.inner.v]);
-        loops.inner.tangent(loops.state.at(), &rest, &ones, &mut loops.tangent);
-        loops.tangent.r_lambda.iter().any(|x| *x != 0.0)
     }
 
     /// Scales of the equations at the start.
@@ -257,7 +245,7 @@ impl<S: System> System for Minimal<S> {
         }
         if stage == Stage::Dynamics {
             times(&inner.mass, &loops.bend, &mut self.row);
-            self.row.iter_mut().zip(&inner.force).for_each(|(x, f)| *x = f - *x);
+            self.row.iter_mut().zip(&inner.force).zip(&loops.rubbing).for_each(|((x, f), rub)| *x = f + rub - *x);
             combine(&self.row, &loops.p, &mut out.force);
             out.zdot.copy_from_slice(&inner.zdot);
         }
@@ -270,7 +258,7 @@ impl<S: System> System for Minimal<S> {
         let loops = self.loops.get_mut();
         let (nv, h) = (self.inner.v, self.inner.holonomic);
         times(&loops.terms.mass, &loops.a, &mut self.row);
-        self.row.iter_mut().zip(&loops.terms.force).for_each(|(r, f)| *r -= f);
+        self.row.iter_mut().zip(&loops.terms.force).zip(&loops.rubbing).for_each(|((r, f), rub)| *r -= f + rub);
         for (row, l) in loops.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
             self.row.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
         }
@@ -372,11 +360,13 @@ impl<S: System> System for Minimal<S> {
         state.live.copy_from_slice(&whole.live);
         state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
         loops.forget();
-        let Effect::Impulse { restitution, stops } = effect else { return effect };
+        let (Effect::Impulse { restitution, stops } | Effect::Bounce { restitution, stops }) = effect else { return effect };
         combine(&loops.full, &loops.p, row);
         // row·v has a part that rows which depend on time prescribe; the jump is meant of the whole
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let (free, prescribed) = (dot(row, &state.v), dot(&loops.full, &loops.drift));
-        Effect::Impulse { restitution: (1.0 + restitution) * (1.0 + prescribed / free) - 1.0, stops }
+        let share = if prescribed == 0.0 { 0.0 } else { prescribed / free };
+        let restitution = (1.0 + restitution) * (1.0 + share) - 1.0;
+        if matches!(effect, Effect::Bounce { .. }) { Effect::Bounce { restitution, stops } } else { Effect::Impulse { restitution, stops } }
     }
 }

@@ -313,18 +313,20 @@ fn noise(stage: &Implicit<'_>, state: &State) -> f64 {
     if stage.level == Level::Position { 2.0 * f64::EPSILON * largest * stage.c.v / stage.c.q } else { 0.0 }
 }
 
-/// r = M a + Gᵀλ − f of the terms evaluated last, or by the system itself where forces depend on reactions.
+/// r = M a + Gᵀλ − f − f_λ of the terms evaluated last at `at`.
 pub fn residual(system: &mut dyn System, engine: &mut Engine, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]) {
-    if system.pattern().r_lambda.entries() > 0 {
-        return system.residual(at, a, lambda, r);
-    }
     let t = &engine.terms;
     let nv = r.len();
-    for ((r, row), f) in r.iter_mut().zip(t.mass.chunks_exact(nv.max(1))).zip(&t.force) {
-        *r = dot(row, a) - f;
-    }
+    r.fill(0.0);
     for (row, l) in t.g.chunks_exact(nv.max(1)).zip(lambda) {
         r.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
+    }
+    for ((r, row), f) in r.iter_mut().zip(t.mass.chunks_exact(nv.max(1))).zip(&t.force) {
+        *r = dot(row, a) + *r - f;
+    }
+    if let Some(friction) = &mut engine.friction {
+        let force = friction.force(lambda, &mut |l, f, slope| system.rub(at, l, f, slope));
+        r.iter_mut().zip(force).for_each(|(r, f)| *r -= f);
     }
 }
 

@@ -75,7 +75,7 @@ pub struct Pattern {
     pub c: Sparsity,
     /// ∂r/∂z (nv × nz).
     pub r_z: Sparsity,
-    /// ∂r/∂λ beyond Gᵀ (nv × m).
+    /// ∂r/∂λ beyond Gᵀ (nv × m); without entries no force depends on the reactions, and [`System::rub`](crate::System::rub) is not asked.
     pub r_lambda: Sparsity,
     /// ∂ż/∂q (nz × nv).
     pub z_q: Sparsity,
@@ -96,7 +96,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Full blocks of the given sizes, with scales of one.
+    /// Full blocks of the given sizes, with scales of one; no force depends on the reactions.
     pub fn dense(dims: Dims) -> Self {
         let (v, z, m) = (dims.v, dims.z, dims.rows());
         Self {
@@ -105,7 +105,7 @@ impl Pattern {
             k: Sparsity::dense(v, v),
             c: Sparsity::dense(v, v),
             r_z: Sparsity::dense(v, z),
-            r_lambda: Sparsity::dense(v, m),
+            r_lambda: Sparsity::empty(v, m),
             z_q: Sparsity::dense(z, v),
             z_v: Sparsity::dense(z, v),
             z_z: Sparsity::dense(z, z),

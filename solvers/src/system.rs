@@ -22,6 +22,7 @@ pub struct Terms {
     /// M (nv × nv), symmetric, positive semi-definite.
     pub mass: Vec<f64>,
     /// f (nv): applied, elastic, damping and gyroscopic forces; positive along v, so that M a = f where nothing constrains.
+    /// What depends on the reactions is not in it, see [`System::rub`].
     pub force: Vec<f64>,
     /// Φ (holonomic rows).
     pub phi: Vec<f64>,
@@ -104,6 +105,14 @@ pub enum Effect {
         /// Whether the run ends there, too.
         stops: bool,
     },
+    /// An [`Effect::Impulse`] against a stop that knows itself when to let the motion rest: blows that follow each other ever faster
+    /// end there, and are no pile of events.
+    Bounce {
+        /// Coefficient of restitution, 0 (plastic) to 1 (elastic).
+        restitution: f64,
+        /// Whether the run ends there, too.
+        stops: bool,
+    },
 }
 
 /// A constrained mechanical system, as an integrator sees it.
@@ -123,6 +132,14 @@ pub trait System {
 
     /// r = M a + Gᵀλ − f (nv), with the forces that depend on the reactions λ.
     fn residual(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]);
+
+    /// The forces f_λ (nv) that depend on the reactions λ, and −∂f_λ/∂λ (nv × m): r = M a + Gᵀλ − f − f_λ. Asked only where
+    /// [`Pattern::r_lambda`] has entries; a system without such forces writes zeros, which is the default.
+    fn rub(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+        let _ = (at, lambda);
+        force.fill(0.0);
+        r_lambda.fill(0.0);
+    }
 
     /// Derivatives of [`residual`](Self::residual) and of ż.
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent);

@@ -1,11 +1,11 @@
 //! A mechanism whose drivers leave no freedom: position, velocity, acceleration and multipliers at any time by Newton's method.
 
 use super::assemble::Assembled;
-use crate::dynamics::{Dynamics, Reactions};
+use crate::dynamics::{Dynamics, Reactions, rubbed, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use grashof_solvers::kkt::row_scale;
-use grashof_solvers::{Kkt, Lu};
+use grashof_solvers::{Dims, Friction, Kkt, Lu, Pattern, Terms};
 
 /// Newton did not reach a position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,12 +29,24 @@ pub struct Driven<'m, G: Space> {
     /// Size of the correction that Newton made in all, largest component in units of `unit`.
     pub correction: f64,
     solver: Solver,
+    /// The solver where friction depends on reactions.
+    rubbing: Option<Box<Rubbing>>,
     /// 1 for angles, one by the size of the mechanism for lengths (nv).
     unit: Vec<f64>,
     delta: Vec<f64>,
     rhs: Vec<f64>,
     scratch: Vec<f64>,
     zeros: Vec<f64>,
+}
+
+/// Multipliers where friction depends on reactions: M a + Gᵀλ = f + f_λ(λ) with the a that G a = γ leaves.
+#[derive(Clone, Debug)]
+struct Rubbing {
+    friction: Friction,
+    terms: Terms,
+    a: Vec<f64>,
+    /// D (nv).
+    metric: Vec<f64>,
 }
 
 /// How G is inverted.
@@ -60,6 +72,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
         let g_scale = row_scale(&dynamics.work.g, &start.metric);
+        let rubbing = Rubbing::new(mechanism, &start.metric, &g_scale);
         let solver = if rows == nv {
             let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
             let scale = dynamics.work.g.chunks_exact(nv.max(1)).map(|row| if size(row) > 0.0 { size(row).recip() } else { 1.0 });
@@ -88,6 +101,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             reactions,
             correction: 0.0,
             solver,
+            rubbing,
             unit,
             delta: vec![0.0; nv],
             rhs: vec![0.0; rows],
@@ -137,7 +151,16 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     }
 
     /// Forces, multipliers and reactions for the motion found last.
+    ///
+    /// Multipliers are not numbers where friction by reactions has no solution.
     pub fn forces(&mut self, modes: &[i32]) {
+        if let Some(rubbing) = &mut self.rubbing {
+            rubbing.solve(&mut self.dynamics, &self.a, &mut self.lambda, modes);
+            self.dynamics.rub(&self.lambda);
+            self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
+            self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.delta);
+            return self.dynamics.distribute(&self.a, &self.lambda, &mut self.reactions);
+        }
         match &mut self.solver {
             Solver::Square { lu, scale, .. } => {
                 // λ = G⁻ᵀ (f − M a), G as factored in `position`; M itself is not needed
@@ -159,6 +182,31 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             }
         }
         self.dynamics.distribute(&self.a, &self.lambda, &mut self.reactions);
+    }
+
+    /// Forces with the modes of the sides on which joints press taken from the reactions, beginning with those at hand.
+    pub fn press(&mut self, modes: &mut [i32]) {
+        for _ in 0..4 * self.dynamics.mechanism.sides().count() {
+            self.forces(modes);
+            let Some((_, mode)) = self.pressed().find(|(n, _)| *n < 0.0) else { return };
+            modes[mode] = if modes[mode] < 0 { 1 } else { -1 };
+        }
+        if self.rubbing.is_some() {
+            self.forces(modes);
+        }
+    }
+
+    /// How far the force on each place that presses to one side is from changing it, N, with its mode; for the forces found last.
+    pub fn pressed(&self) -> impl Iterator<Item = (f64, usize)> {
+        let slack = self.rubbing.as_ref().map_or(0.0, |r| slack(&r.metric, &self.a, &self.lambda));
+        self.dynamics.pressed(&self.lambda).map(move |(n, mode)| (n + slack, mode))
+    }
+
+    /// Whether the forces found last obey no law of friction: there are none, or a joint presses on the other side than it seems to.
+    #[must_use]
+    pub fn jams(&self) -> bool {
+        self.rubbing.is_some()
+            && (self.a.iter().all(|a| a.is_finite()) && self.lambda.iter().any(|l| l.is_nan()) || self.pressed().any(|(n, _)| n < 0.0))
     }
 
     /// Factors G as evaluated last.
@@ -200,6 +248,32 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     #[must_use]
     pub fn measure(&self, delta: &[f64]) -> f64 {
         delta.iter().zip(&self.unit).map(|(d, u)| (d * u).abs()).fold(0.0, f64::max)
+    }
+}
+
+impl Rubbing {
+    fn new<G: Space>(m: &Mechanism<G>, metric: &[f64], g_scale: &[f64]) -> Option<Box<Self>> {
+        let dims = Dims { q: m.nq, v: m.nv, holonomic: m.rows.len(), ..Dims::default() };
+        let pattern = Pattern { r_lambda: rubbed(m), metric: metric.to_vec(), g_scale: g_scale.to_vec(), ..Pattern::dense(dims) };
+        let friction = Friction::of_pattern(dims, &pattern)?;
+        Some(Box::new(Self { friction, terms: Terms::new(dims), a: vec![0.0; m.nv], metric: metric.to_vec() }))
+    }
+
+    /// λ at the position and velocity evaluated last; not numbers where there is none.
+    fn solve<G: Space<S = f64>>(&mut self, dynamics: &mut Dynamics<'_, G>, a: &[f64], lambda: &mut [f64], modes: &[i32]) {
+        dynamics.forces(modes);
+        dynamics.mass();
+        let (t, w) = (&mut self.terms, &dynamics.work);
+        t.mass.copy_from_slice(&w.mass);
+        t.g.copy_from_slice(&w.g);
+        t.force.copy_from_slice(&w.force);
+        t.gamma.copy_from_slice(&w.gamma);
+        self.a.copy_from_slice(a);
+        lambda.fill(0.0);
+        let rub = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| dynamics.friction(l, f, slope);
+        if self.friction.solve(t, rub, &mut self.a, lambda).is_err() {
+            lambda.fill(f64::NAN);
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 use super::chebyshev::{self, Basis, NODES};
 use super::continuous::{Curve, Samples};
 use super::hills::{self, Candidate, hills};
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Places whose values differ by less than this part of the value are a tie: the first of them is reported.
@@ -30,7 +31,7 @@ const NARROWER: f64 = 0.25;
 const MOST_WIDER: f64 = 16.0;
 
 /// One extreme of a column.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extremum {
     /// The value there, as the curve gives it.
     pub value: f64,
@@ -41,7 +42,7 @@ pub struct Extremum {
 }
 
 /// The extremes of one column.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// The least value.
     pub min: Extremum,

@@ -21,10 +21,12 @@
 //! Gᵀδλ and dPᵀ r fall out, because GP = 0 and r = 0 in its dependent part (Udwadia & Kalaba's projected form; compare Nikravesh,
 //! Planar Multibody Dynamics, section 14.3, without the second-order terms).
 
+use super::partition::Partition;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::Dual;
+use grashof_solvers::kkt::row_scale;
 use grashof_solvers::{Dims, Kkt, Tangent};
 use nalgebra::DMatrix;
 
@@ -43,16 +45,16 @@ pub struct Linear {
     pub spin: DMatrix<f64>,
     /// Number of first-order states.
     pub nz: usize,
+    /// D (nv).
+    metric: Vec<f64>,
     kkt: Kkt,
 }
 
 /// A linearised motion on independent velocities.
 #[derive(Clone, Debug)]
 pub struct Reduced {
-    /// Which velocities are independent (n).
-    pub independent: Vec<usize>,
-    /// P (nv × n): δq = P x.
-    pub p: DMatrix<f64>,
+    /// Which velocities are independent (n), and P: δq = P x.
+    pub partition: Partition,
     /// W (nv × n): δv = P u + W x.
     pub w: DMatrix<f64>,
     /// PᵀMP (n × n), kg or kg m².
@@ -66,8 +68,8 @@ pub struct Reduced {
 }
 
 impl Linear {
-    /// Linearises at a state with its accelerations and multipliers; `metric` (nv) and `g_scale` (rows) are those of the
-    /// assembled start.
+    /// Linearises at a state with its accelerations and multipliers; `metric` (nv) is that of the assembled start. Forces must not
+    /// depend on λ there.
     ///
     /// # Errors
     /// If the mass matrix is singular on the motions that are left.
@@ -76,7 +78,6 @@ impl Linear {
         linearizer: &mut Linearizer<'_, G::Lift<Dual<LANES>>>,
         at: &Point<'_>,
         metric: &[f64],
-        g_scale: &[f64],
     ) -> Result<Self, Singular>
     where
         G: Space<S = f64>,
@@ -89,7 +90,7 @@ impl Linear {
         let mut tangent = Tangent::new(Dims { v: nv, z: nz, holonomic: rows, ..Dims::default() });
         linearizer.tangents(at, &mut tangent);
         let mut kkt = Kkt::new(nv, rows);
-        kkt.set_scale(metric, g_scale);
+        kkt.set_scale(metric, &row_scale(&dynamics.work.g, metric));
         kkt.factor(&dynamics.work.mass, &dynamics.work.g).map_err(|_| Singular)?;
         Ok(Self {
             rows: linearizer.rows(at),
@@ -98,6 +99,7 @@ impl Linear {
             g: DMatrix::from_row_slice(rows, nv, &dynamics.work.g),
             spin: spin(mechanism, at.v),
             nz,
+            metric: metric.to_vec(),
             kkt,
         })
     }
@@ -129,50 +131,39 @@ impl Linear {
         a
     }
 
-    /// The same on independent velocities.
+    /// The same on independent velocities, `preferred` ones as far as the rows leave them independent.
     ///
     /// # Errors
-    /// If the mass matrix is singular on them, or they are not independent.
-    pub fn reduce(&self, independent: &[usize]) -> Result<Reduced, Singular> {
-        let (nv, n, nz, rows) = (self.mass.nrows(), independent.len(), self.nz, self.g.nrows());
-        let dependent: Vec<usize> = (0..nv).filter(|k| !independent.contains(k)).collect();
+    /// If the mass matrix is singular on them.
+    pub fn reduce(&self, preferred: &[usize]) -> Result<Reduced, Singular> {
+        let (nv, nz, rows) = (self.mass.nrows(), self.nz, self.g.nrows());
+        let partition = Partition::new(&self.g, &self.metric, preferred);
+        let (p, n) = (&partition.p, partition.independent.len());
         let t = &self.tangent;
-        let square = |x: &[f64]| DMatrix::from_row_slice(nv, nv, x);
-        let of_rows = |x: &[f64]| DMatrix::from_row_slice(rows, nv, x);
-        let (k, c, r_z) = (square(&t.k), square(&t.c), DMatrix::from_row_slice(nv, nz, &t.r_z));
-        // x_d = −G_d⁺ y for a right-hand side y; redundant rows agree, so least squares solves them exactly
-        let inverse = match (rows, dependent.len()) {
-            (0, _) | (_, 0) => DMatrix::zeros(dependent.len(), rows),
-            _ => self.g.select_columns(&dependent).pseudo_inverse(1e-11).map_err(|_| Singular)?,
-        };
-        let follow = |y: DMatrix<f64>| {
-            let x = -(&inverse * y);
-            DMatrix::from_fn(nv, n, |i, j| dependent.iter().position(|d| *d == i).map_or(0.0, |d| x[(d, j)]))
-        };
-        let mut p = follow(self.g.select_columns(independent));
-        independent.iter().enumerate().for_each(|(j, &i)| p[(i, j)] = 1.0);
-        let (gamma_q, gamma_v) = (of_rows(&self.rows.acceleration_q), of_rows(&self.rows.acceleration_v));
-        let w = follow(of_rows(&self.rows.velocity_q) * &p);
-        let y_v = follow(&gamma_v * &p);
-        let y_q = follow(&gamma_q * &p + &gamma_v * &w);
+        let matrix = |rows: usize, columns: usize, x: &[f64]| DMatrix::from_row_slice(rows, columns, x);
+        let (k, c, r_z) = (matrix(nv, nv, &t.k), matrix(nv, nv, &t.c), matrix(nv, nz, &t.r_z));
+        let gamma_q = matrix(rows, nv, &self.rows.acceleration_q);
+        let gamma_v = matrix(rows, nv, &self.rows.acceleration_v);
+        let w = partition.follow(&(matrix(rows, nv, &self.rows.velocity_q) * p));
+        let y_v = partition.follow(&(&gamma_v * p));
+        let y_q = partition.follow(&(&gamma_q * p + &gamma_v * &w));
         let project = p.transpose();
-        let mass = &project * &self.mass * &p;
-        let damping = &project * (&c * &p + &self.mass * y_v);
-        let stiffness = &project * (k * &p + c * &w + &self.mass * y_q);
-        let inverse_mass = mass.clone().cholesky().ok_or(Singular)?.inverse();
-        let (z_q, z_v) = (DMatrix::from_row_slice(nz, nv, &t.z_q), DMatrix::from_row_slice(nz, nv, &t.z_v));
+        let mass = &project * &self.mass * p;
+        let damping = &project * (&c * p + &self.mass * y_v);
+        let stiffness = &project * (k * p + c * &w + &self.mass * y_q);
+        let factor = mass.clone().cholesky().ok_or(Singular)?;
+        let (z_q, z_v) = (matrix(nz, nv, &t.z_q), matrix(nz, nv, &t.z_v));
         let mut a = DMatrix::zeros(2 * n + nz, 2 * n + nz);
         // the rates of x are u but for the joints whose velocities do not commute
-        let turning = (&self.spin * &p).select_rows(independent);
-        a.view_mut((0, 0), (n, n)).copy_from(&-turning);
+        a.view_mut((0, 0), (n, n)).copy_from(&-(&self.spin * p).select_rows(&partition.independent));
         a.view_mut((0, n), (n, n)).fill_with_identity();
-        a.view_mut((n, 0), (n, n)).copy_from(&-(&inverse_mass * &stiffness));
-        a.view_mut((n, n), (n, n)).copy_from(&-(&inverse_mass * &damping));
-        a.view_mut((n, 2 * n), (n, nz)).copy_from(&-(&inverse_mass * (&project * r_z)));
-        a.view_mut((2 * n, 0), (nz, n)).copy_from(&(&z_q * &p + &z_v * &w));
-        a.view_mut((2 * n, n), (nz, n)).copy_from(&(&z_v * &p));
-        a.view_mut((2 * n, 2 * n), (nz, nz)).copy_from(&DMatrix::from_row_slice(nz, nz, &t.z_z));
-        Ok(Reduced { independent: independent.to_vec(), p, w, mass, damping, stiffness, a })
+        a.view_mut((n, 0), (n, n)).copy_from(&-factor.solve(&stiffness));
+        a.view_mut((n, n), (n, n)).copy_from(&-factor.solve(&damping));
+        a.view_mut((n, 2 * n), (n, nz)).copy_from(&-factor.solve(&(&project * r_z)));
+        a.view_mut((2 * n, 0), (nz, n)).copy_from(&(&z_q * p + &z_v * &w));
+        a.view_mut((2 * n, n), (nz, n)).copy_from(&(&z_v * p));
+        a.view_mut((2 * n, 2 * n), (nz, nz)).copy_from(&matrix(nz, nz, &t.z_z));
+        Ok(Reduced { w, mass, damping, stiffness, a, partition })
     }
 }
 
@@ -180,8 +171,8 @@ impl Linear {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Singular;
 
-/// S v-wise: δω = δ̇ + ω × δ of a rotation R' = R ω~, for each quaternion joint.
-fn spin<G: Space>(mechanism: &Mechanism<G>, v: &[f64]) -> DMatrix<f64> {
+/// S (nv × nv): ω × of each quaternion joint, as δω = δ̇ + ω × δ for a rotation Ṙ = R ω~ that is disturbed to R exp(δ~).
+pub(super) fn spin<G: Space>(mechanism: &Mechanism<G>, v: &[f64]) -> DMatrix<f64> {
     let mut s = DMatrix::zeros(mechanism.nv, mechanism.nv);
     for step in &mechanism.steps {
         if let Step::Ball { v: k, .. } = *step {

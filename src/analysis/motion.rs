@@ -123,7 +123,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     }
 
     /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
-    fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
+    pub(super) fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
         let lost = Lost { at: self.clock.value(s) };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
@@ -151,6 +151,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.switching.set_state(&self.driven.dynamics, &mut self.modes);
         }
         self.driven.forces(&self.modes);
+        if piece.is_none() {
+            self.driven.press(&mut self.modes);
+        }
         let Driven { dynamics, q, v, a, reactions, .. } = &mut self.driven;
         self.observer.read(dynamics, [q, v, a], reactions, &self.modes);
         if piece.is_none() {
@@ -331,6 +334,10 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.solve(s, Some(piece))?;
         let mut out = std::mem::take(&mut self.distances);
         self.switching.distances(&self.driven.dynamics, &mut self.observer, &self.modes, &mut out);
+        // the side on which a joint with friction by reactions presses is a switch of its own
+        for (root, switch) in self.driven.pressed() {
+            out.push(Distance { switch, root, neighbour: if self.modes[switch] < 0 { 1 } else { -1 } });
+        }
         let found = out.clone();
         self.distances = out;
         Ok(found)

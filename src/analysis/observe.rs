@@ -61,6 +61,7 @@ enum Source<G: Space> {
     SpringForce(usize),
     SpringEnergy(usize),
     Effort(usize),
+    Friction(usize),
     Com {
         axis: usize,
         order: usize,
@@ -175,6 +176,11 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::InertiaEq => Source::InertiaEq,
         Quantity::InertiaEqSlope => Source::InertiaEqSlope,
         Quantity::State(state) => Source::State(state),
+        Quantity::Friction { joint } => match m.friction_efforts[joint] {
+            Some(effort) => Source::Friction(effort),
+            None => Source::Given(f64::NAN),
+        },
+        Quantity::Bristle { joint } => m.bristles[joint].map_or(Source::Given(f64::NAN), Source::State),
         Quantity::Functional(_) | Quantity::Result(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
     }
 }
@@ -246,6 +252,7 @@ impl<G: Space<S = f64>> Source<G> {
             }
             Self::SpringForce(effort) => -w.efforts[effort],
             Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
+            Self::Friction(effort) => w.efforts[effort],
             Self::Effort(effort) => {
                 debug_assert!(matches!(m.efforts[effort].law, EffortLaw::Drive { .. }));
                 w.efforts[effort]

@@ -2,9 +2,15 @@
 
 use super::extremum::Extremes;
 use grashof_solvers::Counts;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+/// A word of the program: a code, a kind.
+pub type Word = &'static str;
 
 /// Result of one run of a study.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Outcome {
     /// Why it stopped on its way, if it did; its rows are kept.
     pub stopped: Option<String>,
@@ -22,6 +28,10 @@ pub struct Outcome {
     pub results: Vec<f64>,
     /// Lists that the kind gives, as the eigenvalues of `modes`.
     pub lists: Vec<List>,
+    /// Shapes of modes, each by the names of its coordinates.
+    pub shapes: Vec<Vec<(String, f64)>>,
+    /// Matrices of a linearised motion.
+    pub linear: Option<LinearSystem>,
     /// Scalars, in the order of `study.scalars`.
     pub scalars: Vec<f64>,
     /// Extremes of each column over the independent variable; none where a column is not defined.
@@ -38,8 +48,26 @@ pub struct Outcome {
     pub scenes: Vec<(String, Scene)>,
 }
 
+/// A linearised motion in the plain form ẋ = A x + B u, y = C x + D u of deviations from a state, and in the form of
+/// mechanics M ü + C u̇ + K u on the independent coordinates; matrices as lists of rows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LinearSystem {
+    /// Names of the independent coordinates.
+    pub coordinates: Vec<String>,
+    /// Names of x: coordinates, their rates, first-order states.
+    pub states: Vec<String>,
+    /// Names of u.
+    pub inputs: Vec<String>,
+    /// Names of y.
+    pub outputs: Vec<String>,
+    /// Values of x, ẋ, u and y in the state.
+    pub values: [Vec<f64>; 4],
+    /// Names and values of the matrices: A, B, C, D, then `mass`, `damping` and `stiffness`.
+    pub matrices: Vec<(String, Vec<Vec<f64>>)>,
+}
+
 /// A named list of numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct List {
     /// Its name: `eigenvalues`.
     pub name: String,
@@ -50,7 +78,7 @@ pub struct List {
 }
 
 /// One checked expectation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checked {
     /// As written.
     pub text: String,
@@ -67,10 +95,11 @@ pub struct Checked {
 }
 
 /// Something worth knowing that is not an error.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
     /// Kebab-case kind.
-    pub code: &'static str,
+    #[serde(deserialize_with = "word")]
+    pub code: Word,
     /// In words.
     pub message: String,
     /// Path in the file.
@@ -78,7 +107,7 @@ pub struct Finding {
 }
 
 /// An event of the model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Happened {
     /// Its name.
     pub name: String,
@@ -87,7 +116,7 @@ pub struct Happened {
 }
 
 /// What certifies a motion in time.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct March {
     /// Schemes that stepped: `dop853`, `dop853, radau5`.
     pub schemes: String,
@@ -108,11 +137,12 @@ pub struct March {
     /// Largest residual of the velocity constraints over the rows, in units of size per second.
     pub velocity: f64,
     /// What was spent.
+    #[serde(with = "CountsFields")]
     pub counts: Counts,
 }
 
 /// How well the rows satisfy the equations.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Certificate {
     /// Positions solved.
     pub evaluations: usize,
@@ -127,7 +157,7 @@ pub struct Certificate {
 }
 
 /// Outlines of the mechanism in a few positions, in the plane of the drawing.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Scene {
     /// Bodies: name and points in each position, m.
     pub bodies: Vec<(String, Vec<Vec<[f64; 2]>>)>,
@@ -140,12 +170,13 @@ pub struct Scene {
 }
 
 /// A joint in a scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SceneJoint {
     /// Its name.
     pub name: String,
     /// Its kind as in the model file.
-    pub kind: &'static str,
+    #[serde(deserialize_with = "word")]
+    pub kind: Word,
     /// Whether one of its bodies is the ground.
     pub grounded: bool,
     /// Its place in each position.
@@ -164,6 +195,19 @@ pub enum Failure {
     Study { code: &'static str, message: String, place: String, help: String },
     /// It did not begin or end for a numerical reason.
     Numerical(String),
+    /// No value of the parameter that is varied meets the target.
+    Unsolved(Unsolved),
+}
+
+/// Why a `solve` has no solution, with the path in the file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Unsolved {
+    /// What was found.
+    pub message: String,
+    /// Path in the file.
+    pub place: String,
+    /// One remedy.
+    pub help: String,
 }
 
 impl Failure {
@@ -172,7 +216,34 @@ impl Failure {
     pub fn reason(&self) -> String {
         match self {
             Self::Model(faults) => faults.iter().map(|f| f.message.clone()).collect::<Vec<_>>().join("; "),
-            Self::Study { message, .. } | Self::Numerical(message) => message.clone(),
+            Self::Study { message, .. } | Self::Numerical(message) | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
         }
     }
+}
+
+/// Fields of [`Counts`], which the solvers keep free of formats.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Counts")]
+struct CountsFields {
+    steps: usize,
+    rejected: usize,
+    evaluations: usize,
+    tangents: usize,
+    factorisations: usize,
+    iterations: usize,
+    events: usize,
+    bridges: usize,
+    stepped_over: usize,
+}
+
+/// A word that was written once: the same one again, kept as long as the program runs. There are few of them.
+fn word<'de, D: Deserializer<'de>>(from: D) -> Result<Word, D::Error> {
+    static KNOWN: Mutex<BTreeSet<Word>> = Mutex::new(BTreeSet::new());
+    let text = String::deserialize(from)?;
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    Ok(known.get(text.as_str()).copied().unwrap_or_else(|| {
+        let word: Word = text.leak();
+        known.insert(word);
+        word
+    }))
 }

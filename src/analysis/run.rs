@@ -10,14 +10,14 @@ use super::motion::{Lost, Motion, Rows};
 use super::observe::Observer;
 use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
-use super::{balance, forward, modes, periodic, scene, statics};
+use super::{balance, contact, forward, linearize, modes, periodic, scene, statics};
 use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
 use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism, build};
-use crate::scalar::Dual;
 use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+use crate::scalar::Dual;
 use std::sync::Arc;
 
 /// Runs the study of a model once, at given parameter values (in file order).
@@ -56,6 +56,7 @@ where
         Kind::Dynamics(motion) => forward::run::<G>(model, study, motion, parameters, stop),
         Kind::Statics => statics::run::<G>(model, study, parameters, stop),
         Kind::Modes(asked) => modes::run::<G>(model, study, asked, parameters, stop),
+        Kind::Linearize(asked) => linearize::run::<G>(model, study, asked, parameters, stop),
         Kind::Periodic(asked) => periodic::run::<G>(model, study, asked, parameters, stop),
     }
 }
@@ -71,6 +72,8 @@ fn driven<G: Space<S = f64>>(
     let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
     let start = assembled(&mut mechanism)?;
     drivers_fit(&mechanism, &start, model, study)?;
+    contact::begins(model, &mechanism, &start)?;
+    contact::driven(model, &mechanism, study)?;
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
@@ -219,6 +222,7 @@ fn observe<G: Space<S = f64>>(
     let lost =
         |l: Lost| Failure::Numerical(format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at));
     let rows = motion.sample(range.samples).map_err(lost)?;
+    contact::passes((model, study, &independent(model, mechanism, clock)), &mut motion, &rows, start.size)?;
     let n = rows.places.len();
     // column after column, for the search of extremes
     let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
@@ -256,7 +260,6 @@ fn observe<G: Space<S = f64>>(
         switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
         rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
         results,
-        lists: Vec::new(),
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
@@ -264,6 +267,7 @@ fn observe<G: Space<S = f64>>(
         certificate: certificate(&mut motion, &rows),
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
+        ..Outcome::default()
     })
 }
 

@@ -39,6 +39,24 @@ pub(super) fn scene<G: Space<S = f64>>(
     whole_turn: bool,
     poses: &mut dyn FnMut(f64) -> Option<Vec<Pose<G>>>,
 ) -> Scene {
+    let divisions = if whole_turn { POSES } else { POSES - 1 };
+    let drawn: Vec<Vec<Pose<G>>> = (0..POSES).filter_map(|i| poses(low + (high - low) * i as f64 / divisions as f64)).collect();
+    let mut scene = of_poses(mechanism, &drawn);
+    let traced = traced(mechanism);
+    scene.traces = traced.iter().map(|(name, ..)| (name.clone(), vec![])).collect();
+    let view = View::new::<G>(mechanism);
+    for i in 0..=TRACE {
+        let Some(poses) = poses(low + (high - low) * i as f64 / TRACE as f64) else { continue };
+        for ((_, body, at), out) in traced.iter().zip(&mut scene.traces) {
+            out.1.push(view.flat::<G>(poses[*body].point(*at)));
+        }
+    }
+    scene
+}
+
+/// Outlines of a mechanism in given poses of its bodies, without traces; drawings show the first one strongly.
+#[must_use]
+pub(super) fn of_poses<G: Space<S = f64>>(mechanism: &Mechanism<G>, poses: &[Vec<Pose<G>>]) -> Scene {
     let mut scene = Scene {
         bodies: mechanism.bodies.iter().skip(1).map(|b| (b.name.clone(), vec![])).collect(),
         joints: mechanism
@@ -59,13 +77,8 @@ pub(super) fn scene<G: Space<S = f64>>(
         })
         .collect();
     scene.springs = pulled.iter().map(|_| (String::new(), vec![])).collect();
-    let traced = traced(mechanism);
-    scene.traces = traced.iter().map(|(name, ..)| (name.clone(), vec![])).collect();
     let view = View::new::<G>(mechanism);
-
-    let divisions = if whole_turn { POSES } else { POSES - 1 };
-    for i in 0..POSES {
-        let Some(poses) = poses(low + (high - low) * i as f64 / divisions as f64) else { continue };
+    for poses in poses {
         for (b, points) in outlines.iter().enumerate() {
             scene.bodies[b].1.push(points.iter().map(|p| view.flat::<G>(poses[b + 1].point(*p))).collect());
         }
@@ -84,16 +97,10 @@ pub(super) fn scene<G: Space<S = f64>>(
             }
         }
     }
-    for i in 0..=TRACE {
-        let Some(poses) = poses(low + (high - low) * i as f64 / TRACE as f64) else { continue };
-        for ((_, body, at), out) in traced.iter().zip(&mut scene.traces) {
-            out.1.push(view.flat::<G>(poses[*body].point(*at)));
-        }
-    }
     scene
 }
 
-/// Points that outline a body: joint points, ends of its bar and the user's points.
+/// Points that outline a body: joint points, ends of its bar, the user's points and those of `drawn`.
 fn outline<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) -> Vec<G::Vector> {
     let mut points: Vec<G::Vector> = Vec::new();
     let mut add = |p: G::Vector| {
@@ -113,6 +120,7 @@ fn outline<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) -> Vec<G::V
             add(*p);
         }
     }
+    mechanism.bodies[body].drawn.iter().for_each(|p| add(*p));
     points
 }
 

@@ -1,21 +1,355 @@
-//! Not there yet.
+//! Equilibrium: the study kind `statics`.
+//!
+//! `pose` evaluates a mechanism at rest, `search` finds where it is in balance, `stability` judges that, `others` looks for further
+//! equilibria, `words` tells them. Which equilibrium is meant by "from the start" is decided here:
+//!
+//! 1. A start that is in balance stays where it is, be it stable or not.
+//! 2. Else the mechanism sinks from there as in a viscous bath. Where that ends exactly on a ridge, it is pushed off it, along the
+//!    motion that falls fastest, and sinks on.
+//! 3. If it does not come to rest, as where forces without an energy drive it round and round, Newton's method takes over, first
+//!    from the start, then from places all over its motion.
+//!
+//! Drivers hold the position of time 0; nothing moves, so that damping and friction do not act and motors have their torque at rest.
 
-use super::outcome::{Failure, Outcome};
+mod others;
+mod pose;
+mod search;
+mod stability;
+mod words;
+
+use super::assemble::{Assembled, assemble};
+use super::extremum::{Extremes, Extremum};
+use super::forward::system::Mechanical;
+use super::observe::Observer;
+use super::outcome::{Certificate, Failure, Finding, List, Outcome};
+use super::run::{Watched, evaluate, expectations};
+use super::scene;
 use crate::dynamics::LANES;
+use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{Model, Study};
+use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::model::{FunctionalKind, Model, Study};
 use crate::scalar::Dual;
+use pose::{Pose, Rest};
+use search::{Ended, Found};
+use words::{Names, six};
 
-pub(super) fn run<G>(
+/// A pose in balance: Φ(q) = 0 and Gᵀλ = f(q, v = 0, z), at time 0.
+#[derive(Clone, Debug)]
+pub(super) struct Equilibrium {
+    /// Coordinates (nq).
+    pub(super) q: Vec<f64>,
+    /// First-order states (nz), at rest.
+    pub(super) z: Vec<f64>,
+    /// Modes of the switches and windings there.
+    pub(super) modes: Vec<i32>,
+    /// What a reader should know of it.
+    pub(super) findings: Vec<Finding>,
+}
+
+/// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind; `lifted` is the same
+/// mechanism on dual numbers.
+///
+/// # Errors
+/// If there is none within reach: what stays unbalanced, on which coordinate.
+pub(super) fn equilibrium<G>(
     model: &Model,
     study: &Study,
+    mechanism: &Mechanism<G>,
+    lifted: &Mechanism<G::Lift<Dual<LANES>>>,
+    start: &Assembled,
     parameters: &[f64],
     stop: &dyn Fn() -> bool,
-) -> Result<Outcome, Failure>
+) -> Result<Equilibrium, Failure>
 where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let _ = (model, parameters, stop);
-    Err(Failure::Study { code: "later", message: "cannot be computed yet".into(), place: study.place.clone(), help: "run others".into() })
+    let mut bench = Bench::new(model, study, mechanism, lifted, start, parameters, &[]);
+    let Settled { found, .. } = bench.settle(start, stop)?;
+    let findings = bench.findings(&found);
+    let Pose { q, z, mut modes, .. } = found.pose;
+    modes.truncate(start.modes.len());
+    Ok(Equilibrium { q, z, modes, findings })
+}
+
+/// Runs a study of the kind `statics`.
+///
+/// # Errors
+/// If it has no equilibrium.
+pub(super) fn run<G>(model: &Model, study: &Study, parameters: &[f64], stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
+    let start = assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+    let lifted = mechanism.lift();
+    let watched = Watched::of(study);
+    let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);
+    let Settled { begin, found, passed } = bench.settle(&start, stop)?;
+    let mut all = vec![found];
+    all.extend(passed);
+    if all[0].stability.zero == 0 {
+        let known: Vec<&Pose> = all.iter().map(|f| &f.pose).collect();
+        let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| interrupted())?;
+        all.extend(further.into_iter().filter(|f| bench.beyond(&f.pose).is_none()));
+    }
+    bench.outcome(&watched, &begin, &all)
+}
+
+/// A search without result: the pose where least is unbalanced, and why it ended.
+type Failed = (Pose, Ended);
+
+/// A mechanism on the bench: what is needed to find its equilibria and to tell them.
+struct Bench<'a, 'm, G: Space<S = f64>> {
+    model: &'a Model,
+    study: &'a Study,
+    parameters: &'a [f64],
+    rest: Rest<'m, G, G::Lift<Dual<LANES>>>,
+    names: Names,
+}
+
+/// What a search from the start has come to.
+struct Settled {
+    /// The start itself.
+    begin: Pose,
+    found: Found,
+    /// The ridge on which the mechanism would stay by symmetry alone.
+    passed: Option<Found>,
+}
+
+impl<'a, 'm, G> Bench<'a, 'm, G>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    fn new(
+        model: &'a Model,
+        study: &'a Study,
+        mechanism: &'m Mechanism<G>,
+        lifted: &'m Mechanism<G::Lift<Dual<LANES>>>,
+        start: &Assembled,
+        parameters: &'a [f64],
+        ids: &[Id],
+    ) -> Self {
+        let observer = Observer::new(model, mechanism, parameters, ids);
+        let system = Mechanical::new(mechanism, lifted, start, observer, Vec::new());
+        Self { model, study, parameters, rest: Rest::new(system, start.size), names: Names::new(model, mechanism, &start.metric) }
+    }
+
+    /// The equilibrium from the start.
+    fn settle(&mut self, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<Settled, Failure> {
+        let states = self.rest.system.dynamics.mechanism.state_starts.clone();
+        let begin = self.rest.at(&start.q, &states, &start.modes).map_err(|lost| self.names.lost(lost, &self.study.place))?;
+        match self.search(&begin, stop) {
+            Ok((found, passed)) => match self.beyond(&found.pose) {
+                Some(joint) => Err(self.names.beyond(&self.model.joints[joint].name, &self.study.place)),
+                None => Ok(Settled { begin, found, passed }),
+            },
+            Err(ended) => match *ended {
+                (_, Ended::Stopped) => Err(interrupted()),
+                (_, Ended::Lost(lost)) => Err(self.names.lost(lost, &self.study.place)),
+                (best, why) => {
+                    let partition = self.partition(&best);
+                    let force = &partition.p.transpose() * &self.rest.net(&best);
+                    Err(self.names.unbalanced(&partition.independent, &force, &self.rest.unit, why, &self.study.place))
+                }
+            },
+        }
+    }
+
+    /// The equilibrium from a pose, and the ridge before it; else the pose where least is unbalanced, and why.
+    fn search(&mut self, begin: &Pose, stop: &dyn Fn() -> bool) -> Result<(Found, Option<Found>), Box<Failed>> {
+        let at_begin = |why: Ended| Box::new((begin.clone(), why));
+        if self.rest.is_balanced(begin).map_err(at_begin)? {
+            let found = self.rest.polish(begin.clone()).and_then(|pose| self.rest.judged(pose));
+            return Ok((found.map_err(at_begin)?, None));
+        }
+        let why = match self.rest.descend(begin, stop) {
+            Ok(found) if found.stability.negative > 0 => {
+                return Ok(match self.pushed(&found, stop) {
+                    Some(below) => (below, Some(found)),
+                    None => (found, None),
+                });
+            }
+            Ok(found) => return Ok((found, None)),
+            Err(Ended::Stopped) => return Err(at_begin(Ended::Stopped)),
+            Err(why) => why,
+        };
+        match self.rest.newton(begin, stop).map_err(at_begin)? {
+            Ok(found) => Ok((found, None)),
+            Err(best) => match self.rest.anywhere(begin, stop).map_err(at_begin)? {
+                Some(found) => Ok((found, None)),
+                None => Err(Box::new((best, why))),
+            },
+        }
+    }
+
+    /// Where a mechanism falls to from a ridge.
+    fn pushed(&mut self, ridge: &Found, stop: &dyn Fn() -> bool) -> Option<Found> {
+        const PUSH: f64 = 0.02;
+        const RIDGES: usize = 8;
+        let mut on = ridge.clone();
+        for _ in 0..RIDGES {
+            let mut delta = &on.pose.basis * &on.stability.falls;
+            // the largest part grows: the same for every order of the bodies' eigenvectors
+            let largest = delta[delta.iamax()];
+            delta *= PUSH * largest.signum() / self.rest.measure(&delta);
+            let beside = self.rest.moved(&on.pose, delta.as_slice()).ok()?;
+            on = self.rest.descend(&beside, stop).ok()?;
+            if on.stability.negative == 0 {
+                return Some(on);
+            }
+        }
+        None
+    }
+
+    /// A joint that lies beyond one of its rigid stops, of which the search knows nothing.
+    fn beyond(&mut self, pose: &Pose) -> Option<usize> {
+        self.rest.show(pose);
+        let d = &self.rest.system.dynamics;
+        let value = |id: Option<Id>, none: f64| id.map_or(none, |id| self.model.pool.value(id, self.parameters));
+        self.model.joints.iter().zip(&d.mechanism.joints).position(|(joint, of)| {
+            let (Some(stops), Some(&gauge)) = (&joint.stops, of.slots.first()) else { return false };
+            let x = d.work.readings[gauge].x;
+            let slack = 1e-9 * (1.0 + x.abs());
+            x < value(stops.from, f64::NEG_INFINITY) - slack || x > value(stops.to, f64::INFINITY) + slack
+        })
+    }
+
+    fn partition(&mut self, pose: &Pose) -> super::partition::Partition {
+        self.rest.show(pose);
+        self.names.partition(&self.rest.system.dynamics.work.g)
+    }
+
+    /// What a reader should know of an equilibrium.
+    fn findings(&mut self, found: &Found) -> Vec<Finding> {
+        let (model, place) = (self.model, &self.study.place);
+        let mut out = Vec::new();
+        let mut add = |code: &'static str, message: String, path: &str| out.push(Finding { code, message, path: path.into() });
+        if !found.stability.is_stable() {
+            let code = if found.stability.negative > 0 { "unstable" } else { "indifferent" };
+            add(code, format!("the equilibrium is {}", self.names.verdict(found, &self.rest.unit)), place);
+        }
+        if !found.stability.symmetric {
+            let message = "the forces have no energy (the tangent stiffness is not symmetric): stability is that of slow motion, and a flutter is seen by `modes` with `damped: true` alone";
+            add("no-energy", message.into(), place);
+        }
+        for (state, rate) in model.states.iter().zip(&found.pose.drift).filter(|(_, rate)| rate.abs() > 1e-9) {
+            add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");
+        }
+        for joint in model.joints.iter().filter(|j| j.friction.is_some()) {
+            let message =
+                format!("the friction of joint `{}` holds nothing here: with it the mechanism also rests beside this position", joint.name);
+            add("friction", message, &format!("joints.{}.friction", joint.name));
+        }
+        out
+    }
+
+    /// Values of the independent coordinates; parts of a quaternion as the turn from the begin, rad.
+    fn values(&self, independent: &[usize], begin: &Pose, pose: &Pose) -> Vec<f64> {
+        let turned = self.rest.turned(begin, pose);
+        independent.iter().map(|&k| self.names.q[k].map_or(turned[k], |q| pose.q[q])).collect()
+    }
+
+    /// All that a study leaves; `all` begins with the equilibrium from the start.
+    fn outcome(&mut self, watched: &Watched, begin: &Pose, all: &[Found]) -> Result<Outcome, Failure> {
+        let (model, study, parameters) = (self.model, self.study, self.parameters);
+        let pose = &all[0].pose;
+        let independent = self.partition(pose).independent;
+        let stable = |f: &Found| if f.stability.is_stable() { 1.0 } else { 0.0 };
+        let places: Vec<Vec<f64>> = all.iter().map(|f| self.values(&independent, begin, &f.pose)).collect();
+        let mut lists: Vec<List> = (independent.iter().enumerate())
+            .map(|(i, &k)| {
+                let unit = if self.names.all[k].turns { "rad" } else { "m" };
+                List {
+                    name: format!("equilibria.{}", self.names.all[k].name),
+                    unit: unit.into(),
+                    values: places.iter().map(|p| p[i]).collect(),
+                }
+            })
+            .collect();
+        lists.push(List { name: "equilibria.stable".into(), unit: String::new(), values: all.iter().map(stable).collect() });
+        let mut findings: Vec<Finding> = Vec::new();
+        for (i, (found, values)) in all.iter().zip(&places).enumerate() {
+            let code = if i == 0 { "equilibrium" } else { "further-equilibrium" };
+            let message = format!("{}: {}", self.names.place(&independent, values), self.names.verdict(found, &self.rest.unit));
+            findings.push(Finding { code, message, path: study.place.clone() });
+        }
+        findings.extend(self.findings(&all[0]).into_iter().filter(|f| !["unstable", "indifferent"].contains(&f.code)));
+
+        let scenes = self.scenes(begin, all);
+        let row = self.row(pose, watched.ids.len());
+        let functionals: Vec<f64> = (study.functionals.iter().zip(&watched.functionals))
+            .map(|(f, &c)| match f.kind {
+                FunctionalKind::Integral => 0.0,
+                FunctionalKind::First => {
+                    if row[c] != 0.0 && !row[c].is_nan() {
+                        0.0
+                    } else {
+                        f64::NAN
+                    }
+                }
+                FunctionalKind::Value if f.at.is_some_and(|id| model.pool.value(id, parameters) != 0.0) => f64::NAN,
+                _ => row[c],
+            })
+            .collect();
+        let results = vec![stable(&all[0])];
+        let tables = &self.rest.system.dynamics.mechanism.tables;
+        let ids: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+        let alone = |value: f64| Extremum { value, at: 0.0, piece: 0 };
+        Ok(Outcome {
+            parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
+            independent: "time".into(),
+            places: vec![0.0],
+            rows: vec![watched.columns.iter().chain(&watched.shown).map(|&c| row[c]).collect()],
+            lists,
+            scalars: evaluate(model, parameters, tables, &ids, &functionals, &results),
+            extremes: watched
+                .columns
+                .iter()
+                .map(|&c| (!row[c].is_nan()).then(|| Extremes { min: alone(row[c]), max: alone(row[c]) }))
+                .collect(),
+            expectations: expectations(model, study, parameters, tables, &functionals, &results),
+            results,
+            findings,
+            certificate: Certificate { evaluations: 1, constraint: self.rest.open(pose), ..Certificate::default() },
+            scenes,
+            ..Outcome::default()
+        })
+    }
+
+    /// All outputs of the observer at a pose.
+    fn row(&mut self, pose: &Pose, count: usize) -> Vec<f64> {
+        self.rest.show(pose);
+        let system = &mut self.rest.system;
+        let mut modes = pose.modes.clone();
+        system.observer.set_modes(&mut modes);
+        let mut row = vec![0.0; count];
+        system.columns(&modes, &mut row);
+        row
+    }
+
+    /// The equilibrium with the start behind it, and all equilibria if there are several.
+    fn scenes(&mut self, begin: &Pose, all: &[Found]) -> Vec<(String, super::outcome::Scene)> {
+        /// Poses in one drawing.
+        const DRAWN: usize = 6;
+        let mut bodies = |pose: &Pose| {
+            self.rest.show(pose);
+            self.rest.system.dynamics.work.poses.clone()
+        };
+        let from_start = [bodies(&all[0].pose), bodies(begin)];
+        let several: Vec<_> = all.iter().take(DRAWN).map(|f| bodies(&f.pose)).collect();
+        let mechanism = self.rest.system.dynamics.mechanism;
+        let mut scenes = vec![(scene::MECHANISM.to_string(), scene::of_poses(mechanism, &from_start))];
+        if several.len() > 1 {
+            scenes.push(("equilibria".into(), scene::of_poses(mechanism, &several)));
+        }
+        scenes
+    }
+}
+
+fn interrupted() -> Failure {
+    Failure::Numerical("interrupted".into())
 }

@@ -42,9 +42,12 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     let mut findings: Vec<String> = report.diagnostics.iter().map(|d| d.message.clone()).collect();
     findings.extend(remarks(&survey, model.drivers.len()));
     if arguments.json {
-        say(&serde_json::to_string_pretty(&as_json(&model.name, &survey, &findings)).unwrap_or_default());
+        let mut all = as_json(&model.name, &survey, &findings);
+        all["notes"] = document.notes().into();
+        say(&serde_json::to_string_pretty(&all).unwrap_or_default());
     } else {
         print(&model.name, &survey, &findings, &document);
+        print_notes(&document.notes());
     }
     if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
 }
@@ -110,6 +113,14 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
         for finding in findings {
             say(&format!("  {finding}"));
         }
+    }
+}
+
+/// What included files hold beyond the model; nothing to be mended.
+fn print_notes(notes: &[String]) {
+    if !notes.is_empty() {
+        say("\nnot used of included files");
+        notes.iter().for_each(|note| say(&format!("  {note}")));
     }
 }
 

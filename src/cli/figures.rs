@@ -161,8 +161,8 @@ fn independent_unit(model: &Model, outcome: &Outcome) -> String {
     }
 }
 
-/// The drawing of a scene.
-pub(super) fn drawing(model: &Model, scene: &Scene) -> Drawing {
+/// The drawing of a scene of a study; that of the mechanism itself is titled by the model alone.
+pub(super) fn drawing(model: &Model, study: &str, name: &str, scene: &Scene) -> Drawing {
     let kind = |word: &str| match word {
         "slider" | "cylindrical" | "planar" | "screw" => Some(SymbolKind::Slide),
         "pin-in-slot" => Some(SymbolKind::Slot),
@@ -176,7 +176,7 @@ pub(super) fn drawing(model: &Model, scene: &Scene) -> Drawing {
         Some(Symbol { name: j.name.clone(), kind: kind(j.kind)?, grounded: j.grounded, poses })
     });
     Drawing {
-        title: model.name.clone(),
+        title: if name == "mechanism" { model.name.clone() } else { format!("{}, {study}: {}", model.name, name.replace('-', " ")) },
         bodies: scene.bodies.iter().map(|(name, poses)| Outline { name: name.clone(), poses: poses.clone() }).collect(),
         joints: joints.collect(),
         links: scene

@@ -1,7 +1,7 @@
 //! Reading the model file and naming the place of its results.
 
 use super::{Common, code, tell};
-use grashof::analysis::outcome::Failure;
+use grashof::analysis::outcome::{Failure, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
 use std::io::Read;
@@ -9,25 +9,20 @@ use std::path::{Path, PathBuf};
 
 /// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
 const MOST: u64 = 2 << 20;
+/// Largest included file that is read at all; the reader itself refuses above 16 MiB and says so.
+pub(super) const MOST_INCLUDED: u64 = 17 << 20;
 
 /// Reads a model file, or stdin for `-`; what is wrong has been printed.
 pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
-    let bytes = match bytes(model) {
+    let bytes = match bytes(model, MOST) {
         Ok(bytes) => bytes,
         Err(error) => {
-            let why = if error.kind() == std::io::ErrorKind::NotFound { "there is no such file".to_string() } else { error.to_string() };
-            tell(&format!("error: cannot read `{model}`: {why}"));
-            let help = match error.kind() {
-                std::io::ErrorKind::NotFound => "check the path, or write a new model with `grashof new four-bar`",
-                _ if Path::new(model).is_dir() => "name a file in it",
-                _ => "name a model file that can be read, or `-` for stdin",
-            };
-            tell(&format!("  help: {help}"));
+            unreadable(model, &error, "a model file", "check the path, or write a new model with `grashof new four-bar`");
             return None;
         }
     };
     let name = if model == "-" { "<stdin>" } else { model };
-    match Document::from_bytes(&bytes, name) {
+    match Document::with_files(&bytes, name, &|included| beside(model, included)) {
         Ok(document) => Some(document),
         Err(report) => {
             print(&report, common);
@@ -36,15 +31,55 @@ pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
     }
 }
 
-fn bytes(model: &str) -> std::io::Result<Vec<u8>> {
+/// A file that a model includes, by its path from the model file.
+fn beside(model: &str, included: &str) -> Result<(String, Vec<u8>), String> {
+    let path = Path::new(model).parent().unwrap_or(Path::new("")).join(included);
+    let name = path.to_string_lossy().into_owned();
+    match std::fs::File::open(&path) {
+        Ok(_) if path.is_dir() => Err("it is a directory".into()),
+        Ok(file) => {
+            let mut bytes = Vec::new();
+            file.take(MOST_INCLUDED).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+            Ok((name, bytes))
+        }
+        Err(error) => Err(why(&error)),
+    }
+}
+
+/// Says why a file cannot be read, on stderr; `what` it was to be, and the remedy if it does not exist.
+pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing: &str) {
+    tell(&format!("error: cannot read `{file}`: {}", why(error)));
+    let help = match error.kind() {
+        std::io::ErrorKind::NotFound => missing.to_string(),
+        _ if Path::new(file).is_dir() => "name a file in it".to_string(),
+        _ => format!("name {what} that can be read, or `-` for stdin"),
+    };
+    tell(&format!("  help: {help}"));
+}
+
+fn why(error: &std::io::Error) -> String {
+    if error.kind() == std::io::ErrorKind::NotFound { "there is no such file".to_string() } else { error.to_string() }
+}
+
+/// Says in one line that included files hold more than the model uses.
+pub(super) fn tell_notes(document: &Document, common: &Common) {
+    let count = document.notes().len();
+    if count > 0 && !common.quiet {
+        let (word, them) = if count == 1 { ("remark", "it") } else { ("remarks", "them") };
+        tell(&format!("note: {count} {word} on what the model does not use of its included files; `grashof check` shows {them}"));
+    }
+}
+
+/// The bytes of a file, or of stdin for `-`, up to `most`.
+pub(super) fn bytes(model: &str, most: u64) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     if model == "-" {
-        std::io::stdin().lock().take(MOST).read_to_end(&mut bytes)?;
+        std::io::stdin().lock().take(most).read_to_end(&mut bytes)?;
     } else {
         if Path::new(model).is_dir() {
             return Err(std::io::Error::new(std::io::ErrorKind::IsADirectory, "it is a directory"));
         }
-        std::fs::File::open(model)?.take(MOST).read_to_end(&mut bytes)?;
+        std::fs::File::open(model)?.take(most).read_to_end(&mut bytes)?;
     }
     Ok(bytes)
 }
@@ -73,7 +108,7 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
             }
         }
     }
-    Some(Selection { study, variants: common.variant.clone(), sets })
+    Some(Selection { study, variants: common.variant.clone(), sets, over: Vec::new() })
 }
 
 /// Where results go.
@@ -93,6 +128,10 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
         }
         Failure::Study { code, message, place, help } => {
             (vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))], code::INPUT)
+        }
+        Failure::Unsolved(Unsolved { message, place, help }) => {
+            let message = format!("study `{study}`: {message}");
+            (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
         Failure::Numerical(message) => {
             let help = "start elsewhere, change the lengths, or give a shorter range".to_string();

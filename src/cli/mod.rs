@@ -1,17 +1,24 @@
 //! The commands: what is printed, what is written, and the exit code. Nothing else of the program prints, reads a clock or exits.
 
+mod adhoc;
 mod check;
 mod compare;
 mod completions;
 mod figures;
 mod files;
+mod import;
+mod kept;
+mod linear;
+mod modes;
 mod new;
 mod progress;
 mod report;
 mod run;
 mod schema;
 mod schemes;
+mod statics;
 mod study;
+mod sweep;
 mod units;
 mod verify;
 
@@ -54,8 +61,8 @@ struct Cli {
 /// What every command understands.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Common {
-    /// Directory for results [default: results/<model file without extension>]
-    #[arg(short, long, global = true, value_name = "DIR")]
+    /// Directory for results [default: results/<model file without extension>]; with `import` the file to write
+    #[arg(short, long, global = true, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Set a parameter: a number in SI, or a quantity as "60 cm"
     #[arg(long, global = true, value_name = "NAME=VALUE")]
@@ -91,17 +98,37 @@ enum Command {
         after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out"
     )]
     Run(run::Arguments),
+    /// Run a study for many values of parameters: one row for each
+    #[command(
+        after_help = "Examples:\n  grashof sweep models/crank_rocker.yaml --study one-turn --over l3=0.3..0.8:26\n  grashof sweep models/crank_rocker.yaml --study one-turn --over \"l3=50cm..80cm:4\" --over speed=100rpm,200rpm -o out\n  grashof sweep my.yaml --over k=10..1000:5:log"
+    )]
+    Sweep(sweep::Arguments),
     /// Run a motion in time by several integrators and compare error, time and work
     #[command(
         after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study squeeze --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
     )]
     Compare(compare::Arguments),
+    /// Eigenvalues, frequencies and shapes of the motions about a pose, with no study in the file
+    #[command(
+        after_help = "Examples:\n  grashof modes models/crank_rocker.yaml --variant motor --variant elastic\n  grashof modes my.yaml --at statics --damped"
+    )]
+    Modes(modes::Arguments),
+    /// Equilibria of a model and their stability, with no study in the file
+    #[command(
+        after_help = "Examples:\n  grashof statics models/pendulum.yaml\n  grashof statics my.yaml --variant unloaded --set \"load=20 N\""
+    )]
+    Statics(statics::Arguments),
     /// Look a model over: topology, freedom, redundant rows, masses, start
     #[command(after_help = "Examples:\n  grashof check models/crank_rocker.yaml\n  grashof check my.yaml --strict --json")]
     Check(check::Arguments),
     /// Write a commented model that runs
     #[command(after_help = "Examples:\n  grashof new four-bar my_linkage.yaml\n  grashof new --list")]
     New(new::Arguments),
+    /// Make a model of a URDF, with remarks on what it does not use
+    #[command(
+        after_help = "Examples:\n  grashof import robot.urdf -o robot.yaml\n  grashof import robot.urdf --free --stops | grashof check -"
+    )]
+    Import(import::Arguments),
     /// Print the JSON Schema of model files
     #[command(after_help = "Examples:\n  grashof schema > grashof.schema.json\n  grashof schema | head")]
     Schema,
@@ -125,9 +152,13 @@ pub(crate) fn main() -> ExitCode {
     };
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
+        Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),
         Command::Compare(arguments) => compare::compare(arguments, &cli.common),
+        Command::Modes(arguments) => modes::modes(arguments, &cli.common),
+        Command::Statics(arguments) => statics::statics(arguments, &cli.common),
         Command::Check(arguments) => check::check(arguments, &cli.common),
         Command::New(arguments) => new::new(arguments),
+        Command::Import(arguments) => import::import(arguments, &cli.common),
         Command::Schema => schema::print(),
         Command::Completions(arguments) => completions::print(arguments),
     };

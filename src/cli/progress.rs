@@ -40,6 +40,24 @@ impl Progress {
         Self { bar, begun: Instant::now(), wanted: !quiet && std::io::stderr().is_terminal(), shown: AtomicBool::new(false) }
     }
 
+    /// A count of steps whose number is not known.
+    pub(super) fn open(study: &str, quiet: bool) -> Self {
+        let progress = Self::new(study, 0, quiet);
+        progress.bar.unset_length();
+        if let Ok(style) = ProgressStyle::with_template("{prefix} {spinner} run {pos} {wide_msg}") {
+            progress.bar.set_style(style);
+        }
+        progress.bar.set_prefix(study.to_string());
+        progress.bar.set_message(String::new());
+        progress
+    }
+
+    /// One step is done, and what came of it.
+    pub(super) fn tell(&self, what: &str) {
+        self.bar.set_message(what.to_string());
+        self.step();
+    }
+
     /// One step is done.
     pub(super) fn step(&self) {
         let late = self.begun.elapsed() > Duration::from_millis(500);

@@ -1,15 +1,26 @@
 //! Outcomes as tables, JSON and summaries.
 
+mod sweep;
+
+pub(super) use sweep::{label, sweep_json, sweep_rows, sweep_summary};
+
 use super::units::unit;
+use super::{linear, modes};
 use grashof::analysis::extremum::Extremum;
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::sweep::Run;
-use grashof::model::{Model, Study};
+use grashof::analysis::outcome::{self, Outcome};
+use grashof::analysis::solve::Solved;
+use grashof::model::{Kind, Model, Study};
 use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
 use serde_json::Value;
 
 /// The rows of one run, in the columns of the study.
 pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
+    if let Kind::Modes(_) = study.kind {
+        return modes::rows(outcome);
+    }
+    if let Some(table) = linear::rows(outcome) {
+        return table;
+    }
     let n = study.columns.len();
     Table {
         columns: study.columns.iter().map(|c| Header::new(c.name.clone(), unit(model, c.value, c.dimension))).collect(),
@@ -36,6 +47,16 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
 /// The table of scalars for stdout, or the number of rows where there is none.
 pub(super) fn summary(model: &Model, study: &Study, outcome: &Outcome) -> String {
     let scalars = scalars(model, study, outcome);
+    match study.kind {
+        Kind::Statics => return super::statics::summary(outcome) + &output::summary(&scalars),
+        Kind::Linearize(_) => return linear::summary(outcome) + &output::summary(&scalars),
+        Kind::Modes(_) => {
+            // its results stand in the table of modes
+            let own: Vec<Scalar> = scalars.into_iter().filter(|s| study.results.iter().all(|r| r.name != s.name)).collect();
+            return modes::summary(outcome) + &output::summary(&own);
+        }
+        _ => {}
+    }
     let head = format!(
         "  {} rows over {} from {} to {}{}\n",
         outcome.rows.len(),
@@ -56,7 +77,7 @@ fn shown(x: Option<&f64>) -> String {
 }
 
 /// The JSON of one run.
-pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
+pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome, solved: Option<&Solved>) -> String {
     let extreme = |e: Extremum| Some(Extreme { value: e.value, at: e.at });
     let extrema = study
         .columns
@@ -64,8 +85,7 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
         .zip(&outcome.extremes)
         .map(|(c, e)| (c.name.clone(), e.map_or_else(Extrema::default, |e| Extrema { min: extreme(e.min), max: extreme(e.max) })))
         .collect();
-    let mut findings: Vec<Finding> =
-        outcome.findings.iter().map(|f| Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() }).collect();
+    let mut findings: Vec<Finding> = outcome.findings.iter().chain(solved.iter().flat_map(|s| &s.findings)).map(finding).collect();
     if let Some(reason) = &outcome.stopped {
         findings.push(Finding { code: "stopped".into(), message: reason.clone(), path: study.place.clone() });
     }
@@ -79,10 +99,34 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome) -> String {
         parameters: outcome.parameters.clone(),
         scalars: (scalars(model, study, outcome).into_iter().map(|s| (s.name, json_number(s.value))))
             .chain(outcome.lists.iter().map(|list| (list.name.clone(), json_numbers(&list.values))))
+            .chain(modes::shapes(outcome))
+            .chain(linear::json(outcome))
             .collect(),
         extrema,
-        certificate: certificate(outcome),
+        certificate: certificate(outcome).into_iter().chain(solved.map(|s| ("solve".into(), certified(s)))).collect(),
         findings,
+    })
+}
+
+fn finding(f: &outcome::Finding) -> Finding {
+    Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() }
+}
+
+/// `solved: I_f = 279.25 kg m^2 (12 runs), delta = 0.01`; empty where nothing is solved.
+pub(super) fn solution(model: &Model, study: &Study, solved: Option<&Solved>) -> String {
+    let (Some(solved), Some(solve)) = (solved, &study.solve) else { return String::new() };
+    let p = &model.parameters[solve.parameter];
+    let value = format!("{} {}", significant(solved.value), p.dimension.si());
+    format!("  solved: {} = {} ({} runs), {} = {}\n", p.name, value.trim_end(), solved.runs, solve.target.0, significant(solved.found))
+}
+
+/// What certifies a solution.
+fn certified(solved: &Solved) -> Value {
+    serde_json::json!({
+        "runs": solved.runs,
+        "bracket": json_numbers(&solved.bracket),
+        "target": json_number(solved.target),
+        "residual": json_number(solved.found - solved.target),
     })
 }
 
@@ -150,101 +194,8 @@ fn happened(outcome: &Outcome) -> String {
     format!("  happened: {}{more}\n", shown.join(", "))
 }
 
-/// One row a run: swept parameters, results, scalars, reason.
-pub(super) fn sweep_rows(model: &Model, study: &Study, runs: &[Run]) -> Table {
-    let swept = study.sweep.iter().map(|s| &model.parameters[s.parameter]);
-    let mut columns: Vec<Header> = swept.map(|p| Header::new(p.name.clone(), p.dimension.si())).collect();
-    columns.extend(study.results.iter().map(|r| Header::new(r.name.clone(), r.dimension.si())));
-    columns.extend(study.scalars.iter().map(|s| Header::new(s.name.clone(), unit(model, s.value, s.dimension))));
-    let (results, scalars) = (study.results.len(), study.scalars.len());
-    let mut rows = Vec::new();
-    let mut reasons = Vec::new();
-    for run in runs {
-        let mut row = run.at.clone();
-        match &run.result {
-            Ok(outcome) => {
-                row.extend(&outcome.results);
-                row.extend(&outcome.scalars);
-                reasons.push(outcome.stopped.clone().unwrap_or_default());
-            }
-            Err(failure) => {
-                // a range that could not be begun is not a full turn
-                row.extend(study.results.iter().map(|r| if r.name == "turns_fully" { 0.0 } else { f64::NAN }));
-                row.extend(std::iter::repeat_n(f64::NAN, scalars));
-                reasons.push(failure.reason());
-            }
-        }
-        row.resize(run.at.len() + results + scalars, f64::NAN);
-        rows.push(row);
-    }
-    Table { columns, rows, switches: vec![], reasons: Some(reasons) }
-}
-
-/// The JSON of a sweep: lists over its runs.
-pub(super) fn sweep_json(model: &Model, study: &Study, runs: &[Run]) -> String {
-    let table = sweep_rows(model, study, runs);
-    let lists = (0..table.columns.len()).map(|i| {
-        let values: Vec<f64> = table.rows.iter().map(|r| r[i]).collect();
-        (table.columns[i].name.clone(), json_numbers(&values))
-    });
-    let findings = table.reasons.iter().flatten().enumerate().filter(|(_, r)| !r.is_empty()).map(|(i, reason)| Finding {
-        code: "run-stopped".into(),
-        message: format!("run {} ({}): {reason}", i + 1, label(model, study, &runs[i].at)),
-        path: study.place.clone(),
-    });
-    let parameters = grashof::analysis::sweep::parameters(model);
-    let whole = runs.iter().any(|r| r.result.as_ref().is_ok_and(|o| o.stopped.is_none()));
-    output::write_json(&Report {
-        study: study.name.clone(),
-        status: if whole { "done" } else { "failed" }.into(),
-        parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), x)).collect(),
-        scalars: lists.collect(),
-        extrema: vec![],
-        certificate: vec![("runs".into(), json_number(runs.len() as f64))],
-        findings: findings.collect(),
-    })
-}
-
-/// The swept values of a run, as a label: `l3 = 0.3 m`.
-pub(super) fn label(model: &Model, study: &Study, at: &[f64]) -> String {
-    study
-        .sweep
-        .iter()
-        .zip(at)
-        .map(|(s, x)| {
-            let p = &model.parameters[s.parameter];
-            format!("{} = {} {}", p.name, output::number(*x), p.dimension.si()).trim_end().to_string()
-        })
-        .collect::<Vec<_>>()
-        .join(", ")
-}
-
-/// A sweep's table for stdout, columns aligned.
-pub(super) fn sweep_summary(table: &Table) -> String {
-    let head = table.columns.iter().map(|c| if c.unit.is_empty() { c.name.clone() } else { format!("{} [{}]", c.name, c.unit) });
-    let mut lines: Vec<Vec<String>> = vec![head.collect()];
-    for row in &table.rows {
-        lines.push(row.iter().map(|x| if x.is_nan() { "-".into() } else { significant(*x) }).collect());
-    }
-    let widths: Vec<usize> = (0..table.columns.len()).map(|i| lines.iter().map(|l| l[i].chars().count()).max().unwrap_or(0)).collect();
-    let mut out = String::new();
-    for (i, line) in lines.iter().enumerate() {
-        out.push(' ');
-        for (cell, width) in line.iter().zip(&widths) {
-            out.push_str(&format!(" {cell:>width$}"));
-        }
-        if let Some(reason) = i.checked_sub(1).and_then(|i| table.reasons.as_ref()?.get(i))
-            && !reason.is_empty()
-        {
-            out.push_str(&format!("  {reason}"));
-        }
-        out.push('\n');
-    }
-    out
-}
-
 /// Ten significant digits, without trailing zeros.
-fn significant(x: f64) -> String {
+pub(super) fn significant(x: f64) -> String {
     let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
     output::number(rounded)
 }

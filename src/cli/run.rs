@@ -3,11 +3,10 @@
 use super::progress::{interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::{Common, code, files, say, tell, verify};
-use grashof::analysis::run::run as run_study;
-use grashof::analysis::sweep::parameters;
-use grashof::mechanism::Coordinates;
-use grashof::model::{Document, Model};
+use grashof::analysis::sweep::{Run, at};
+use grashof::model::{Document, Model, Selection};
 use std::collections::{HashMap, HashSet};
+use std::path::Path;
 
 /// Scalars of the studies that were run for others.
 pub(super) type Scalars = HashMap<String, Vec<(String, f64)>>;
@@ -19,9 +18,16 @@ pub(super) struct Arguments {
     /// Run this study alone (repeatable)
     #[arg(long, value_name = "S")]
     study: Vec<String>,
+    #[command(flatten)]
+    wanted: Wanted,
+}
+
+/// What is wanted of studies beside their files.
+#[derive(clap::Args)]
+pub(super) struct Wanted {
     /// Print the results as JSON instead of tables
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     /// Print the columns of each study with their units, too
     #[arg(long)]
     units: bool,
@@ -44,6 +50,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     if report.failed() {
         return code::INPUT;
     }
+    files::tell_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {
         tell(
@@ -55,24 +62,22 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     let mut seen = HashSet::new();
     studies.retain(|study| seen.insert(study.clone()));
     let directory = files::directory(&arguments.model, common);
+    let session = Session { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
     let mut worst = code::DONE;
     let mut reports = Vec::new();
     let mut scalars = Scalars::new();
     for study in &studies {
         let model = match load(&document, common, study, &mut scalars) {
             Ok(model) => model,
+            Err(_) if interrupted() => return told_of_interrupt(study, "is not begun"),
             Err(code) => {
                 worst = worst.max(code);
                 continue;
             }
         };
-        let named = !arguments.study.is_empty();
         match conflict(&model) {
-            Some(parameter) if named => {
-                tell(&format!(
-                    "error: `--set {parameter}` sets the parameter that study `{study}` varies\n  help: leave the parameter to the study, or run another one"
-                ));
-                worst = worst.max(code::INPUT);
+            Some(parameter) if !arguments.study.is_empty() => {
+                worst = worst.max(refused(&parameter, study));
                 continue;
             }
             Some(parameter) => {
@@ -83,8 +88,49 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
             }
             None => {}
         }
-        let job =
-            Job { document: &document, model: &model, study, studies: &known, directory: &directory, plots: !arguments.no_plots, common };
+        let (code, report) = session.study(&model, study, study);
+        worst = worst.max(code);
+        reports.extend(report);
+        if interrupted() {
+            return code::INTERRUPTED;
+        }
+    }
+    if arguments.wanted.json {
+        say(&json_list(&reports));
+    }
+    worst
+}
+
+/// Says what became of a study when Ctrl-C was pressed.
+fn told_of_interrupt(study: &str, what: &str) -> u8 {
+    tell(&format!("interrupted: study `{study}` {what}"));
+    code::INTERRUPTED
+}
+
+/// Refuses a study that varies a parameter which is set from outside.
+pub(super) fn refused(parameter: &str, study: &str) -> u8 {
+    tell(&format!(
+        "error: `--set {parameter}` sets the parameter that study `{study}` varies\n  help: leave the parameter to the study, or run another one"
+    ));
+    code::INPUT
+}
+
+/// Where studies are run and what is wanted of them.
+pub(super) struct Session<'a> {
+    pub(super) document: &'a Document,
+    pub(super) common: &'a Common,
+    pub(super) wanted: &'a Wanted,
+    /// Names of all studies.
+    pub(super) studies: &'a [String],
+    pub(super) directory: &'a Path,
+}
+
+impl Session<'_> {
+    /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
+    /// report. An interrupt has been told.
+    pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
+        let Self { document, common, studies, directory, .. } = *self;
+        let job = Job { document, model, study: stem, studies, directory, plots: !self.wanted.no_plots, common };
         let finished = job.run();
         if interrupted() {
             let what = match (&finished.output, finished.code) {
@@ -92,23 +138,48 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
                 (Some(_), code::INTERRUPTED) => "is written up to there",
                 _ => "was the last one",
             };
-            tell(&format!("interrupted: study `{study}` {what}"));
-            return code::INTERRUPTED;
+            return (told_of_interrupt(study, what), None);
         }
-        worst = worst.max(finished.code);
-        show(&finished, study, arguments, &mut reports);
-        if arguments.verify && finished.output.is_some() {
-            worst = worst.max(verified(&document, &model, study, arguments, common));
+        let mut code = finished.code;
+        self.show(&finished, stem);
+        if self.wanted.verify && finished.output.is_some() {
+            code = code.max(self.verified(model, study, &finished.computed));
             if interrupted() {
-                tell(&format!("interrupted: study `{study}` is written, and not verified"));
-                return code::INTERRUPTED;
+                code = told_of_interrupt(study, "is written, and not verified");
             }
         }
+        (code, finished.output.map(|output| output.report).filter(|_| self.wanted.json))
     }
-    if arguments.json {
-        say(&json_list(&reports));
+
+    /// Prints the tables of a study.
+    fn show(&self, finished: &Finished, name: &str) {
+        let Some(output) = finished.output.as_ref().filter(|_| !self.wanted.json) else { return };
+        say(name);
+        say(&output.table);
+        if self.wanted.units {
+            for (name, unit) in &output.columns {
+                say(&format!("  {name} [{}]", if unit.is_empty() { "1" } else { unit }));
+            }
+            say("");
+        }
     }
-    worst
+
+    /// Prints how many digits of a motion in time stand; on stderr where stdout has JSON.
+    fn verified(&self, model: &Model, study: &str, computed: &[Vec<f64>]) -> u8 {
+        let json = self.wanted.json;
+        match verify::verify(model, computed) {
+            Ok(Some(verdict)) => {
+                let line = if json { tell } else { say };
+                line(&format!("{}{}", if json { format!("{study}: ") } else { "  ".into() }, verdict.line));
+                if !json {
+                    say("");
+                }
+                if verdict.agrees { code::DONE } else { code::UNMET }
+            }
+            Ok(None) => code::DONE,
+            Err(failure) => files::explain(self.document, &failure, study, self.common),
+        }
+    }
 }
 
 /// JSON texts as one list, their numbers untouched: reading them back could change a last digit.
@@ -117,43 +188,16 @@ fn json_list(texts: &[String]) -> String {
     format!("[{}{}]", items.join(","), if items.is_empty() { "" } else { "\n" })
 }
 
-/// Prints what a study gave.
-fn show(finished: &Finished, study: &str, arguments: &Arguments, reports: &mut Vec<String>) {
-    let Some(output) = &finished.output else { return };
-    if arguments.json {
-        reports.push(output.report.clone());
-        return;
-    }
-    say(study);
-    say(&output.table);
-    if arguments.units {
-        for (name, unit) in &output.columns {
-            say(&format!("  {name} [{}]", if unit.is_empty() { "1" } else { unit }));
-        }
-        say("");
-    }
-}
-
-/// Prints how many digits of a motion in time stand; on stderr where stdout has JSON.
-fn verified(document: &Document, model: &Model, study: &str, arguments: &Arguments, common: &Common) -> u8 {
-    match verify::verify(model) {
-        Ok(Some(verdict)) => {
-            let line = if arguments.json { tell } else { say };
-            line(&format!("{}{}", if arguments.json { format!("{study}: ") } else { "  ".into() }, verdict.line));
-            if !arguments.json {
-                say("");
-            }
-            if verdict.agrees { code::DONE } else { code::UNMET }
-        }
-        Ok(None) => code::DONE,
-        Err(failure) => files::explain(document, &failure, study, common),
-    }
-}
-
 /// The model of a study, with the scalars that it takes from others.
 pub(super) fn load(document: &Document, common: &Common, study: &str, scalars: &mut Scalars) -> Result<Model, u8> {
     let selection = files::selection(common, Some(study)).ok_or(code::INPUT)?;
-    let mut model = document.model(&selection).map_err(|report| {
+    load_selected(document, common, &selection, scalars)
+}
+
+/// The model of a selection with a study, with the scalars that this takes from others.
+pub(super) fn load_selected(document: &Document, common: &Common, selection: &Selection<'_>, scalars: &mut Scalars) -> Result<Model, u8> {
+    let study = selection.study.unwrap_or_default();
+    let mut model = document.model(selection).map_err(|report| {
         files::print(&report, common);
         code::INPUT
     })?;
@@ -186,8 +230,9 @@ fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Comm
     if !study.sweep.is_empty() {
         return Err(refuse("which is a sweep and has a list of values", "take it from a study of one run", code::INPUT));
     }
-    let outcome = run_study(model, study, &parameters(model), Coordinates::Joint, &interrupted)
-        .map_err(|failure| files::explain(document, &failure, &study.name, common))?;
+    let Run { result, .. } = at(model, study, Vec::new(), common.threads(), &interrupted, &|_, _| {});
+    let outcome = result
+        .map_err(|failure| if interrupted() { code::INTERRUPTED } else { files::explain(document, &failure, &study.name, common) })?;
     if let Some(reason) = &outcome.stopped {
         return Err(refuse(&format!("which stopped on its way: {reason}"), "see to that study first", code::NUMERICAL));
     }
@@ -198,7 +243,7 @@ fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Comm
 }
 
 /// A parameter that is set from outside although the study varies it.
-fn conflict(model: &Model) -> Option<String> {
+pub(super) fn conflict(model: &Model) -> Option<String> {
     let study = model.study.as_ref()?;
     let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
     varied.map(|p| model.parameters[p].name.clone()).find(|name| model.set.contains(name))

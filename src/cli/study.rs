@@ -1,11 +1,11 @@
 //! One study from model to files.
 
+mod sweep;
+
 use super::progress::{Progress, interrupted};
-use super::{Common, code, figures, files, report, tell};
+use super::{Common, code, figures, files, linear, report, tell};
 use grashof::analysis::outcome::{Failure, Outcome};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep::{self, Run};
-use grashof::mechanism::Coordinates;
+use grashof::analysis::sweep::{Run, at};
 use grashof::model::{Document, Kind, Model, Report, Study};
 use grashof::output::{Picture, Staging, write_csv};
 use grashof::par;
@@ -15,6 +15,7 @@ use std::path::Path;
 pub(super) struct Job<'a> {
     pub(super) document: &'a Document,
     pub(super) model: &'a Model,
+    /// What the names of its files begin with: its name, but for a sweep from the command line.
     pub(super) study: &'a str,
     pub(super) studies: &'a [String],
     pub(super) directory: &'a Path,
@@ -27,6 +28,15 @@ pub(super) struct Finished {
     pub(super) code: u8,
     /// None if nothing was computed.
     pub(super) output: Option<Output>,
+    /// Parameters of each run that has a result, in file order.
+    pub(super) computed: Vec<Vec<f64>>,
+}
+
+impl Finished {
+    /// Nothing was computed.
+    fn nothing(code: u8) -> Self {
+        Self { code, output: None, computed: Vec::new() }
+    }
 }
 
 /// What is printed of a study.
@@ -42,27 +52,27 @@ pub(super) struct Output {
 impl Job<'_> {
     /// Runs, writes and reports; faults have been printed.
     pub(super) fn run(&self) -> Finished {
-        let nothing = |code| Finished { code, output: None };
-        let Some(study) = &self.model.study else { return nothing(code::INPUT) };
-        if let Some(failure) = later(study) {
-            self.explain(&failure);
-            return nothing(code::INPUT);
-        }
+        let Some(study) = &self.model.study else { return Finished::nothing(code::INPUT) };
         if study.sweep.is_empty() { self.single(study) } else { self.sweep(study) }
     }
 
-    /// A study of one run.
+    /// A study of one run, or of those that a `solve` takes to find one.
     fn single(&self, study: &Study) -> Finished {
-        let outcome = match run(self.model, study, &sweep::parameters(self.model), Coordinates::Joint, &interrupted) {
+        let progress = Progress::open(self.study, self.common.quiet || study.solve.is_none());
+        let told = |x: f64, scalar: f64| progress.tell(&self.trial(study, x, scalar));
+        let Run { result, solved, .. } = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &told);
+        drop(progress);
+        let outcome = match result {
             Ok(outcome) => outcome,
-            Err(failure) => {
-                let code = self.explain(&failure);
-                return Finished { code, output: None };
-            }
+            Err(_) if interrupted() => return Finished::nothing(code::INTERRUPTED),
+            Err(failure) => return Finished::nothing(self.explain(&failure)),
         };
+        if !self.common.quiet {
+            solved.iter().flat_map(|s| &s.findings).for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
+        }
         let mut code = code::DONE;
         if let Some(reason) = &outcome.stopped {
-            let message = format!("study `{}` stopped on its way: {reason}", self.study);
+            let message = format!("study `{}` stopped on its way: {reason}", study.name);
             let help = match study.kind {
                 Kind::Dynamics(_) => "what was computed up to there is kept; look at its last rows",
                 _ => "start elsewhere, change the lengths, or give a shorter range",
@@ -79,72 +89,34 @@ impl Job<'_> {
         let table = report::rows(self.model, study, &outcome);
         let mut staging = Staging::new();
         staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::json(self.model, study, &outcome);
+        let report = report::json(self.model, study, &outcome, solved.as_ref());
         staging.add(format!("{}.json", self.study), report.clone());
+        for (name, bytes) in linear::files(study, &outcome) {
+            staging.add(name, bytes);
+        }
         if self.plots {
             self.draw(&mut staging, figures::figures(self.model, study, &[(None, &outcome)]), &outcome);
         }
         let output = Output {
-            table: report::summary(self.model, study, &outcome),
+            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(self.model, study, &outcome),
             report,
             columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
         };
-        self.write(&staging, code, output)
+        Finished { computed: vec![values(&outcome)], ..self.write(&staging, code, output) }
     }
 
-    /// A sweep.
-    fn sweep(&self, study: &Study) -> Finished {
-        let count = sweep::grid(self.model, study).len();
-        let progress = Progress::new(self.study, count, self.common.quiet);
-        let runs: Vec<Run> = sweep::sweep(self.model, study, self.common.threads(), interrupted, || progress.step());
-        drop(progress);
-        if interrupted() {
-            return Finished { code: code::INTERRUPTED, output: None };
-        }
-        // rows that failed for a stated reason are results, unless there is no other
-        if runs.iter().all(|r| r.result.is_err()) {
-            if let Some(Err(failure)) = runs.first().map(|r| &r.result) {
-                self.explain(failure);
-            }
-            tell(&format!("error: none of the {count} runs of study `{}` began\n  help: the first reason stands above", self.study));
-            return Finished { code: code::NUMERICAL, output: None };
-        }
-        let mut code = code::DONE;
-        if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
-            tell(&format!("error: no run of study `{}` got through its range\n  help: the reasons stand in its last column", self.study));
-            code = code::NUMERICAL;
-        }
-        for outcome in runs.iter().filter_map(|r| r.result.as_ref().ok()) {
-            code = code.max(self.expectations(outcome));
-        }
-        let mut staging = Staging::new();
-        let table = report::sweep_rows(self.model, study, &runs);
-        staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::sweep_json(self.model, study, &runs);
-        staging.add(format!("{}.json", self.study), report.clone());
-        for (i, run) in runs.iter().enumerate() {
-            if let Ok(outcome) = &run.result {
-                staging.add(format!("{}-{:03}.csv", self.study, i + 1), write_csv(&report::rows(self.model, study, outcome)));
-            }
-        }
-        let labelled: Vec<(Option<String>, &Outcome)> =
-            runs.iter().filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?))).collect();
-        if let (true, Some((_, first))) = (self.plots, labelled.first()) {
-            let mut drawn = figures::figures(self.model, study, &labelled);
-            drawn.extend(figures::sweep_figures(self.model, study, &runs));
-            self.draw(&mut staging, drawn, first);
-        }
-        let output = Output {
-            table: report::sweep_summary(&table),
-            report,
-            columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
-        };
-        self.write(&staging, code, output)
+    /// A run of a `solve`, beside its progress.
+    fn trial(&self, study: &Study, x: f64, scalar: f64) -> String {
+        let Some(solve) = &study.solve else { return String::new() };
+        let parameter = &self.model.parameters[solve.parameter];
+        let value = report::significant;
+        format!("{} = {} {}, {} = {}", parameter.name, value(x), parameter.dimension.si(), solve.target.0, value(scalar))
     }
 
     /// Renders figures and the drawing of the mechanism, several at a time.
     fn draw(&self, staging: &mut Staging, figures: Vec<(String, grashof::output::Figure)>, outcome: &Outcome) {
-        let drawings: Vec<_> = outcome.scenes.iter().map(|(name, scene)| (name, figures::drawing(self.model, scene))).collect();
+        let drawn = outcome.scenes.iter().map(|(name, scene)| (name, figures::drawing(self.model, self.study, name, scene)));
+        let drawings: Vec<_> = drawn.collect();
         let count = figures.len() + drawings.len();
         let progress = Progress::new(self.study, count, self.common.quiet);
         let pictures = par::map(
@@ -173,7 +145,7 @@ impl Job<'_> {
     fn write(&self, staging: &Staging, code: u8, output: Output) -> Finished {
         // a motion that was interrupted on its way keeps what it has; anything else is whole or absent
         if interrupted() && code != code::INTERRUPTED {
-            return Finished { code: code::INTERRUPTED, output: None };
+            return Finished::nothing(code::INTERRUPTED);
         }
         match staging.commit(self.directory, self.study, self.studies) {
             Ok(paths) => {
@@ -182,11 +154,11 @@ impl Job<'_> {
                         tell(&format!("wrote {}", path.display()));
                     }
                 }
-                Finished { code, output: Some(output) }
+                Finished { code, output: Some(output), computed: Vec::new() }
             }
             Err(error) => {
                 tell(&format!("error: {error}\n  help: choose another directory with `-o DIR`"));
-                Finished { code: code.max(code::INPUT), output: None }
+                Finished::nothing(code.max(code::INPUT))
             }
         }
     }
@@ -223,19 +195,12 @@ impl Job<'_> {
 
     /// Prints why a run did not begin, and gives its exit code.
     fn explain(&self, failure: &Failure) -> u8 {
-        files::explain(self.document, failure, self.study, self.common)
+        let name = self.model.study.as_ref().map_or(self.study, |study| &study.name);
+        files::explain(self.document, failure, name, self.common)
     }
 }
 
-/// What the model language has and this version does not compute.
-fn later(study: &Study) -> Option<Failure> {
-    let beside = |key: &str| format!("studies.{}.{key}", study.name);
-    study.solve.as_ref()?;
-    let (what, place) = ("`solve`", beside("solve"));
-    Some(Failure::Study {
-        code: "later",
-        message: format!("{what} cannot be computed yet"),
-        place,
-        help: "name the studies to run with `--study`; `kinematics`, `inverse`, `balance`, `dynamics` and sweeps of them are there".into(),
-    })
+/// Values of the parameters of a run.
+fn values(outcome: &Outcome) -> Vec<f64> {
+    outcome.parameters.iter().map(|(_, x)| *x).collect()
 }

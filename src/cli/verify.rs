@@ -10,7 +10,6 @@ use super::schemes::{self, Steps, word};
 use super::units::unit;
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;
-use grashof::analysis::sweep::{grid, parameters, parameters_with};
 use grashof::expression::Dimension;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Column, Forward, Integrator, Kind, Model, Quantity, Study};
@@ -47,25 +46,17 @@ pub(super) struct Verdict {
     pub(super) agrees: bool,
 }
 
-/// Computes a motion in time again in other ways; none if the study is no such motion, or if it was interrupted.
+/// Computes the runs of a motion in time again in other ways, from the parameters that each was computed with; none if the study
+/// is no such motion, or if it was interrupted.
 ///
 /// # Errors
-/// If the study itself did not begin.
-pub(super) fn verify(model: &Model) -> Result<Option<Verdict>, Failure> {
+/// If the run itself does not begin.
+pub(super) fn verify(model: &Model, computed: &[Vec<f64>]) -> Result<Option<Verdict>, Failure> {
     let Some(study) = &model.study else { return Ok(None) };
     let Kind::Dynamics(forward) = &study.kind else { return Ok(None) };
     let mut worst: Option<[Verified; 2]> = None;
-    let points = if study.sweep.is_empty() { vec![Vec::new()] } else { grid(model, study) };
-    let count = points.len();
-    for at in points {
-        let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(at).collect();
-        let values = if set.is_empty() { parameters(model) } else { parameters_with(model, &set) };
-        let found = match one(model, study, forward, &values) {
-            Ok(found) => found,
-            // a run that cannot begin is a row with its reason, not a disagreement
-            Err(_) if count > 1 => continue,
-            Err(failure) => return Err(failure),
-        };
+    for values in computed {
+        let found = one(model, study, forward, values)?;
         if interrupted() {
             return Ok(None);
         }
@@ -78,7 +69,7 @@ pub(super) fn verify(model: &Model) -> Result<Option<Verdict>, Failure> {
             }
         });
     }
-    Ok(worst.map(|both| Verdict { line: said(&both, count), agrees: both.iter().all(|v| v.because.is_none()) }))
+    Ok(worst.map(|both| Verdict { line: said(&both, computed.len()), agrees: both.iter().all(|v| v.because.is_none()) }))
 }
 
 /// `verify: 7.3 digits against tolerance 1e-9; 0 digits, because ...`

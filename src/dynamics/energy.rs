@@ -42,7 +42,7 @@ impl<G: Space> Dynamics<'_, G> {
         match effort.law {
             EffortLaw::Linear { stiffness, preload, .. } => (stiffness * s).scale(0.5) * s + preload * s,
             EffortLaw::Law { output, preload, .. } => self.law_energy(spring, output, s, modes) + preload * s,
-            EffortLaw::Drive { .. } => G::S::default(),
+            EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => G::S::default(),
         }
     }
 

@@ -9,7 +9,7 @@ use crate::geometry::{Force, Motion, Space};
 use crate::mechanism::{EffortLaw, StretchOf};
 
 impl<G: Space> Dynamics<'_, G> {
-    /// World inertias, applied wrenches and efforts; after [`Dynamics::velocity`].
+    /// World inertias, applied wrenches and efforts, those by reactions as if nothing pressed; after [`Dynamics::velocity`].
     pub fn loads(&mut self, modes: &[i32]) {
         let m = self.mechanism;
         if m.force_program.outputs > 0 {
@@ -17,6 +17,7 @@ impl<G: Space> Dynamics<'_, G> {
             let w = &mut self.work;
             m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
         }
+        self.sides(modes);
         self.applied();
         self.efforts();
     }
@@ -134,7 +135,8 @@ impl<G: Space> Dynamics<'_, G> {
                     -(stiffness * (self.extent(effort.along) - rest) + preload) - damping * self.extent_rate(effort.along)
                 }
                 EffortLaw::Law { output, damping, preload } => -(outputs[output] + preload) - damping * self.extent_rate(effort.along),
-                EffortLaw::Drive { output } => outputs[output],
+                EffortLaw::Drive { output } | EffortLaw::Friction { output, pressing: None } => outputs[output],
+                EffortLaw::Friction { .. } => G::S::default(),
             };
             self.work.efforts[i] = size;
         }
@@ -172,7 +174,7 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// M a + Gᵀλ − f (shapes nv, rows → nv); after [`Dynamics::mass`].
+    /// M a + Gᵀλ − f − f_λ (shapes nv, rows → nv); after [`Dynamics::mass`].
     pub fn residual(&self, a: &[G::S], lambda: &[G::S], r: &mut [G::S]) {
         let w = &self.work;
         let nv = self.mechanism.nv;
@@ -185,6 +187,7 @@ impl<G: Space> Dynamics<'_, G> {
                 *r += w.g[row * nv + i] * *l;
             }
         }
+        self.add_friction(lambda, r);
     }
 }
 

@@ -11,11 +11,13 @@
 
 mod energy;
 mod forces;
+mod friction;
 mod kinematics;
 mod reaction;
 mod tangent;
 mod workspace;
 
+pub use friction::{rubbed, slack};
 pub use reaction::Reactions;
 pub use tangent::{LANES, Linearizer, Point, RowTangent, pattern};
 pub use workspace::Workspace;

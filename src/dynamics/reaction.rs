@@ -44,12 +44,14 @@ impl<G: Space> Dynamics<'_, G> {
 
     /// Accelerations, reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::loads`].
     pub fn react(&mut self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
+        self.rub(lambda);
         self.accelerate(a, &mut out.accelerations);
         self.unbalance(&out.accelerations);
         self.distribute(a, lambda, out);
     }
 
-    /// [`Dynamics::react`] without its first two steps, which [`Dynamics::accelerate`] and [`Dynamics::unbalanced`] have done.
+    /// [`Dynamics::react`] without its first steps, which [`Dynamics::rub`], [`Dynamics::accelerate`] and [`Dynamics::unbalanced`] have
+    /// done.
     pub fn distribute(&self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
         self.pairs(a, lambda, out);
         let (m, w) = (self.mechanism, &self.work);
@@ -129,7 +131,7 @@ impl<G: Space> Dynamics<'_, G> {
                     }
                     _ => {}
                 },
-                RowOwner::Coupling => {}
+                RowOwner::Coupling | RowOwner::Stop(_) => {}
             }
         }
         for (effort, &size) in m.efforts.iter().zip(&w.efforts) {

@@ -136,7 +136,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         }
     }
 
-    /// K, C, ∂r/∂z and the derivatives of ż at a point; ∂r/∂λ is Gᵀ, so that `r_lambda` stays zero.
+    /// K, C, ∂r/∂z and the derivatives of ż at a point; `r_lambda` is left as it is, see [`Dynamics::friction_slope`].
     pub fn tangents(&mut self, at: &Point<'_>, out: &mut Tangent) {
         for (lifted, plain) in [(&mut self.a, at.a), (&mut self.lambda, at.lambda)] {
             constants(lifted, plain);
@@ -202,11 +202,8 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
     /// How the rates of the constraint rows change with the state. Rows know most columns, so each column has a lane of its own.
     pub fn rows(&mut self, at: &Point<'_>) -> RowTangent {
         let (nv, rows) = (at.v.len(), at.lambda.len());
-        let mut out = RowTangent {
-            velocity_q: vec![0.0; rows * nv],
-            acceleration_q: vec![0.0; rows * nv],
-            acceleration_v: vec![0.0; rows * nv],
-        };
+        let mut out =
+            RowTangent { velocity_q: vec![0.0; rows * nv], acceleration_q: vec![0.0; rows * nv], acceleration_v: vec![0.0; rows * nv] };
         self.plain.copy_from_slice(at.q);
         for (first, by_velocity) in (0..nv).step_by(LANES).flat_map(|first| [(first, false), (first, true)]) {
             constants(&mut self.q, at.q);

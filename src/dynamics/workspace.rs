@@ -50,6 +50,8 @@ pub struct Workspace<G: Space> {
     pub unbalanced: Vec<Force<G>>,
     /// Size of each effort, along its gauge or function.
     pub efforts: Vec<G::S>,
+    /// Signs of the forces at the places where friction by reactions acts.
+    pub(super) sides: Vec<f64>,
     /// Outputs of the force program.
     pub force_outputs: Vec<G::S>,
     /// First-order states z (nz): written by the caller before `loads`.
@@ -99,6 +101,7 @@ impl<G: Space> Workspace<G> {
             applied: vec![Force::default(); bodies],
             unbalanced: vec![Force::default(); bodies],
             efforts: zeros(mechanism.efforts.len()),
+            sides: vec![1.0; mechanism.pressings.iter().map(|p| p.places.len()).sum()],
             force_outputs: zeros(mechanism.force_program.outputs),
             z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
             zdot: zeros(mechanism.state_starts.len()),

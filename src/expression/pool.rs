@@ -208,6 +208,12 @@ impl Pool {
         self.nodes[id.index()]
     }
 
+    /// All nodes, in the order of their ids.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     /// Number of nodes.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod elements;
+mod friction;
 mod graph;
 mod programs;
 mod starts;

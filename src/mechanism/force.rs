@@ -119,6 +119,34 @@ pub enum EffortLaw<G: Space> {
         /// Output of the force program.
         output: usize,
     },
+    /// Dry friction: +output, or where the joint presses by its reaction, +output · N.
+    Friction {
+        /// Output of the force program, against the motion: N or N m, or that per newton of the normal force N.
+        output: usize,
+        /// What makes N, among `Mechanism::pressings`.
+        pressing: Option<usize>,
+    },
+}
+
+/// The normal force N = Σ |n| (N) between the bodies of a joint that is cut: what its rows put on the places where it rubs.
+///
+/// The rows of a cut joint are forces along unit directions of a triad, and couples about them, so that the components of the force
+/// at a place are sums of multipliers with coefficients that do not depend on the position. The force is that on the second body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressing {
+    /// The joint.
+    pub joint: usize,
+    /// Places where the bodies touch: the one of a pin or a short shoe, the two ends of a guide.
+    pub places: Vec<Pressed>,
+}
+
+/// The force at one place of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressed {
+    /// Its components, each a sum over (row, coefficient) of coefficient · λ.
+    pub components: Vec<Vec<(usize, f64)>>,
+    /// Mode that holds the sign of the only component, −1 or not; with several there is no switch: N is their Euclidean length.
+    pub side: usize,
 }
 
 /// A rotor that turns with a gauge: ½ J ẋ².
@@ -128,6 +156,45 @@ pub struct Rotor<G: Space> {
     pub gauge: usize,
     /// J, kg m².
     pub inertia: G::S,
+}
+
+/// A rigid stop: one end of the way of a joint's coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// The joint.
+    pub joint: usize,
+    /// The gauge of its coordinate.
+    pub gauge: usize,
+    /// Whether the coordinate is an angle.
+    pub angular: bool,
+    /// The end, rad or m.
+    pub at: f64,
+    /// 1 at the lower end, −1 at the upper: the sense in which the stop pushes.
+    pub sense: f64,
+    /// Rate behind a blow by rate before it, 0 to 1.
+    pub restitution: f64,
+    /// A rebound below this rate counts as rest, rad/s or m/s.
+    pub rest_speed: f64,
+}
+
+impl Stop {
+    /// Way that is left to the stop, rad or m; negative beyond it.
+    #[must_use]
+    pub fn gap(&self, x: f64) -> f64 {
+        self.sense * (x - self.at)
+    }
+
+    /// What lengths, or angles, count in: 1 rad, or the size of the mechanism, m.
+    #[must_use]
+    pub fn size(&self, mechanism: f64) -> f64 {
+        if self.angular { 1.0 } else { mechanism }
+    }
+
+    /// Its name: "lower stop".
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        if self.sense > 0.0 { "lower stop" } else { "upper stop" }
+    }
 }
 
 /// A load at a point of a body.
@@ -159,6 +226,7 @@ impl<G: Space> Effort<G> {
             }
             EffortLaw::Law { output, damping, preload } => EffortLaw::Law { output, damping: c(damping), preload: c(preload) },
             EffortLaw::Drive { output } => EffortLaw::Drive { output },
+            EffortLaw::Friction { output, pressing } => EffortLaw::Friction { output, pressing },
         };
         Effort { along: self.along, law }
     }

@@ -13,7 +13,7 @@ mod start;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build};
-pub use force::{Drive, Effort, EffortLaw, Leaf, Pull, Rotor, StagedProgram, Stretch, StretchOf};
+pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
@@ -39,6 +39,8 @@ pub struct Body<G: Space> {
     pub attached: Vec<Attached<G>>,
     /// Named points in the body frame, m; as in the model.
     pub points: Vec<(String, G::Vector)>,
+    /// Points that outline it in drawings beside its joints and points, body frame, m.
+    pub drawn: Vec<G::Vector>,
     /// Velocity columns that move it, from the root.
     pub path: Vec<usize>,
 }
@@ -112,6 +114,14 @@ pub struct Mechanism<G: Space> {
     pub spring_efforts: Vec<usize>,
     /// Which effort is a motor's: `motor_efforts[motor]`, if it has a curve.
     pub motor_efforts: Vec<Option<usize>>,
+    /// What presses on joints whose friction depends on their reactions.
+    pub pressings: Vec<Pressing>,
+    /// Which effort is a joint's friction: `friction_efforts[joint]`.
+    pub friction_efforts: Vec<Option<usize>>,
+    /// First-order state of a joint's bristles: `bristles[joint]`.
+    pub bristles: Vec<Option<usize>>,
+    /// Rigid stops.
+    pub stops: Vec<Stop>,
     /// Rotors that turn with gauges.
     pub rotors: Vec<Rotor<G>>,
     /// Loads at points.
@@ -132,7 +142,8 @@ pub struct Mechanism<G: Space> {
     pub tables: Arc<[Table]>,
     /// Gravity, m/s².
     pub gravity: G::Vector,
-    /// Number of switches of the model's expressions (`modes` begins with them) and of winding numbers (they follow).
+    /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`]) and of
+    /// winding numbers (they follow).
     pub switches: usize,
     /// Number of winding numbers.
     pub windings: usize,
@@ -155,6 +166,19 @@ impl<G: Space> Mechanism<G> {
     #[must_use]
     pub fn programs(&self) -> [&StagedProgram; 5] {
         [&self.time_program, &self.position_program, &self.velocity_program, &self.force_program, &self.state_program]
+    }
+
+    /// Adds a row that holds a joint on a rigid stop.
+    pub fn rest(&mut self, stop: usize) {
+        let Stop { gauge, at, angular, .. } = self.stops[stop];
+        let offset = G::S::constant(at);
+        let label = String::new();
+        self.rows.push(Row { kind: RowKind::Gauge(gauge), owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
+    }
+
+    /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].
+    pub fn sides(&self) -> impl Iterator<Item = usize> {
+        self.pressings.iter().flat_map(|p| &p.places).filter(|p| p.components.len() == 1).map(|p| p.side)
     }
 
     /// Modes before anything is known of the state: all 0.
@@ -216,6 +240,7 @@ impl<G: Space> Mechanism<G> {
             RowOwner::Joint(j) => format!("joint `{}`, {}", self.joints[j].name, row.label),
             RowOwner::Driver(d) => format!("driver `{}`", self.drives[d].name),
             RowOwner::Coupling => format!("coupling `{}`", row.label),
+            RowOwner::Stop(s) => format!("{} of joint `{}`", self.stops[s].word(), self.joints[self.stops[s].joint].name),
         }
     }
 
@@ -255,6 +280,10 @@ impl<G: Space> Mechanism<G> {
             efforts: self.efforts.iter().map(|e| e.lift(c)).collect(),
             spring_efforts: self.spring_efforts.clone(),
             motor_efforts: self.motor_efforts.clone(),
+            pressings: self.pressings.clone(),
+            friction_efforts: self.friction_efforts.clone(),
+            bristles: self.bristles.clone(),
+            stops: self.stops.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
             pulls: self.pulls.iter().map(Pull::lift).collect(),
             position_program: self.position_program.clone(),
@@ -285,6 +314,7 @@ impl<G: Space> Body<G> {
             bare: self.bare.lift(),
             attached: self.attached.iter().map(|a| Attached { name: a.name.clone(), mass: a.mass.lift() }).collect(),
             points: self.points.iter().map(|(n, p)| (n.clone(), G::lift_vector::<D>(*p))).collect(),
+            drawn: self.drawn.iter().map(|p| G::lift_vector::<D>(*p)).collect(),
             path: self.path.clone(),
         }
     }

@@ -61,6 +61,8 @@ pub enum RowOwner {
     Driver(usize),
     /// A coupling; the row's label is its name.
     Coupling,
+    /// A rigid stop on which its joint rests.
+    Stop(usize),
 }
 
 /// An expression e of gauges, with its derivatives as outputs of the position and velocity programs.

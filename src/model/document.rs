@@ -3,12 +3,13 @@
 use super::diagnostics::{Diagnostic, Report};
 use super::entities::Model;
 use super::fault::{Fault, Spot};
+use super::include::{self, Files, Included};
 use super::merge::Node;
 use super::session::Session;
 use super::spans::Spans;
 use super::suggest;
 use super::yaml;
-use serde_yaml::Value;
+use serde_yaml::{Mapping, Value};
 use std::collections::HashSet;
 
 /// What is asked of a model file.
@@ -20,6 +21,8 @@ pub struct Selection<'a> {
     pub variants: Vec<String>,
     /// Parameters from outside, as name and value; over everything.
     pub sets: Vec<(String, String)>,
+    /// Sweeps from outside, in place of the study's own: parameter, and `FROM..TO:COUNT` (with `:log` for equal ratios) or a list.
+    pub over: Vec<(String, String)>,
 }
 
 /// A model file.
@@ -29,18 +32,17 @@ pub struct Document {
     text: String,
     /// A map.
     pub(super) root: Value,
+    /// The files that it includes, in its order.
+    pub(super) included: Vec<Included>,
 }
 
 impl Document {
-    /// Reads a model file; `file` is its name for messages. Nothing but its YAML is judged yet.
+    /// Reads a model file that includes no others; `file` is its name for messages. Nothing but its YAML is judged yet.
     ///
     /// # Errors
     /// What is not YAML, or is YAML that the format refuses (aliases, tags, two documents, more than 1 MiB, ...).
     pub fn read(text: &str, file: &str) -> Result<Self, Report> {
-        match yaml::read(text) {
-            Ok(root) => Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned() }),
-            Err(faults) => Err(report(file, text, &faults)),
-        }
+        Self::new(text, file, &|_| Err("no files are read here".to_owned()))
     }
 
     /// As [`Self::read`], from bytes that may be no text.
@@ -48,17 +50,27 @@ impl Document {
     /// # Errors
     /// As [`Self::read`], and at the first byte that is not UTF-8.
     pub fn from_bytes(bytes: &[u8], file: &str) -> Result<Self, Report> {
-        match std::str::from_utf8(bytes) {
-            Ok(text) => Self::read(text, file),
-            Err(error) => {
-                let good = error.valid_up_to();
-                let text = String::from_utf8_lossy(&bytes[..bytes.len().min(yaml::MOST_BYTES)]);
-                let fault = Fault::new("not-utf8", String::new(), format!("byte {} is not UTF-8", good + 1), "a text file in UTF-8")
-                    .at(Spot::Bytes(good..good + 1))
-                    .help("save the file as UTF-8");
-                Err(report(file, &text, &[fault]))
-            }
-        }
+        Self::read(text_of(bytes, file, yaml::MOST_BYTES)?, file)
+    }
+
+    /// As [`Self::from_bytes`], with the files that the model includes: a model reads nothing itself.
+    ///
+    /// # Errors
+    /// As [`Self::from_bytes`]; a wrong section `include`; everything that is wrong with an included file.
+    pub fn with_files(bytes: &[u8], file: &str, files: &Files<'_>) -> Result<Self, Report> {
+        Self::new(text_of(bytes, file, yaml::MOST_BYTES)?, file, files)
+    }
+
+    fn new(text: &str, file: &str, files: &Files<'_>) -> Result<Self, Report> {
+        let root = yaml::read(text).map_err(|faults| report(file, text, &faults, &[]))?;
+        let included = include::read(&root, file, text, files)?;
+        Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned(), included })
+    }
+
+    /// What of included files the model does not use, or not as it stands, one sentence each with its file and line.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        self.included.iter().flat_map(Included::notes).collect()
     }
 
     /// The file's name as given.
@@ -88,6 +100,22 @@ impl Document {
     /// Entries of a section of the file.
     pub(super) fn named(&self, section: &str) -> Vec<(&str, Node<'_>)> {
         self.root.get(section).map(|value| Node::Plain(value).entries()).unwrap_or_default()
+    }
+
+    /// Adds a study in memory, as if it stood in the file: `yaml` is its map, and its name is the first of `name`, `name-2`, ...
+    /// that no study has. Gives the name. What is wrong with the study is found when its model is asked for.
+    pub fn add_study(&mut self, name: &str, yaml: &str) -> String {
+        let known = self.study_names();
+        let numbered = (2..).map(|i| format!("{name}-{i}"));
+        let free = std::iter::once(name.to_owned()).chain(numbered).find(|name| !known.contains(name)).unwrap_or_default();
+        let study = serde_yaml::from_str(yaml).unwrap_or(Value::Null);
+        if let Value::Mapping(root) = &mut self.root {
+            let studies = root.entry("studies".into()).or_insert_with(|| Value::Mapping(Mapping::new()));
+            if let Value::Mapping(studies) = studies {
+                studies.insert(free.as_str().into(), study);
+            }
+        }
+        free
     }
 
     pub(super) fn study_node(&self, name: &str) -> Option<Node<'_>> {
@@ -138,8 +166,8 @@ impl Document {
         help: Option<String>,
     ) -> Diagnostic {
         let spans = Spans::new(&self.text);
-        let place = self.real_place(&spans, place);
-        Fault::new(code, place, message, expected).maybe_help(help).diagnostic(&self.file, &self.text, &spans)
+        let place = if include::find(&self.included, place).is_some() { place.to_owned() } else { self.real_place(&spans, place) };
+        shown(&Fault::new(code, place, message, expected).maybe_help(help), &self.file, &self.text, &spans, &self.included)
     }
 
     /// The place itself, or the same place in a variant (an entity of the file may have got the key from there).
@@ -162,7 +190,7 @@ impl Document {
     }
 
     pub(super) fn report(&self, faults: &[Fault]) -> Report {
-        report(&self.file, &self.text, faults)
+        report(&self.file, &self.text, faults, &self.included)
     }
 
     pub(super) fn unknown_study(&self, name: &str) -> Fault {
@@ -179,14 +207,38 @@ impl Document {
 /// Most findings of one report.
 const MOST_SHOWN: usize = 200;
 
-fn report(file: &str, text: &str, faults: &[Fault]) -> Report {
+/// Bytes as text; `most` of them are shown if they are none.
+pub(super) fn text_of<'b>(bytes: &'b [u8], file: &str, most: usize) -> Result<&'b str, Report> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let good = error.valid_up_to();
+        let text = String::from_utf8_lossy(&bytes[..bytes.len().min(most)]);
+        let fault = Fault::new("not-utf8", String::new(), format!("byte {} is not UTF-8", good + 1), "a text file in UTF-8")
+            .at(Spot::Bytes(good..good + 1))
+            .help("save the file as UTF-8");
+        report(file, &text, &[fault], &[])
+    })
+}
+
+/// A finding at its place, which may lie in an included file.
+fn shown(fault: &Fault, file: &str, text: &str, spans: &Spans, included: &[Included]) -> Diagnostic {
+    match include::find(included, &fault.place) {
+        None => fault.diagnostic(file, text, spans),
+        Some((inner, path)) => match inner.asked(path) {
+            Some(place) => Fault { place, ..fault.clone() }.diagnostic(file, text, spans),
+            None => inner.diagnostic(fault, path),
+        },
+    }
+}
+
+/// Findings in a text, each once.
+pub(super) fn report(file: &str, text: &str, faults: &[Fault], included: &[Included]) -> Report {
     if faults.is_empty() {
         return Report::default();
     }
     let spans = Spans::new(text);
     let mut seen = HashSet::new();
     let distinct: Vec<&Fault> = faults.iter().filter(|fault| seen.insert(*fault)).collect();
-    let mut found: Vec<Diagnostic> = distinct.iter().take(MOST_SHOWN).map(|fault| fault.diagnostic(file, text, &spans)).collect();
+    let mut found: Vec<Diagnostic> = distinct.iter().take(MOST_SHOWN).map(|fault| shown(fault, file, text, &spans, included)).collect();
     if let Some(rest) = distinct.len().checked_sub(MOST_SHOWN).filter(|rest| *rest > 0) {
         // an error among the hidden ones stays an error
         let warning = distinct.iter().skip(MOST_SHOWN).all(|fault| fault.warning);

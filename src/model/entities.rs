@@ -3,6 +3,7 @@
 //! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
+use super::contacts::{Friction, Stops};
 use super::{study::Study, vocabulary::Quantity};
 use crate::expression::{Dimension, Id, Pool};
 
@@ -122,6 +123,10 @@ pub struct Body {
     pub inertia: Vec<Id>,
     /// Explicit centre of mass, body frame, m.
     pub com: Option<Vec<Id>>,
+    /// `fictitious: true`: an inertia that no real body has is allowed.
+    pub fictitious: bool,
+    /// Points that outline the body in drawings beside its joints and points, body frame, m.
+    pub drawn: Vec<Vec<Id>>,
     /// Points: 0 `origin`, 1 `com`, then those of the shape (`start`, `end` of a bar), then the user's.
     pub points: Vec<Point>,
     /// Point masses and rotors.
@@ -200,6 +205,8 @@ pub struct Joint {
     pub axis: Option<Vec<Id>>,
     /// `to`: the same axis in the second body's frame; default the numbers of `axis`.
     pub to: Option<Vec<Id>>,
+    /// `rpy`: how the second body stands in the first at 0, instead of `to`: roll, pitch, yaw, rad.
+    pub rpy: Option<[Id; 3]>,
     /// `zero`: the angle or position that counts as the drawn one: coordinate = drawn coordinate + zero.
     pub zero: Option<Id>,
     /// `damping`, N m s/rad or N s/m.
@@ -209,10 +216,10 @@ pub struct Joint {
     /// Below `from`: max(0, stiffness · (from − x) − damping · x'); above `to`: min(0, stiffness · (to − x) − damping · x').
     /// A stop pushes and never pulls.
     pub limit_force: Option<Id>,
-    /// Dry friction of a given size, −coulomb · clamp(x'/`stick_speed`, −1, 1), on the second body along the coordinate; N or N m.
-    pub friction_force: Option<Id>,
-    /// Dry friction by a coefficient, whose size depends on the reaction: coefficient and `stick_speed` (rad/s or m/s).
-    pub friction_coefficient: Option<(Id, Option<Id>)>,
+    /// `friction`.
+    pub friction: Option<Friction>,
+    /// `limits` with a `restitution`.
+    pub stops: Option<Stops>,
     /// `cut: true`: keep this joint off the spanning tree.
     pub cut: bool,
     /// Where it stands.

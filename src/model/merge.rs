@@ -122,8 +122,10 @@ impl<'n> Node<'n> {
     }
 }
 
-/// The file and the variants over it: where each merged value stands.
+/// What a model is merged of: where each merged value stands.
 pub(crate) struct Layers<'a> {
+    /// Sections of included files, below the file.
+    pub(crate) below: Vec<&'a Mapping>,
     /// The file.
     pub(crate) file: &'a Mapping,
     /// Variants in order: name and patch.
@@ -133,27 +135,38 @@ pub(crate) struct Layers<'a> {
 impl<'a> Layers<'a> {
     /// The merged file.
     pub(crate) fn merge(&self) -> Merged<'a> {
-        let mut merged = Merged::new(self.file);
+        let mut merged = Merged::default();
+        match self.below[..] {
+            [] => merged = Merged::new(self.file),
+            // the file changes what it includes as a variant changes the file
+            _ => self.below.iter().chain([&self.file]).for_each(|layer| merged.patch(layer)),
+        }
         for (_, patch) in &self.patches {
             merged.patch(patch);
         }
         merged
     }
 
-    /// Path in the file of a merged path: of a value in the last layer that gives it, of a map in the layer that began it.
+    /// Whether the model is more than the file alone.
+    pub(crate) fn is_merged(&self) -> bool {
+        !self.below.is_empty() || !self.patches.is_empty()
+    }
+
+    /// The layers from above, each with the head of its paths.
+    fn all(&self) -> impl Iterator<Item = (String, &'a Mapping)> {
+        let patches = self.patches.iter().rev().map(|(name, map)| (format!("variants.{name}."), *map));
+        let below = self.below.iter().enumerate().rev().map(|(index, map)| (super::include::head(index), *map));
+        patches.chain([(String::new(), self.file)]).chain(below)
+    }
+
+    /// Path in its layer of a merged path: of a value in the last layer that gives it, of a map in the layer that began it.
     pub(crate) fn source(&self, steps: &[Step<'_>]) -> String {
-        let mut prefix: Option<&str> = None;
-        let mut found = false;
-        for layer in (0..=self.patches.len()).rev() {
-            let (name, map) = match layer.checked_sub(1).and_then(|i| self.patches.get(i)) {
-                Some((name, map)) => (Some(*name), *map),
-                None => (None, self.file),
-            };
+        let mut head: Option<String> = None;
+        for (name, map) in self.all() {
             match follow(map, steps) {
                 Follow::Reached(value) => {
-                    if !found || value.is_mapping() {
-                        prefix = name;
-                        found = true;
+                    if head.is_none() || value.is_mapping() {
+                        head = Some(name);
                     }
                     if !value.is_mapping() {
                         break;
@@ -164,11 +177,7 @@ impl<'a> Layers<'a> {
                 Follow::Absent => {}
             }
         }
-        let path = path(steps);
-        match prefix {
-            Some(name) => format!("variants.{name}.{path}"),
-            None => path,
-        }
+        format!("{}{}", head.unwrap_or_default(), path(steps))
     }
 }
 
@@ -253,7 +262,7 @@ mod tests {
         let file: Mapping = serde_yaml::from_str("{a: {x: 1, y: 2}, b: {z: 1}}").unwrap();
         let one: Mapping = serde_yaml::from_str("{a: {x: 5}, b: null}").unwrap();
         let two: Mapping = serde_yaml::from_str("{b: {w: [1, 2]}}").unwrap();
-        let layers = Layers { file: &file, patches: vec![("one", &one), ("two", &two)] };
+        let layers = Layers { below: vec![], file: &file, patches: vec![("one", &one), ("two", &two)] };
         let source = |steps: &[Step<'_>]| layers.source(steps);
         assert_eq!(source(&[Step::Key("a"), Step::Key("x")]), "variants.one.a.x");
         assert_eq!(source(&[Step::Key("a"), Step::Key("y")]), "a.y");

@@ -5,12 +5,14 @@
 //! tables of fields in `tables`) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 
+mod contacts;
 mod decode;
 mod diagnostics;
 mod document;
 mod entities;
 mod fault;
 mod fields;
+mod include;
 mod merge;
 mod names;
 mod quantities;
@@ -22,14 +24,19 @@ mod spans;
 mod study;
 mod suggest;
 mod tables;
+mod urdf;
 mod vocabulary;
 mod yaml;
 
+pub use contacts::*;
 pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
 pub use document::{Document, Selection};
 pub use entities::*;
+pub use include::Files;
+pub(crate) use quantities::coordinates as coordinates_of;
 pub use schema::schema;
 pub use study::*;
+pub use urdf::{Import, Imported, import, roll_pitch_yaw};
 pub use vocabulary::{Known, Quantity};
 
 #[cfg(test)]

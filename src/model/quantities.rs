@@ -425,6 +425,10 @@ impl<'a> World<'a> {
                 return Ok(Found::Leaf(quantity, coordinate.dimension(order)));
             }
         }
+        if let (Some((quantity, unit)), [c]) = (self.model.joints[joint].friction.as_ref().and_then(|f| f.quantity(joint, rest)), all) {
+            let (leaf, reach) = self.leaf(pool, quantity, if unit.is_some() { c.dimension(0) } else { c.effort() });
+            return Ok(Found::Made(Symbol { id: unit.map_or(leaf.id, |unit| pool.mul(unit, leaf.id)), ..leaf }, reach));
+        }
         let found = self.resultant(pool, name, rest, |axis| Quantity::Force { joint, axis }, |axis| Quantity::Moment { joint, axis });
         found.map_err(|_| {
             let mut known: Vec<String> = all.iter().flat_map(|c| c.names).map(str::to_owned).collect();

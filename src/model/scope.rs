@@ -25,7 +25,7 @@ impl Reach {
 
     /// Of a leaf.
     pub(crate) fn of(quantity: Quantity) -> Self {
-        let states = matches!(quantity, Quantity::State(_));
+        let states = matches!(quantity, Quantity::State(_) | Quantity::Bristle { .. });
         Self { level: quantity.level(), reactions: quantity.is_reaction(), springs: quantity.needs_springs(), states }
     }
 

@@ -1,11 +1,12 @@
 //! One reading of a file: which variants and studies, in which order, and decoded models shared by all studies with the
 //! same variants.
 
-use super::decode::{self, Decoder, Parsed, Scalars, Taken};
+use super::decode::{self, Decoder, Outside, Parsed, Scalars, Taken};
 use super::diagnostics::Report;
 use super::document::{Document, Selection};
 use super::entities::Model;
 use super::fault::{At, Fault, Spot};
+use super::include::Included;
 use super::merge::{self, Layers, Merged, Node};
 use super::shape;
 use super::suggest;
@@ -70,7 +71,8 @@ impl<'d, 's> Session<'d, 's> {
     /// The file without variants.
     fn plain(&self) -> Layers<'d> {
         static EMPTY: LazyLock<Mapping> = LazyLock::new(Mapping::new);
-        Layers { file: self.document.root.as_mapping().unwrap_or(&EMPTY), patches: Vec::new() }
+        let below = self.document.included.iter().map(Included::sections).collect();
+        Layers { below, file: self.document.root.as_mapping().unwrap_or(&EMPTY), patches: Vec::new() }
     }
 
     /// Faults of form.
@@ -206,7 +208,7 @@ impl<'d, 's> Session<'d, 's> {
             let (decoder, outside) = &mut decoders[base];
             decoder.parsed = parsed;
             let taken = |study: &str| self.taken(&scalars, study);
-            let decoded = decoder.study(name, *node, &taken, outside);
+            let decoded = decoder.study(name, *node, &taken, &Outside { set: outside, over: &[] });
             scalars.insert(name, decoded.scalars);
             parsed = std::mem::take(&mut decoder.parsed);
         }
@@ -227,7 +229,7 @@ impl<'d, 's> Session<'d, 's> {
     /// A decoded model with its form and numbers checked, and the parameters from outside.
     fn decoder<'b>(&mut self, base: &'b Base<'d>) -> (Decoder<'b>, Settings) {
         let root = Node::Merged(&base.merged);
-        let mut form = if base.layers.patches.is_empty() { Vec::new() } else { shape::check_merged(&base.layers, root) };
+        let mut form = if base.layers.is_merged() { shape::check_merged(&base.layers, root) } else { Vec::new() };
         let mut decoder = Decoder::new(&base.layers, root, std::mem::take(&mut self.parsed));
         form.append(&mut decoder.faults);
         decoder.faults = form;
@@ -266,13 +268,14 @@ impl<'d, 's> Session<'d, 's> {
             if i < last {
                 if let Some((decoder, outside)) = &mut decoders[base] {
                     decoder.parsed = std::mem::take(&mut parsed);
-                    let decoded = decoder.study(name, *node, &taken, outside);
+                    let decoded = decoder.study(name, *node, &taken, &Outside { set: outside, over: &[] });
                     scalars.insert(name, decoded.scalars);
                     parsed = std::mem::take(&mut decoder.parsed);
                 }
             } else if let Some((mut decoder, outside)) = decoders[base].take() {
                 decoder.parsed = std::mem::take(&mut parsed);
-                let decoded = node.is_map().then(|| decoder.study(name, *node, &taken, &outside));
+                let given = Outside { set: &outside, over: &self.selection.over };
+                let decoded = node.is_map().then(|| decoder.study(name, *node, &taken, &given));
                 faults.extend(once(std::iter::once((std::mem::take(&mut decoder.faults), &bases[base].variants[..]))));
                 let mut made = decoder.into_model();
                 let set = decoded.as_ref().map_or(&outside, |decoded| &decoded.set);

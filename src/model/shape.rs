@@ -16,6 +16,8 @@ pub(crate) struct Shapes<'a> {
     pub(crate) components: Option<usize>,
     /// True inside of a patch: nothing is required and `null` removes.
     pub(crate) patch: bool,
+    /// True if the sections of the file are a patch over what it includes.
+    over: bool,
     /// What was found.
     pub(crate) faults: Vec<Fault>,
 }
@@ -196,7 +198,10 @@ impl Shapes<'_> {
             match table.field(key) {
                 Some(field) => {
                     present.push(field.key);
+                    let before = shapes.patch;
+                    shapes.patch |= shapes.over && std::ptr::eq(table, &FILE) && !NOT_IN_VARIANTS.contains(&field.key);
                     shapes.check(value, &field.shape, &here);
+                    shapes.patch = before;
                 }
                 None => {
                     let near = suggest::nearest(key, table.fields.iter().map(|f| f.key));
@@ -213,7 +218,10 @@ impl Shapes<'_> {
             return;
         }
         let meant = |key: &str| unknown.iter().flatten().any(|near| *near == key) || !cut.is_empty();
-        for field in table.fields.iter().filter(|f| f.required && !present.contains(&f.key) && !meant(f.key)) {
+        let included = |key: &str| self.over && key == "bodies" && std::ptr::eq(table, &FILE);
+        let missing: Vec<_> =
+            table.fields.iter().filter(|f| f.required && !present.contains(&f.key) && !meant(f.key) && !included(f.key)).collect();
+        for field in missing {
             let fault = self.fault("missing-key", at, format!("`{}` is missing in {}", field.key, table.what), field.shape.expected());
             fault.spot = Spot::Key;
             fault.help = Some(format!("add `{}:` {}", field.key, lower_first(field.doc)));
@@ -385,6 +393,15 @@ pub(crate) fn check_file(layers: &Layers<'_>, root: Node<'_>) -> Vec<Fault> {
     shapes.faults
 }
 
+/// Faults of form of one section of a file.
+pub(crate) fn check_section(layers: &Layers<'_>, section: Node<'_>, key: &str, root: Node<'_>) -> Vec<Fault> {
+    let mut shapes = shapes(layers, root);
+    if let Some(field) = FILE.field(key) {
+        shapes.check(section, &field.shape, &At::ROOT.key(key));
+    }
+    shapes.faults
+}
+
 /// All faults of form of a merged model: what a variant left incomplete or made double.
 pub(crate) fn check_merged(layers: &Layers<'_>, root: Node<'_>) -> Vec<Fault> {
     let mut shapes = shapes(layers, root);
@@ -401,7 +418,8 @@ pub(crate) fn check_merged(layers: &Layers<'_>, root: Node<'_>) -> Vec<Fault> {
 }
 
 fn shapes<'l>(layers: &'l Layers<'l>, root: Node<'_>) -> Shapes<'l> {
-    Shapes { layers, components: components(root.get("space").and_then(Node::text)), patch: false, faults: Vec::new() }
+    let components = components(root.get("space").and_then(Node::text));
+    Shapes { layers, components, patch: false, over: !layers.below.is_empty(), faults: Vec::new() }
 }
 
 fn components(space: Option<&str>) -> Option<usize> {

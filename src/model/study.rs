@@ -63,6 +63,8 @@ pub enum Kind {
     Modes(Modes),
     /// Periodic regime.
     Periodic(Periodic),
+    /// The linearised motion about a state.
+    Linearize(Linearize),
 }
 
 /// Range of a kinematic study.
@@ -121,6 +123,19 @@ pub struct Modes {
     pub methods: Vec<Eigensolver>,
 }
 
+/// Matrices of the linearised motion about a state: `linearize`.
+#[derive(Clone, Debug)]
+pub struct Linearize {
+    /// Whether the state is the rest in an equilibrium that is searched from the start; else the start itself, with its velocities.
+    pub at_equilibrium: bool,
+    /// Parameters that are inputs.
+    pub inputs: Vec<usize>,
+    /// Whether each matrix is written as a CSV file.
+    pub csv: bool,
+    /// Whether all of them are written as a MAT-file.
+    pub mat: bool,
+}
+
 /// How eigenvalues are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Eigensolver {
@@ -136,11 +151,52 @@ pub enum Eigensolver {
 #[derive(Clone, Debug)]
 pub struct Periodic {
     /// What advances by one period; none: the time.
-    pub over: Option<Id>,
-    /// By how much, in its unit.
-    pub by: Id,
+    pub over: Option<Progress>,
+    /// Where a period ends.
+    pub ends: PeriodEnd,
     /// The quantity whose mean and extremes are found.
     pub of: Id,
+    /// Number of equal intervals of the rows; one row more.
+    pub samples: usize,
+    /// Relative tolerance of the integration; 1e-12 if none.
+    pub tolerance: Option<Id>,
+    /// Time of the run before the search, s; until two periods are alike if none.
+    pub settle: Option<Id>,
+    /// Coordinates of the computation: `Joint` or `Cartesian`.
+    pub chart: Chart,
+    /// A parameter along which the regime is followed.
+    pub from: Option<Continued>,
+}
+
+/// What advances by one period.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// As written: `theta`.
+    pub name: String,
+    /// Its value, and its rate.
+    pub value: Id,
+    /// Its time rate.
+    pub rate: Id,
+}
+
+/// Where a period ends.
+#[derive(Clone, Copy, Debug)]
+pub enum PeriodEnd {
+    /// Behind so much progress, in its unit.
+    By(Id),
+    /// Where an expression rises through 0 again.
+    Through(Id),
+}
+
+/// A regime that is followed from one value of a parameter to its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Continued {
+    /// Index in `Model::parameters`.
+    pub parameter: usize,
+    /// The value to begin with.
+    pub at: Id,
+    /// Number of equal steps.
+    pub steps: usize,
 }
 
 /// How the step of an integrator is chosen.

@@ -33,6 +33,11 @@ const COORDINATE: Shape = Value(Want::Varies("an angle (rad) or a length (m), as
 const EFFORT: Shape = Value(Want::Varies("a torque (N m) or a force (N), as the joint has it"));
 const STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m, or N m/rad for an angle"));
 const DAMPING: Shape = Value(Want::Varies("a damping: N s/m, or N m s/rad for an angle"));
+const RATE: Shape = Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)"));
+const FRICTION_LEVEL: Shape = Value(Want::Varies("a torque (N m) or a force (N), as the joint has it, or a coefficient of friction"));
+const BRISTLE_STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m or N m/rad; with a coefficient of friction 1/m, or a plain number"));
+const BRISTLE_DAMPING: Shape = Value(Want::Varies("a damping: N s/m or N m s/rad; with a coefficient of friction s/m, or s"));
+const ROLL_PITCH_YAW: Shape = List(&ANGLE, Size::Exactly(3));
 const POSITION: Shape = List(&LENGTH, Size::Space);
 const DIRECTION: Shape = List(&NUMBER, Size::Space);
 const POINT: Shape = Name("a point `body.point`, or a body for its origin");
@@ -77,14 +82,31 @@ pub(crate) static FILE: Table = Table {
         may("events", Named(Keys::Name, "an event", &Map(&EVENT)), "Actions when an expression crosses zero."),
         may("variants", Named(Keys::Title, "a variant", &Patch), "Merge patches (RFC 7386) over the sections above; `null` removes."),
         may("studies", Named(Keys::Title, "a study", &Map(&STUDY)), "What is computed."),
-        may("include", Later, "Reserved."),
+        may(
+            "include",
+            Either(&[Map(&INCLUDE), List(&Map(&INCLUDE), Size::AtLeast(1))]),
+            "Robots from URDF files, below the sections of this file.",
+        ),
         may("replicate", Later, "Reserved."),
         may("mirror", Later, "Reserved."),
     ],
 };
 
 /// Keys that a variant may not change.
-pub(crate) const NOT_IN_VARIANTS: [&str; 4] = ["grashof", "name", "variants", "studies"];
+pub(crate) const NOT_IN_VARIANTS: [&str; 5] = ["grashof", "name", "variants", "studies", "include"];
+
+static INCLUDE: Table = Table {
+    what: "an included robot",
+    choices: &[],
+    fields: &[
+        need("urdf", Text, "URDF file, by its path from this file."),
+        may("prefix", Text, "In front of every name of the robot; nothing if silent."),
+        may("at", List(&LENGTH, Size::Exactly(3)), "Place of the root in the world; the origin if silent."),
+        may("rpy", ROLL_PITCH_YAW, "Orientation of the root: turned about the world's x, then y, then z."),
+        may("base", Word(&["fixed", "free"]), "Whether the root is fixed to the ground."),
+        may("stops", Flag, "Make end stops of the position limits."),
+    ],
+};
 
 const COORDINATE_OR_RATE: Shape = Value(Want::Varies("an angle, a length, or their rate, as the quantity is; `~` in front marks a guess"));
 
@@ -111,7 +133,9 @@ static BODY: Table = Table {
         may("inertia", FIGURES, "Inertia about the centre of mass: a number, `[Ixx, Iyy, Izz]`, or with `Ixy, Ixz, Iyz`."),
         may("com", POSITION, "Centre of mass in the body frame."),
         may("points", Named(Keys::Name, "a point", &POSITION), "Points in the body frame."),
+        may("drawn", List(&POSITION, Size::AtLeast(1)), "Points that outline the body in drawings, body frame."),
         may("attached", Named(Keys::Name, "an attached mass", &Map(&ATTACHED)), "Point masses and rotors on the body."),
+        may("fictitious", Flag, "Allows an inertia that no real body has, as robots from data sheets do; moments below 0 stay refused."),
     ],
 };
 
@@ -179,6 +203,11 @@ static JOINT: Table = Table {
         may("spherical", ENDS, "Spatial: ball joint."),
         may("axis", DIRECTION, "Axis in the first body's frame."),
         may("to", DIRECTION, "Spatial: the same axis in the second body's frame; the numbers of `axis` if silent."),
+        may(
+            "rpy",
+            ROLL_PITCH_YAW,
+            "Spatial, instead of `to`: how the second body stands in the first at 0, turned about x, then y, then z.",
+        ),
         may("axes", List(&DIRECTION, Size::Exactly(2)), "Universal: axis in the first body's frame, axis in the second's."),
         may("pitch", LENGTH, "Screw: advance per turn."),
         may("length", LENGTH, "Distance: length of the link; as drawn if silent."),
@@ -194,27 +223,35 @@ static FRICTION: Table = Table {
     what: "friction",
     choices: &[],
     fields: &[
-        need(
-            "coulomb",
-            Value(Want::Varies("a torque (N m) or a force (N), as the joint has it, or a coefficient of friction")),
-            "Torque or force of the friction; a plain number is a coefficient of friction.",
-        ),
-        may(
-            "stick_speed",
-            Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)")),
-            "Below this speed the joint sticks; 1 mm/s or 1e-3 rad/s if silent.",
-        ),
+        need("coulomb", FRICTION_LEVEL, "Torque or force of the friction; a plain number is a coefficient of friction."),
+        may("static", FRICTION_LEVEL, "The same at rest, where it is higher; falls to `coulomb` over `stribeck_speed`."),
+        may("stribeck_speed", RATE, "Speed over which the friction falls from `static` to `coulomb`."),
+        may("stick_speed", RATE, "Below this speed the joint sticks; 1 mm/s or 1e-3 rad/s if silent."),
+        may("radius", LENGTH, "Radius of the pin, with a coefficient of friction in a `revolute`."),
+        may("length", LENGTH, "Length of the guide, with a coefficient of friction in a `slider`: the moment presses on its ends."),
+        may("bristle", Map(&BRISTLE), "Bristles that bend before the joint slides (LuGre), in place of `stick_speed`."),
+    ],
+};
+
+static BRISTLE: Table = Table {
+    what: "a bristle",
+    choices: &[],
+    fields: &[
+        need("stiffness", BRISTLE_STIFFNESS, "Stiffness of the bristles."),
+        may("damping", BRISTLE_DAMPING, "Damping of the bristles; 0 if silent."),
     ],
 };
 
 static LIMITS: Table = Table {
     what: "limits",
-    choices: &[],
+    choices: &[one_of(&["stiffness", "restitution"])],
     fields: &[
         may("from", COORDINATE, "Lower end."),
         may("to", COORDINATE, "Upper end."),
-        need("stiffness", STIFFNESS, "Stiffness of the stop, in N/m or N m/rad."),
+        may("stiffness", STIFFNESS, "Stiffness of the stop, in N/m or N m/rad."),
         may("damping", DAMPING, "Damping of the stop, which never pulls; 0 if silent."),
+        may("restitution", NUMBER, "Of a rigid stop: speed behind a blow by speed before it, 0 to 1."),
+        may("rest_speed", RATE, "A rebound from a rigid stop below this speed counts as rest; 1 mm/s or 1e-3 rad/s if silent."),
     ],
 };
 

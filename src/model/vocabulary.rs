@@ -24,6 +24,10 @@ pub enum Quantity {
     Force { joint: usize, axis: usize },
     /// Reaction: moment about the joint's point (of the second body), world axes; planar only `axis` 2. N m.
     Moment { joint: usize, axis: usize },
+    /// Dry friction of a joint, on the second body along its coordinate, N m or N.
+    Friction { joint: usize },
+    /// State of the bristles of a joint: their deflection in parts of coulomb/stiffness.
+    Bristle { joint: usize },
     /// Torque or force of a driver, on the second body, N m or N.
     DriverEffort { driver: usize },
     /// Power that a driver puts in, W.
@@ -106,10 +110,12 @@ impl Quantity {
             | Self::Kinetic
             | Self::Momentum { .. }
             | Self::InertiaEq
+            | Self::Bristle { .. }
             | Self::State(_) => Known::Velocity,
             Self::Shaking { .. } | Self::ShakingMoment { .. } | Self::InertiaEqSlope => Known::Acceleration,
             Self::Force { .. }
             | Self::Moment { .. }
+            | Self::Friction { .. }
             | Self::DriverEffort { .. }
             | Self::DriverPower { .. }
             | Self::Frame { .. }
@@ -125,6 +131,7 @@ impl Quantity {
             self,
             Self::Force { .. }
                 | Self::Moment { .. }
+                | Self::Friction { .. }
                 | Self::DriverEffort { .. }
                 | Self::DriverPower { .. }
                 | Self::Frame { .. }

@@ -171,10 +171,18 @@ fn is_of(name: &str, study: &str, studies: &[String]) -> bool {
     if studies.iter().any(|other| other.len() > study.len() && rest_after(other).is_some()) {
         return false;
     }
-    let Some(part) = rest.strip_prefix('-') else { return matches!(rest, ".csv" | ".json") };
+    let Some(part) = rest.strip_prefix('-') else { return matches!(rest, ".csv" | ".json" | ".mat") };
+    // of a sweep from the command line, which has a name of its own
+    if part.starts_with("over-") {
+        return false;
+    }
     let run = |number: &str| number.len() >= 3 && number.bytes().all(|byte| byte.is_ascii_digit());
     let plot = |name: &str| !name.is_empty();
-    part.strip_suffix(".csv").is_some_and(run) || [".svg", ".png"].iter().any(|end| part.strip_suffix(end).is_some_and(plot))
+    let matrix = |name: &str| matches!(name, "A" | "B" | "C" | "D" | "mass" | "damping" | "stiffness");
+    let of_run = |name: &str| name.split_once('-').is_some_and(|(number, name)| run(number) && matrix(name));
+    part.strip_suffix(".csv").is_some_and(|name| run(name) || matrix(name) || of_run(name))
+        || part.strip_suffix(".mat").is_some_and(run)
+        || [".svg", ".png"].iter().any(|end| part.strip_suffix(end).is_some_and(plot))
 }
 
 #[cfg(test)]
@@ -249,9 +257,18 @@ mod tests {
     fn stale_files_of_this_study_go_and_no_others() {
         let scratch = Scratch::new("stale");
         let out = scratch.0.join("out/deep");
-        let kept =
-            ["one-turn-unloaded.csv", "one-turn-unloaded-001.csv", "one-turn-unloaded-angles.svg", "one-turn-notes.txt", "one-turn.yaml"];
-        let stale = ["one-turn.csv", "one-turn-007.csv", "one-turn-oldplot.svg", "one-turn-oldplot.png"];
+        let kept = [
+            "one-turn-unloaded.csv",
+            "one-turn-unloaded-001.csv",
+            "one-turn-unloaded-angles.svg",
+            "one-turn-notes.txt",
+            "one-turn.yaml",
+            "one-turn-over-l3.csv",
+            "one-turn-over-l3-007.csv",
+            "one-turn-over-l3-swing.svg",
+        ];
+        let stale =
+            ["one-turn.csv", "one-turn-007.csv", "one-turn-007-A.csv", "one-turn-007.mat", "one-turn-oldplot.svg", "one-turn-oldplot.png"];
         fs::create_dir_all(&out).unwrap();
         kept.iter().chain(&stale).for_each(|name| fs::write(out.join(name), "old").unwrap());
         let studies = ["one-turn".to_owned(), "one-turn-unloaded".to_owned()];

@@ -115,7 +115,9 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
             }
             range.samples = 12;
         }
-        Kind::Dynamics(_) | Kind::Statics | Kind::Modes(_) | Kind::Periodic(_) => return Fate::Refused,
+        Kind::Statics | Kind::Modes(_) | Kind::Linearize(_) => {}
+        // motions in time may be long without a hang
+        Kind::Dynamics(_) | Kind::Periodic(_) => return Fate::Refused,
     }
     let _ = survey(&model, &sweep::parameters(&model));
     let grid = sweep::grid(&model, &study);

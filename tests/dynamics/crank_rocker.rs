@@ -1,6 +1,7 @@
 //! The crank-rocker from rest under its motor: `data/motion.json`, and the reduced equation for other parameters.
 
 use crate::closed_form::crank_rocker::{CrankRocker, Load, Parameters};
+use crate::reference::motor;
 use crate::reference::program::{Run, Table, model, run, run_text};
 use crate::reference::{Verdict, number, series};
 use crate::{doubled, scalar};
@@ -140,18 +141,6 @@ struct Reduced {
     shaft: Option<f64>,
 }
 
-/// Torque of the motor over its speed in rpm, as in the model file.
-const CURVE: [[f64; 2]; 7] =
-    [[0.0, 215.6], [214.0, 161.7], [1275.0, 284.2], [1460.0, 98.0], [1500.0, 0.0], [1540.0, -98.0], [1725.0, -284.2]];
-
-fn motor(speed: f64) -> f64 {
-    let rpm = speed * 60.0 / std::f64::consts::TAU;
-    let Some(k) = CURVE.iter().position(|p| p[0] > rpm) else { return CURVE[6][1] };
-    let Some(k) = k.checked_sub(1) else { return CURVE[0][1] };
-    let [[x0, y0], [x1, y1]] = [CURVE[k], CURVE[k + 1]];
-    y0 + (y1 - y0) * (rpm - x0) / (x1 - x0)
-}
-
 impl Reduced {
     fn new(p: Parameters) -> Self {
         let gear = 73.0 / 12.0;
@@ -168,7 +157,7 @@ impl Reduced {
         let [inertia, slope] = self.rocker.inertia(&motion);
         let q = 0.5 * slope - self.rocker.forces(&motion, load).torque;
         let own = q - self.viscous * omega - 0.5 * slope * omega * omega;
-        let drive = |speed: f64| self.gear * motor(self.gear * speed);
+        let drive = |speed: f64| self.gear * motor::torque(self.gear * speed);
         match self.shaft {
             None => {
                 let alpha = (own + drive(omega)) / (inertia + self.flywheel + self.rotor);

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test uses its own part")]
 
+pub(crate) mod motor;
 pub(crate) mod program;
 pub(crate) mod turning;
 

@@ -7,6 +7,9 @@ use crate::{Effect, System};
 /// Places inside of a step at which roots are looked at, with its end.
 const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
+/// Halvings of a part of a step in the search for a short time on the positive side of a root.
+const MOST_HALVINGS: usize = 30;
+
 /// A root is located to this part of the step.
 const LOCATED: f64 = 1e-11;
 
@@ -37,8 +40,11 @@ impl Integration {
             for root in 0..self.roots.len() {
                 let (g0, g1) = (self.roots[root], self.samples[root]);
                 if g1 < 0.0 {
-                    // a root that was not positive before has been left at the begin already
-                    let place = if g0 > 0.0 { self.locate(system, root, [from, look], [g0, g1])? } else { from };
+                    let place = if g0 > 0.0 {
+                        self.locate(system, root, [from, look], [g0, g1])?
+                    } else {
+                        self.again(system, root, [from, look], g1)?
+                    };
                     if first.is_none_or(|(x, _)| place < x) {
                         first = Some((place, root));
                     }
@@ -66,6 +72,22 @@ impl Integration {
             from = look;
         }
         Ok(None)
+    }
+
+    /// The place where a root that is not positive at the begin and negative at the end of a part of the step changes its sign: behind
+    /// a short time on its positive side (a ball that has bounced), or at once.
+    fn again(&mut self, system: &mut dyn System, root: usize, [from, to]: [f64; 2], at_end: f64) -> Result<f64, Why> {
+        let (mut beyond, mut value) = (to, at_end);
+        for _ in 0..MOST_HALVINGS {
+            let x = from + 0.5 * (beyond - from);
+            self.look(system, x)?;
+            let g = self.probe[root];
+            if g > 0.0 {
+                return self.locate(system, root, [x, beyond], [g, value]);
+            }
+            (beyond, value) = (x, g.min(-f64::MIN_POSITIVE));
+        }
+        Ok(from)
     }
 
     /// Roots at the place θ of the last step, into `probe`.
@@ -123,15 +145,17 @@ impl Integration {
         self.crossed.clear();
         self.engine.counts.events += 1;
         let mut stop = false;
-        let mut restart = false;
+        let (mut restart, mut bounces) = (false, false);
         let mut next = Some(root);
         while let Some(root) = next {
             self.crossed.push(root);
-            match system.cross(root, &mut self.node.state, &mut self.row) {
+            let effect = system.cross(root, &mut self.node.state, &mut self.row);
+            bounces |= matches!(effect, Effect::Bounce { .. });
+            match effect {
                 Effect::Record => {}
                 Effect::Stop => stop = true,
                 Effect::Restart => restart = true,
-                Effect::Impulse { restitution, stops } => {
+                Effect::Impulse { restitution, stops } | Effect::Bounce { restitution, stops } => {
                     self.engine.impulse(system, &mut self.node.state, &self.row, restitution)?;
                     restart = true;
                     stop |= stops;
@@ -141,6 +165,7 @@ impl Integration {
             next = self.also_crossed(system);
         }
         if let Some(&root) = self.crossed.first()
+            && !bounces
             && self.zeno.pile_up(self.node.state.t, self.start)
         {
             return Err(Why::Zeno(root));

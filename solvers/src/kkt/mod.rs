@@ -176,6 +176,10 @@ impl Kkt {
     ///
     /// Fails where M is singular on the free motions (a massless freedom), and where a number is not finite.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+        if self.nv + self.rows == 0 {
+            // nothing is free and nothing constrains: minimal coordinates of what cannot move
+            return Ok(());
+        }
         if let Factors::Sparse(sparse) = &mut self.factors {
             return sparse.factor(mass, g, &self.scale, &self.e);
         }

@@ -1,6 +1,6 @@
 //! The loops of a mechanism: which velocities are independent, how the others follow, how positions are closed.
 
-use crate::{At, Dims, Kkt, Lu, Stage, State, System, Tangent, Terms};
+use crate::{At, Dims, Friction, Kkt, Lu, Stage, State, System, Tangent, Terms};
 
 /// Most Newton steps of a closing.
 const CLOSINGS: usize = 12;
@@ -52,6 +52,10 @@ pub(super) struct Loops<S> {
     lu: Lu,
     /// Serves where rows are redundant.
     kkt: Kkt,
+    /// The whole accelerations and multipliers where forces depend on reactions, and these forces f_λ (nv; else zeros).
+    friction: Option<Friction>,
+    pub(super) rubbing: Vec<f64>,
+    whole: (Vec<f64>, Vec<f64>),
     rhs: Vec<f64>,
     left: Vec<f64>,
     zeros: Vec<f64>,
@@ -67,6 +71,7 @@ impl<S: System> Loops<S> {
         let row_unit = pattern.g_scale.iter().map(root).collect();
         let unit = pattern.metric.iter().map(root).collect();
         let size = pattern.size_v.clone();
+        let friction = Friction::of_pattern(dims, pattern);
         let mut kkt = Kkt::new(nv, dims.holonomic);
         kkt.set_scale(&pattern.metric, &pattern.g_scale[..dims.holonomic]);
         let mut terms = Terms::new(dims);
@@ -94,6 +99,9 @@ impl<S: System> Loops<S> {
             lambda: vec![0.0; dims.rows()],
             lu: Lu::new(0),
             kkt,
+            friction,
+            rubbing: vec![0.0; nv],
+            whole: (vec![0.0; nv], vec![0.0; dims.rows()]),
             rhs: vec![0.0; nv],
             left: vec![0.0; nv],
             zeros: vec![0.0; nv],
@@ -299,13 +307,30 @@ impl<S: System> Loops<S> {
         }
     }
 
-    /// Terms of the inner system at [`Loops::reach`], and ṗ = [G_d⁻¹ γ; 0].
+    /// Terms of the inner system at [`Loops::reach`], ṗ = [G_d⁻¹ γ; 0], and with the dynamics f_λ; not numbers where friction by
+    /// reactions has no solution.
     pub(super) fn evaluate(&mut self, stage: Stage) {
         self.inner.terms(self.state.at(), stage, &mut self.terms);
         self.rhs.iter_mut().zip(&self.rows).for_each(|(r, &row)| *r = self.terms.gamma[row]);
         self.solve();
         self.bend.fill(0.0);
         self.rhs.iter().zip(&self.dependent).for_each(|(x, &j)| self.bend[j] = *x);
+        if stage == Stage::Dynamics {
+            self.rub();
+        }
+    }
+
+    /// f_λ of the accelerations and multipliers that the state has.
+    fn rub(&mut self) {
+        let Self { inner, state, terms, friction, rubbing, whole: (a, lambda), .. } = self;
+        let Some(friction) = friction else { return };
+        a.fill(0.0);
+        lambda.fill(0.0);
+        let rub = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| inner.rub(state.at(), l, f, slope);
+        match friction.solve(terms, rub, a, lambda) {
+            Ok(()) => rubbing.copy_from_slice(friction.force(lambda, rub)),
+            Err(_) => rubbing.fill(f64::NAN),
+        }
     }
 
     /// a = P a_i + ṗ and the inner multipliers that carry it, given those of the velocity-level rows; after
@@ -317,8 +342,8 @@ impl<S: System> Loops<S> {
         self.spread(a);
         self.a.iter_mut().zip(&self.full).zip(&self.bend).for_each(|((a, x), p)| *a = x + p);
         let rows = self.terms.mass.chunks_exact(nv.max(1)).zip(&self.terms.force);
-        for (r, (row, f)) in self.full.iter_mut().zip(rows) {
-            *r = f - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
+        for ((r, (row, f)), rub) in self.full.iter_mut().zip(rows).zip(&self.rubbing) {
+            *r = f + rub - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
         }
         for (row, l) in self.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
             self.full.iter_mut().zip(row).for_each(|(r, g)| *r -= g * l);

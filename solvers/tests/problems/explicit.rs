@@ -95,7 +95,7 @@ impl Explicit {
             let mut row = vec![0.0; state.v.len()];
             match problem.cross(root, state, &mut row) {
                 Effect::Stop => break,
-                Effect::Impulse { restitution, .. } => self.strike(problem, state, &row, restitution),
+                Effect::Impulse { restitution, .. } | Effect::Bounce { restitution, .. } => self.strike(problem, state, &row, restitution),
                 Effect::Record | Effect::Restart => {}
             }
         }

@@ -3,6 +3,7 @@
 //! E(t) − E(0) must be the work of drivers, loads and dampers, integrated beside the motion, and what impacts took at once. What
 //! remains is the energy that the integration has made or lost.
 
+use super::march::Begins;
 use super::setup::Plan;
 use super::system::{Mechanical, WORKS};
 use super::trajectory::Trajectory;
@@ -50,17 +51,17 @@ where
 
 impl Balance {
     /// Begins an era at a node; energies that change because parameters do count as done by the event.
-    pub(super) fn begin<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, first: bool)
+    pub(super) fn begin<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, begins: Begins)
     where
         G: Space<S = f64>,
         D: Space<S = Dual<LANES>>,
     {
         let [kinetic, e] = energy(system, node);
-        if first {
-            (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic);
-        } else {
+        match begins {
+            Begins::Run => (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic),
             // the drift so far is not known apart from it, and begins anew
-            self.impacts = e - self.start - self.done();
+            Begins::Parameters => self.impacts = e - self.start - self.done(),
+            Begins::Rests => {}
         }
         self.before = self.work;
         for (before, now) in self.before.iter_mut().zip(&node.state.work) {
@@ -160,7 +161,7 @@ impl Balance {
 }
 
 /// Largest residuals over the rows of a run.
-pub(super) fn residuals<G, D>(trajectory: &mut Trajectory<'_, G, D>, rows: &Rows, mut certificate: Certificate) -> Certificate
+pub(in crate::analysis) fn residuals<G, D>(trajectory: &mut Trajectory<'_, G, D>, rows: &Rows, mut certificate: Certificate) -> Certificate
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,

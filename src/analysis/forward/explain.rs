@@ -21,6 +21,9 @@ where
     let t = halt.t;
     let fixed = matches!(plan.settings.control, Control::Steps(_));
     match halt.why {
+        Why::Zeno(root) if matches!(system.roots.get(root), Some(Root::Side { .. })) => {
+            format!("at t = {t:.6} s {}", cause(mechanism, &Why::Friction))
+        }
         Why::Zeno(root) => format!(
             "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
             root_name(model, system, root)
@@ -42,7 +45,11 @@ where
 
 /// The rows that become dependent where a run has stopped in a nearly singular position; none elsewhere, or if the reason is another.
 pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, rows): &(f64, Vec<usize>)) -> Option<String> {
-    if *sigma >= 0.05 || sigma.is_nan() || rows.is_empty() || matches!(halt.why, Why::Zeno(_) | Why::NotFinite(_) | Why::TooManySteps) {
+    if *sigma >= 0.05
+        || sigma.is_nan()
+        || rows.is_empty()
+        || matches!(halt.why, Why::Zeno(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
+    {
         return None;
     }
     let mut names: Vec<String> = Vec::new();
@@ -65,6 +72,10 @@ pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, ro
 fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
     match *why {
         Why::NotFinite(v) => format!("a force on {} is not a number: look at tables and expressions of loads that act there", name_of_velocity(mechanism, v)),
+        Why::Friction => format!(
+            "the friction of {} has no accelerations that obey its law: with this coefficient the joint jams (Painlevé's paradox); give a smaller `coulomb`, a longer guide, or drive the motion from the other side",
+            rubbing(mechanism)
+        ),
         Why::Singular => "the accelerations are not determined: a body that can move has no mass or inertia, or the position is singular; give masses to all moving bodies".into(),
         Why::Constraints { row, residual } => format!(
             "{} cannot be closed, {residual:.1e} remains: the mechanism locks there; check lengths and limits",
@@ -73,6 +84,12 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
         Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
         Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unavailable => "the state cannot be continued".into(),
     }
+}
+
+/// The joints with friction by reactions, in words.
+fn rubbing<G: Space>(mechanism: &Mechanism<G>) -> String {
+    let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", mechanism.joints[p.joint].name)).collect();
+    format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, names.join(", "))
 }
 
 /// The body that a velocity moves, in words.
@@ -91,6 +108,9 @@ where
     let switch = match system.roots.get(root) {
         Some(&Root::Force { program, k }) => m.programs()[program].program.switches().get(k).copied(),
         Some(&Root::Column { k }) => system.observer.program().switches().get(k).copied(),
+        Some(&(Root::Stop(stop) | Root::Clear(stop) | Root::Rest { stop, .. })) => {
+            return format!("the {} of joint `{}`", m.stops[stop].word(), m.joints[m.stops[stop].joint].name);
+        }
         Some(&Root::Event(event)) => return format!("the event `{}`", model.events[event].name),
         _ => None,
     };
@@ -163,7 +183,6 @@ pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
             "keep an exact value for as many joints as there are degrees of freedom, and put `~` before the others",
         ),
         Refused::Open => ("the loops cannot be closed at the start", "look at `grashof check`"),
-        Refused::Friction => ("forces depend on reactions of joints that minimal coordinates leave out", "use `coordinates: joint`"),
     };
     Failure::Study {
         code: "no-minimal-coordinates",

@@ -3,16 +3,18 @@
 use super::balance::Balance;
 use super::explain;
 use super::setup::Plan;
-use super::system::{Mechanical, Watched};
+use super::system::Mechanical;
 use super::trajectory::Trajectory;
+use super::watch::{swept, watched};
 use crate::analysis::assemble::{Assembled, assemble};
+use crate::analysis::contact;
 use crate::analysis::observe::Observer;
 use crate::analysis::outcome::{Certificate, Failure, Finding, Happened};
 use crate::analysis::sweep::parameters_with;
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, build};
+use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, RowOwner, build};
 use crate::model::{Model, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
@@ -29,11 +31,11 @@ const PARTS: usize = 10;
 const MOST_ERAS: usize = 5000;
 
 /// A mechanism with the same on dual numbers, at given parameters; and what follows when an event changes them.
-pub(super) struct Eras<G: Space<S = f64>> {
-    pub(super) mechanism: Mechanism<G>,
-    lifted: Mechanism<G::Lift<Dual<LANES>>>,
-    parameters: Vec<f64>,
-    start: Assembled,
+pub(in crate::analysis) struct Eras<G: Space<S = f64>> {
+    pub(in crate::analysis) mechanism: Mechanism<G>,
+    pub(in crate::analysis) lifted: Mechanism<G::Lift<Dual<LANES>>>,
+    pub(in crate::analysis) parameters: Vec<f64>,
+    pub(in crate::analysis) start: Assembled,
     next: OnceCell<Box<Eras<G>>>,
 }
 
@@ -42,10 +44,11 @@ impl<G: Space<S = f64>> Eras<G> {
     ///
     /// # Errors
     /// If the model has none, or it cannot be assembled.
-    pub(super) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
+    pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
         let start =
             assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+        contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
     }
@@ -55,14 +58,16 @@ impl<G: Space<S = f64>> Eras<G> {
         self
     }
 
-    /// The mechanism from an event on that has set parameters; rows keep where the start has anchored them.
-    fn change(&self, model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<&Self, Failure> {
+    /// The mechanism from an event on that has set parameters or changed the stops on which joints rest; rows keep where the start has
+    /// anchored them.
+    fn change(&self, model: &Model, parameters: &[f64], coordinates: Coordinates, resting: &[usize]) -> Result<&Self, Failure> {
         let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
         for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
             if row.anchored {
                 (row.offset, row.anchored) = (before.offset, before.anchored);
             }
         }
+        resting.iter().for_each(|stop| mechanism.rest(*stop));
         let lifted = mechanism.lift();
         let next = Self { mechanism, lifted, parameters: parameters.to_vec(), start: self.start.clone(), next: OnceCell::new() };
         Ok(self.next.get_or_init(|| Box::new(next)))
@@ -110,25 +115,27 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
 }
 
 /// What a run has left.
-pub(super) struct Recorded<'m, G: Space<S = f64>> {
-    pub(super) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
-    pub(super) stopped: Option<String>,
-    pub(super) events: Vec<Happened>,
-    pub(super) certificate: Certificate,
-    pub(super) findings: Vec<Finding>,
+pub(in crate::analysis) struct Recorded<'m, G: Space<S = f64>> {
+    pub(in crate::analysis) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    pub(in crate::analysis) stopped: Option<String>,
+    pub(in crate::analysis) events: Vec<Happened>,
+    pub(in crate::analysis) certificate: Certificate,
+    pub(in crate::analysis) findings: Vec<Finding>,
 }
 
-/// Runs a plan; the trajectory has the columns `ids`.
+/// Runs a plan from a state, or from the start; the trajectory has the columns `ids`.
 ///
 /// # Errors
 /// If the run did not begin.
-pub(super) fn march<'m, G: Space<S = f64>>(
+#[allow(clippy::too_many_arguments, reason = "each is named at its two calls")]
+pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
     model: &Model,
     study: &Study,
     plan: &Plan,
     ids: &[Id],
     eras: &'m Eras<G>,
     parameters: &[f64],
+    from: Option<&State>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Recorded<'m, G>, Failure> {
     let (all, watched) = watched(model, &eras.mechanism, ids);
@@ -149,23 +156,25 @@ pub(super) fn march<'m, G: Space<S = f64>>(
         events: Vec::new(),
         balance: Balance::default(),
         changed: Vec::new(),
+        resting: Vec::new(),
+        begins: Begins::Run,
         set_from: ids.len(),
     };
     let mut era = eras;
-    let mut state = begin(eras, dims);
+    let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
     let mut count = 0;
     let stopped = loop {
-        match flow.era(era, machine(era), &mut state, count == 0)? {
+        match flow.era(era, machine(era), &mut state)? {
             After::Done => break None,
             After::Stopped(why) => break Some(why),
             After::Changed => {
                 count += 1;
                 if count > MOST_ERAS {
-                    break Some(format!("events have set parameters {MOST_ERAS} times; at t = {} s", state.t));
+                    break Some(format!("parameters, or stops on which joints rest, have changed {MOST_ERAS} times; at t = {} s", state.t));
                 }
                 let set = flow.changed.clone();
                 let values = swept(study, parameters).into_iter().chain(set).collect::<Vec<_>>();
-                era = era.change(model, &parameters_with(model, &values), plan.coordinates)?;
+                era = era.change(model, &parameters_with(model, &values), plan.coordinates, &flow.resting)?;
                 flow.trajectory.era(machine(era));
             }
         }
@@ -219,7 +228,7 @@ pub(super) fn bare<G: Space<S = f64>>(
     let begun = Integration::new(chart.system(), settings, &start);
     let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
     chart.whole(run.node(), &mut node);
-    balance.begin(chart.mechanical(), &node, true);
+    balance.begin(chart.mechanical(), &node, Begins::Run);
     let stopped = loop {
         match run.advance(chart.system(), plan.until) {
             Ok(Progress::Step | Progress::Event) => {}
@@ -242,7 +251,7 @@ pub(super) fn bare<G: Space<S = f64>>(
 }
 
 /// The state at the assembled start.
-fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) -> State {
+pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) -> State {
     let mut state = State::new(dims);
     state.q.copy_from_slice(&eras.start.q);
     state.v.copy_from_slice(&eras.start.v);
@@ -262,7 +271,9 @@ fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
-    let asked = era.mechanism.starts.iter().filter(|s| !s.guess);
+    // a joint that rests on a stop may be the one that was asked for: then others are
+    let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
+    let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
     let independent: Vec<usize> = asked
         .filter_map(|s| match s.asked {
             Asked::Gauge { gauge, order: 0 } => match era.mechanism.gauges[gauge].measured {
@@ -276,29 +287,15 @@ fn chart<'m, G: Space<S = f64>>(
     minimal.map(|m| Charted::Minimal(Box::new(m))).map_err(|why| explain::no_chart(study, &why))
 }
 
-/// Parameters that the study itself varies, with their present values.
-fn swept(study: &Study, parameters: &[f64]) -> Vec<(usize, f64)> {
-    let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
-    varied.map(|p| (p, parameters[p])).collect()
-}
-
-/// Columns, then event functions, restitutions and new values of parameters as one list; and the events that watch them.
-fn watched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, ids: &[Id]) -> (Vec<Id>, Vec<Watched>) {
-    let mut all = ids.to_vec();
-    let mut watched = Vec::new();
-    for event in &model.events {
-        let output = all.len();
-        all.push(event.when);
-        let impact = event.restitution.as_ref().and_then(|r| {
-            all.push(r.e);
-            Some((*mechanism.joints[r.joint].slots.first()?, all.len() - 1))
-        });
-        watched.push(Watched { output, crossing: event.crossing, stops: event.stop || !event.set.is_empty(), impact });
-    }
-    for event in &model.events {
-        all.extend(event.set.iter().map(|(_, id)| *id));
-    }
-    (all, watched)
+/// What an era begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Begins {
+    /// The run.
+    Run,
+    /// Other parameters.
+    Parameters,
+    /// Other stops on which joints rest.
+    Rests,
 }
 
 /// How an era has ended.
@@ -319,19 +316,17 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     balance: Balance,
     /// Parameters that events have set.
     changed: Vec<(usize, f64)>,
+    /// Stops on which joints rest.
+    resting: Vec<usize>,
+    begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
-    fn era(
-        &mut self,
-        era: &'m Eras<G>,
-        system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
-        state: &mut State,
-        first: bool,
-    ) -> Result<After, Failure> {
+    fn era(&mut self, era: &'m Eras<G>, system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
+        let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
         let mut chart = chart(self.study, self.plan, system, era, state)?;
@@ -346,7 +341,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let mut dense = Dense::new(dims);
         chart.whole(run.node(), &mut node);
         self.trajectory.piece(&node);
-        self.balance.begin(chart.mechanical(), &node, first);
+        self.balance.begin(chart.mechanical(), &node, self.begins);
         // what crosses in the same instant as the event that began this era
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {
@@ -424,6 +419,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
         let parts = if self.plan.fixed_step().is_some() { 1 } else { PARTS };
         let (t, h) = (last.state.t, node.state.t - last.state.t);
+        if h <= 0.0 {
+            // an event at the begin of a step
+            return Ok(());
+        }
         let [mut reduced, mut from, mut to] = [run.node().clone(), last.clone(), last.clone()];
         for part in 1..=parts {
             let end = part == parts;
@@ -467,6 +466,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             return After::Done;
         }
         let system = chart.mechanical();
+        let rests = system.take_rests();
+        self.begins = if rests.is_empty() { Begins::Parameters } else { Begins::Rests };
+        for (stop, rests) in rests {
+            self.resting.retain(|s| *s != stop);
+            if rests {
+                self.resting.push(stop);
+            }
+        }
         system.observe(&before.state.at(), &before.a, &before.lambda);
         let mut outputs = vec![0.0; system.observer.program().outputs()];
         system.columns(&before.state.modes, &mut outputs);
@@ -477,6 +484,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 if counted.contains(&i) {
                     self.changed.retain(|(p, _)| *p != parameter);
                     self.changed.push((parameter, outputs[place]));
+                    self.begins = Begins::Parameters;
                 }
                 place += 1;
             }

@@ -3,12 +3,13 @@
 //! `system` shows a mechanism to the integrators, `march` runs one of them and records, `trajectory` is the motion as a curve,
 //! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
 
-mod balance;
+pub(in crate::analysis) mod balance;
 mod explain;
-mod march;
-mod setup;
-mod system;
-mod trajectory;
+pub(in crate::analysis) mod march;
+pub(in crate::analysis) mod setup;
+pub(in crate::analysis) mod system;
+pub(in crate::analysis) mod trajectory;
+mod watch;
 
 pub use march::Bare;
 pub use setup::{is_available, method};
@@ -51,7 +52,7 @@ where
     check_rows(study, &plan, watched.ids.len().max(1))?;
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
     let Recorded { mut trajectory, stopped, events, certificate, findings } =
-        march::march(model, study, &plan, &watched.ids, &eras, parameters, stop)?;
+        march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
         return Err(Failure::Numerical(reason.clone()));
@@ -82,7 +83,6 @@ where
         rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
         places: rows.places,
         results: Vec::new(),
-        lists: Vec::new(),
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
@@ -90,6 +90,7 @@ where
         certificate,
         events,
         scenes: vec![(scene::MECHANISM.into(), scene)],
+        ..Outcome::default()
     })
 }
 
@@ -149,7 +150,7 @@ where
 }
 
 /// Poses of the bodies at a time.
-fn pose<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
+pub(in crate::analysis) fn pose<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,

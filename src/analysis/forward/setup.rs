@@ -7,12 +7,12 @@ use grashof_solvers::{Control, Level, Method, Settings, schemes};
 
 /// A study in numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Plan {
-    pub(super) until: f64,
-    pub(super) every: Option<f64>,
-    pub(super) settings: Settings,
-    pub(super) coordinates: Coordinates,
-    pub(super) minimal: bool,
+pub(in crate::analysis) struct Plan {
+    pub(in crate::analysis) until: f64,
+    pub(in crate::analysis) every: Option<f64>,
+    pub(in crate::analysis) settings: Settings,
+    pub(in crate::analysis) coordinates: Coordinates,
+    pub(in crate::analysis) minimal: bool,
 }
 
 impl Plan {

@@ -5,22 +5,32 @@
 //! | switch of a load, spring, driver, state | inside its mode | the neighbouring mode; the scheme starts afresh |
 //! | switch of a column alone | the same | the same mode number, without effect on the motion |
 //! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
+//! | side on which a joint with friction by reactions presses | its force points there | the other side |
+//! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the era |
+//! | stop just left | beyond its neighbourhood | it is watched exactly again |
+//! | stop on which a joint rests | the stop pushes | it is left, which ends the era |
 //! | event of the model | on its present side of zero | the other side; what the event does |
 //!
-//! `modes` hold the switches of all expressions, then the windings, then the side of each event.
+//! `modes` hold the switches of all expressions, then the windings, the side of each event, and for each rigid stop whether it was
+//! left just now (1): then the motion may go beyond it by as much as rounding asks, until it is clear of it.
 
+mod contact;
+mod patterns;
+
+use crate::analysis::contact::PASSED;
 use crate::analysis::observe::Observer;
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern};
+use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
 use crate::geometry::Space;
-use crate::mechanism::{EffortLaw, Measured, Mechanism, RowKind};
+use crate::mechanism::{EffortLaw, Measured, Mechanism, Row, RowOwner};
 use crate::model::Crossing;
 use crate::scalar::Dual;
 use grashof_solvers::kkt::row_scale;
-use grashof_solvers::{At, Dims, Effect, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use patterns::known_by_rows;
 
 /// What an event of the model does where its function crosses zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Watched {
+pub(in crate::analysis) struct Watched {
     /// Output of the observer's program that crosses.
     pub(super) output: usize,
     /// Direction that counts.
@@ -33,28 +43,43 @@ pub(super) struct Watched {
 
 /// Where a root comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Root {
+pub(in crate::analysis) enum Root {
     /// Switch number `k` of program `program` of the mechanism.
     Force { program: usize, k: usize },
     /// Switch number `k` of the observer's program.
     Column { k: usize },
     /// Winding number, of a gauge.
     Winding { gauge: usize, winding: usize },
+    /// Side on which a joint presses: number among the places with a side, and its mode.
+    Side { place: usize, mode: usize },
+    /// A rigid stop that may be reached.
+    Stop(usize),
+    /// A rigid stop that was left just now.
+    Clear(usize),
+    /// A row that holds a joint on a stop.
+    Rest { row: usize, stop: usize },
     /// An event of the model.
     Event(usize),
 }
 
 /// A mechanism with its columns and events.
-pub(super) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) dynamics: Dynamics<'m, G>,
-    pub(super) observer: Observer<G>,
+pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(in crate::analysis) dynamics: Dynamics<'m, G>,
+    pub(in crate::analysis) observer: Observer<G>,
     pub(super) reactions: Reactions<G>,
-    pub(super) roots: Vec<Root>,
+    pub(in crate::analysis) roots: Vec<Root>,
     linearizer: Linearizer<'m, D>,
     dims: Dims,
     pattern: Pattern,
     events: Vec<Watched>,
     kkt: Kkt,
+    friction: Option<Friction>,
+    /// Terms of the own solution where friction depends on reactions.
+    terms: Terms,
+    /// How near to each rigid stop counts as on it, rad or m.
+    near: Vec<f64>,
+    /// Stops on which joints have come to rest (true) or which they have left, in the event crossed last.
+    rests: Vec<(usize, bool)>,
     a: Vec<f64>,
     lambda: Vec<f64>,
     inputs: Vec<f64>,
@@ -64,7 +89,7 @@ pub(super) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     outputs: Vec<f64>,
 }
 
-/// Powers whose work is integrated: of drivers, of loads and motors, of dampers.
+/// Powers whose work is integrated: of drivers, of loads and motors, of dampers and friction.
 pub(super) const WORKS: usize = 3;
 
 impl<'m, G, D> Mechanical<'m, G, D>
@@ -73,7 +98,7 @@ where
     D: Space<S = Dual<LANES>>,
 {
     /// The system of a mechanism and the same lifted; scales are those of an assembled start.
-    pub(super) fn new(
+    pub(in crate::analysis) fn new(
         mechanism: &'m Mechanism<G>,
         lifted: &'m Mechanism<D>,
         start: &super::super::assemble::Assembled,
@@ -101,6 +126,15 @@ where
                 roots.push(Root::Winding { gauge, winding });
             }
         }
+        roots.extend(mechanism.sides().enumerate().map(|(place, mode)| Root::Side { place, mode }));
+        let rests = |row: &Row<G>| if let RowOwner::Stop(stop) = row.owner { Some(stop) } else { None };
+        let held: Vec<(usize, usize)> = mechanism.rows.iter().enumerate().filter_map(|(i, row)| Some((i, rests(row)?))).collect();
+        for stop in 0..mechanism.stops.len() {
+            match held.iter().find(|(_, s)| *s == stop) {
+                Some(&(row, _)) => roots.push(Root::Rest { row, stop }),
+                None => roots.extend([Root::Stop(stop), Root::Clear(stop)]),
+            }
+        }
         roots.extend((0..events.len()).map(Root::Event));
         let dims = Dims {
             q: mechanism.nq,
@@ -108,7 +142,7 @@ where
             z: nz,
             holonomic: rows,
             nonholonomic: 0,
-            modes: mechanism.switches + mechanism.windings + events.len(),
+            modes: mechanism.switches + mechanism.windings + events.len() + mechanism.stops.len(),
             live: 0,
             roots: roots.len(),
             work: WORKS,
@@ -130,7 +164,7 @@ where
             k: block.clone(),
             c: block,
             r_z: Sparsity::dense(nv, nz),
-            r_lambda: Sparsity::empty(nv, rows),
+            r_lambda: rubbed(mechanism),
             z_q: Sparsity::dense(nz, nv),
             z_v: Sparsity::dense(nz, nv),
             z_z: Sparsity::dense(nz, nz),
@@ -138,7 +172,10 @@ where
             metric: start.metric.clone(),
             size_q,
             size_v: size,
-            roots_by_reactions: observer.switches_by_forces() || (!events.is_empty() && observer.needs_forces()),
+            roots_by_reactions: observer.switches_by_forces()
+                || (!events.is_empty() && observer.needs_forces())
+                || mechanism.sides().next().is_some()
+                || !held.is_empty(),
         };
         let mut kkt = Kkt::new(nv, rows);
         kkt.set_scale(&pattern.metric, &pattern.g_scale);
@@ -151,8 +188,12 @@ where
             inputs: vec![0.0; most(|p| p.inputs)],
             registers: vec![0.0; most(|p| p.program.registers())],
             scratch: vec![0.0; switches],
+            friction: Friction::of_pattern(dims, &pattern),
+            terms: Terms::new(dims),
             a: vec![0.0; nv],
             lambda: vec![0.0; rows],
+            near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
+            rests: Vec::with_capacity(2 * mechanism.stops.len()),
             dynamics,
             observer,
             roots,
@@ -177,7 +218,7 @@ where
     }
 
     /// Evaluates a state with its accelerations and reads the columns' quantities.
-    pub(super) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
+    pub(in crate::analysis) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
         self.kinematics(at);
         self.dynamics.loads(at.modes);
         self.dynamics.react(a, lambda, &mut self.reactions);
@@ -186,7 +227,7 @@ where
     }
 
     /// Columns and event functions at the state observed last.
-    pub(super) fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
+    pub(in crate::analysis) fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
         self.observer.columns(modes, out);
     }
 
@@ -202,13 +243,7 @@ where
         if let Some((a, lambda)) = given {
             return self.observe(at, a, lambda);
         }
-        self.kinematics(at);
-        self.dynamics.forces(at.modes);
-        self.dynamics.mass();
-        let w = &self.dynamics.work;
-        if self.kkt.factor(&w.mass, &w.g).is_ok() {
-            self.kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
-        }
+        self.accelerate(at);
         let (a, lambda) = (std::mem::take(&mut self.a), std::mem::take(&mut self.lambda));
         self.observe(at, &a, &lambda);
         (self.a, self.lambda) = (a, lambda);
@@ -289,9 +324,20 @@ where
         self.dynamics.residual(a, lambda, r);
     }
 
+    fn rub(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+        self.kinematics(&at);
+        self.dynamics.loads(at.modes);
+        self.dynamics.friction(lambda, force, r_lambda);
+    }
+
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
         let point = Point { t: at.t, q: at.q, v: at.v, z: at.z, a, lambda, modes: at.modes };
         self.linearizer.tangents(&point, out);
+        if self.friction.is_some() {
+            self.kinematics(&at);
+            self.dynamics.loads(at.modes);
+            self.dynamics.friction_slope(lambda, &mut out.r_lambda);
+        }
     }
 
     fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
@@ -311,6 +357,7 @@ where
         let _ = a;
         self.kinematics(&at);
         self.dynamics.loads(at.modes);
+        self.dynamics.rub(lambda);
         let m = self.dynamics.mechanism;
         let work = &self.dynamics.work;
         w[0] = -work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
@@ -326,6 +373,7 @@ where
             match effort.law {
                 EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => w[2] -= damping * rate * rate,
                 EffortLaw::Drive { .. } => w[1] += size * rate,
+                EffortLaw::Friction { .. } => w[2] += size * rate,
             }
         }
     }
@@ -341,6 +389,7 @@ where
                 self.with_program(program, |p, inputs, registers, _| p.set_modes(inputs, registers, modes));
             }
         }
+        self.press(&at, modes);
         self.look(&At { modes, ..at }, None);
         self.observer.set_modes(modes);
         self.observer.columns(modes, &mut self.outputs);
@@ -390,6 +439,7 @@ where
                     let off = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, at.modes[m.switches + winding]);
                     0.75 * std::f64::consts::PI - off.abs()
                 }
+                Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
                 Root::Event(event) => f64::from(at.modes[m.switches + m.windings + event]) * self.outputs[self.events[event].output],
             };
         }
@@ -419,6 +469,7 @@ where
                 *mode += if off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, *mode) > 0.0 { 1 } else { -1 };
                 Effect::Record
             }
+            root @ (Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. }) => self.part(root, state, row),
             Root::Event(event) => {
                 self.observer.columns(&state.modes, &mut self.outputs);
                 let side = &mut state.modes[m.switches + m.windings + event];
@@ -437,19 +488,6 @@ where
             }
         }
     }
-}
-
-/// Entries that G may have.
-fn known_by_rows<G: Space>(m: &Mechanism<G>) -> Sparsity {
-    let entries = m.rows.iter().enumerate().flat_map(|(row, r)| {
-        let gauges: Vec<usize> = match r.kind {
-            RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => vec![gauge],
-            RowKind::Ratio { first, second, .. } => vec![first, second],
-            RowKind::Function(f) => m.functions[f].gauges.clone(),
-        };
-        gauges.into_iter().flat_map(move |g| m.gauges[g].columns.iter().map(move |&(k, _)| (row, k))).collect::<Vec<_>>()
-    });
-    Sparsity::new(m.rows.len(), m.nv, entries)
 }
 
 /// Angle from the centre of the half turn that is counted, rad.

@@ -33,23 +33,23 @@ struct Piece {
 }
 
 /// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
-pub(super) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) system: Mechanical<'m, G, D>,
-    pub(super) engine: Engine,
+pub(in crate::analysis) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(in crate::analysis) system: Mechanical<'m, G, D>,
+    pub(in crate::analysis) engine: Engine,
 }
 
 /// A state of the trajectory could not be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Off {
+pub(in crate::analysis) struct Off {
     /// Time, s.
-    pub(super) at: f64,
+    pub(in crate::analysis) at: f64,
 }
 
 /// A motion in time.
-pub(super) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) eras: Vec<Era<'m, G, D>>,
+pub(in crate::analysis) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(in crate::analysis) eras: Vec<Era<'m, G, D>>,
     /// State, accelerations and multipliers evaluated last.
-    pub(super) node: Node,
+    pub(in crate::analysis) node: Node,
     steps: Vec<Step>,
     pieces: Vec<Piece>,
     coefficients: Vec<f64>,
@@ -68,7 +68,7 @@ where
     D: Space<S = Dual<LANES>>,
 {
     /// An empty one of `columns` columns, to be filled from an era on.
-    pub(super) fn new(first: Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
+    pub(in crate::analysis) fn new(first: Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
         let dims = first.dims();
         let outputs = first.observer.program().outputs();
         let mut trajectory = Self {
@@ -88,13 +88,13 @@ where
     }
 
     /// Begins another era.
-    pub(super) fn era(&mut self, system: Mechanical<'m, G, D>) {
+    pub(in crate::analysis) fn era(&mut self, system: Mechanical<'m, G, D>) {
         let engine = Engine::new(&system, Control::Tolerance(1e-8));
         self.eras.push(Era { system, engine });
     }
 
     /// Begins a piece at a node.
-    pub(super) fn piece(&mut self, node: &Node) {
+    pub(in crate::analysis) fn piece(&mut self, node: &Node) {
         let (t, n) = (node.state.t, self.steps.len());
         let modes = node.state.modes[..self.node.state.modes.len()].to_vec();
         // an event at the begin of a piece leaves nothing of it
@@ -105,7 +105,7 @@ where
     }
 
     /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
-    pub(super) fn step(&mut self, dense: &Dense, end: f64, whole: bool) {
+    pub(in crate::analysis) fn step(&mut self, dense: &Dense, end: f64, whole: bool) {
         let first = self.coefficients.len();
         let coefficients = dense.coefficients();
         self.coefficients.extend_from_slice(coefficients);
@@ -115,44 +115,44 @@ where
         }
     }
 
-    /// Whether no step was made.
-    pub(super) fn is_empty(&self) -> bool {
-        self.steps.is_empty()
+    /// Whether no time has passed.
+    pub(in crate::analysis) fn is_empty(&self) -> bool {
+        self.steps.iter().all(|s| s.end <= s.begin)
     }
 
     /// Forgets a last piece in which no step was made.
-    pub(super) fn finish(&mut self) {
+    pub(in crate::analysis) fn finish(&mut self) {
         if self.pieces.len() > 1 && self.pieces.last().is_some_and(|p| p.steps.0 == p.steps.1) {
             self.pieces.pop();
         }
     }
 
     /// Bytes in use by steps.
-    pub(super) fn size(&self) -> usize {
+    pub(in crate::analysis) fn size(&self) -> usize {
         std::mem::size_of_val(&self.coefficients[..]) + std::mem::size_of_val(&self.steps[..])
     }
 
     /// Times of the begin, of every switch, and of the end.
-    pub(super) fn breaks(&self) -> Vec<f64> {
+    pub(in crate::analysis) fn breaks(&self) -> Vec<f64> {
         let first = self.pieces.first().map_or(0.0, |p| p.from);
         std::iter::once(first).chain(self.pieces.iter().map(|p| p.to)).collect()
     }
 
     /// Ends of the steps of a piece, with its begin.
-    pub(super) fn ends_of(&self, piece: usize) -> Vec<f64> {
+    pub(in crate::analysis) fn ends_of(&self, piece: usize) -> Vec<f64> {
         let p = &self.pieces[piece];
         std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().filter(|s| s.whole).map(|s| s.end)).collect()
     }
 
     /// The mechanism of the piece that was evaluated last.
-    pub(super) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
+    pub(in crate::analysis) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
         let era = self.pieces.get(piece).map_or(0, |p| p.era);
         &mut self.eras[era].system
     }
 
     /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
     /// the constraints.
-    pub(super) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+    pub(in crate::analysis) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
         let off = Off { at: t };
         let p = self.pieces.get(piece).ok_or(off)?;
         let (low, high) = p.steps;
@@ -167,6 +167,8 @@ where
         self.dense.evaluate(t, &mut self.node.state);
         self.node.state.modes.copy_from_slice(&p.modes);
         let Era { system, engine } = &mut self.eras[p.era];
+        // eras differ in the rows that hold joints on their stops
+        self.node.lambda.resize(system.dims().rows(), 0.0);
         if self.follow {
             engine.follow_modes(system, &mut self.node.state);
         }
@@ -180,14 +182,14 @@ where
     }
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
-    pub(super) fn residuals(&mut self, piece: usize) -> [f64; 2] {
+    pub(in crate::analysis) fn residuals(&mut self, piece: usize) -> [f64; 2] {
         let Era { system, engine } = &mut self.eras[self.pieces[piece].era];
         engine.evaluate(system, self.node.state.at(), Stage::Velocity);
         [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
     }
 
     /// All outputs of the observer at the state evaluated last.
-    pub(super) fn outputs(&mut self, piece: usize) -> &[f64] {
+    pub(in crate::analysis) fn outputs(&mut self, piece: usize) -> &[f64] {
         let era = self.pieces[piece].era;
         self.eras[era].system.columns(&self.node.state.modes, &mut self.out);
         &self.out

@@ -40,7 +40,7 @@ impl<G: Space> Builder<'_, G> {
                 bare.com = G::vector(&self.triple(com, place));
             }
             if !body.inertia.is_empty() {
-                let figures = self.figures(&body.inertia, place);
+                let figures = self.figures(&body.inertia, place, body.fictitious);
                 bare.inertia = G::tensor(figures);
             }
             let mut points = Vec::new();
@@ -57,7 +57,7 @@ impl<G: Space> Builder<'_, G> {
             let mut attached = Vec::new();
             for extra in &body.attached {
                 let mass = extra.mass.map_or(0.0, |id| self.not_negative(id, &extra.place, "the mass is"));
-                let figures = self.figures(&extra.inertia, &extra.place);
+                let figures = self.figures(&extra.inertia, &extra.place, false);
                 attached.push(Attached {
                     name: extra.name.clone(),
                     mass: MassProperties { mass: G::S::constant(mass), com: points[extra.at].1, inertia: G::tensor(figures) },
@@ -69,13 +69,14 @@ impl<G: Space> Builder<'_, G> {
                     point.1 = mass.com;
                 }
             }
-            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, path: vec![] });
+            let drawn = body.drawn.iter().map(|at| G::vector(&self.triple(at, place))).collect();
+            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, path: vec![] });
         }
     }
 
     /// Inertia figures Ixx, Iyy, Izz, Ixy, Ixz, Iyz from 1, 3 or 6 numbers, checked: a real body's principal values obey the
-    /// triangle inequality.
-    fn figures(&mut self, ids: &[Id], place: &str) -> [f64; 6] {
+    /// triangle inequality, those of a `fictitious` one are not negative.
+    fn figures(&mut self, ids: &[Id], place: &str, fictitious: bool) -> [f64; 6] {
         let x: Vec<f64> = ids.iter().map(|id| self.number(*id, place)).collect();
         let figures = match x[..] {
             [i] => [i, i, i, 0.0, 0.0, 0.0],
@@ -87,7 +88,9 @@ impl<G: Space> Builder<'_, G> {
         let principal = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
         let (sum, largest) = (principal.sum(), principal.max());
         // round-off of the eigenvalues and of figures given to a few digits
-        if principal.min() < -1e-12 * largest.abs() || 2.0 * largest > sum * (1.0 + 1e-6) {
+        // a fictitious one was read with the slack of the model file
+        let least = if fictitious { -1e-8 } else { -1e-12 };
+        if principal.min() < least * largest.abs() || !fictitious && 2.0 * largest > sum * (1.0 + 1e-6) {
             let shown = principal.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
             self.fault(
                 "impossible-inertia",

@@ -2,11 +2,11 @@
 
 use super::super::force::StretchOf;
 use super::super::gauge::Measured;
-use super::super::{Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stretch};
+use super::super::{Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{CouplingKind, Law, LoadOn, Motion, Quantity, SpringLaw, SpringOn};
+use crate::model::{CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, SpringLaw, SpringOn};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -188,14 +188,38 @@ impl<G: Space> Builder<'_, G> {
         self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
     }
 
-    /// End stops and dry friction of a given size.
+    /// End stops and dry friction.
     fn joint_contact(&mut self, index: usize) {
         let joint = &self.model.joints[index];
-        for effort in [joint.limit_force, joint.friction_force].into_iter().flatten() {
-            if let Some(gauge) = self.coordinate(index, &joint.place) {
-                self.drive_effort(gauge, effort);
+        if let Some(force) = joint.limit_force
+            && let Some(gauge) = self.coordinate(index, &joint.place)
+        {
+            self.drive_effort(gauge, force);
+        }
+        if let Some(stops) = joint.stops
+            && let Some(gauge) = self.coordinate(index, &joint.place)
+        {
+            let place = format!("{}.limits", joint.place);
+            let [restitution, rest_speed] = [stops.restitution, stops.rest_speed].map(|id| self.number(id, &place));
+            let angular = !matches!(joint.kind, JointKind::Slider);
+            for (end, sense) in [(stops.from, 1.0), (stops.to, -1.0)] {
+                if let Some(end) = end {
+                    let at = self.number(end, &place);
+                    self.mechanism.stops.push(Stop { joint: index, gauge, angular, at, sense, restitution, rest_speed });
+                }
             }
         }
+        let mut effort = None;
+        if let Some(friction) = &joint.friction
+            && let Some(gauge) = self.coordinate(index, &joint.place)
+        {
+            let pressing = friction.pressed.map(|by| self.pressing(index, by));
+            self.force.push(friction.effort);
+            let law = EffortLaw::Friction { output: self.force.len() - 1, pressing };
+            effort = Some(self.mechanism.efforts.len());
+            self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
+        }
+        self.mechanism.friction_efforts.push(effort);
     }
 
     fn load(&mut self, index: usize) {
@@ -235,12 +259,20 @@ impl<G: Space> Builder<'_, G> {
         }
     }
 
-    /// First-order states: where they begin, and their rates.
+    /// First-order states: where they begin, and their rates; those of bristles follow those of the model.
     pub(super) fn states(&mut self) {
         for state in &self.model.states {
             let start = self.number(state.start, &state.place);
             self.mechanism.state_starts.push(start);
             self.states.push(state.rate);
+        }
+        for joint in &self.model.joints {
+            let bristle = joint.friction.as_ref().and_then(|f| f.bristle);
+            self.mechanism.bristles.push(bristle.map(|_| self.mechanism.state_starts.len()));
+            if let Some(bristle) = bristle {
+                self.mechanism.state_starts.push(0.0);
+                self.states.push(bristle.rate);
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use super::super::{Joint, Node, Row, RowKind, RowOwner};
 use super::{Builder, Coordinates, along};
 use crate::expression::Id;
 use crate::geometry::{Pose, Space};
-use crate::model::{JointKind, Quantity};
+use crate::model::{JointKind, Quantity, roll_pitch_yaw};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -64,7 +64,9 @@ impl<G: Space> Builder<'_, G> {
             || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
         let freedom = self.shapes[joint].freedom(self.planar);
         let rank = if driven { 0 } else { 1 + freedom };
-        Edge { a: j.a.body, b: j.b.body, rank: (!j.cut && self.shapes[joint].spans()).then_some(rank) }
+        // with rows of its own the reaction that presses is a function of their multipliers alone
+        let cut = j.cut || j.friction.as_ref().is_some_and(|f| f.pressed.is_some());
+        Edge { a: j.a.body, b: j.b.body, rank: (!cut && self.shapes[joint].spans()).then_some(rank) }
     }
 
     /// Axes, alignment and sizes of a joint as numbers.
@@ -79,6 +81,8 @@ impl<G: Space> Builder<'_, G> {
             triad = [axis, [-axis[1], axis[0], 0.0], [0.0, 0.0, 1.0]];
         } else if let Some(to) = &joint.to {
             align = joint::axis_rotation(self.direction(Some(to), axis, place), axis);
+        } else if let Some(rpy) = &joint.rpy {
+            align = roll_pitch_yaw(rpy.map(|angle| self.number(angle, place)));
         }
         if let JointKind::Universal { axes: [first, other] } = &joint.kind {
             let first = self.direction(Some(first), axis, place);
@@ -115,15 +119,6 @@ impl<G: Space> Builder<'_, G> {
             _ => 0.0,
         };
         let zero = self.optional(joint.zero, place);
-        if joint.friction_coefficient.is_some() {
-            self.fault(
-                "later",
-                &format!("{place}.friction"),
-                "joint friction by a coefficient".into(),
-                "a torque or force: friction by the reaction is not computed yet",
-                Some("give `coulomb` a unit, as `coulomb: 2 N m`, or use `damping` for viscous friction".into()),
-            );
-        }
         Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }
     }
 

@@ -36,6 +36,10 @@ impl<'m, G: Space> Builder<'m, G> {
                 efforts: vec![],
                 spring_efforts: vec![],
                 motor_efforts: vec![],
+                pressings: vec![],
+                friction_efforts: vec![],
+                bristles: vec![],
+                stops: vec![],
                 rotors: vec![],
                 pulls: vec![],
                 position_program: none(),
@@ -96,6 +100,12 @@ impl<'m, G: Space> Builder<'m, G> {
         // the drift of a function reads the same input vector, extended by rates: sizes are known only now
         self.mechanism.tables = self.tables;
         self.mechanism.switches = self.pool.switches().len();
+        for place in self.mechanism.pressings.iter_mut().flat_map(|p| &mut p.places) {
+            if let [_] = place.components[..] {
+                place.side = self.mechanism.switches;
+                self.mechanism.switches += 1;
+            }
+        }
         Ok(self.mechanism)
     }
 
@@ -125,6 +135,7 @@ impl<'m, G: Space> Builder<'m, G> {
             Quantity::Stretch { spring, order } if order < 2 => Some(Leaf::Stretch { spring, order }),
             Quantity::Spin { body, axis, order: 1 } => Some(Leaf::Spin { body, axis }),
             Quantity::State(state) => Some(Leaf::State(state)),
+            Quantity::Bristle { joint } => self.mechanism.bristles[joint].map(Leaf::State),
             _ => self.gauge_of(quantity).map(|(gauge, order)| Leaf::Gauge { gauge, order }),
         }
     }

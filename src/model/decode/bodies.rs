@@ -12,9 +12,9 @@ use crate::model::shape::clip;
 use crate::model::suggest;
 
 /// Names of quantities of a body, which no point may have.
-const QUANTITIES: [&str; 21] = [
+pub(crate) const QUANTITIES: [&str; 22] = [
     "x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az", "speed", "a", "angle", "omega", "alpha", "rotation", "wx", "wy", "wz", "qw", "qx",
-    "qy",
+    "qy", "qz",
 ];
 
 impl<'n> Decoder<'n> {
@@ -27,6 +27,8 @@ impl<'n> Decoder<'n> {
             mass: None,
             inertia: Vec::new(),
             com: None,
+            fictitious: false,
+            drawn: Vec::new(),
             points,
             attached: Vec::new(),
             place: "ground".to_owned(),
@@ -61,11 +63,18 @@ impl<'n> Decoder<'n> {
         }
         self.points(node.get("points"), &at.key("points"), &mut points);
         let attached = self.attached(name, node, at, &points);
+        let fictitious = matches!(node.get("fictitious"), Some(Node::Plain(serde_yaml::Value::Bool(true))));
+        let drawn_at = at.key("drawn");
+        let drawn = node.get("drawn").map(Node::items).unwrap_or_default().iter().enumerate();
+        let drawn =
+            drawn.filter_map(|(i, item)| self.space_vector(Some(Node::Plain(item)), &drawn_at.index(i), Dimension::LENGTH)).collect();
         Body {
             name: name.to_owned(),
             shape,
             mass: self.size(node.get("mass"), &at.key("mass"), Dimension::MASS, "the mass"),
-            inertia: self.inertia(node.get("inertia"), &at.key("inertia")),
+            inertia: self.inertia(node.get("inertia"), &at.key("inertia"), if fictitious { Rule::Moments } else { Rule::Inertia }),
+            fictitious,
+            drawn,
             com: self.space_vector(node.get("com"), &at.key("com"), Dimension::LENGTH),
             points,
             attached,
@@ -137,7 +146,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// 1 figure, or in space 3 or 6.
-    fn inertia(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>) -> Vec<Id> {
+    fn inertia(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, rule: Rule) -> Vec<Id> {
         let Some(node) = node else { return Vec::new() };
         if !node.is_list() {
             return self.size(Some(node), at, Dimension::INERTIA, "the inertia").into_iter().collect();
@@ -151,7 +160,7 @@ impl<'n> Decoder<'n> {
         }
         match ids.len() {
             1 => self.check(Rule::NotNegative("the inertia"), &ids, at),
-            3 | 6 => self.check(Rule::Inertia, &ids, at),
+            3 | 6 => self.check(rule, &ids, at),
             _ => {}
         }
         ids
@@ -205,7 +214,7 @@ impl<'n> Decoder<'n> {
                 name: name.to_owned(),
                 at: index.unwrap_or(0),
                 mass: self.size(inner.get("mass"), &here.key("mass"), Dimension::MASS, "the mass"),
-                inertia: self.inertia(inner.get("inertia"), &here.key("inertia")),
+                inertia: self.inertia(inner.get("inertia"), &here.key("inertia"), Rule::Inertia),
                 place: self.place(&here),
             });
         }

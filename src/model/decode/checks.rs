@@ -30,6 +30,8 @@ pub(crate) enum Rule {
     Distinct,
     /// Principal and mixed moments of inertia of a body that can exist: 3 or 6 figures.
     Inertia,
+    /// Principal and mixed moments of inertia whose principal values are not negative: 3 or 6 figures.
+    Moments,
     /// Two values of one sign, neither 0.
     Ratio,
     /// Pairs that make the table of this index.
@@ -194,6 +196,10 @@ impl Check<'_> {
                 fault("impossible-inertia", why, "each principal moment at most the sum of the other two")
                     .map(|fault| fault.help("check the figures, their order `[Ixx, Iyy, Izz]` and that they are about `com`"))
             }),
+            Rule::Moments => negative_moment(x).and_then(|why| {
+                fault("impossible-inertia", why, "principal moments that are not negative")
+                    .map(|fault| fault.help("check the figures and their order `[Ixx, Iyy, Izz]`"))
+            }),
             Rule::Ratio if x.contains(&0.0) || x.iter().any(|x| x.signum() != first.signum()) => {
                 fault("bad-span", format!("from {} to {}", x[0], x.get(1).copied().unwrap_or(x[0])), "for equal ratios both ends above 0")
             }
@@ -214,13 +220,10 @@ const SIGN: &str = "check its sign and the parameters that it is made of";
 
 /// Why figures Ixx, Iyy, Izz (, Ixy, Ixz, Iyz) belong to no body: a principal moment is negative, or larger than the sum of
 /// the other two (the integrals of y² + z², x² + z², x² + y² cannot be).
-fn impossible(x: &[f64]) -> Option<String> {
-    let (a, b, c) = (*x.first()?, *x.get(1)?, *x.get(2)?);
-    let (d, e, f) = (x.get(3).copied().unwrap_or(0.0), x.get(4).copied().unwrap_or(0.0), x.get(5).copied().unwrap_or(0.0));
-    let moments = eigenvalues([[a, d, e], [d, b, f], [e, f, c]]);
-    let slack = 1e-9 * (moments[0].abs() + moments[2].abs());
-    if moments[0] < -slack {
-        return Some(format!("a principal moment of inertia is {:.6}", moments[0]));
+pub(crate) fn impossible(x: &[f64]) -> Option<String> {
+    let (moments, slack) = principal(x)?;
+    if let Some(why) = negative_moment(x) {
+        return Some(why);
     }
     if moments[2] > moments[0] + moments[1] + slack {
         return Some(format!(
@@ -229,6 +232,21 @@ fn impossible(x: &[f64]) -> Option<String> {
         ));
     }
     None
+}
+
+/// Why figures Ixx, Iyy, Izz (, Ixy, Ixz, Iyz) belong to no body even with fictitious masses: a principal moment is negative.
+pub(crate) fn negative_moment(x: &[f64]) -> Option<String> {
+    let (moments, slack) = principal(x)?;
+    let shown = |x: f64| if x.abs() < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") };
+    (moments[0] < -slack).then(|| format!("a principal moment of inertia is {}", shown(moments[0])))
+}
+
+/// Principal moments, ascending, and the slack for round-off in the figures.
+fn principal(x: &[f64]) -> Option<([f64; 3], f64)> {
+    let (a, b, c) = (*x.first()?, *x.get(1)?, *x.get(2)?);
+    let (d, e, f) = (x.get(3).copied().unwrap_or(0.0), x.get(4).copied().unwrap_or(0.0), x.get(5).copied().unwrap_or(0.0));
+    let moments = eigenvalues([[a, d, e], [d, b, f], [e, f, c]]);
+    Some((moments, 1e-9 * (moments[0].abs() + moments[2].abs())))
 }
 
 /// Eigenvalues of a symmetric 3 × 3 matrix, ascending, by Jacobi rotations: plain and unconditionally stable.

@@ -52,15 +52,33 @@ impl<'n> Decoder<'n> {
         let to = self.direction(node.get("to"), &at.key("to"));
         let effort = single.map_or(Dimension::TORQUE, Coordinate::effort);
         let rate = single.map_or(Dimension::FREQUENCY, |c| c.dimension(1));
+        let rpy = self.roll_pitch_yaw(node, at);
         let zero = self.coordinate(node, "zero", at, single);
         let damping = self.of(node, "damping", at, effort.div(rate));
-        let friction = node.get("friction").map(|inner| self.friction(name, inner, &at.key("friction"), single)).unwrap_or_default();
-        let limit_force = node.get("limits").and_then(|inner| self.limits(name, inner, &at.key("limits"), single));
+        let friction = node.get("friction").and_then(|inner| self.friction((name, &kind), inner, &at.key("friction"), single));
+        let limits = node.get("limits").map(|inner| self.limits(name, inner, &at.key("limits"), single));
+        let (limit_force, stops) = limits.unwrap_or_default();
         let cut = matches!(node.get("cut"), Some(Node::Plain(serde_yaml::Value::Bool(true))));
         let (a, b) = ends?;
-        let (friction_force, friction_coefficient) = (friction.force, friction.coefficient);
         let (name, place) = (name.to_owned(), self.place(at));
-        Some(Joint { name, kind, a, b, axis, to, zero, damping, limit_force, friction_force, friction_coefficient, cut, place })
+        Some(Joint { name, kind, a, b, axis, to, rpy, zero, damping, limit_force, friction, stops, cut, place })
+    }
+
+    /// `rpy`: three angles, instead of `to`.
+    fn roll_pitch_yaw(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<[Id; 3]> {
+        let here = at.key("rpy");
+        let items = node.get("rpy")?.items();
+        if node.get("to").is_some() {
+            let fault = self.fault("two-kinds", &here, "`rpy` beside `to`", "only one of `to`, `rpy`");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove one of the two".to_owned());
+        }
+        let angles: Vec<Option<Id>> =
+            items.iter().enumerate().map(|(i, item)| self.number(Some(Node::Plain(item)), &here.index(i), Want::Angle)).collect();
+        match angles[..] {
+            [Some(roll), Some(pitch), Some(yaw)] => Some([roll, pitch, yaw]),
+            _ => None,
+        }
     }
 
     /// The two points of `key: [a, b]`, which belong to different bodies.
@@ -125,6 +143,7 @@ impl<'n> Decoder<'n> {
         for (key, may, why) in [
             ("axis", sliding || !planar && matches!(word, "revolute" | "cylindrical" | "planar" | "screw"), "no axis of its own"),
             ("to", !planar && (sliding || matches!(word, "revolute" | "cylindrical" | "planar" | "screw")), "no axis in the second body"),
+            ("rpy", !planar && word != "distance", "no orientation of its own"),
             ("axes", word == "universal", "not two axes"),
             ("pitch", word == "screw", "no pitch"),
             ("length", word == "distance", "no length"),

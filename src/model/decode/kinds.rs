@@ -3,7 +3,7 @@
 use super::checks::Rule;
 use super::studies::Offer;
 use super::{Decoder, Origin};
-use crate::expression::{Dimension, Id};
+use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::LoadOn;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
@@ -12,14 +12,18 @@ use crate::model::names::Entity;
 use crate::model::quantities::Coordinate;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
-use crate::model::study::{Eigensolver, Kind, Modes, Over, Periodic, Range};
+use crate::model::study::{Chart, Continued, Eigensolver, Kind, Linearize, Modes, Over, PeriodEnd, Periodic, Progress, Range};
 use crate::model::suggest;
 use crate::model::tables::STUDY_KINDS;
-use crate::model::vocabulary::Quantity;
+use crate::model::vocabulary::{Known, Quantity};
 use serde_yaml::Value;
 
 /// Frequencies of a `modes` study that have a name: `frequency_1`, ...
 const NAMED_MODES: usize = 12;
+
+/// Intervals of the rows of a periodic regime, and steps of a continuation, that are silent.
+const ROWS: usize = 360;
+const STEPS: usize = 10;
 
 impl<'n> Decoder<'n> {
     pub(super) fn kind(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Offer)> {
@@ -51,52 +55,119 @@ impl<'n> Decoder<'n> {
                 let independent = Some(Dimension::TIME);
                 Some((Kind::Statics, Offer { word, independent, first: None, reactions: true, states: true, results }))
             }
+            "linearize" => {
+                let kind = Kind::Linearize(self.linearize(inner, &here)?);
+                Some((kind, Offer { word, independent: None, first: None, reactions: true, states: true, results: Vec::new() }))
+            }
             _ => {
-                let methods = inner.get("methods").map(Node::items).unwrap_or_default();
-                let mut solvers = Vec::new();
-                for method in methods.iter().filter_map(Value::as_str) {
-                    let solver = match method {
-                        "jacobi" => Eigensolver::Jacobi,
-                        "power" => Eigensolver::Power,
-                        _ => Eigensolver::Library,
-                    };
-                    if !solvers.contains(&solver) {
-                        solvers.push(solver);
-                    }
-                }
-                let modes = Modes {
-                    at_equilibrium: inner.get("at").and_then(Node::text) == Some("statics"),
-                    damped: matches!(inner.get("damped"), Some(Node::Plain(Value::Bool(true)))),
-                    methods: if solvers.is_empty() { vec![Eigensolver::Library] } else { solvers },
-                };
+                self.no_columns(node, at);
                 let results = (1..=NAMED_MODES).map(|i| (format!("frequency_{i}"), Dimension::NONE.div(Dimension::TIME))).collect();
-                Some((Kind::Modes(modes), Offer { word, independent: None, first: None, reactions: true, states: true, results }))
+                let offer = Offer { word, independent: None, first: None, reactions: true, states: true, results };
+                Some((Kind::Modes(modes(inner)), offer))
             }
         }
     }
 
-    /// `periodic: { over, by, of }`.
+    /// `linearize: { at, inputs, write }`.
+    fn linearize(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> Option<Linearize> {
+        let section = here.key("inputs");
+        let mut inputs = Vec::new();
+        let named = inner.get("inputs").map(Node::items).unwrap_or_default();
+        for (i, name) in named.iter().enumerate().filter_map(|(i, item)| Some((i, item.as_str()?))) {
+            let place = section.index(i);
+            let parameter = self.parameter_named(name, &place, false)?;
+            if inputs.contains(&parameter) {
+                let fault = self.fault("duplicate-name", &place, format!("`{name}` is an input already"), "each input once");
+                fault.help = Some("remove one of the two".to_owned());
+            }
+            inputs.push(parameter);
+        }
+        let writes = |what: &str| inner.get("write").map(Node::items).unwrap_or_default().iter().any(|item| item.as_str() == Some(what));
+        Some(Linearize { at_equilibrium: at_equilibrium(inner), inputs, csv: writes("csv"), mat: writes("mat") })
+    }
+
+    /// The table of a `modes` study is that of its modes.
+    fn no_columns(&mut self, node: Node<'n>, at: &At<'_, 'n>) {
+        if node.get("columns").is_some() {
+            let message = "a study of the kind `modes` has no columns";
+            let fault = self.fault("wrong-key", &at.key("columns"), message, "no `columns`: its rows are the modes");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove `columns`, or use `linearize`, whose columns are the outputs".to_owned());
+        }
+    }
+
+    /// `periodic: { over, by or through, of, ... }`.
     fn periodic(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> Option<(Kind, Offer)> {
-        let named = |decoder: &mut Self, key: &'n str| {
+        let named = |decoder: &mut Self, key: &'n str, allow: Allow| {
             let text = inner.get(key)?.text()?;
-            let allow = Allow { what: "a periodic study", ..Allow::MEASURE };
             let (lowered, _) = decoder.lower(text, Origin::Value(text, 0), &here.key(key), allow, &mut Local::default())?;
-            Some((text.to_owned(), lowered))
+            Some((text, lowered))
         };
-        let (over, of) = (named(self, "over"), named(self, "of"));
+        let study = Allow { what: "a periodic study", ..Allow::MEASURE };
+        let over = named(self, "over", Allow { what: "`over`", level: Known::Position, ..study });
+        let of = named(self, "of", study);
+        let (tolerance, settle, from) = self.search(inner, here);
         let (over, progress) = over?;
-        let by = self.number(inner.get("by"), &here.key("by"), Want::Of(progress.dimension));
-        self.check_key(Rule::NotZero("the period"), by, here, "by");
-        let (of, quantity) = of?;
         let timed = over == "t" || over == "time";
+        let ends = self.period_end(inner, here, &progress, timed);
+        let over_at = here.key("over");
+        let rate = self.lower(&format!("rate({over})"), Origin::Value(over, 0), &over_at, Allow::MEASURE, &mut Local::default())?.0;
+        let (of, quantity) = of?;
         let word = of.replace('.', "_");
         let mut results = vec![("period".to_owned(), Dimension::TIME)];
         results.extend(["mean", "max", "min"].map(|which| (format!("{word}_{which}"), quantity.dimension)));
         results.push(("floquet".to_owned(), Dimension::NONE));
-        let kind = Kind::Periodic(Periodic { over: (!timed).then_some(progress.id), by: by?, of: quantity.id });
-        let first = (!timed).then_some(over);
+        let kind = Kind::Periodic(Periodic {
+            over: (!timed).then(|| Progress { name: over.to_owned(), value: progress.id, rate: rate.id }),
+            ends: ends?,
+            of: quantity.id,
+            samples: count(inner, "samples").unwrap_or(ROWS),
+            tolerance,
+            settle,
+            chart: if inner.get("coordinates").and_then(Node::text) == Some("cartesian") { Chart::Cartesian } else { Chart::Joint },
+            from,
+        });
+        let first = (!timed).then(|| over.to_owned());
         let independent = Some(progress.dimension);
         Some((kind, Offer { word: "periodic", independent, first, reactions: true, states: true, results }))
+    }
+
+    /// `by` or `through`.
+    fn period_end(&mut self, inner: Node<'n>, here: &At<'_, 'n>, over: &Lowered, timed: bool) -> Option<PeriodEnd> {
+        if let Some(node) = inner.get("by") {
+            let by = self.number(Some(node), &here.key("by"), Want::Of(over.dimension))?;
+            let rule = if timed { Rule::Positive("the period") } else { Rule::NotZero("the period") };
+            self.check_key(rule, Some(by), here, "by");
+            return Some(PeriodEnd::By(by));
+        }
+        let (node, at) = (inner.get("through")?, here.key("through"));
+        if !timed {
+            let fault = self.fault("wrong-key", &at, "a period that ends `through` an expression counts the time", "`over: t`");
+            fault.spot = Spot::Key;
+            fault.help = Some("write `over: t`, or `by` instead of `through`".to_owned());
+            return None;
+        }
+        let allow = Allow { what: "`through`", level: Known::Velocity, ..Allow::MEASURE };
+        Some(PeriodEnd::Through(self.any(node, &at, allow, &mut Local::default())?.0.id))
+    }
+
+    /// `tolerance`, `settle` and `from`: how a periodic regime is looked for.
+    fn search(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> (Option<Id>, Option<Id>, Option<Continued>) {
+        let of = |decoder: &mut Self, key: &'n str, dimension: Dimension, rule: Rule| {
+            let id = decoder.number(Some(inner.get(key)?), &here.key(key), Want::Of(dimension));
+            decoder.check_key(rule, id, here, key);
+            id
+        };
+        let tolerance = of(self, "tolerance", Dimension::NONE, Rule::Within(1e-14, 1e-4, "the tolerance"));
+        let settle = of(self, "settle", Dimension::TIME, Rule::NotNegative("the time"));
+        let from = inner.get("from").and_then(|node| {
+            let at = here.key("from");
+            let parameter = self.parameter_named(node.get("vary")?.text()?, &at.key("vary"), false)?;
+            let dimension = self.world.parameters.get(parameter).copied().flatten()?;
+            let begin = self.number(node.get("at"), &at.key("at"), Want::Of(dimension))?;
+            Some(Continued { parameter, at: begin, steps: count(node, "steps").unwrap_or(STEPS) })
+        });
+        (tolerance, settle, from)
     }
 
     /// Loads by first-order states are known in motion in time alone.
@@ -214,6 +285,31 @@ impl<'n> Decoder<'n> {
             (Kind::Balance { moved, range }, offer)
         })
     }
+}
+
+/// `modes: { at, damped, methods }`.
+fn modes(inner: Node<'_>) -> Modes {
+    let mut methods = Vec::new();
+    for method in inner.get("methods").map(Node::items).unwrap_or_default().iter().filter_map(Value::as_str) {
+        let solver = match method {
+            "jacobi" => Eigensolver::Jacobi,
+            "power" => Eigensolver::Power,
+            _ => Eigensolver::Library,
+        };
+        if !methods.contains(&solver) {
+            methods.push(solver);
+        }
+    }
+    Modes {
+        at_equilibrium: at_equilibrium(inner),
+        damped: matches!(inner.get("damped"), Some(Node::Plain(Value::Bool(true)))),
+        methods: if methods.is_empty() { vec![Eigensolver::Library] } else { methods },
+    }
+}
+
+/// `at: statics`.
+fn at_equilibrium(inner: Node<'_>) -> bool {
+    inner.get("at").and_then(Node::text) == Some("statics")
 }
 
 /// A whole number that the tables have checked.

@@ -7,10 +7,12 @@ mod columns;
 mod dynamics;
 mod events;
 mod forces;
+mod friction;
 mod joints;
 mod kinds;
 mod measures;
 mod order;
+mod outside;
 mod scalars;
 mod springs;
 mod start;
@@ -18,7 +20,10 @@ mod stops;
 mod studies;
 mod values;
 
+pub(crate) use bodies::QUANTITIES as BODY_QUANTITIES;
+pub(crate) use checks::{impossible as impossible_inertia, negative_moment};
 pub(crate) use order::{order, tell};
+pub(crate) use outside::Outside;
 pub(crate) use studies::{Scalars, Taken};
 
 use super::entities::{Dimensions, Model};

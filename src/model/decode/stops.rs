@@ -1,38 +1,35 @@
-//! End stops and dry friction of joints with one coordinate, as expressions of the coordinate and its rate.
+//! End stops of joints with one coordinate: with stiffness, as an expression of the coordinate and its rate, or rigid.
 
 use super::Decoder;
 use super::checks::Rule;
 use crate::expression::{Compare, Dimension, Id};
+use crate::model::contacts::Stops;
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::quantities::Coordinate;
-use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::Quantity;
 
 /// Below this rate a joint sticks, rad/s or m/s, if its friction does not say another.
-const STICK_SPEED: f64 = 1e-3;
+pub(super) const STICK_SPEED: f64 = 1e-3;
 
-/// Friction of a joint.
-#[derive(Default)]
-pub(super) struct Friction {
-    /// `Joint::friction_force`.
-    pub(super) force: Option<Id>,
-    /// `Joint::friction_coefficient`.
-    pub(super) coefficient: Option<(Id, Option<Id>)>,
-}
+/// A rebound below this rate counts as rest, rad/s or m/s, if the limits do not say another.
+const REST_SPEED: f64 = 1e-3;
 
 impl<'n> Decoder<'n> {
     /// The coordinate (order 0) or rate (order 1) of the joint that is being read.
-    fn own(&mut self, order: usize) -> Id {
+    pub(super) fn own(&mut self, order: usize) -> Id {
         let joint = self.world.model.joints.len();
         self.world.input(&mut self.pool, Quantity::Joint { joint, slot: 0, order })
     }
 
-    /// `limits: { from, to, stiffness, damping }` as a force on the second body. A stop pushes and never pulls:
-    ///
-    /// x < from: max(0, k (from − x) − c x'); x > to: min(0, k (to − x) − c x'); else 0.
-    pub(super) fn limits(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>, coordinate: Option<&Coordinate>) -> Option<Id> {
+    /// `limits: { from, to, .. }`: stops with stiffness as a force on the second body, or rigid ones.
+    pub(super) fn limits(
+        &mut self,
+        name: &str,
+        node: Node<'n>,
+        at: &At<'_, 'n>,
+        coordinate: Option<&Coordinate>,
+    ) -> (Option<Id>, Option<Stops>) {
         let from = self.coordinate(node, "from", at, coordinate);
         let to = self.coordinate(node, "to", at, coordinate);
         if node.get("from").is_none() && node.get("to").is_none() {
@@ -43,7 +40,43 @@ impl<'n> Decoder<'n> {
         if let (Some(from), Some(to)) = (from, to) {
             self.check(Rule::Rising, &[from, to], at);
         }
-        let coordinate = coordinate?;
+        let Some(coordinate) = coordinate else { return (None, None) };
+        if node.get("restitution").is_some() {
+            return (None, self.rigid([from, to], node, at, coordinate));
+        }
+        if node.get("rest_speed").is_some() {
+            let fault = self.fault(
+                "unknown-key",
+                &at.key("rest_speed"),
+                "`rest_speed` beside `stiffness`",
+                "an option of rigid stops, which have a `restitution`",
+            );
+            fault.spot = Spot::Key;
+            fault.help = Some("remove it".to_owned());
+        }
+        (self.buffer(name, [from, to], node, at, coordinate), None)
+    }
+
+    /// `restitution`, `rest_speed`.
+    fn rigid(&mut self, [from, to]: [Option<Id>; 2], node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Stops> {
+        if node.get("damping").is_some() {
+            let fault =
+                self.fault("unknown-key", &at.key("damping"), "`damping` beside `restitution`", "an option of stops with `stiffness`");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove it: a blow loses energy by its `restitution`".to_owned());
+        }
+        let restitution = self.of(node, "restitution", at, Dimension::NONE);
+        self.check_key(Rule::Within(0.0, 1.0, "the restitution"), restitution, at, "restitution");
+        let rest = self.of(node, "rest_speed", at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), rest, at, "rest_speed");
+        let rest_speed = rest.unwrap_or_else(|| self.pool.constant(REST_SPEED));
+        Some(Stops { from, to, restitution: restitution?, rest_speed })
+    }
+
+    /// `stiffness`, `damping`. A stop pushes and never pulls:
+    ///
+    /// x < from: max(0, k (from − x) − c x'); x > to: min(0, k (to − x) − c x'); else 0.
+    fn buffer(&mut self, name: &str, [from, to]: [Option<Id>; 2], node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Id> {
         let stiffness = coordinate.effort().div(coordinate.dimension(0));
         let stiffness = self.of(node, "stiffness", at, stiffness);
         self.check_key(Rule::Positive("the stiffness"), stiffness, at, "stiffness");
@@ -70,39 +103,5 @@ impl<'n> Decoder<'n> {
             force = p.choose(beyond, push, force);
         }
         (force != zero).then_some(force)
-    }
-
-    /// `friction: { coulomb, stick_speed }`: a torque or force of a given size, or a coefficient.
-    pub(super) fn friction(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>, coordinate: Option<&Coordinate>) -> Friction {
-        let none = Friction::default();
-        let here = at.key("coulomb");
-        let Some(coordinate) = coordinate else { return none };
-        let stick = self.of(node, "stick_speed", at, coordinate.dimension(1));
-        self.check_key(Rule::Positive("the speed"), stick, at, "stick_speed");
-        let Some(value) = node.get("coulomb") else { return none };
-        let allow = Allow { what: "friction", ..Allow::CONSTANT };
-        let Some((lowered, _)) = self.any(value, &here, allow, &mut Local::default()) else { return none };
-        let coefficient = lowered.dimension == Dimension::NONE;
-        if !coefficient && lowered.dimension != coordinate.effort() {
-            let expected = format!("{}, or a coefficient of friction (a plain number)", Want::Of(coordinate.effort()).name());
-            self.fault("wrong-dimension", &here, format!("found {}", lowered.dimension.name()), expected);
-            return none;
-        }
-        let what = if coefficient { "the coefficient of friction" } else { "the friction" };
-        self.check(Rule::NotNegative(what), &[lowered.id], &here);
-        if lowered.any {
-            return none;
-        }
-        if coefficient {
-            return Friction { coefficient: Some((lowered.id, stick)), ..none };
-        }
-        let rate = self.own(1);
-        let p = &mut self.pool;
-        let stick = stick.unwrap_or_else(|| p.constant(STICK_SPEED));
-        let (low, high) = (p.constant(-1.0), p.constant(1.0));
-        let slip = p.div(rate, stick);
-        let share = p.clamp(slip, low, high, &format!("friction of joint `{name}`"));
-        let drag = p.mul(lowered.id, share);
-        Friction { force: Some(p.neg(drag)), ..none }
     }
 }

@@ -1,8 +1,9 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
+use super::Decoder;
 use super::checks::Rule;
 use super::kinds::count;
-use super::{Decoder, Origin};
+use super::outside::{Outside, retarget};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
@@ -66,54 +67,17 @@ pub(super) struct Frame<'s> {
 }
 
 impl<'n> Decoder<'n> {
-    /// Parameters given from outside as `NAME`, `VALUE`.
-    pub(crate) fn outside(&mut self, sets: &[(String, String)]) -> Vec<(usize, Id)> {
-        let mut found: Vec<(usize, Id)> = Vec::new();
-        for (name, value) in sets {
-            let shown = format!("--set {name}={value}");
-            let offset = shown.len() - value.len();
-            let before = self.faults.len();
-            let at = At::ROOT;
-            if let Some(i) = self.parameter_named(name, &at, true) {
-                let inner = value.trim_start();
-                let skipped = value.len() - inner.len();
-                let origin = Origin::Outside(&shown, offset + skipped);
-                let wanted = self.world.parameters.get(i).copied().flatten();
-                if let (Some((lowered, _)), Some(wanted)) =
-                    (self.lower(inner, origin, &at, Allow::PARAMETER, &mut Local::default()), wanted)
-                {
-                    if let Err(other) = lowered.expect(wanted) {
-                        let help = format!("`{name}` is given in {}", unit_words(wanted));
-                        let fault = self.fault("wrong-dimension", &at, format!("found {other}"), wanted.name());
-                        fault.spot = origin.spot(0..inner.len());
-                        fault.help = Some(help);
-                    } else {
-                        found.retain(|(j, _)| *j != i);
-                        found.push((i, lowered.id));
-                        // what was wrong with the file's value does not matter any more
-                    }
-                }
-            }
-            for fault in &mut self.faults[before..] {
-                if fault.spot == Spot::Key {
-                    let start = shown.len() - value.len() - 1 - name.len();
-                    fault.spot = Spot::Outside(shown.clone(), start..start + name.len());
-                }
-            }
-        }
-        found
-    }
-
-    /// Decodes a study of the file. `taken` gives the scalars of the studies that it takes from.
-    pub(crate) fn study(&mut self, name: &'n str, node: Node<'n>, taken: &dyn Fn(&str) -> Taken, outside: &[(usize, Id)]) -> Decoded {
+    /// Decodes a study of the file. `taken` gives the scalars of the studies that it takes from; what `outside` sweeps takes the
+    /// place of the study's own sweep.
+    pub(crate) fn study(&mut self, name: &'n str, node: Node<'n>, taken: &dyn Fn(&str) -> Taken, outside: &Outside<'_>) -> Decoded {
         let section = At::ROOT.key("studies");
         let at = section.key(name);
         let mut local = Local::default();
         let take = self.take(node, &at, taken, &mut local);
         let mut waiting = Vec::new();
-        let set = self.set(node, &at, &mut local, outside, &mut waiting);
+        let set = self.set(node, &at, &mut local, outside.set, &mut waiting);
         let mut all = set.clone();
-        all.extend(outside.iter().copied());
+        all.extend(outside.set.iter().copied());
         let first_check = self.checks_so_far();
         let kind = self.kind(node, &at);
         let (kind, offer) = match kind {
@@ -124,16 +88,24 @@ impl<'n> Decoder<'n> {
                 (None, Offer { word, independent: Some(Dimension::NONE), first: None, reactions: true, states: true, results: Vec::new() })
             }
         };
-        let sweep = self.sweep(node, &at, &mut local);
-        let mut frame =
-            Frame { local, offer, swept: sweep.iter().map(|s| s.parameter).collect(), scalars: Vec::new(), results: Vec::new() };
+        let own = self.sweep(node, &at, &mut local);
+        let over = self.over(outside.over, node, &mut local);
+        let first = if own.is_empty() { &over } else { &own };
+        let swept = first.iter().map(|s| s.parameter).collect();
+        let mut frame = Frame { local, offer, swept, scalars: Vec::new(), results: Vec::new() };
         let result = |(name, dimension): &(String, Dimension)| StudyResult { name: name.clone(), dimension: *dimension };
         let results = frame.offer.results.iter().map(result).collect();
         let columns_given = node.get("columns").is_some();
         let columns = self.columns(node, &at, &mut frame);
         let scalars = self.scalars(node, &at, &mut frame);
-        let solve = self.solve(node, &at, &mut frame, &sweep);
-        let plots = self.plots(node, &at, &mut frame);
+        let solve = self.solve(node, &at, &mut frame, &own);
+        let mut plots = self.plots(node, &at, &mut frame);
+        let sweep = if outside.over.is_empty() {
+            own
+        } else {
+            retarget(&mut plots, &own, &over);
+            over
+        };
         let expect = self.expectations(node, &at, &mut frame);
         let before = self.faults.len();
         let values = self.evaluate(&all, &waiting);
@@ -146,6 +118,7 @@ impl<'n> Decoder<'n> {
         let from = if all.is_empty() && waiting.is_empty() { first_check } else { 0 };
         let before = self.faults.len();
         self.run_checks(&values, from);
+        self.blame_over(before, outside.over);
         if from == 0 {
             // said so that the reader knows which study made it so
             for fault in &mut self.faults[before..] {
@@ -388,12 +361,5 @@ impl Frame<'_> {
     /// Names of all scalars and results.
     pub(super) fn known_scalars(&self) -> Vec<&str> {
         self.local.symbols.iter().map(|(name, _)| *name).chain(self.offer.results.iter().map(|(name, _)| name.as_str())).collect()
-    }
-}
-
-fn unit_words(dimension: Dimension) -> String {
-    match dimension.si() {
-        si if si.is_empty() => "plain numbers or angles".to_owned(),
-        si => format!("{si}; a bare number counts as {si}"),
     }
 }

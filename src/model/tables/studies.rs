@@ -6,11 +6,13 @@ use super::{ANY, NUMBER, TIME, at_most_one, may, need, one_of};
 
 /// Most intervals of a study.
 pub(crate) const MOST_SAMPLES: u64 = 10_000_000;
+/// Most steps of a continuation.
+pub(crate) const MOST_STEPS: u64 = 100_000;
 /// Most runs of a sweep.
 pub(crate) const MOST_RUNS: u64 = 1_000_000;
 
 /// The kinds of studies.
-pub(crate) const STUDY_KINDS: [&str; 7] = ["kinematics", "inverse", "dynamics", "statics", "modes", "periodic", "balance"];
+pub(crate) const STUDY_KINDS: [&str; 8] = ["kinematics", "inverse", "dynamics", "statics", "modes", "linearize", "periodic", "balance"];
 const COLUMN: Shape = Name("the name of a measure or a quantity such as `rocker.tip.x`");
 
 pub(crate) static STUDY: Table = Table {
@@ -22,6 +24,7 @@ pub(crate) static STUDY: Table = Table {
         may("dynamics", Map(&DYNAMICS), "Motion in time."),
         may("statics", Map(&STATICS), "Equilibrium."),
         may("modes", Map(&MODES), "Eigenvalues and shapes about a pose."),
+        may("linearize", Map(&LINEARIZE), "Matrices of the linearised motion about a state."),
         may("periodic", Map(&PERIODIC), "Periodic regime."),
         may("balance", Map(&BALANCE), "Attached masses moved until the centre of mass stands still."),
         may("about", Text, "What the study is for."),
@@ -120,13 +123,39 @@ static MODES: Table = Table {
     ],
 };
 
-static PERIODIC: Table = Table {
-    what: "a periodic study",
+static LINEARIZE: Table = Table {
+    what: "a linearize study",
     choices: &[],
     fields: &[
+        may("at", Word(&["start", "statics"]), "The state: the start with its velocities, or the rest in an equilibrium."),
+        may("inputs", List(&Name("the name of a parameter"), Size::AtLeast(1)), "Parameters that are inputs."),
+        may("write", List(&Word(&["json", "csv", "mat"]), Size::AtLeast(1)), "Files beside the JSON, which always holds the matrices."),
+    ],
+};
+
+static PERIODIC: Table = Table {
+    what: "a periodic study",
+    choices: &[one_of(&["by", "through"])],
+    fields: &[
         need("over", Name("the name of a measure or quantity, or `t`"), "What advances by one period."),
-        need("by", ANY, "By how much."),
+        may("by", ANY, "By how much."),
+        may("through", ANY, "With `over: t`, instead of `by`: an expression; a period ends where it rises through 0 again."),
         need("of", Name("the name of a measure or quantity"), "Whose mean and extremes are found."),
+        may("samples", Count(1, MOST_SAMPLES), "Number of equal intervals of the rows; 360 if silent."),
+        may("tolerance", NUMBER, "Relative tolerance; 1e-12 if silent."),
+        may("settle", TIME, "Run before the search; until two periods are alike if silent, 0: the start is the guess."),
+        may("coordinates", Word(&["joint", "cartesian"]), "Coordinates."),
+        may("from", Map(&CONTINUED), "A parameter along which the regime is followed to its value in the study."),
+    ],
+};
+
+static CONTINUED: Table = Table {
+    what: "a continuation",
+    choices: &[],
+    fields: &[
+        need("vary", Name("the name of a parameter"), "The parameter."),
+        need("at", ANY, "Its value at the begin."),
+        may("steps", Count(1, MOST_STEPS), "Number of equal steps; 10 if silent."),
     ],
 };
 

@@ -41,6 +41,7 @@ fn select<'a>(study: Option<&'a str>, variants: &[&str], sets: &[(&str, &str)]) 
         study,
         variants: variants.iter().map(|v| (*v).to_owned()).collect(),
         sets: sets.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect(),
+        ..Selection::default()
     }
 }
 

@@ -295,19 +295,30 @@ fn a_stop_pushes_and_never_pulls() {
 fn friction_is_a_force_or_a_coefficient() {
     let of = |what: &str| read(&with("axis: [1, 0]", &format!("axis: [1, 0], friction: {{ {what} }}")));
     let model = of("coulomb: 4 N");
-    let force = model.joints[1].friction_force.unwrap();
-    assert!(model.joints[1].friction_coefficient.is_none());
+    let friction = model.joints[1].friction.clone().unwrap();
+    assert_eq!((friction.pressed, friction.bristle), (None, None));
+    let force = friction.effort;
     for (v, expected) in [(0.0, 0.0), (5e-4, -2.0), (1e-3, -4.0), (2.0, -4.0), (-2.0, 4.0)] {
         assert_eq!(at(&model, force, &[(coordinate(1, 1), v)]), expected);
     }
     let model = of("coulomb: 4 N, stick_speed: 2 m/s");
-    assert_eq!(at(&model, model.joints[1].friction_force.unwrap(), &[(coordinate(1, 1), 1.0)]), -2.0);
+    let effort = |model: &Model| model.joints[1].friction.clone().unwrap().effort;
+    assert_eq!(at(&model, effort(&model), &[(coordinate(1, 1), 1.0)]), -2.0);
     for coefficient in ["coulomb: 0.3", "coulomb: share, stick_speed: 1 mm/s"] {
-        let joint = &of(coefficient).joints[1];
-        assert!(joint.friction_force.is_none() && joint.friction_coefficient.is_some());
+        let friction = of(coefficient).joints[1].friction.clone().unwrap();
+        assert_eq!(friction.pressed, Some(Pressure::Guide { length: None }));
     }
-    let joint = &of("coulomb: 0").joints[1];
-    assert!(joint.friction_force.is_none() && joint.friction_coefficient.is_none());
+    assert!(of("coulomb: 0").joints[1].friction.is_none());
+    // at the speed of Stribeck 1/e of what the static friction has more is left
+    let model = of("coulomb: 4 N, static: 6 N, stribeck_speed: 2 m/s");
+    let found = at(&model, effort(&model), &[(coordinate(1, 1), -2.0)]);
+    assert!((found - (4.0 + 2.0 * (-1.0_f64).exp())).abs() < 1e-15, "{found}");
+    let model = of("coulomb: 4 N, bristle: { stiffness: 100 N/m, damping: 5 N s/m }");
+    let friction = model.joints[1].friction.clone().unwrap();
+    let state = (Quantity::Bristle { joint: 1 }, 0.5);
+    // y' = (σ₀/F) (v − |v| y), F y + (F σ₁/σ₀) y'
+    assert_eq!(at(&model, friction.bristle.unwrap().rate, &[(coordinate(1, 1), 2.0), state]), 25.0);
+    assert_eq!(at(&model, friction.effort, &[(coordinate(1, 1), 2.0), state]), -(2.0 + 5.0));
 }
 
 #[test]
@@ -326,6 +337,22 @@ fn faults_of_stops_and_friction() {
         ("friction: { coulomb: 4 N, stick_speed: 0 m/s }", "not-positive"),
         ("friction: { coulomb: 4 N, stick_speed: 1 rad/s }", "wrong-dimension"),
         ("friction: { stick_speed: 1 m/s }", "missing-key"),
+        ("friction: { coulomb: 4 N, static: 5 N }", "missing-key"),
+        ("friction: { coulomb: 4 N, stribeck_speed: 5 m/s }", "missing-key"),
+        ("friction: { coulomb: 4 N, static: 3 N, stribeck_speed: 5 m/s }", "negative"),
+        ("friction: { coulomb: 4 N, static: 0.3 m, stribeck_speed: 5 m/s }", "wrong-dimension"),
+        ("friction: { coulomb: 4 N, length: 5 cm }", "unknown-key"),
+        ("friction: { coulomb: 0.2, radius: 5 cm }", "unknown-key"),
+        ("friction: { coulomb: 0.2, length: 0 m }", "not-positive"),
+        ("friction: { coulomb: 4 N, bristle: { damping: 1 N s/m } }", "missing-key"),
+        ("friction: { coulomb: 4 N, bristle: { stiffness: 1 N } }", "wrong-dimension"),
+        ("friction: { coulomb: 4 N, stick_speed: 1 m/s, bristle: { stiffness: 1 N/m } }", "unknown-key"),
+        ("friction: { coulomb: 0 N, bristle: { stiffness: 1 N/m } }", "not-positive"),
+        ("limits: { to: 1 m, stiffness: 1 N/m, restitution: 0.5 }", "two-kinds"),
+        ("limits: { to: 1 m, restitution: 1.5 }", "out-of-range"),
+        ("limits: { to: 1 m, restitution: 0.5, damping: 1 N s/m }", "unknown-key"),
+        ("limits: { to: 1 m, stiffness: 1 N/m, rest_speed: 1 m/s }", "unknown-key"),
+        ("limits: { to: 1 m, restitution: 0.5, rest_speed: 0 m/s }", "not-positive"),
     ] {
         refused(&with("axis: [1, 0]", &format!("axis: [1, 0], {what}")), code);
     }

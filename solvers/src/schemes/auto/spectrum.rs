@@ -91,7 +91,12 @@ impl Spectrum {
             for (x, r) in self.difference.iter_mut().zip(&self.rate) {
                 *x = (*x - r) / step;
             }
-            self.radius = self.length(&self.difference) / length;
+            let grown = self.length(&self.difference);
+            self.radius = grown / length;
+            if grown > 0.0 {
+                // of unit length: a direction that is followed for a whole run would overflow
+                self.difference.iter_mut().for_each(|x| *x /= grown);
+            }
             std::mem::swap(&mut self.direction, &mut self.difference);
         }
         Ok(())

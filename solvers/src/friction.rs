@@ -1,0 +1,136 @@
+//! Accelerations and multipliers where forces depend on the reactions.
+//!
+//! ```text
+//! M a + Gᵀλ = f + f_λ(λ),   G a = γ
+//! ```
+//!
+//! by Newton's method with [M Gᵀ + R_λ; G −E], R_λ = −∂f_λ/∂λ, which is not symmetric. The residual is that without E, so that
+//! each step is one of iterative refinement as well. Where f_λ is linear in λ, one step solves the equations and the others refine.
+//! There need not be a solution: rigid bodies with large coefficients of friction can contradict Coulomb's law (Painlevé 1895).
+
+use crate::engine::Why;
+use crate::matrix::{Blocks, Coefficients, Matrix};
+use crate::{Dims, Pattern, Sparsity, Terms};
+
+/// Writes f_λ (nv) and R_λ (nv × m) of the multipliers (m) that it is given.
+pub type Rub<'a> = dyn FnMut(&[f64], &mut [f64], &mut [f64]) + 'a;
+
+/// The solver; sized at construction, then free of allocation.
+#[derive(Clone, Debug)]
+pub struct Friction {
+    dims: Dims,
+    blocks: Blocks,
+    matrix: Matrix<f64>,
+    /// R_λ of the factors at hand.
+    factored: Vec<f64>,
+    /// √D and √diag(G D⁻¹ Gᵀ) (nv + m): a and λ times these are comparable.
+    weight: Vec<f64>,
+    force: Vec<f64>,
+    step: Vec<f64>,
+}
+
+/// Most steps of Newton's method.
+const STEPS: usize = 40;
+
+/// Steps that refine, at least.
+const REFINEMENTS: usize = 2;
+
+/// A step of this size, in parts of the solution, is round-off.
+const ROUNDED: f64 = 1e-14;
+
+/// A step of this size that does not become smaller is as good as round-off lets it.
+const STALLED: f64 = 1e-9;
+
+impl Friction {
+    /// A solver for the sizes and patterns of a system; none where no force depends on reactions.
+    pub fn of_pattern(dims: Dims, pattern: &Pattern) -> Option<Self> {
+        if pattern.r_lambda.entries() == 0 {
+            return None;
+        }
+        let (nv, m) = (dims.v, dims.rows());
+        let dims = Dims { z: 0, ..dims };
+        let none = Sparsity::empty;
+        let bare = Pattern {
+            k: none(nv, nv),
+            c: none(nv, nv),
+            r_z: none(nv, 0),
+            z_q: none(0, nv),
+            z_v: none(0, nv),
+            z_z: none(0, 0),
+            ..pattern.clone()
+        };
+        Some(Self {
+            dims,
+            blocks: Blocks::new(dims),
+            matrix: Matrix::new(dims, &bare),
+            factored: vec![0.0; nv * m],
+            weight: pattern.metric.iter().chain(&pattern.g_scale).map(|x| x.sqrt()).collect(),
+            force: vec![0.0; nv],
+            step: vec![0.0; nv + m],
+        })
+    }
+
+    /// f_λ (nv) of the multipliers, by `rub`, which also writes R_λ.
+    pub fn force(&mut self, lambda: &[f64], rub: &mut Rub<'_>) -> &[f64] {
+        rub(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
+        &self.force
+    }
+
+    /// Accelerations `a` (nv) and multipliers `lambda` (m) of the terms; what they hold is the first guess.
+    ///
+    /// # Errors
+    /// [`Why::Friction`] if there is no solution near, [`Why::NotFinite`] if a force is not.
+    pub fn solve(&mut self, terms: &Terms, rub: &mut Rub<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Why> {
+        let nv = self.dims.v;
+        self.blocks.take(terms);
+        let (mut last, mut factored) = (f64::INFINITY, false);
+        for step in 0..STEPS {
+            rub(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
+            self.right_hand_side(terms, a, lambda);
+            if let Some(i) = self.step[..nv].iter().position(|r| !r.is_finite()) {
+                return Err(Why::NotFinite(i));
+            }
+            if !factored || self.factored != self.blocks.tangent.r_lambda {
+                self.factored.copy_from_slice(&self.blocks.tangent.r_lambda);
+                self.matrix.factor(&self.blocks, Coefficients { q: 0.0, v: 0.0, z: 0.0 }).map_err(|_| Why::Friction)?;
+                factored = true;
+            }
+            self.matrix.solve(&mut self.step);
+            let (size, whole) = self.advance(a, lambda);
+            if !size.is_finite() {
+                return Err(Why::Friction);
+            }
+            let done = size <= ROUNDED * whole || (size <= STALLED * whole && size > 0.1 * last);
+            if size == 0.0 || step >= REFINEMENTS && done {
+                return Ok(());
+            }
+            last = size;
+        }
+        Err(Why::Friction)
+    }
+
+    /// f + f_λ − M a − Gᵀλ and γ − G a.
+    fn right_hand_side(&mut self, t: &Terms, a: &[f64], lambda: &[f64]) {
+        let nv = self.dims.v;
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let (motion, rows) = self.step.split_at_mut(nv);
+        for (i, r) in motion.iter_mut().enumerate() {
+            *r = t.force[i] + self.force[i] - dot(&t.mass[i * nv..(i + 1) * nv], a);
+        }
+        for ((r, row), (l, gamma)) in rows.iter_mut().zip(t.g.chunks_exact(nv.max(1))).zip(lambda.iter().zip(&t.gamma)) {
+            motion.iter_mut().zip(row).for_each(|(r, g)| *r -= g * l);
+            *r = gamma - dot(row, a);
+        }
+    }
+
+    /// Adds the step to a and λ; the sizes of the step and of the sum.
+    fn advance(&mut self, a: &mut [f64], lambda: &mut [f64]) -> (f64, f64) {
+        let (mut size, mut whole) = (0.0, 0.0);
+        for ((x, d), w) in a.iter_mut().chain(lambda).zip(&self.step).zip(&self.weight) {
+            *x += d;
+            size += (w * d).powi(2);
+            whole += (w * *x).powi(2);
+        }
+        (f64::sqrt(size), f64::sqrt(whole))
+    }
+}

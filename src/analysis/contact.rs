@@ -1,0 +1,102 @@
+//! What joints with rigid stops and friction refuse: starts beyond a stop, driven motions into one, motions that jam, bristles
+//! without a motion in time.
+
+use super::assemble::Assembled;
+use super::motion::{Motion, Rows};
+use super::outcome::Failure;
+use crate::geometry::Space;
+use crate::mechanism::Mechanism;
+use crate::model::{Kind, Model, Study};
+
+/// Part of the size of the mechanism (rad for angles) by which a stop may be passed: rounding, and the blows of a motion in time.
+pub(super) const PASSED: f64 = 1e-9;
+
+/// Refuses a start beyond a rigid stop.
+///
+/// # Errors
+/// With the joint, its value and the stop.
+pub(super) fn begins<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, start: &Assembled) -> Result<(), Failure> {
+    if mechanism.stops.is_empty() {
+        return Ok(());
+    }
+    let mut dynamics = crate::dynamics::Dynamics::new(mechanism);
+    dynamics.time(0.0, &start.modes);
+    dynamics.position(&start.q, &start.modes);
+    for stop in &mechanism.stops {
+        let x = dynamics.work.readings[stop.gauge].x;
+        if stop.gap(x) < -PASSED * stop.size(start.size) {
+            let joint = &model.joints[stop.joint];
+            return Err(Failure::Study {
+                code: "beyond-a-stop",
+                message: format!(
+                    "the start is beyond the {} of joint `{}`, at {x:.6} where {:.6} is the end",
+                    stop.word(),
+                    joint.name,
+                    stop.at
+                ),
+                place: format!("{}.limits", joint.place),
+                help: "start between the stops, or move them".into(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what a driven motion cannot have.
+///
+/// # Errors
+/// Inverse dynamics of bristles, whose state only a motion in time knows.
+pub(super) fn driven<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, study: &Study) -> Result<(), Failure> {
+    let bristle = mechanism.bristles.iter().position(Option::is_some).filter(|_| matches!(study.kind, Kind::Inverse(_)));
+    bristle.map_or(Ok(()), |joint| {
+        Err(Failure::Study {
+            code: "bristles-in-inverse",
+            message: format!("how far the bristles of joint `{}` are bent depends on the motion before", model.joints[joint].name),
+            place: study.place.clone(),
+            help: "ask for `dynamics`, which can drive the same motion, or give the friction a `stick_speed` instead of `bristle`".into(),
+        })
+    })
+}
+
+/// Refuses a driven motion that passes a rigid stop or, where forces are asked for, jams by friction.
+///
+/// # Errors
+/// With the joint and the place; `name` is the independent variable.
+pub(super) fn passes<G: Space<S = f64>>(
+    (model, study, name): (&Model, &Study, &str),
+    motion: &mut Motion<'_, G>,
+    rows: &Rows,
+    size: f64,
+) -> Result<(), Failure> {
+    let mechanism = motion.driven.dynamics.mechanism;
+    let forces = matches!(study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty();
+    if mechanism.stops.is_empty() && !forces {
+        return Ok(());
+    }
+    let joint = |index: usize| model.joints[index].name.as_str();
+    for (&s, &piece) in rows.places.iter().zip(&rows.pieces) {
+        if motion.solve(s, Some(piece)).is_err() {
+            continue;
+        }
+        let at = motion.clock.value(s);
+        for stop in &mechanism.stops {
+            let x = motion.driven.dynamics.work.readings[stop.gauge].x;
+            if stop.gap(x) < -PASSED * stop.size(size) {
+                return Err(Failure::Numerical(format!(
+                    "at {name} = {at:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way; drive it less far, or give the stop a `stiffness`",
+                    joint(stop.joint),
+                    stop.word(),
+                    stop.at
+                )));
+            }
+        }
+        if forces && motion.driven.jams() {
+            let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", joint(p.joint))).collect();
+            return Err(Failure::Numerical(format!(
+                "at {name} = {at:.6} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox); give a smaller `coulomb`, a longer guide, or drive the motion from the other side",
+                names.join(", ")
+            )));
+        }
+    }
+    Ok(())
+}

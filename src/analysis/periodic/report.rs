@@ -1,0 +1,207 @@
+//! The regime as columns, scalars, extremes and a certificate.
+
+use super::lap::{Lap, Search, tools};
+use super::shooting::Orbit;
+use super::states::largest;
+use super::turn::{Advance, NoTurn, Single, Turn};
+use super::{explain, stability};
+use crate::analysis::clock::Clock;
+use crate::analysis::continuous::{Curve, Samples};
+use crate::analysis::extremum::{Extremes, extrema};
+use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::trajectory::Off;
+use crate::analysis::forward::{balance, pose};
+use crate::analysis::functional::Functionals;
+use crate::analysis::motion::Rows;
+use crate::analysis::outcome::{Failure, List, Outcome};
+use crate::analysis::quadrature::integrals;
+use crate::analysis::run::{Watched, evaluate, expectations, in_variable};
+use crate::analysis::scene;
+use crate::dynamics::LANES;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::model::{PeriodEnd, Periodic};
+use crate::scalar::Dual;
+use grashof_solvers::Node;
+
+/// Part of the largest acceleration by which those at the two ends may differ.
+const SAME: f64 = 1e-5;
+
+/// What is watched in a period.
+pub(super) struct Columns {
+    pub(super) ids: Vec<Id>,
+    /// The quantity whose mean and extremes are found.
+    of: usize,
+    /// What advances, and its rate.
+    over: Option<[usize; 2]>,
+    /// The expression that ends the period, if one does.
+    pub(super) mark: usize,
+}
+
+impl Columns {
+    /// Those of a study, then those of the kind.
+    pub(super) fn of(watched: &Watched, asked: &Periodic) -> Self {
+        let mut ids = watched.ids.clone();
+        let mut index = |id: Id| {
+            ids.push(id);
+            ids.len() - 1
+        };
+        let of = index(asked.of);
+        let over = asked.over.as_ref().map(|over| [index(over.value), index(over.rate)]);
+        let mark = match asked.ends {
+            PeriodEnd::Through(id) => index(id),
+            PeriodEnd::By(_) => over.map_or(of, |[value, _]| value),
+        };
+        Self { ids, of, over, mark }
+    }
+}
+
+/// A study that has found its regime.
+pub(super) struct Regime<'a> {
+    pub(super) search: &'a Search<'a>,
+    pub(super) asked: &'a Periodic,
+    pub(super) parameters: &'a [f64],
+    pub(super) watched: &'a Watched,
+    pub(super) columns: &'a Columns,
+}
+
+/// A period seen over the independent variable.
+struct Seen {
+    clock: Clock,
+    rows: Rows,
+    /// The same places in time.
+    at: Rows,
+    extremes: Vec<Option<Extremes>>,
+    functionals: Vec<f64>,
+}
+
+fn lost(off: Off) -> Failure {
+    Failure::Numerical(format!("the state at t = {} s could not be evaluated", off.at))
+}
+
+impl Regime<'_> {
+    /// Its outcome; `periods` were run before the search.
+    pub(super) fn outcome<G: Space<S = f64>>(&self, eras: &Eras<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
+        let Self { search, asked, parameters, watched, columns } = *self;
+        let Orbit { mut lap, multipliers, closure, steps } = orbit;
+        check_closed(search, &mut lap, closure[1])?;
+        let (model, study, period, times) = (&search.model, search.study, lap.period(), lap.trajectory.breaks());
+        let mut mean = [0.0];
+        integrals(&mut Single { trajectory: &mut lap.trajectory, column: columns.of }, &times, &mut mean).map_err(lost)?;
+        let Seen { clock, rows, at, extremes, functionals } = self.see(&mut lap)?;
+        let floquet = multipliers.first().map_or(0.0, |m| m.norm());
+        let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
+        let results = vec![period, mean[0] / period, max, min, floquet];
+        let tables = &eras.mechanism.tables;
+        let scalars: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+        let trajectory = &mut lap.trajectory;
+        let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
+        let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+        let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
+        let mut lists = stability::lists(&multipliers);
+        lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
+        lap.findings.push(stability::finding(&multipliers, &study.place));
+        Ok(Outcome {
+            parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
+            independent: if asked.over.is_some() { search.over.clone() } else { "time".into() },
+            places: rows.places.iter().map(|s| clock.value(*s)).collect(),
+            switches: (0..rows.places.len() - 1).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+            rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+            scalars: evaluate(model, parameters, tables, &scalars, &functionals, &results),
+            expectations: expectations(model, study, parameters, tables, &functionals, &results),
+            results,
+            lists,
+            extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+            findings: lap.findings,
+            certificate: balance::residuals(&mut lap.trajectory, &at, lap.certificate),
+            events: lap.events,
+            scenes: vec![(scene::MECHANISM.into(), scene)],
+            ..Outcome::default()
+        })
+    }
+
+    /// Rows, extremes and functionals of a period.
+    fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen, Failure> {
+        let Self { search, asked, parameters, watched, columns } = *self;
+        let (clock, advance) = clock(asked, parameters, columns, lap, search).map_err(lost)?;
+        let mut turn = Turn::new(&mut lap.trajectory, advance, clock.length).map_err(|why| match why {
+            NoTurn::Off(off) => lost(off),
+            NoTurn::Back(t) => explain::turns_back(search, t),
+        })?;
+        let (rows, at) = rows(&mut turn, asked.samples).map_err(lost)?;
+        let breaks = turn.breaks.clone();
+        let values: Vec<f64> = (0..turn.columns()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
+        let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+        let extremes = extrema(&mut turn, samples, &breaks).map_err(lost)?;
+        let ends = [0.0, clock.length];
+        let mut all = Functionals { clock, ends, curve: &mut turn, rows: &rows, extremes: &extremes, breaks: &breaks };
+        let functionals = all.all(&search.model, search.study, parameters, &watched.functionals).map_err(lost)?;
+        Ok(Seen { clock, rows, at, extremes, functionals })
+    }
+}
+
+/// Refuses a motion that is back in its independent coordinates alone: other coordinates, or the accelerations, differ by more than
+/// a part `SAME`. The begin lies behind a switch on which the period ends, so that its modes count at the end, too.
+fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, apart: f64) -> Result<(), Failure> {
+    let rates = |node: &Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
+    let start = rates(&lap.start);
+    let size = start.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    let sizes = vec![size; start.len()];
+    let era = tools(&mut lap.trajectory);
+    let mut followed = lap.end.clone();
+    era.engine.follow_modes(&mut era.system, &mut followed.state);
+    let mut differs = f64::INFINITY;
+    for modes in [&lap.end.state.modes, &lap.start.state.modes, &followed.state.modes] {
+        let mut end = lap.end.clone();
+        end.state.modes.clone_from(modes);
+        if era.engine.accelerate(&mut era.system, &mut end).is_ok() {
+            let difference: Vec<f64> = rates(&end).iter().zip(&start).map(|(a, b)| a - b).collect();
+            differs = differs.min(largest(&difference, &sizes));
+        }
+    }
+    let worst = apart.max(differs);
+    if worst <= SAME { Ok(()) } else { Err(explain::not_closed(search, worst)) }
+}
+
+/// The independent variable, and what advances in the lap.
+fn clock<G: Space<S = f64>>(
+    asked: &Periodic,
+    parameters: &[f64],
+    columns: &Columns,
+    lap: &mut Lap<'_, G>,
+    search: &Search<'_>,
+) -> Result<(Clock, Option<Advance>), Off> {
+    let (Some([value, rate]), PeriodEnd::By(by)) = (columns.over, asked.ends) else {
+        return Ok((Clock::of_time(lap.period()), None));
+    };
+    let by = search.model.pool.value(by, parameters);
+    let mut out = vec![0.0; lap.trajectory.columns()];
+    lap.trajectory.eval(lap.start.state.t, 0, &mut out)?;
+    let mut clock = Clock::of_time(by.abs());
+    (clock.from, clock.direction) = (out[value], by.signum());
+    Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
+}
+
+/// Rows on a grid of progress with both sides of every switch, and the same places in time.
+fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize) -> Result<(Rows, Rows), Off>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let breaks = turn.breaks.clone();
+    let length = breaks[breaks.len() - 1];
+    let near = 1e-9 * length / samples as f64;
+    let (mut rows, mut at) = (Rows::default(), Rows::default());
+    for (piece, ends) in breaks.windows(2).enumerate() {
+        let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
+        for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
+            let mut out = vec![0.0; turn.columns()];
+            turn.eval(s, piece, &mut out)?;
+            at.places.push(turn.time(s, piece)?);
+            at.pieces.push(piece);
+            rows.places.push(s);
+            rows.pieces.push(piece);
+            rows.values.push(out);
+        }
+    }
+    Ok((rows, at))
+}

@@ -1,0 +1,110 @@
+//! Differences of states: angles modulo a turn, rotations as vectors; sizes to judge them by.
+
+use super::lap::Lap;
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, Step};
+use grashof_solvers::State;
+use std::f64::consts::TAU;
+
+/// Places of a period at which its size is looked at.
+const LOOKS: usize = 48;
+
+/// Part of the size of the mechanism below which a motion counts as none.
+const STILL: f64 = 1e-6;
+
+/// δ (nv) with `to` = `from` ⊕ δ; angles about a fixed axis modulo a turn, rotations as vectors, rad, in the frame of v.
+pub(super) fn difference<G: Space>(mechanism: &Mechanism<G>, from: &[f64], to: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; mechanism.nv];
+    for step in &mechanism.steps {
+        match *step {
+            Step::Axis { turns, slides, q, v, .. } => {
+                let way = to[q] - from[q];
+                out[v] = if turns && !slides { way - TAU * (way / TAU).round() } else { way };
+            }
+            Step::Ball { q, v, .. } => {
+                let (a, b) = (&from[q..q + 4], &to[q..q + 4]);
+                // a* ∘ b
+                let w = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+                let x = [
+                    a[0] * b[1] - a[1] * b[0] - a[2] * b[3] + a[3] * b[2],
+                    a[0] * b[2] - a[2] * b[0] - a[3] * b[1] + a[1] * b[3],
+                    a[0] * b[3] - a[3] * b[0] - a[1] * b[2] + a[2] * b[1],
+                ];
+                let sine = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
+                // q and −q are one rotation; near 0 the vector is twice that of the quaternion
+                let factor = if sine > 1e-150 { 2.0 * (sine / w).atan() / sine } else { 2.0 / w };
+                (0..3).for_each(|i| out[v + i] = factor * x[i]);
+            }
+        }
+    }
+    out
+}
+
+/// Moves the angles and counts of half turns of a state back by so many times what they have advanced by from one state to another.
+pub(super) fn unwind<G: Space>(mechanism: &Mechanism<G>, [from, to]: [&State; 2], times: usize, state: &mut State) {
+    for step in &mechanism.steps {
+        if let Step::Axis { turns: true, slides: false, q, .. } = *step {
+            state.q[q] -= TAU * ((to.q[q] - from.q[q]) / TAU).round() * times as f64;
+        }
+    }
+    for k in mechanism.switches..mechanism.switches + mechanism.windings {
+        state.modes[k] -= (to.modes[k] - from.modes[k]) * times as i32;
+    }
+}
+
+/// How far coordinates move, and how fast, in a period: what differences are small against.
+#[derive(Clone, Debug)]
+pub(super) struct Scale {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    z: Vec<f64>,
+}
+
+impl Scale {
+    /// Of a lap.
+    pub(super) fn of<G: Space<S = f64>>(lap: &mut Lap<'_, G>) -> Self {
+        let (breaks, period) = (lap.trajectory.breaks(), lap.period());
+        let size = super::lap::tools(&mut lap.trajectory).engine.size_v.clone();
+        let still = |x: &f64| STILL * x;
+        let mut scale = Self {
+            q: size.iter().map(still).collect(),
+            v: size.iter().map(|x| still(x) * TAU / period).collect(),
+            z: lap.start.state.z.iter().map(|z| STILL * (1.0 + z.abs())).collect(),
+        };
+        for i in 0..=LOOKS {
+            let t = lap.start.state.t + period * i as f64 / LOOKS as f64;
+            let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
+            if lap.trajectory.go(t, piece).is_err() {
+                continue;
+            }
+            let state = &lap.trajectory.node.state;
+            let way = difference(lap.trajectory.eras[0].system.dynamics.mechanism, &lap.start.state.q, &state.q);
+            let grow = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(s, x)| *s = s.max(x.abs()));
+            grow(&mut scale.q, &way);
+            grow(&mut scale.v, &state.v);
+            let from = lap.start.state.z.clone();
+            let change: Vec<f64> = state.z.iter().zip(&from).map(|(z, start)| z - start).collect();
+            grow(&mut scale.z, &change);
+        }
+        scale
+    }
+
+    /// Sizes of (δq, δv, δz) with q and v of the velocities `independent`.
+    pub(super) fn on(&self, independent: &[usize]) -> Vec<f64> {
+        let of = |x: &[f64]| independent.iter().map(|&i| x[i]).collect::<Vec<_>>();
+        [of(&self.q), of(&self.v), self.z.clone()].concat()
+    }
+}
+
+/// (δq, δv, δz) from one state to another, q and v of the velocities `independent`.
+pub(super) fn between<G: Space>(mechanism: &Mechanism<G>, independent: &[usize], [from, to]: [&State; 2]) -> Vec<f64> {
+    let way = difference(mechanism, &from.q, &to.q);
+    let q = independent.iter().map(|&i| way[i]);
+    let v = independent.iter().map(|&i| to.v[i] - from.v[i]);
+    q.chain(v).chain(to.z.iter().zip(&from.z).map(|(a, b)| a - b)).collect()
+}
+
+/// The largest of some differences in parts of their sizes.
+pub(super) fn largest(differences: &[f64], sizes: &[f64]) -> f64 {
+    differences.iter().zip(sizes).fold(0.0, |m, (d, s)| if d.is_nan() { f64::INFINITY } else { m.max(d.abs() / s) })
+}

@@ -1,0 +1,48 @@
+//! One study that the model file does not have: `grashof modes`, `grashof statics`.
+
+use super::progress::{interrupted, watch_interrupts};
+use super::study::Job;
+use super::{Common, code, files, run, say, tell};
+
+#[derive(clap::Args)]
+#[group(skip)]
+pub(super) struct Arguments {
+    /// Model file, or `-` for stdin
+    model: String,
+    /// Print the results as JSON instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Write no figures
+    #[arg(long)]
+    no_plots: bool,
+}
+
+/// Runs a study, given as the YAML that it would have in the file (`statics: { from: start }`), under a name near `name` that no
+/// study of the file has.
+pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Common) -> u8 {
+    watch_interrupts();
+    let Some(mut document) = files::document(&arguments.model, common) else { return code::INPUT };
+    let name = document.add_study(name, yaml);
+    let model = match run::load(&document, common, &name, &mut run::Scalars::new()) {
+        Ok(model) => model,
+        Err(code) => return code,
+    };
+    let directory = files::directory(&arguments.model, common);
+    let studies = document.study_names();
+    let plots = !arguments.no_plots;
+    let job = Job { document: &document, model: &model, study: &name, studies: &studies, directory: &directory, plots, common };
+    let finished = job.run();
+    if interrupted() {
+        tell(&format!("interrupted: study `{name}`"));
+        return code::INTERRUPTED;
+    }
+    if let Some(output) = &finished.output {
+        if arguments.json {
+            say(output.report.trim_end());
+        } else {
+            say(&name);
+            say(&output.table);
+        }
+    }
+    finished.code
+}

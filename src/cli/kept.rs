@@ -1,0 +1,182 @@
+//! Finished runs of a sweep, kept beside its results until these are written: after an interrupt, a crash or a kill the same
+//! command goes on from there.
+//!
+//! `<study>.partial` holds 16 bytes, [`MAGIC`] and the fingerprint of all that decides the results, and behind them one record a
+//! run: its length, its checksum, and the run with its place in the sweep, by the postcard format, in which numbers keep their
+//! bits. A record is appended by one write. So the file can end in a torn record at any time, which is cut off when it is read; a
+//! file with another fingerprint is not used. Runs that never began are not kept: they cost nothing to try again.
+
+use grashof::analysis::outcome::{Failure, Outcome, Unsolved};
+use grashof::analysis::solve::Solved;
+use grashof::analysis::sweep::Run;
+use grashof::expression::Pool;
+use grashof::model::Model;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hasher};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Begins the file.
+const MAGIC: &[u8; 8] = b"grashof1";
+/// Length and checksum before each run.
+const HEAD: usize = 16;
+
+/// The file of finished runs.
+pub(super) struct Kept {
+    path: PathBuf,
+    fingerprint: u64,
+    /// Open from the first run on that is kept; none if it cannot be written.
+    file: Mutex<Place>,
+    count: AtomicUsize,
+    note: Option<String>,
+}
+
+enum Place {
+    /// Not written yet.
+    New,
+    /// Open at its end.
+    Open(File),
+    /// It cannot be written; the sweep goes on without it.
+    Closed,
+}
+
+/// A run as it is written.
+#[derive(Serialize, Deserialize)]
+struct Record<R, S> {
+    index: usize,
+    at: Vec<f64>,
+    solved: S,
+    result: R,
+}
+
+type Written<'r> = Record<Result<&'r Outcome, &'r Unsolved>, &'r Option<Solved>>;
+type Read = Record<Result<Outcome, Unsolved>, Option<Solved>>;
+
+impl Kept {
+    /// What earlier tries of the same sweep of `count` runs have left, and the file for further runs.
+    pub(super) fn open(directory: &Path, stem: &str, model: &Model, count: usize) -> (Self, Vec<Option<Run>>) {
+        let path = directory.join(format!("{stem}.partial"));
+        let fingerprint = fingerprint(model);
+        let mut known: Vec<Option<Run>> = Vec::new();
+        known.resize_with(count, || None);
+        let (mut file, mut note) = (Place::New, None);
+        if let Ok(bytes) = fs::read(&path) {
+            match read(&bytes, fingerprint, &mut known) {
+                Some(good) => file = reopened(&path, good as u64).map_or(Place::Closed, Place::Open),
+                None => note = Some(format!("note: {} is of another model, study or version, or broken: it is not used", path.display())),
+            }
+        }
+        let there = AtomicUsize::new(known.iter().flatten().count());
+        (Self { path, fingerprint, file: Mutex::new(file), count: there, note }, known)
+    }
+
+    /// What should be told of a file that is not used.
+    pub(super) fn note(&self) -> Option<&str> {
+        self.note.as_deref()
+    }
+
+    /// How many runs are kept.
+    pub(super) fn count(&self) -> usize {
+        self.count.load(Ordering::Relaxed)
+    }
+
+    /// Keeps a finished run.
+    pub(super) fn add(&self, index: usize, run: &Run) {
+        let result = match &run.result {
+            Ok(outcome) => Ok(outcome),
+            Err(Failure::Unsolved(why)) => Err(why),
+            Err(_) => return,
+        };
+        let Ok(bytes) = postcard::to_stdvec(&Written { index, at: run.at.clone(), solved: &run.solved, result }) else { return };
+        let mut record = (bytes.len() as u64).to_le_bytes().to_vec();
+        record.extend(checksum(self.fingerprint, &bytes).to_le_bytes());
+        record.extend(bytes);
+        let mut place = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        if matches!(*place, Place::New) {
+            *place = self.begin().map_or(Place::Closed, Place::Open);
+        }
+        if let Place::Open(file) = &mut *place {
+            match file.write_all(&record) {
+                Ok(()) => _ = self.count.fetch_add(1, Ordering::Relaxed),
+                Err(_) => *place = Place::Closed,
+            }
+        }
+    }
+
+    /// A new file with its head.
+    fn begin(&self) -> Option<File> {
+        fs::create_dir_all(self.path.parent()?).ok()?;
+        let mut file = File::create(&self.path).ok()?;
+        file.write_all(&[*MAGIC, self.fingerprint.to_le_bytes()].concat()).ok()?;
+        Some(file)
+    }
+
+    /// Removes the file: its runs stand in the results. The directory goes too if nothing else is in it.
+    pub(super) fn remove(self) {
+        if fs::remove_file(&self.path).is_ok()
+            && let Some(directory) = self.path.parent()
+        {
+            let _ = fs::remove_dir(directory);
+        }
+    }
+}
+
+/// Puts the runs of a file into `known`, and gives the number of its bytes that are sound; none if it is not of this sweep.
+fn read(bytes: &[u8], fingerprint: u64, known: &mut [Option<Run>]) -> Option<usize> {
+    let head = [*MAGIC, fingerprint.to_le_bytes()].concat();
+    let mut rest = bytes.strip_prefix(&head[..])?;
+    while let Some((record, after)) = next(rest, fingerprint) {
+        let Some(slot) = known.get_mut(record.index) else { break };
+        *slot = Some(Run { at: record.at, solved: record.solved, result: record.result.map_err(Failure::Unsolved) });
+        rest = after;
+    }
+    Some(bytes.len() - rest.len())
+}
+
+/// The first record of some bytes and what follows it; none if it is torn or damaged.
+fn next(bytes: &[u8], fingerprint: u64) -> Option<(Read, &[u8])> {
+    let number = |at: usize| Some(u64::from_le_bytes(bytes.get(at..at + 8)?.try_into().ok()?));
+    let length = usize::try_from(number(0)?).ok()?;
+    let payload = bytes.get(HEAD..HEAD.checked_add(length)?)?;
+    if checksum(fingerprint, payload) != number(8)? {
+        return None;
+    }
+    Some((postcard::from_bytes(payload).ok()?, &bytes[HEAD + length..]))
+}
+
+/// The file, cut to what is sound, open at its end.
+fn reopened(path: &Path, length: u64) -> Option<File> {
+    let file = File::options().append(true).open(path).ok()?;
+    file.set_len(length).ok()?;
+    Some(file)
+}
+
+fn checksum(fingerprint: u64, bytes: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    hasher.write_u64(fingerprint);
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+/// A number for all that decides the results: the program, and the model with its study as they were read, with variants,
+/// settings and scalars of other studies in them.
+fn fingerprint(model: &Model) -> u64 {
+    struct Text(DefaultHasher);
+    impl std::fmt::Write for Text {
+        fn write_str(&mut self, text: &str) -> std::fmt::Result {
+            self.0.write(text.as_bytes());
+            Ok(())
+        }
+    }
+    let mut text = Text(DefaultHasher::new());
+    let program = std::env::current_exe().and_then(fs::metadata).ok();
+    let program = program.map(|of| (of.len(), of.modified().ok()));
+    // the index of the pool has no order: its nodes tell all
+    let rest = Model { pool: Pool::new(), ..model.clone() };
+    let _ = write!(text, "{} {program:?} {:?} {:?} {rest:?}", env!("CARGO_PKG_VERSION"), model.pool.nodes(), model.pool.switches());
+    text.0.finish()
+}

@@ -1,0 +1,101 @@
+//! A study of many runs: a sweep, kept while it goes on.
+
+use super::super::kept::Kept;
+use super::super::progress::{Progress, interrupted};
+use super::super::{code, figures, linear, report, tell};
+use super::{Finished, Job, Output, values};
+use grashof::analysis::outcome::Outcome;
+use grashof::analysis::sweep::{self, Run};
+use grashof::model::Study;
+use grashof::output::{Staging, write_csv};
+
+impl Job<'_> {
+    /// Runs what is not known yet, and writes all.
+    pub(super) fn sweep(&self, study: &Study) -> Finished {
+        let count = sweep::grid(self.model, study).len();
+        let (kept, known) = Kept::open(self.directory, self.study, self.model, count);
+        let there = known.iter().flatten().count();
+        if !self.common.quiet {
+            if let Some(note) = kept.note() {
+                tell(note);
+            }
+            if there > 0 {
+                tell(&format!("resumed: {there} of {count} runs were there"));
+            }
+        }
+        let progress = Progress::new(self.study, count, self.common.quiet);
+        (0..there).for_each(|_| progress.step());
+        let done = |i: usize, run: &Run| {
+            // a run that was interrupted on its way is not finished
+            if !interrupted() || run.result.as_ref().is_ok_and(|o| o.stopped.is_none()) {
+                kept.add(i, run);
+            }
+            progress.step();
+        };
+        let runs = sweep::sweep(self.model, study, self.common.threads(), known, &interrupted, &done);
+        drop(progress);
+        if interrupted() {
+            if let Some(finished) = kept.count().checked_sub(1) {
+                tell(&format!("kept: {} of {count} runs, from which the same command goes on", finished + 1));
+            }
+            return Finished::nothing(code::INTERRUPTED);
+        }
+        self.finish_sweep(study, &runs, kept)
+    }
+
+    /// Judges and writes the runs of a sweep.
+    fn finish_sweep(&self, study: &Study, runs: &[Run], kept: Kept) -> Finished {
+        // rows that failed for a stated reason are results, unless there is no other
+        if runs.iter().all(|r| r.result.is_err()) {
+            if let Some(Err(failure)) = runs.first().map(|r| &r.result) {
+                self.explain(failure);
+            }
+            let (count, name) = (runs.len(), &study.name);
+            tell(&format!("error: none of the {count} runs of study `{name}` began\n  help: the first reason stands above"));
+            kept.remove();
+            return Finished::nothing(code::NUMERICAL);
+        }
+        let mut code = code::DONE;
+        if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
+            let name = &study.name;
+            tell(&format!("error: no run of study `{name}` got through its range\n  help: the reasons stand in its last column"));
+            code = code::NUMERICAL;
+        }
+        for outcome in runs.iter().filter_map(|r| r.result.as_ref().ok()) {
+            code = code.max(self.expectations(outcome));
+        }
+        let (staging, output) = self.staged(study, runs);
+        let finished = self.write(&staging, code, output);
+        if finished.output.is_some() {
+            kept.remove();
+        }
+        Finished { computed: runs.iter().filter_map(|r| r.result.as_ref().ok()).map(values).collect(), ..finished }
+    }
+
+    /// The files of a sweep.
+    fn staged(&self, study: &Study, runs: &[Run]) -> (Staging, Output) {
+        let mut staging = Staging::new();
+        let table = report::sweep_rows(self.model, study, runs);
+        staging.add(format!("{}.csv", self.study), write_csv(&table));
+        let report = report::sweep_json(self.model, study, runs);
+        staging.add(format!("{}.json", self.study), report.clone());
+        for (i, run) in runs.iter().enumerate() {
+            if let Ok(outcome) = &run.result {
+                let stem = format!("{}-{:03}", self.study, i + 1);
+                staging.add(format!("{stem}.csv"), write_csv(&report::rows(self.model, study, outcome)));
+                for (name, bytes) in linear::files(study, outcome) {
+                    staging.add(format!("{stem}{}", name.strip_prefix(&study.name).unwrap_or(&name)), bytes);
+                }
+            }
+        }
+        let labelled: Vec<(Option<String>, &Outcome)> =
+            runs.iter().filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?))).collect();
+        if let (true, Some((_, first))) = (self.plots, labelled.first()) {
+            let mut drawn = figures::figures(self.model, study, &labelled);
+            drawn.extend(figures::sweep_figures(self.model, study, runs));
+            self.draw(&mut staging, drawn, first);
+        }
+        let columns = table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect();
+        (staging, Output { table: report::sweep_summary(&table), report, columns })
+    }
+}

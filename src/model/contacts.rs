@@ -1,0 +1,64 @@
+//! What happens in a joint where its bodies touch: dry friction, rigid stops.
+
+use super::vocabulary::Quantity;
+use crate::expression::Id;
+
+/// Dry friction of a joint, against the motion of its one coordinate x.
+///
+/// With g = coulomb + (static − coulomb) exp(−(x'/stribeck_speed)²), or coulomb alone: sliding with a `stick_speed` resists by
+/// g · clamp(x'/stick_speed, −1, 1), bristles by their deflection (Canudas de Wit, Olsson, Åström & Lischinsky, IEEE Trans. Autom.
+/// Control 40 (1995) 419-425, equations 1 to 4).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction {
+    /// On the second body along the coordinate, N or N m; by a coefficient that per newton of the normal force: 1 or m.
+    pub effort: Id,
+    /// What makes the normal force, if the friction is by a coefficient.
+    pub pressed: Option<Pressure>,
+    /// The deflection of bristles, if the friction has them.
+    pub bristle: Option<Bristle>,
+}
+
+impl Friction {
+    /// The quantity of a joint that a name means, `friction` or `bristle`, and the unit that it counts in.
+    pub(crate) fn quantity(&self, joint: usize, name: &str) -> Option<(Quantity, Option<Id>)> {
+        match (name, self.bristle) {
+            ("friction", _) => Some((Quantity::Friction { joint }, None)),
+            ("bristle", Some(bristle)) => Some((Quantity::Bristle { joint }, Some(bristle.deflection))),
+            _ => None,
+        }
+    }
+}
+
+/// What bears the normal force of a joint with friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pressure {
+    /// A pin: all of the reaction force.
+    Pin,
+    /// A guide: the force across the axis, at one place or, with a length (m), at the two ends of the guide.
+    Guide {
+        /// `length`.
+        length: Option<Id>,
+    },
+}
+
+/// Bristles between the bodies of a joint, as a first-order state in parts of what the Coulomb friction bends them, coulomb/stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bristle {
+    /// Rate of the state, 1/s.
+    pub rate: Id,
+    /// coulomb/stiffness, rad or m.
+    pub deflection: Id,
+}
+
+/// Rigid stops of a joint: its coordinate is thrown back from them, and comes to rest on them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stops {
+    /// `from`, rad or m.
+    pub from: Option<Id>,
+    /// `to`, rad or m.
+    pub to: Option<Id>,
+    /// `restitution`: rate behind the blow by rate before it, from 0 to 1.
+    pub restitution: Id,
+    /// `rest_speed`, rad/s or m/s: a rebound with a lower speed counts as rest.
+    pub rest_speed: Id,
+}

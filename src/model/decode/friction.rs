@@ -1,0 +1,190 @@
+//! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
+
+use super::Decoder;
+use super::checks::Rule;
+use super::stops::STICK_SPEED;
+use crate::expression::{Dimension, Id};
+use crate::model::contacts::{Bristle, Friction, Pressure};
+use crate::model::entities::JointKind;
+use crate::model::fault::{At, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::Node;
+use crate::model::quantities::Coordinate;
+use crate::model::scope::{Allow, Local};
+use crate::model::vocabulary::Quantity;
+
+/// What a friction is measured in, and how much of it resists a motion.
+struct Level {
+    /// `coulomb` is a plain number.
+    coefficient: bool,
+    /// Effort, or none of a coefficient.
+    dimension: Dimension,
+    /// `coulomb`.
+    coulomb: Id,
+    /// coulomb, or with `static` coulomb + (static − coulomb) exp(−(x'/stribeck_speed)²).
+    resists: Id,
+}
+
+impl<'n> Decoder<'n> {
+    /// `friction` of the joint that is being read.
+    pub(super) fn friction(
+        &mut self,
+        (name, kind): (&str, &JointKind),
+        node: Node<'n>,
+        at: &At<'_, 'n>,
+        coordinate: Option<&Coordinate>,
+    ) -> Option<Friction> {
+        let coordinate = coordinate?;
+        let stick = self.of(node, "stick_speed", at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), stick, at, "stick_speed");
+        let level = self.level(node, at, coordinate);
+        let (pressed, arm) = self.pressed(kind, node, at, level.as_ref().map(|l| l.coefficient));
+        let level = level?;
+        let (resists, bristle) = match node.get("bristle") {
+            Some(inner) => {
+                if node.get("stick_speed").is_some() {
+                    let key = at.key("stick_speed");
+                    let fault =
+                        self.fault("unknown-key", &key, "`stick_speed` beside `bristle`", "one of the two: bristles stick by themselves");
+                    fault.spot = Spot::Key;
+                    fault.help = Some("remove `stick_speed`".to_owned());
+                }
+                let (resists, bristle) = self.bristle(name, inner, &at.key("bristle"), coordinate, &level)?;
+                (resists, Some(bristle))
+            }
+            None => (self.slip(name, stick, &level), None),
+        };
+        let p = &mut self.pool;
+        let whole = arm.map_or(resists, |arm| p.mul(arm, resists));
+        Some(Friction { effort: p.neg(whole), pressed, bristle })
+    }
+
+    /// `coulomb`, `static`, `stribeck_speed`.
+    fn level(&mut self, node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Level> {
+        let here = at.key("coulomb");
+        let allow = Allow { what: "friction", ..Allow::CONSTANT };
+        let speed = self.of(node, "stribeck_speed", at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), speed, at, "stribeck_speed");
+        for (key, other) in [("static", "stribeck_speed"), ("stribeck_speed", "static")] {
+            if node.get(key).is_some() && node.get(other).is_none() {
+                let fault = self.fault("missing-key", at, format!("`{key}` without `{other}`"), "both of them, or none");
+                fault.spot = Spot::Key;
+                fault.help = Some(format!("add `{other}:`"));
+            }
+        }
+        let (lowered, _) = self.any(node.get("coulomb")?, &here, allow, &mut Local::default())?;
+        let coefficient = lowered.dimension == Dimension::NONE;
+        if !coefficient && lowered.dimension != coordinate.effort() {
+            let expected = format!("{}, or a coefficient of friction (a plain number)", Want::Of(coordinate.effort()).name());
+            self.fault("wrong-dimension", &here, format!("found {}", lowered.dimension.name()), expected);
+            return None;
+        }
+        let what = if coefficient { "the coefficient of friction" } else { "the friction" };
+        let rule = if node.get("bristle").is_some() { Rule::Positive(what) } else { Rule::NotNegative(what) };
+        self.check(rule, &[lowered.id], &here);
+        let dimension = if coefficient { Dimension::NONE } else { coordinate.effort() };
+        let highest = self.of(node, "static", at, dimension);
+        if lowered.any {
+            return None;
+        }
+        let (coulomb, mut resists) = (lowered.id, lowered.id);
+        if let (Some(highest), Some(speed)) = (highest, speed) {
+            let rate = self.own(1);
+            let p = &mut self.pool;
+            let above = p.sub(highest, coulomb);
+            let part = p.div(rate, speed);
+            let square = p.powi(part, 2);
+            let exponent = p.neg(square);
+            let falling = p.exp(exponent);
+            let more = p.mul(above, falling);
+            resists = p.add(coulomb, more);
+            self.check_key(Rule::NotNegative("`static` less `coulomb`"), Some(above), at, "static");
+        }
+        Some(Level { coefficient, dimension, coulomb, resists })
+    }
+
+    /// What bears the normal force, and the arm of the friction: `radius` of a pin, `length` of a guide; `coefficient` is known of a
+    /// friction that is sound.
+    fn pressed(&mut self, kind: &JointKind, node: Node<'n>, at: &At<'_, 'n>, coefficient: Option<bool>) -> (Option<Pressure>, Option<Id>) {
+        let [radius, length] = ["radius", "length"].map(|key| {
+            let id = self.of(node, key, at, Dimension::LENGTH);
+            self.check_key(Rule::Positive(if key == "radius" { "the radius" } else { "the length" }), id, at, key);
+            id
+        });
+        let Some(coefficient) = coefficient else { return (None, None) };
+        let (pin, guide) = (matches!(kind, JointKind::Revolute), matches!(kind, JointKind::Slider));
+        for (key, may, of) in [("radius", pin, "the pin of a `revolute`"), ("length", guide, "the guide of a `slider`")] {
+            if node.get(key).is_some() && !(may && coefficient) {
+                let fault = self.fault(
+                    "unknown-key",
+                    &at.key(key),
+                    format!("`{key}` in this friction"),
+                    format!("`{key}` belongs to {of} with a coefficient of friction"),
+                );
+                fault.spot = Spot::Key;
+                fault.help = Some("remove it".to_owned());
+            }
+        }
+        if !coefficient {
+            return (None, None);
+        }
+        if pin && node.get("radius").is_none() {
+            let fault = self.fault(
+                "missing-key",
+                at,
+                "a coefficient of friction in a `revolute` without `radius`",
+                "the radius of the pin, at which the friction acts",
+            );
+            fault.spot = Spot::Key;
+            fault.help = Some("add `radius: 5 mm`, or give `coulomb` as a torque, as `2 N m`".to_owned());
+        }
+        if !pin && !guide {
+            let fault = self.fault(
+                "wrong-joint",
+                &at.key("coulomb"),
+                "a coefficient of friction in a `screw`",
+                "a torque: how the load of a screw presses on its thread depends on its profile",
+            );
+            fault.help = Some("give `coulomb` a unit, as `coulomb: 2 N m`".to_owned());
+        }
+        if guide { (Some(Pressure::Guide { length }), None) } else { (Some(Pressure::Pin), radius) }
+    }
+
+    /// g · clamp(x'/stick_speed, −1, 1).
+    fn slip(&mut self, name: &str, stick: Option<Id>, level: &Level) -> Id {
+        let rate = self.own(1);
+        let p = &mut self.pool;
+        let stick = stick.unwrap_or_else(|| p.constant(STICK_SPEED));
+        let (low, high) = (p.constant(-1.0), p.constant(1.0));
+        let slip = p.div(rate, stick);
+        let share = p.clamp(slip, low, high, &format!("friction of joint `{name}`"));
+        p.mul(level.resists, share)
+    }
+
+    /// `bristle: { stiffness, damping }`: with the state y = σ₀ z/F, F being `coulomb` and z the deflection,
+    ///
+    /// y' = (σ₀/F) (x' − |x'| y F/g),   resists = σ₀ z + σ₁ z' = F y + (F σ₁/σ₀) y'.
+    fn bristle(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate, level: &Level) -> Option<(Id, Bristle)> {
+        let stiffness = self.of(node, "stiffness", at, level.dimension.div(coordinate.dimension(0)));
+        self.check_key(Rule::Positive("the stiffness"), stiffness, at, "stiffness");
+        let damping = self.of(node, "damping", at, level.dimension.div(coordinate.dimension(1)));
+        self.check_key(Rule::NotNegative("the damping"), damping, at, "damping");
+        let rate = self.own(1);
+        let joint = self.world.model.joints.len();
+        let y = self.world.input(&mut self.pool, Quantity::Bristle { joint });
+        let p = &mut self.pool;
+        let deflection = p.div(level.coulomb, stiffness?);
+        let speed = p.abs(rate, &format!("friction of joint `{name}`"));
+        let part = p.div(level.coulomb, level.resists);
+        let part = p.mul(part, y);
+        let back = p.mul(speed, part);
+        let net = p.sub(rate, back);
+        let bends = p.div(net, deflection);
+        let mut resists = p.mul(level.coulomb, y);
+        if let Some(damping) = damping {
+            let drag = p.mul(damping, net);
+            resists = p.add(resists, drag);
+        }
+        Some((resists, Bristle { rate: bends, deflection }))
+    }
+}

@@ -1,0 +1,262 @@
+//! What is given from outside, on the command line: values of parameters, and sweeps in place of a study's own.
+
+use super::checks::Rule;
+use super::{Decoder, Origin};
+use crate::expression::{Dimension, Id, Lowered};
+use crate::model::fault::{At, Spot};
+use crate::model::merge::Node;
+use crate::model::scope::{Allow, Local};
+use crate::model::shape::clip;
+use crate::model::study::{Plot, ShownWhat, Sweep, Values};
+use crate::model::suggest;
+use crate::model::tables::MOST_RUNS;
+use std::ops::Range;
+
+/// What is given for a study.
+pub(crate) struct Outside<'o> {
+    /// Parameters with their values.
+    pub(crate) set: &'o [(usize, Id)],
+    /// Swept parameters with the texts of their values.
+    pub(crate) over: &'o [(String, String)],
+}
+
+/// An argument as it is shown, `--over l3=0.3,0.4`, and where its value begins.
+struct Argument {
+    shown: String,
+    value: usize,
+}
+
+impl Argument {
+    fn new(flag: &str, name: &str, value: &str) -> Self {
+        let shown = format!("{flag} {name}={value}");
+        Self { value: shown.len() - value.len(), shown }
+    }
+
+    /// Bytes of the value.
+    fn spot(&self, part: Range<usize>) -> Spot {
+        Spot::Outside(self.shown.clone(), part.start + self.value..part.end + self.value)
+    }
+
+    /// The name of the parameter.
+    fn name(&self, name: &str) -> Spot {
+        let end = self.value - 1;
+        Spot::Outside(self.shown.clone(), end - name.len()..end)
+    }
+}
+
+impl<'n> Decoder<'n> {
+    /// Parameters given from outside as `NAME`, `VALUE`.
+    pub(crate) fn outside(&mut self, sets: &[(String, String)]) -> Vec<(usize, Id)> {
+        let mut found: Vec<(usize, Id)> = Vec::new();
+        for (name, value) in sets {
+            let argument = Argument::new("--set", name, value);
+            let Some((i, wanted)) = self.named_outside(name, &argument) else { continue };
+            let Some(wanted) = wanted else { continue };
+            if let Some(id) = self.given(name, value, 0..value.len(), &argument, wanted, Allow::PARAMETER, &mut Local::default()) {
+                // what was wrong with the file's value does not matter any more
+                found.retain(|(j, _)| *j != i);
+                found.push((i, id));
+            }
+        }
+        found
+    }
+
+    /// The parameter that an argument names, and its dimension unless the file's value of it is faulty.
+    fn named_outside(&mut self, name: &str, argument: &Argument) -> Option<(usize, Option<Dimension>)> {
+        let before = self.faults.len();
+        let found = self.parameter_named(name, &At::ROOT, true);
+        for fault in &mut self.faults[before..] {
+            fault.spot = argument.name(name);
+        }
+        found.map(|i| (i, self.world.parameters.get(i).copied().flatten()))
+    }
+
+    /// The value in a part of an argument's text.
+    #[allow(clippy::too_many_arguments, reason = "what is read, where it stands, what it may be")]
+    fn given(
+        &mut self,
+        name: &str,
+        value: &str,
+        part: Range<usize>,
+        argument: &Argument,
+        wanted: Dimension,
+        allow: Allow,
+        local: &mut Local<'_>,
+    ) -> Option<Id> {
+        let text = &value[part.clone()];
+        let inner = text.trim_start();
+        let begin = part.start + text.len() - inner.len();
+        let inner = inner.trim_end();
+        let origin = Origin::Outside(&argument.shown, argument.value + begin);
+        let (lowered, _): (Lowered, _) = self.lower(inner, origin, &At::ROOT, allow, local)?;
+        match lowered.expect(wanted) {
+            Ok(_) => Some(lowered.id),
+            Err(other) => {
+                let fault = self.fault("wrong-dimension", &At::ROOT, format!("found {other}"), wanted.name());
+                fault.spot = origin.spot(0..inner.len());
+                fault.help = Some(format!("`{name}` is given in {}", unit_words(wanted)));
+                None
+            }
+        }
+    }
+
+    /// Sweeps given from outside.
+    pub(super) fn over(&mut self, over: &[(String, String)], node: Node<'n>, local: &mut Local<'n>) -> Vec<Sweep> {
+        let solved = node.get("solve").and_then(|solve| solve.get("vary")).and_then(Node::text);
+        let mut sweeps: Vec<Sweep> = Vec::new();
+        let mut runs: u64 = 1;
+        for (name, value) in over {
+            let argument = Argument::new("--over", name, value);
+            let Some((parameter, wanted)) = self.named_outside(name, &argument) else { continue };
+            let twice = sweeps.iter().any(|s| s.parameter == parameter);
+            if twice || solved == Some(name) {
+                let message = format!("`{name}` {}", if twice { "is swept already" } else { "is what the study solves for" });
+                let fault = self.fault("swept-twice", &At::ROOT, message, "another parameter");
+                fault.spot = argument.name(name);
+                fault.help = Some("leave this one out".to_owned());
+                continue;
+            }
+            let Some(wanted) = wanted else { continue };
+            let (values, count) = match value.find("..") {
+                Some(dots) => self.span(name, value, dots, &argument, wanted, local),
+                None => self.list(name, value, &argument, wanted, local),
+            };
+            runs = runs.saturating_mul(count as u64);
+            if runs > MOST_RUNS {
+                let message = format!("a sweep of {runs} runs");
+                self.fault("too-many-runs", &At::ROOT, message, format!("at most {MOST_RUNS} runs")).spot = argument.spot(0..value.len());
+                break;
+            }
+            sweeps.extend(values.map(|values| Sweep { parameter, values, place: String::new() }));
+        }
+        sweeps
+    }
+
+    /// `FROM..TO:COUNT`, with `:log` for equal ratios; and how many values it stands for.
+    fn span(
+        &mut self,
+        name: &str,
+        value: &str,
+        dots: usize,
+        argument: &Argument,
+        wanted: Dimension,
+        local: &mut Local<'n>,
+    ) -> (Option<Values>, usize) {
+        let mut ends = value[dots..].match_indices(':').map(|(i, _)| dots + i);
+        let form = "FROM..TO:COUNT, or FROM..TO:COUNT:log for equal ratios";
+        let Some(colon) = ends.next() else {
+            let fault = self.fault("bad-range", &At::ROOT, "a range without the number of its values", form);
+            fault.spot = argument.spot(0..value.len());
+            fault.help = Some(format!("for example `--over {name}={value}:11`"));
+            return (None, 1);
+        };
+        let end = ends.next().unwrap_or(value.len());
+        let (count_text, spacing) = (value[colon + 1..end].trim(), value.get(end + 1..).map(str::trim));
+        let count = count_text.parse::<u64>().ok().filter(|n| (1..=MOST_RUNS).contains(n)).and_then(|n| usize::try_from(n).ok());
+        if count.is_none() {
+            let message = format!("`{}` is no number of values", clip(count_text));
+            let fault = self.fault("bad-range", &At::ROOT, message, format!("a whole number from 1 to {MOST_RUNS}"));
+            fault.spot = argument.spot(colon + 1..end);
+            fault.help = Some(format!("for example `--over {name}={}:11`", &value[..colon]));
+        }
+        if let Some(word) = spacing.filter(|word| !["log", "linear"].contains(word)) {
+            let help = suggest::help(word, ["log", "linear"]);
+            let fault = self.fault("bad-range", &At::ROOT, format!("unknown spacing `{}`", clip(word)), "`log` or `linear`");
+            (fault.spot, fault.help) = (argument.spot(end + 1..value.len()), help);
+            return (None, 1);
+        }
+        let allow = Self::over_allow();
+        let from = self.given(name, value, 0..dots, argument, wanted, allow, local);
+        let to = self.given(name, value, dots + 2..colon, argument, wanted, allow, local);
+        let (Some(from), Some(to), Some(count)) = (from, to, count) else { return (None, 1) };
+        let log = spacing == Some("log");
+        if self.pool.inputs_of(&[from, to]).is_empty() {
+            self.check(if log { Rule::Ratio } else { Rule::Finite }, &[from, to], &At::ROOT);
+        }
+        (Some(Values::Span { from, to, count, log }), count)
+    }
+
+    /// Values with commas between them; and how many.
+    fn list(&mut self, name: &str, value: &str, argument: &Argument, wanted: Dimension, local: &mut Local<'n>) -> (Option<Values>, usize) {
+        let parts = between_commas(value);
+        let count = parts.len();
+        let ids: Vec<Option<Id>> =
+            parts.into_iter().map(|part| self.given(name, value, part, argument, wanted, Self::over_allow(), local)).collect();
+        let ids: Option<Vec<Id>> = ids.into_iter().collect();
+        if let Some(ids) = &ids
+            && self.pool.inputs_of(ids).is_empty()
+        {
+            self.check(Rule::Finite, ids, &At::ROOT);
+        }
+        (ids.map(Values::List), count)
+    }
+
+    fn over_allow() -> Allow {
+        Allow { what: "a value for a parameter", ..Allow::PARAMETER }
+    }
+
+    /// Shows faults without a place in the file at the arguments that sweep.
+    pub(super) fn blame_over(&mut self, from: usize, over: &[(String, String)]) {
+        let shown: Vec<String> = over.iter().map(|(name, value)| Argument::new("--over", name, value).shown).collect();
+        let shown = shown.join(" ");
+        for fault in self.faults[from..].iter_mut().filter(|fault| fault.place.is_empty() && !shown.is_empty()) {
+            fault.spot = Spot::Outside(shown.clone(), 0..shown.len());
+        }
+    }
+}
+
+/// Parts of a text between commas that stand in no parentheses.
+fn between_commas(text: &str) -> Vec<Range<usize>> {
+    let mut parts = Vec::new();
+    let (mut depth, mut begin) = (0_i32, 0);
+    for (i, byte) in text.bytes().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            b',' if depth <= 0 => {
+                parts.push(begin..i);
+                begin = i + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(begin..text.len());
+    parts
+}
+
+/// Figures of numbers of whole runs, drawn for a study's own sweep, over the first parameter of another one.
+pub(super) fn retarget(plots: &mut Vec<Plot>, own: &[Sweep], over: &[Sweep]) {
+    let first = |sweeps: &[Sweep]| sweeps.first().map(|s| s.parameter);
+    let swept = |what: ShownWhat| match what {
+        ShownWhat::Parameter(p) => over.iter().any(|s| s.parameter == p),
+        _ => true,
+    };
+    for plot in plots.iter_mut().filter(|plot| plot.show.iter().any(|s| !matches!(s.what, ShownWhat::Column(_)))) {
+        plot.show.retain(|s| swept(s.what));
+        let gone = plot.over.take_if(|shown| !swept(shown.what)).is_some();
+        if gone || plot.over.is_none() && first(own) != first(over) {
+            plot.unit = None;
+        }
+    }
+    plots.retain(|plot| !plot.show.is_empty());
+}
+
+fn unit_words(dimension: Dimension) -> String {
+    match dimension.si() {
+        si if si.is_empty() => "plain numbers or angles".to_owned(),
+        si => format!("{si}; a bare number counts as {si}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commas_in_parentheses_do_not_part() {
+        let text = "1, max(2, 3) ,4";
+        let parts: Vec<&str> = between_commas(text).into_iter().map(|part| &text[part]).collect();
+        assert_eq!(parts, ["1", " max(2, 3) ", "4"]);
+        assert_eq!(between_commas("").first(), Some(&(0..0)));
+    }
+}

@@ -1,0 +1,162 @@
+//! The section `include`: robots from URDF files as a layer below the file's own sections.
+
+use super::diagnostics::{Diagnostic, Report};
+use super::document;
+use super::fault::{At, Fault, Spot};
+use super::merge::{self, Layers, Node};
+use super::names::is_name;
+use super::shape;
+use super::spans::Spans;
+use super::urdf::{self, Base, Options, Translated};
+use serde_yaml::{Mapping, Value};
+use std::ops::Range;
+
+/// Gives the bytes of a file that a model names, and the name by which messages call it; the error says why not.
+pub type Files<'f> = dyn Fn(&str) -> Result<(String, Vec<u8>), String> + 'f;
+
+/// A file that a model includes.
+#[derive(Clone, Debug)]
+pub(crate) struct Included {
+    /// Its name for messages.
+    file: String,
+    text: String,
+    robot: Translated,
+    /// Where the model asks for it: `include[0]`.
+    place: String,
+}
+
+/// Head of the places in the included file of this index: `urdf[0].bodies.link1`.
+pub(crate) fn head(index: usize) -> String {
+    format!("urdf[{index}].")
+}
+
+/// The included file and the path in it that a place leads to.
+pub(crate) fn find<'i, 'p>(included: &'i [Included], place: &'p str) -> Option<(&'i Included, &'p str)> {
+    let (index, path) = place.strip_prefix("urdf[")?.split_once("].")?;
+    Some((included.get(index.parse::<usize>().ok()?)?, path))
+}
+
+impl Included {
+    /// Its entries, by section.
+    pub(crate) fn sections(&self) -> &Mapping {
+        &self.robot.sections
+    }
+
+    /// Bytes of the nearest entry that contains a path.
+    fn at(&self, path: &str) -> Option<Range<usize>> {
+        let mut path = path;
+        loop {
+            if let Some(range) = self.robot.places.get(path) {
+                return Some(range.clone());
+            }
+            path = &path[..path.rfind(['.', '['])?];
+        }
+    }
+
+    /// The place in the model whose value stands at a path, if the model gives it: `at` or `rpy`.
+    pub(crate) fn asked(&self, path: &str) -> Option<String> {
+        let base = self.robot.base.as_deref()?;
+        [(format!("ground.{base}"), "at"), (format!("joints.{base}.rpy"), "rpy")].into_iter().find_map(|(head, key)| {
+            let rest = path.strip_prefix(head.as_str()).filter(|rest| rest.is_empty() || rest.starts_with('['))?;
+            Some(format!("{}.{key}{rest}", self.place))
+        })
+    }
+
+    /// A finding at a path of this file.
+    pub(crate) fn diagnostic(&self, fault: &Fault, path: &str) -> Diagnostic {
+        let spot = self.at(path).map_or(Spot::Nowhere, Spot::Bytes);
+        let spot = if matches!(fault.spot, Spot::Outside(..)) { fault.spot.clone() } else { spot };
+        Fault { spot, other: None, ..fault.clone() }.diagnostic(&self.file, &self.text, &Spans::new(""))
+    }
+
+    /// What of the file is not used, or not as it stands: `robot.urdf:12: ...`.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        self.robot.notes.sentences(&self.text).into_iter().map(|(line, note)| format!("{}:{line}: {note}", self.file)).collect()
+    }
+}
+
+/// Reads the files that a model includes.
+///
+/// # Errors
+/// What is wrong with the section and with the files.
+pub(super) fn read(root: &Mapping, file: &str, text: &str, files: &Files<'_>) -> Result<Vec<Included>, Report> {
+    let Some(section) = root.get("include") else { return Ok(Vec::new()) };
+    let layers = Layers { below: Vec::new(), file: root, patches: Vec::new() };
+    let mut faults = shape::check_section(&layers, Node::Plain(section), "include", Node::Merged(&merge::Merged::new(root)));
+    let section_at = At::ROOT.key("include");
+    let entries: Vec<(&Value, At<'_, '_>)> = match section {
+        Value::Sequence(items) => items.iter().enumerate().map(|(i, item)| (item, section_at.index(i))).collect(),
+        one => vec![(one, section_at)],
+    };
+    let mut included: Vec<Included> = Vec::new();
+    let mut findings = Vec::new();
+    if faults.is_empty() {
+        if root.get("space").and_then(Value::as_str) == Some("planar") {
+            let fault = Fault::new("spatial-only", "include".to_owned(), "a robot in a planar model", "`space: spatial`");
+            faults.push(fault.at(Spot::Key).help("write `space: spatial`"));
+        }
+        for (entry, at) in &entries {
+            match robot(entry, at, files) {
+                Ok(robot) => {
+                    faults.extend(clash(&included, &robot, at));
+                    included.push(robot);
+                }
+                Err(Trouble::Here(fault)) => faults.push(*fault),
+                Err(Trouble::There(report)) => findings.extend(report.diagnostics),
+            }
+        }
+    }
+    findings.extend(document::report(file, text, &faults, &[]).diagnostics);
+    if findings.is_empty() { Ok(included) } else { Err(Report::new(findings)) }
+}
+
+/// Why a file cannot be included.
+enum Trouble {
+    /// A fault of the model.
+    Here(Box<Fault>),
+    /// Faults of the file.
+    There(Report),
+}
+
+fn robot(entry: &Value, at: &At<'_, '_>, files: &Files<'_>) -> Result<Included, Trouble> {
+    let place = |key: &str| merge::path(&at.key(key).steps());
+    let word = |key: &str| entry.get(key).and_then(Value::as_str).unwrap_or_default();
+    let (name, prefix) = (word("urdf"), word("prefix"));
+    if !prefix.is_empty() && !is_name(prefix) {
+        let fault = Fault::new(
+            "bad-name",
+            place("prefix"),
+            format!("`{prefix}` cannot begin a name"),
+            "a letter a-z or A-Z, then letters, digits and `_`",
+        );
+        return Err(Trouble::Here(Box::new(fault.help("for example `left_`"))));
+    }
+    let (file, bytes) = files(name).map_err(|why| {
+        let fault = Fault::new("no-file", place("urdf"), format!("cannot read `{name}`: {why}"), "a URDF file, by its path from this file");
+        Trouble::Here(Box::new(fault.help("check the path")))
+    })?;
+    let text = document::text_of(&bytes, &file, bytes.len()).map_err(Trouble::There)?;
+    let base = if word("base") == "free" { Base::Free } else { Base::Fixed };
+    let stops = entry.get("stops").and_then(Value::as_bool) == Some(true);
+    let options = Options { prefix, at: entry.get("at"), rpy: entry.get("rpy"), base, stops };
+    match urdf::read(text, &options) {
+        Ok(robot) => Ok(Included { text: text.to_owned(), file, robot, place: merge::path(&at.steps()) }),
+        Err(faults) => Err(Trouble::There(document::report(&file, text, &faults, &[]))),
+    }
+}
+
+/// A name that an earlier file gives, too: the later one would change the earlier robot.
+fn clash(earlier: &[Included], robot: &Included, at: &At<'_, '_>) -> Option<Fault> {
+    let names = |of: &Included| -> Vec<String> {
+        let sections = of.robot.sections.values().filter_map(Value::as_mapping);
+        sections.flat_map(|section| section.keys().filter_map(Value::as_str)).map(str::to_owned).collect()
+    };
+    let taken: std::collections::HashSet<String> = earlier.iter().flat_map(names).collect();
+    let twice = names(robot).into_iter().find(|name| taken.contains(name))?;
+    let place = merge::path(&at.key("prefix").steps());
+    let message = format!("`{twice}` comes from an earlier file, too");
+    Some(
+        Fault::new("duplicate-name", place, message, "names of its own for every robot")
+            .help("give each robot another `prefix`, as `prefix: left_`"),
+    )
+}

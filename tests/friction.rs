@@ -1,0 +1,50 @@
+//! Friction and contact at joints: closed forms, agreement of coordinates, schemes and spaces, energies, faults.
+
+#[path = "friction/bristles.rs"]
+mod bristles;
+#[path = "friction/closed_forms.rs"]
+mod closed_forms;
+mod common;
+#[path = "friction/equivalence.rs"]
+mod equivalence;
+#[path = "friction/stops.rs"]
+mod stops;
+
+use grashof::analysis::outcome::{Certificate, Failure, March, Outcome};
+use grashof::analysis::run::run;
+use grashof::analysis::sweep;
+use grashof::mechanism::Coordinates;
+
+/// A study of a text, or why it failed.
+fn tried(text: &str, name: &str) -> Result<Outcome, Failure> {
+    let model = common::model(text, Some(name));
+    let study = model.study.clone().expect("the study");
+    run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false)
+}
+
+/// A study of a text, run to its end.
+fn done(text: &str, name: &str) -> Outcome {
+    common::study(text, name, Coordinates::Joint)
+}
+
+/// The last value of each column.
+fn last(outcome: &Outcome) -> &[f64] {
+    outcome.rows.last().expect("a row")
+}
+
+/// The certificate of a motion in time.
+fn march(outcome: &Outcome) -> &March {
+    let Certificate { march: Some(march), .. } = &outcome.certificate else { panic!("no motion in time") };
+    march
+}
+
+/// Energy that the balance lacks, in parts of what it is about.
+fn drift(outcome: &Outcome) -> f64 {
+    march(outcome).energy_drift / march(outcome).energy_scale
+}
+
+/// Found and right agree.
+#[track_caller]
+fn close(what: &str, found: f64, right: f64, tolerance: f64) {
+    assert!((found - right).abs() <= tolerance, "{what}: {found} instead of {right}, off by {:e}", found - right);
+}

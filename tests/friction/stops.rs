@@ -1,0 +1,178 @@
+//! Stops of joints: rigid ones that throw back and hold, and those with stiffness, against closed forms.
+
+use super::{close, done, drift, last, march, tried};
+
+/// Gravity of these tests, m/s².
+const G: f64 = 9.81;
+
+/// A ball over a floor at 0 with a load on it.
+fn ball(limits: &str, load: &str, start: &str, study: &str) -> String {
+    format!(
+        "grashof: 1
+name: ball over a floor
+space: planar
+gravity: [0, -{G} m/s^2]
+bodies:
+  ball: {{ mass: 0.5 kg, inertia: 1e-4 kg m^2 }}
+joints:
+  W: {{ slider: [ground, ball.origin], axis: [0, 1], limits: {{ {limits} }} }}
+loads:
+  lift: {{ joint: W, force: \"{load}\" }}
+start: {{ {start} }}
+studies:
+  fall: {{ {study}, columns: [time, W.position, W.velocity, W.acceleration] }}
+"
+    )
+}
+
+/// Height and velocity of a ball dropped from `height` at t, resting from the end of its bounces on.
+fn bouncing(height: f64, e: f64, t: f64) -> [f64; 2] {
+    let (mut from, mut up) = (-(2.0 * height / G).sqrt(), (2.0 * G * height).sqrt());
+    let mut end = -from;
+    while end <= t {
+        (from, up) = (end, e * up);
+        if up < 1e-9 {
+            return [0.0, 0.0];
+        }
+        end += 2.0 * up / G;
+    }
+    [(t - from) * (up - 0.5 * G * (t - from)), up - G * (t - from)]
+}
+
+#[test]
+fn a_ball_bounces_at_its_times_and_comes_to_rest() {
+    let (height, e) = (0.5, 0.6);
+    let fall = (2.0 * height / G).sqrt();
+    let rest = fall + 2.0 * fall * e / (1.0 - e);
+    for settings in [
+        "tolerance: 1e-10",
+        "integrator: dop853, tolerance: 1e-10",
+        "integrator: radau5, tolerance: 1e-10, coordinates: cartesian",
+        "integrator: bdf, tolerance: 1e-9",
+        "integrator: rk4, step: 1 ms",
+        "integrator: generalized-alpha, rho: 0.8, step: 1 ms",
+        "coordinates: minimal, tolerance: 1e-10",
+    ] {
+        let study = format!("dynamics: {{ until: 2 s, every: 10 ms, {settings} }}");
+        let text = ball("from: 0 m, restitution: 0.6, rest_speed: 1e-5 m/s", "0 N", "W.position: 0.5 m", &study);
+        let outcome = done(&text, "fall");
+        let within = if settings.contains("alpha") { 1e-5 } else { 1e-6 };
+        for row in outcome.rows.iter().filter(|r| (r[0] - rest).abs() > 1e-4) {
+            let [x, v] = bouncing(height, e, row[0]);
+            close(&format!("height at {} s, {settings}", row[0]), row[1], x, within);
+            // both sides of a blow stand in the rows
+            if (v - row[2]).abs() > 1e-4 {
+                let [_, before] = bouncing(height, e, row[0] - 1e-7);
+                let [_, after] = bouncing(height, e, row[0] + 1e-7);
+                assert!((row[2] - before).abs().min((row[2] - after).abs()) < 1e-4, "v at {} s, {settings}: {}", row[0], row[2]);
+            }
+        }
+        let count = outcome.certificate.switches;
+        // blows until the rebound is below rest_speed: e^n √(2 g h) < 1e-5
+        let blows = ((1e-5 / (2.0 * G * height).sqrt()).ln() / f64::ln(e)).ceil() as usize;
+        assert!((blows..=blows + 4).contains(&count), "{settings}: {count} switches, {blows} blows");
+        assert!(last(&outcome)[1..].iter().all(|x| x.abs() < 1e-13), "{settings}: {:?}", last(&outcome));
+        close("energy taken by the blows", march(&outcome).impacts, -0.5 * G * height, 1e-6);
+        assert!(drift(&outcome) < 1e-5, "{settings}: {}", drift(&outcome));
+    }
+}
+
+#[test]
+fn a_resting_ball_stays_until_a_load_lifts_it() {
+    // the load k t carries the weight at t = m g/k; from there m x'' = k (t − t₀), x = k (t − t₀)³/(6 m)
+    let k: f64 = 10.0;
+    let lifts = 0.5 * G / k;
+    for settings in ["tolerance: 1e-10", "integrator: radau5, tolerance: 1e-10", "integrator: bdf, tolerance: 1e-9", "coordinates: minimal"]
+    {
+        let study = format!("dynamics: {{ until: 1.5 s, every: 50 ms, {settings} }}");
+        let outcome = done(&ball("from: 0 m, to: 4 m, restitution: 0.3", "10 N/s*t", "W.position: 0 m", &study), "fall");
+        for row in &outcome.rows {
+            let x = if row[0] < lifts { 0.0 } else { k * (row[0] - lifts).powi(3) / 3.0 };
+            close(&format!("height at {} s, {settings}", row[0]), row[1], x, 1e-7);
+        }
+        assert!(outcome.rows.windows(2).any(|w| w[0][0] == w[1][0] && (w[0][0] - lifts).abs() < 1e-7), "{settings}: no event");
+        assert!(drift(&outcome) < 1e-7, "{settings}: {}", drift(&outcome));
+    }
+}
+
+#[test]
+fn between_two_stops_without_loss_the_motion_has_its_period() {
+    // from 0 to L and back at the speed v: 2 L/v; after ten periods where it was
+    let text = ball(
+        "from: 0 m, to: 1 m, restitution: 1",
+        "0.5 kg*9.81 m/s^2",
+        "W.position: 0.25 m, W.velocity: 2 m/s",
+        "dynamics: { until: 10 s, tolerance: 1e-10 }",
+    );
+    let outcome = done(&text, "fall");
+    close("height", last(&outcome)[1], 0.25, 1e-8);
+    close("velocity", last(&outcome)[2], 2.0, 1e-9);
+    assert_eq!(outcome.certificate.switches, 20);
+}
+
+#[test]
+fn a_contact_with_stiffness_lasts_half_a_period() {
+    // without gravity: a blow at v on a spring k takes π √(m/k) and gives v back; the deepest place is v √(m/k) deep
+    let text = ball(
+        "from: 0 m, stiffness: 2000 N/m",
+        "0.5 kg*9.81 m/s^2",
+        "W.position: 10 cm, W.velocity: -1 m/s",
+        "dynamics: { until: 0.2 s, tolerance: 1e-11 }",
+    );
+    let outcome = done(&text, "fall");
+    let sides: Vec<f64> = outcome.rows.windows(2).filter(|w| w[0][0] == w[1][0]).map(|w| w[0][0]).collect();
+    close("contact begins", sides[0], 0.1, 1e-9);
+    close("contact lasts", sides[1] - sides[0], std::f64::consts::PI * (0.5_f64 / 2000.0).sqrt(), 1e-9);
+    close("velocity", last(&outcome)[2], 1.0, 1e-8);
+    let deepest = outcome.extremes[1].as_ref().expect("extremes").min.value;
+    close("depth", deepest, -(0.5_f64 / 2000.0).sqrt(), 1e-9);
+}
+
+#[test]
+fn a_slider_crank_strikes_a_stop_and_rests_on_it_in_every_coordinate() {
+    let model = |settings: &str| {
+        format!(
+            "grashof: 1
+name: crank on a stop
+space: planar
+gravity: [0, -{G} m/s^2]
+ground: {{ O: [0, 0] }}
+bodies:
+  crank: {{ bar: {{ length: 10 cm, mass: 0.4 kg }} }}
+  rod: {{ bar: {{ length: 30 cm, mass: 0.6 kg }} }}
+  piston: {{ mass: 0.5 kg, inertia: 1e-3 kg m^2 }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, rod.start] }}
+  B: {{ revolute: [rod.end, piston.origin] }}
+  W: {{ slider: [ground.O, piston.origin], axis: [1, 0], limits: {{ from: 25 cm, restitution: 0.4 }} }}
+loads:
+  push: {{ joint: W, force: \"if(t < 0.8 s, -20 N, 30 N)\" }}
+start: {{ O.angle: 60 deg, rod.angle: ~-20 deg, W.position: ~34 cm }}
+studies:
+  strike: {{ dynamics: {{ until: 1 s, every: 10 ms, tolerance: 1e-9, {settings} }}, columns: [time, O.angle, W.position, O.f] }}
+"
+        )
+    };
+    let reference = done(&model("integrator: dop853"), "strike");
+    assert!(reference.rows.iter().any(|r| (r[2] - 0.25).abs() < 1e-12), "it rests");
+    assert!(reference.rows.iter().any(|r| r[0] > 0.9 && r[2] > 0.35), "it leaves");
+    assert!(drift(&reference) < 1e-6, "{}", drift(&reference));
+    for settings in ["coordinates: cartesian", "coordinates: minimal", "integrator: radau5", "integrator: bdf"] {
+        let other = done(&model(settings), "strike");
+        for (found, right) in last(&other).iter().zip(last(&reference)) {
+            close(settings, *found, *right, 2e-5 * right.abs().max(1.0));
+        }
+    }
+}
+
+#[test]
+fn a_driver_does_not_move_through_a_rigid_stop() {
+    let text = ball("from: 0 m, to: 1 m, restitution: 0.5", "0 N", "W.position: 0.5 m", "inverse: { over: 2 s, samples: 50 }")
+        .replace("start:", "drivers: { drive: { joint: W, position: \"0.5 m + 0.3 m/s*t\" } }\nstart:");
+    let told = tried(&text, "fall").expect_err("a refusal");
+    assert!(told.reason().contains("upper stop at 1"), "{}", told.reason());
+    let beyond = ball("from: 0 m, restitution: 0.5", "0 N", "W.position: -0.1 m", "dynamics: { until: 1 s }");
+    let told = tried(&beyond, "fall").expect_err("a refusal");
+    assert!(told.reason().contains("beyond the lower stop of joint `W`"), "{}", told.reason());
+}
