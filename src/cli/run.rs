@@ -141,7 +141,7 @@ impl Session<'_> {
             return (told_of_interrupt(study, what), None);
         }
         let mut code = finished.code;
-        self.show(&finished, stem);
+        self.show(&finished, stem, model.study.as_ref().map_or("", |s| s.about.as_str()));
         if self.wanted.verify && finished.output.is_some() {
             code = code.max(self.verified(model, study, &finished.computed));
             if interrupted() {
@@ -151,10 +151,14 @@ impl Session<'_> {
         (code, finished.output.map(|output| output.report).filter(|_| self.wanted.json))
     }
 
-    /// Prints the tables of a study.
-    fn show(&self, finished: &Finished, name: &str) {
+    /// Prints what a study is for, and its tables.
+    fn show(&self, finished: &Finished, name: &str, about: &str) {
         let Some(output) = finished.output.as_ref().filter(|_| !self.wanted.json) else { return };
         say(name);
+        let about: Vec<&str> = about.split_whitespace().collect();
+        if !about.is_empty() {
+            say(&format!("  {}", about.join(" ")));
+        }
         say(&output.table);
         if self.wanted.units {
             for (name, unit) in &output.columns {
