@@ -145,6 +145,8 @@ pub struct Engine {
     pub size_v: Vec<f64>,
     /// 1/√(G D⁻¹ Gᵀ) of each row (m): Φ times this is a mass-weighted way.
     pub row_unit: Vec<f64>,
+    /// Whether the rows were independent at the start: else σ says nothing of singular positions.
+    pub independent: bool,
     delta: Vec<f64>,
     mu: Vec<f64>,
     zeros: Vec<f64>,
@@ -180,6 +182,7 @@ impl Engine {
             size_q: pattern.size_q.clone(),
             size_v: pattern.size_v.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
+            independent: true,
             delta: vec![0.0; dims.v],
             mu: vec![0.0; dims.rows()],
             zeros: vec![0.0; dims.v],
@@ -361,6 +364,16 @@ impl Engine {
             self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
         }
         needed
+    }
+
+    /// Removes from a velocity (nv) what lies across the constraints, in the metric M, by the terms and factors at hand.
+    pub fn tangential(&mut self, x: &mut [f64]) {
+        let nv = self.dims.v;
+        for (r, row) in self.rhs.iter_mut().zip(self.terms.g.chunks_exact(nv.max(1))) {
+            *r = -row.iter().zip(&*x).map(|(g, x)| g * x).sum::<f64>();
+        }
+        self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
+        x.iter_mut().zip(&self.delta).for_each(|(x, d)| *x += d);
     }
 
     /// Takes the modes of a state from its values; true if one has changed.

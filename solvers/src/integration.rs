@@ -82,8 +82,6 @@ pub struct Integration {
     bridge: Option<Box<dyn Scheme>>,
     /// Time that must be passed and σ that must be reached before the bridge ends.
     bridging: Option<(f64, f64)>,
-    /// Whether σ may be asked: rows are independent at the start.
-    independent: bool,
     bridged: Vec<f64>,
     schemes: Vec<&'static str>,
     sigma: f64,
@@ -135,7 +133,6 @@ impl Integration {
             scheme: schemes::new(settings.method, settings, system),
             bridge,
             bridging: None,
-            independent: true,
             bridged: Vec::with_capacity(REMEMBERED),
             schemes: Vec::with_capacity(8),
             sigma: 1.0,
@@ -174,8 +171,9 @@ impl Integration {
     fn begin(&mut self, system: &mut dyn System) -> Result<(), Why> {
         self.engine.settle(system, &mut self.node)?;
         self.choose_modes(system)?;
-        self.sigma = self.engine.kkt.smallest_singular_value(&mut self.sigma_row);
-        self.independent = self.sigma > 1e-4;
+        // the first vector is arbitrary
+        self.sigma = (0..6).fold(1.0, |_, _| self.engine.kkt.smallest_singular_value(&mut self.sigma_row));
+        self.engine.independent = self.sigma > 1e-4;
         self.largest_sigma = self.sigma.min(1.0);
         self.h = self.first_step(system)?;
         self.turn = 0;
@@ -470,7 +468,7 @@ impl Integration {
         if !scheme.completes() {
             self.engine.accelerate(system, &mut self.trial)?;
         }
-        if self.bridge.is_none() || !self.independent {
+        if self.bridge.is_none() || !self.engine.independent {
             return Ok(true);
         }
         let sigma = self.engine.kkt.smallest_singular_value(&mut self.sigma_row);

@@ -3,7 +3,7 @@
 mod problems;
 
 use allocation_counter::measure;
-use grashof_solvers::{Control, Counts, Integration, Method, Node, Progress, Settings};
+use grashof_solvers::{Control, Counts, Integration, Method, Node, Progress, Settings, State, System};
 use problems::*;
 
 fn settings(method: Method, control: Control) -> Settings {
@@ -144,44 +144,57 @@ fn errors_of_order_4_follow_the_tolerance() {
     assert!(most < 1000.0 && most < 100.0 * least, "{ratios:?}");
 }
 
-/// Ten seconds of a row of four bars with noise in its constraints, 20 singular positions or so: the largest change of energy (J)
-/// and the largest angle between links at |cos φ| > 0.1.
-///
-/// Nearer to a singular position the constraints leave the angle between links open by their round-off over |cos φ|, which is
-/// held below 1e-13.
-fn four_bars(n: usize) -> [f64; 2] {
+/// Ten seconds of a row of four bars with noise in its constraints, 10 singular positions or so: the largest change of energy (J)
+/// and the largest angle between links, within |cos φ| < 0.1 times 10 |cos φ|.
+fn four_bars(n: usize, tolerance: f64) -> [f64; 2] {
     let mut system = NFourBar::new(n, 1e-15);
     let energy = system.energy(&system.start());
     let (mut drift, mut skew) = (0.0_f64, 0.0_f64);
-    let (node, _) = run(&mut system, precise(1e-12), 10.0, |system, node| {
+    let (node, _) = run(&mut system, precise(tolerance), 10.0, |system, node| {
         drift = drift.max((system.energy(&node.state) - energy).abs());
+        // round-off of Φ leaves the angle between links open by itself over |cos φ|
         let angles = system.angles(&node.state.q);
-        let open = angles.iter().fold(0.0_f64, |m, a| m.max((a - angles[0]).abs()));
-        let cosine = angles[0].cos().abs();
-        assert!(open * cosine < 1e-13, "{n}: {open:e} at cos {cosine:e}");
-        if cosine > 0.1 {
-            skew = skew.max(open);
-        }
+        let cosine = (10.0 * angles[0].cos().abs()).min(1.0);
+        skew = angles.iter().fold(skew, |m, a| m.max((a - angles[0]).abs() * cosine));
     });
     let turns = (system.angles(&node.state.q)[0] - NFourBar::exact(n, 10.0)[0]) / std::f64::consts::TAU;
-    assert!((turns - turns.round()).abs() < 1e-8, "{n}: {turns}");
+    assert!((turns - turns.round()).abs() < 100.0 * tolerance.max(1e-11), "{n}: {turns}");
     [drift, skew]
 }
 
 #[test]
 fn rows_of_four_bars_pass_their_singular_positions() {
-    for (n, energy) in [(1, 1e-8), (2, 1e-7), (6, 1e-7), (10, 1e-7)] {
-        let [drift, skew] = four_bars(n);
+    for (n, energy) in [(1, 1e-11), (2, 1e-10), (6, 1e-9), (10, 1e-9)] {
+        let [drift, skew] = four_bars(n, 1e-12);
         assert!(drift < energy && skew < 1e-12, "{n}: {drift:e} J, {skew:e}");
+    }
+    for tolerance in [1e-8, 1e-10] {
+        for n in [1, 2, 6, 10] {
+            let mut twin = FourBarTwin::new(n);
+            let energy = twin.energy(&twin.start());
+            let mut of_twin = 0.0_f64;
+            run(&mut twin, precise(tolerance), 10.0, |twin, node| of_twin = of_twin.max((twin.energy(&node.state) - energy).abs()));
+            let [drift, skew] = four_bars(n, tolerance);
+            // the twin has the inertia 1, the row of four-bars (4n + 1)/3
+            let allowed = 10.0 * of_twin * (4 * n + 1) as f64 / 3.0;
+            assert!(drift < allowed && skew < 1e-12, "{n} {tolerance:e}: {drift:e} J, at most {allowed:e}, {skew:e}");
+        }
     }
 }
 
+/// Across a singular position a step is as long as elsewhere: neither the approach nor what follows takes it in small pieces.
 #[test]
-#[ignore = "not reached: 1.0e-8 J with 2 four-bars, 2.4e-8 J with 6, 3.3e-8 J with 10"]
-fn long_rows_of_four_bars_keep_their_energy_to_1e_8_joules() {
-    for n in [2, 6, 10] {
-        let [drift, _] = four_bars(n);
-        assert!(drift < 1e-8, "{n}: {drift:e} J");
+fn singular_positions_cost_few_steps() {
+    let spent = |p: &mut dyn System, start: &State| {
+        let mut run = Integration::new(p, precise(1e-12), start).unwrap();
+        while run.advance(p, 10.0).unwrap() != Progress::End {}
+        run.engine.counts
+    };
+    for n in [1, 6] {
+        let (mut system, mut twin) = (NFourBar::new(n, 1e-15), FourBarTwin::new(n));
+        let (start, of_twin) = (system.start(), twin.start());
+        let (counts, of_twin) = (spent(&mut system, &start), spent(&mut twin, &of_twin));
+        assert!(counts.steps < 2 * of_twin.steps && counts.rejected < 30, "{counts:?} {of_twin:?}");
     }
 }
 
@@ -250,7 +263,7 @@ fn steps_allocate_nothing() {
         let mut system = Andrews::new();
         let start = system.start();
         let mut run = Integration::new(&mut system, settings(method, Control::Tolerance(1e-6)), &start).unwrap();
-        let mut inside = Node::new(grashof_solvers::System::dims(&system));
+        let mut inside = Node::new(system.dims());
         let info = measure(|| {
             while run.advance(&mut system, 0.003).unwrap() != Progress::End {
                 let middle = 0.5 * (run.last().state.t + run.node().state.t);

@@ -176,30 +176,60 @@ fn the_error_follows_a_small_tolerance() {
     }
 }
 
+/// A row of four-bars beside its twin: the drift of the energy is at most ten times that of the twin, and the error of the angle,
+/// which that drift makes in time, at most thirty times.
+fn crosses(n: usize, method: Method, tolerance: f64, end: f64) {
+    let settings = Settings { method, control: Control::Tolerance(tolerance), ..Settings::default() };
+    let probe = NFourBar::new(n, 0.0);
+    let before = probe.energy(&probe.start());
+    let (mut drift, mut apart) = (0.0_f64, 0.0_f64);
+    let ended = run(&mut NFourBar::new(n, 1e-15), settings, end, |node| {
+        drift = drift.max((probe.energy(&node.state) - before).abs());
+        let angles = probe.angles(&node.state.q);
+        apart = angles.iter().fold(apart, |m, x| m.max((x - angles[0]).abs() * x.cos().abs()));
+    });
+    let angle = (probe.angles(&ended.node().state.q)[0] - NFourBar::exact(n, end)[0]).abs();
+    let mut twin = FourBarTwin::new(n);
+    let (mut of_twin, before, see) = (0.0_f64, twin.energy(&twin.start()), twin.clone());
+    let by_twin = run(&mut twin, settings, end, |node| of_twin = of_twin.max((see.energy(&node.state) - before).abs()));
+    let by_twin = (by_twin.node().state.q[0] - NFourBar::exact(n, end)[0]).abs();
+    // the twin has the inertia 1, the row of four-bars (4n + 1)/3
+    let of_twin = of_twin * (4 * n + 1) as f64 / 3.0;
+    let message = format!("{n} {method:?} {tolerance:e}: {drift:e} {of_twin:e} {angle:e} {by_twin:e} {apart:e} {:?}", ended.engine.counts);
+    assert!(drift < 10.0 * of_twin && angle < 30.0 * by_twin && apart < 1e-3 * tolerance.max(1e-9), "{message}");
+}
+
 #[test]
 fn singular_positions_are_crossed() {
     for n in [1, 2, 6, 10] {
         for method in [GENERALIZED, HHT, TRAPEZOIDAL] {
-            let settings = Settings { method, control: Control::Tolerance(1e-5), ..Settings::default() };
-            let probe = NFourBar::new(n, 0.0);
-            let before = probe.energy(&probe.start());
-            let (mut drift, mut apart) = (0.0_f64, 0.0_f64);
-            let end = 2.5 * NFourBar::turn(n);
-            let ended = run(&mut NFourBar::new(n, 1e-15), settings, end, |node| {
-                drift = drift.max((probe.energy(&node.state) / before - 1.0).abs());
-                let angles = probe.angles(&node.state.q);
-                apart = angles.iter().fold(apart, |m, x| m.max((x - angles[0]).abs()));
-            });
-            let angle = (probe.angles(&ended.node().state.q)[0] - NFourBar::exact(n, end)[0]).abs();
-            let twin = FourBarTwin::new(n);
-            let (mut twin_drift, before) = (0.0_f64, twin.energy(&twin.start()));
-            let by_twin = run(&mut twin.clone(), settings, end, |node| {
-                twin_drift = twin_drift.max((twin.energy(&node.state) / before - 1.0).abs());
-            });
-            let by_twin = (by_twin.node().state.q[0] - NFourBar::exact(n, end)[0]).abs();
-            let message = format!("{n} {method:?} {drift:e} {twin_drift:e} {angle:e} {by_twin:e} {apart:e} {:?}", ended.engine.counts);
-            assert!(drift < 10.0 * twin_drift && angle < 10.0 * by_twin && apart < 1e-7, "{message}");
+            crosses(n, method, 1e-5, 2.5 * NFourBar::turn(n));
         }
+    }
+}
+
+#[test]
+fn one_four_bar_is_crossed_at_1e_8_and_1e_10() {
+    crosses(1, GENERALIZED, 1e-8, 10.0);
+    crosses(1, GENERALIZED, 1e-10, 10.0);
+}
+
+#[test]
+fn two_and_six_four_bars_are_crossed_at_1e_8() {
+    crosses(2, GENERALIZED, 1e-8, 10.0);
+    crosses(6, GENERALIZED, 1e-8, 10.0);
+}
+
+#[test]
+fn ten_four_bars_are_crossed_at_1e_8() {
+    crosses(10, GENERALIZED, 1e-8, 10.0);
+}
+
+#[test]
+#[ignore = "takes minutes: a method of order 2 makes a million steps at 1e-10"]
+fn rows_of_four_bars_are_crossed_at_1e_10() {
+    for n in [2, 6, 10] {
+        crosses(n, GENERALIZED, 1e-10, 10.0);
     }
 }
 

@@ -226,10 +226,6 @@ fn the_continuous_solution_is_as_good_as_the_nodes() {
     }
 }
 
-/// Energy that each crossing of a singular position may cost (J): explicit steps on regularised equations lose some 1e-9 J there
-/// whatever their tolerance is (measured: 2e-9 to 8e-9 J).
-const CROSSING: f64 = 9e-9;
-
 #[test]
 fn rows_of_four_bars_pass_their_singular_positions() {
     for tolerance in [1e-8, 1e-10] {
@@ -241,14 +237,11 @@ fn rows_of_four_bars_pass_their_singular_positions() {
             let mut system = NFourBar::new(n, 1e-15);
             let energy = system.energy(&system.start());
             let shape = system.clone();
-            let (mut drift, mut skew, mut flat) = (0.0_f64, 0.0_f64, 0);
-            let mut side = true;
+            let (mut drift, mut skew) = (0.0_f64, 0.0_f64);
             let (node, counts) = run(&mut system, precise(tolerance), 10.0, |system, node| {
                 drift = drift.max((system.energy(&node.state) - energy).abs());
                 let angles = shape.angles(&node.state.q);
-                flat += usize::from((angles[0].cos() > 0.0) != side);
-                side = angles[0].cos() > 0.0;
-                // in a flat position Φ is quadratic in the angles, and cannot tell them to more than half the digits
+                // implicit steps leave Φ as their iteration does, which says less of the angles near a flat position
                 if angles[0].cos().abs() > 0.2 {
                     skew = angles.iter().fold(skew, |m, a| m.max((a - angles[0]).sin().abs()));
                 }
@@ -256,8 +249,7 @@ fn rows_of_four_bars_pass_their_singular_positions() {
             let phi = shape.angles(&node.state.q)[0] - NFourBar::exact(n, 10.0)[0];
             // the twin has the inertia 1, the four-bar (4n + 1)/3
             let of_twin = 10.0 * drift_of_twin * (4 * n + 1) as f64 / 3.0;
-            let allowed = if tolerance < 1e-9 { of_twin.max(CROSSING * flat as f64) } else { of_twin };
-            assert!(drift < allowed && skew < 1e-12, "{n} {tolerance:e}: {drift:e} {allowed:e} {skew:e} {counts:?}");
+            assert!(drift < of_twin && skew < 1e-12, "{n} {tolerance:e}: {drift:e} {of_twin:e} {skew:e} {counts:?}");
             assert!((0.5 * phi).sin().abs() < 1e2 * tolerance, "{n} {tolerance:e}: {phi}");
         }
     }

@@ -33,7 +33,7 @@ impl Integration {
     /// Hands over to explicit steps, which cross a singular position by the regularised KKT system; false if they are at work.
     pub(super) fn begins_bridge(&mut self, system: &mut dyn System, h: f64, near: bool) -> Result<bool, Why> {
         let Some(bridge) = &mut self.bridge else { return Ok(false) };
-        if !near || !self.independent || self.bridging.is_some() {
+        if !near || !self.engine.independent || self.bridging.is_some() {
             return Ok(false);
         }
         self.engine.counts.bridges += 1;

@@ -2,7 +2,8 @@
 //!
 //! Twelve stages of order 8, an error estimate combined from orders 5 and 3, and a continuous solution of order 7 from three
 //! more stages: Hairer, Nørsett & Wanner, Solving ODEs I, 2nd ed., sections II.5 and II.6. The error is that of the step before
-//! projection; the accelerations behind it are the first stage of the next step.
+//! projection; the accelerations behind it are the first stage of the next step. Where an error is too large a singular position
+//! may be near: `crossing.rs` says how it is passed.
 
 use super::explicit::{Flow, Row, advance, rows};
 use crate::System;
@@ -10,11 +11,13 @@ use crate::dense_output::Dense;
 use crate::engine::{Engine, Node, Rejected, Why};
 use crate::scheme::Scheme;
 use coefficients::*;
+use crossing::Crossing;
 use stiffness::Stiffness;
 
 pub(super) use stiffness::BORDER;
 
 mod coefficients;
+mod crossing;
 mod stiffness;
 #[cfg(test)]
 mod tests;
@@ -44,6 +47,9 @@ pub(super) struct Dop853 {
     e5: Vec<f64>,
     e3: Vec<f64>,
     stiffness: Stiffness,
+    crossing: Crossing,
+    /// Whether the stages of this step are projected.
+    projected: bool,
     h: f64,
     factor: f64,
     rejected: bool,
@@ -62,6 +68,8 @@ impl Dop853 {
             e5: vector.clone(),
             e3: vector,
             stiffness: Stiffness::new(system),
+            crossing: Crossing::new(system.dims()),
+            projected: false,
             h: 0.0,
             factor: 1.0,
             rejected: false,
@@ -95,7 +103,11 @@ impl Dop853 {
         let n = self.flow.n;
         advance(self.h, row, &self.k, &self.y0, &mut self.y);
         let rate = &mut self.k[number * n..][..n];
-        self.flow.rates(system, engine, (from.state.t + C[number] * self.h, &from.state.live), &self.y, rate)
+        let t = from.state.t + C[number] * self.h;
+        if self.projected {
+            return self.flow.settled(system, engine, (&from.state, t), &self.y, &mut self.crossing.node, rate);
+        }
+        self.flow.rates(system, engine, (t, &from.state.live), &self.y, rate)
     }
 
     /// The stages of a step behind the first, which is known.
@@ -131,6 +143,39 @@ impl Dop853 {
         }
     }
 
+    /// The projected end of a step near a singular position; of the errors, what lies along the constraints there.
+    fn arrive(&mut self, system: &mut dyn System, engine: &mut Engine, to: &mut Node) -> Result<(), Why> {
+        engine.settle(system, to)?;
+        self.crossing.arrive(engine, to);
+        let (nq, nv) = (to.state.q.len(), to.state.v.len());
+        for e in [&mut self.e5, &mut self.e3] {
+            let (e_q, rest) = e.split_at_mut(nq);
+            self.crossing.along(system, engine, e_q, &mut rest[..nv]);
+        }
+        Ok(())
+    }
+
+    /// A step that cannot be evaluated.
+    fn fails(&mut self, from: &Node, why: Why) -> Rejected {
+        Rejected { why, retry: self.crossing.reject(from.state.t, 0.25 * self.h) }
+    }
+
+    /// A step whose error is too large: perhaps because of a singular position.
+    fn errs(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, error: f64) -> Rejected {
+        self.rejected = true;
+        let (t, h) = (from.state.t, self.h);
+        let shorter = h * if error.is_finite() { self.factor } else { SHRINK };
+        let retry = match self.projected {
+            true => self.crossing.reject(t, shorter),
+            // how long a step may be shows with projected stages
+            false => match self.crossing.look(system, engine, from, h) {
+                Ok(near) => self.crossing.plan(t, if near { h } else { shorter }),
+                Err(why) => return self.fails(from, why),
+            },
+        };
+        Rejected { why: Why::Error(error), retry }
+    }
+
     /// Takes y and F at the end of the step, projected, and looks at stability.
     fn end(&mut self, system: &dyn System, to: &Node) {
         let (n, s) = (self.flow.n, &to.state);
@@ -156,27 +201,31 @@ impl Scheme for Dop853 {
     fn restart(&mut self, _: &mut dyn System, _: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
         self.rejected = false;
         self.stiffness.forget();
+        self.crossing.forget();
         Ok(())
     }
 
     fn attempt(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, h: f64, to: &mut Node) -> Result<(), Rejected> {
-        let fails = |why| Rejected { why, retry: 0.25 * h };
         self.h = h;
+        self.projected = self.crossing.near();
         let n = self.flow.n;
         self.flow.begin(system, from, &mut self.y0, &mut self.k[..n]);
-        self.stages(system, engine, from).map_err(fails)?;
-        self.sum();
+        let tried = self.stages(system, engine, from).and_then(|()| {
+            self.sum();
+            self.flow.state(&from.state, from.state.t + h, &self.y1, &mut to.state);
+            if self.projected { self.arrive(system, engine, to) } else { Ok(()) }
+        });
+        tried.map_err(|why| self.fails(from, why))?;
         if !engine.is_fixed() {
             let error = self.error(engine, from);
             self.factor = (SAFETY * error.powf(-0.125)).clamp(SHRINK, GROW);
             if error.is_nan() || error > 1.0 {
-                self.rejected = true;
-                let factor = if error.is_finite() { self.factor } else { SHRINK };
-                return Err(Rejected { why: Why::Error(error), retry: h * factor });
+                return Err(self.errs(system, engine, from, error));
             }
         }
-        self.flow.state(&from.state, from.state.t + h, &self.y1, &mut to.state);
-        engine.settle_step(system, to).map_err(fails)?;
+        if !self.projected {
+            engine.settle_step(system, to).map_err(|why| self.fails(from, why))?;
+        }
         self.end(system, to);
         Ok(())
     }
@@ -185,10 +234,15 @@ impl Scheme for Dop853 {
         true
     }
 
-    fn accept(&mut self, engine: &mut Engine, _: &Node, _: &Node) -> f64 {
+    fn accept(&mut self, engine: &mut Engine, _: &Node, to: &Node) -> f64 {
         self.stiffness.count();
         let most = if std::mem::take(&mut self.rejected) { 1.0 } else { GROW };
-        if engine.is_fixed() { self.h } else { self.h * self.factor.min(most) }
+        if engine.is_fixed() {
+            return self.h;
+        }
+        let next = self.h * self.factor.min(most);
+        self.crossing.accept(next);
+        self.crossing.plan(to.state.t, next)
     }
 
     /// The nested form y₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(r₄ + θ(r₅ + (1−θ)(r₆ + θ r₇)))))), in powers of θ. Its first three terms

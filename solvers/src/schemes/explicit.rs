@@ -76,6 +76,26 @@ impl Flow {
         Ok(())
     }
 
+    /// F of the state on the constraints that is nearest to y at t: that state with its accelerations, in `node`. Modes and live
+    /// parameters are those of `from`.
+    pub(super) fn settled(
+        &self,
+        system: &mut dyn System,
+        engine: &mut Engine,
+        (from, t): (&State, f64),
+        y: &[f64],
+        node: &mut Node,
+        rate: &mut [f64],
+    ) -> Result<(), Why> {
+        self.state(from, t, y, &mut node.state);
+        if self.follow {
+            engine.follow_modes(system, &mut node.state);
+        }
+        engine.settle(system, node)?;
+        self.known(system, node, rate);
+        Ok(())
+    }
+
     /// q, v and z of y.
     pub(super) fn parts<'a>(&self, y: &'a [f64]) -> [&'a [f64]; 3] {
         let (q, rest) = y.split_at(self.dims.q);

@@ -1,0 +1,195 @@
+//! Explicit steps across a singular position.
+//!
+//! Let σ, the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½, go through zero at a time t_c. Beside the constraints the
+//! equations of index 1 keep σx as it is, x the way of the weak direction, so that ẍ = −2ẋ/(t − t_c): errors of stages, which are
+//! of low order, are amplified by h/|t − t_c|, steps must shrink with the distance, and where σ² < E the force in the weak
+//! direction is missing: some 1e-9 J were lost in each crossing, whatever the tolerance (measured). On the constraints the motion
+//! is smooth, however. So near such a place
+//!
+//! - each stage is moved onto the constraints by P before its rates are taken. F∘P is another smooth field with the same motion
+//!   on the constraints, so the order stays that of the method;
+//! - the step is chosen so that t_c falls into the middle of the widest gap between stages, from 1/3 to 3/5: nothing is evaluated
+//!   where E counts;
+//! - the error counts along the constraints at the end of the step: what lies across is removed by the projection there, and is
+//!   mostly the noise ε of Φ, which becomes εσ̇²/σ³ in accelerations of the weak direction.
+
+use crate::engine::{Engine, Node, Why};
+use crate::{Dims, Stage, System};
+
+/// Middle of the widest gap between the stages, and parts of it where t_c may lie.
+const MIDDLE: f64 = 7.0 / 15.0;
+const GAP: [f64; 2] = [0.40, 0.53];
+
+/// Steps, ahead or behind, within which a singular position is near.
+const REACH: f64 = 2.0;
+
+/// σ below which one is looked for; at zero itself there is no telling when it was passed.
+const NEAR: f64 = 0.2;
+const UPON: f64 = 1e-4;
+
+/// Part of a step over which the change of σ is taken.
+const ASIDE: f64 = 1.0 / 16.0;
+
+/// Steps of the inverse iteration for σ.
+const ITERATIONS: usize = 3;
+
+/// Rejected steps in a row after which stages are taken as they are.
+const PATIENCE: usize = 6;
+
+/// A singular position that is near, and room for what is done there.
+#[derive(Debug)]
+pub(super) struct Crossing {
+    /// A state on the constraints: that of a stage, or the end of the step.
+    pub(super) node: Node,
+    /// Time at which rank is lost, s.
+    place: Option<f64>,
+    /// Time until which patience is lost, s.
+    beyond: f64,
+    rejected: usize,
+    /// Time and σ of the node, and of the end of the trial.
+    here: [f64; 2],
+    there: [f64; 2],
+    /// Combination of rows that is nearest to dependence.
+    row: Vec<f64>,
+    /// Velocities (nv), and rates of positions (nq).
+    shift: Vec<f64>,
+    lifted: Vec<f64>,
+    column: Vec<f64>,
+    drift: Vec<f64>,
+}
+
+impl Crossing {
+    /// Room for a system.
+    pub(super) fn new(dims: Dims) -> Self {
+        Self {
+            node: Node::new(dims),
+            place: None,
+            beyond: f64::NEG_INFINITY,
+            rejected: 0,
+            here: [0.0; 2],
+            there: [0.0; 2],
+            row: vec![0.0; dims.rows()],
+            shift: vec![0.0; dims.v],
+            lifted: vec![0.0; dims.v],
+            column: vec![0.0; dims.q],
+            drift: vec![0.0; dims.q],
+        }
+    }
+
+    /// Whether a singular position is near.
+    pub(super) fn near(&self) -> bool {
+        self.place.is_some()
+    }
+
+    /// Forgets the past.
+    pub(super) fn forget(&mut self) {
+        (self.place, self.beyond, self.rejected) = (None, f64::NEG_INFINITY, 0);
+    }
+
+    /// Looks for a singular position within reach of a step `h` (s) from a node: σ there and a little later. True if one is near.
+    ///
+    /// # Errors
+    /// If the system cannot be evaluated there.
+    pub(super) fn look(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, h: f64) -> Result<bool, Why> {
+        let t = from.state.t;
+        if !engine.independent || self.row.is_empty() || t < self.beyond {
+            return Ok(false);
+        }
+        self.node.copy_from(from);
+        let sigma = self.sigma(system, engine)?;
+        if !(UPON..=NEAR).contains(&sigma) {
+            return Ok(false);
+        }
+        let aside = ASIDE * h;
+        for ((s, v), a) in self.shift.iter_mut().zip(&from.state.v).zip(&from.a) {
+            *s = aside * (v + 0.5 * aside * a);
+        }
+        system.retract(&mut self.node.state.q, &self.shift);
+        self.node.state.t += aside;
+        let ahead = self.sigma(system, engine)?;
+        let way = aside * sigma / (sigma - ahead);
+        self.here = [t, sigma];
+        self.place = (way.abs() < REACH * h).then_some(t + way);
+        Ok(self.near())
+    }
+
+    /// σ at the state in hand.
+    fn sigma(&mut self, system: &mut dyn System, engine: &mut Engine) -> Result<f64, Why> {
+        engine.evaluate(system, self.node.state.at(), Stage::Position);
+        engine.factor()?;
+        Ok(self.estimate(engine))
+    }
+
+    /// σ by the factors at hand.
+    fn estimate(&mut self, engine: &mut Engine) -> f64 {
+        (0..ITERATIONS).fold(0.0, |_, _| engine.kkt.smallest_singular_value(&mut self.row))
+    }
+
+    /// The step to take at `t` (s) where `h` is the longest that the error allows: across with t_c in the gap, or up to where the
+    /// next one can do so.
+    pub(super) fn plan(&self, t: f64, h: f64) -> f64 {
+        let Some(place) = self.place else { return h };
+        let part = (place - t) / h;
+        if part <= 0.0 || part >= 1.0 + MIDDLE || (GAP[0]..=GAP[1]).contains(&part) {
+            h
+        } else if part < GAP[0] {
+            part * h / MIDDLE
+        } else {
+            (part - MIDDLE) * h
+        }
+    }
+
+    /// A step was rejected for what may be cured by a shorter one `h` (s); returns the one to try.
+    pub(super) fn reject(&mut self, t: f64, h: f64) -> f64 {
+        self.rejected += 1;
+        if self.rejected > PATIENCE
+            && let Some(place) = self.place.take()
+        {
+            self.beyond = place.max(t) + h;
+        }
+        self.plan(t, h)
+    }
+
+    /// Takes the end of a trial whose terms and factors are at hand.
+    pub(super) fn arrive(&mut self, engine: &mut Engine, to: &Node) {
+        self.node.copy_from(to);
+        self.there = [to.state.t, self.estimate(engine)];
+    }
+
+    /// The trial counts; `h` (s) is the step that the error allows next.
+    pub(super) fn accept(&mut self, h: f64) {
+        self.rejected = 0;
+        let Some(place) = self.place else { return };
+        let ([before, sigma], [t, now]) = (self.here, self.there);
+        self.here = self.there;
+        self.place = if t < place {
+            let way = (t - before) * now / (sigma - now);
+            (way > 0.0 && way < 2.0 * REACH * h).then_some(t + way)
+        } else {
+            (t - place < REACH * h).then_some(place)
+        };
+    }
+
+    /// Removes what lies across the constraints from errors e_q (nq) and e_v (nv) at the end of the trial.
+    ///
+    /// e_q = N u, and the columns of N(q) = ∂q̇/∂v are orthogonal, so that u = (NᵀN)⁻¹ Nᵀ e_q goes by columns.
+    pub(super) fn along(&mut self, system: &dyn System, engine: &mut Engine, e_q: &mut [f64], e_v: &mut [f64]) {
+        engine.tangential(e_v);
+        let s = &self.node.state;
+        self.shift.fill(0.0);
+        system.rate(s.t, &s.q, &self.shift, &mut self.drift);
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        for (j, u) in self.lifted.iter_mut().enumerate() {
+            self.shift[j] = 1.0;
+            system.rate(s.t, &s.q, &self.shift, &mut self.column);
+            self.shift[j] = 0.0;
+            self.column.iter_mut().zip(&self.drift).for_each(|(c, d)| *c -= d);
+            *u = dot(&self.column, e_q) / dot(&self.column, &self.column);
+        }
+        self.shift.copy_from_slice(&self.lifted);
+        engine.tangential(&mut self.lifted);
+        self.shift.iter_mut().zip(&self.lifted).for_each(|(s, l)| *s = l - *s);
+        system.rate(s.t, &s.q, &self.shift, &mut self.column);
+        e_q.iter_mut().zip(self.column.iter().zip(&self.drift)).for_each(|(e, (c, d))| *e += c - d);
+    }
+}
