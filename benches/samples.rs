@@ -12,9 +12,7 @@ mod closed_form;
 use closed_form::crank_rocker::{CrankRocker, Load, Parameters};
 use grashof::analysis::assemble::{Assembled, assemble};
 use grashof::analysis::driven::Driven;
-use grashof::analysis::observe::Observer;
 use grashof::analysis::sweep;
-use grashof::analysis::switching::Switching;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::mechanism::{Coordinates, Mechanism, build};
@@ -174,7 +172,6 @@ fn assembled<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) -> (Mec
 /// One turn of a driven crank, sample by sample: predicted by v h + ½ a h², corrected, then rates, switches, forces, reactions.
 struct Turn<'m, G: Space<S = f64>> {
     driven: Driven<'m, G>,
-    switching: Switching,
     start: Assembled,
     modes: Vec<i32>,
     step: f64,
@@ -185,10 +182,8 @@ struct Turn<'m, G: Space<S = f64>> {
 
 impl<'m, G: Space<S = f64>> Turn<'m, G> {
     fn new(model: &Model, mechanism: &'m Mechanism<G>, start: &Assembled) -> Self {
-        let observer = Observer::new(model, mechanism, &sweep::parameters(model), &[]);
         Self {
             driven: Driven::new(mechanism, start),
-            switching: Switching::new(mechanism, &observer),
             start: start.clone(),
             modes: start.modes.clone(),
             step: TAU / SAMPLES as f64 / Parameters::default().speed,
@@ -205,10 +200,11 @@ impl<'m, G: Space<S = f64>> Turn<'m, G> {
     }
 
     fn solve(&mut self, t: f64) {
-        let reached = self.driven.position(t, &self.modes);
+        let reached = self.driven.follow(t, &mut self.modes);
         assert!(reached.is_ok(), "not reached at {t} s");
         self.driven.rates(&self.modes);
-        self.switching.set_state(&self.driven.dynamics, &mut self.modes);
+        let m = self.driven.dynamics.mechanism;
+        self.driven.dynamics.switch(&m.force_program, &mut self.modes);
         self.driven.forces(&self.modes);
     }
 

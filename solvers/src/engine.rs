@@ -100,6 +100,8 @@ pub enum Why {
     StepSize,
     /// Events pile up; the root that crossed last.
     Zeno(usize),
+    /// A blow against what drivers or other rows hold: the root of the contact.
+    Blocked(usize),
     /// More steps than are allowed.
     TooManySteps,
     /// This build does not have the scheme (see [`available`](crate::schemes::available)).
@@ -163,6 +165,9 @@ const CLOSED: f64 = 4e-15;
 
 /// Round-off of Φ in parts of the largest coordinate: far from zero, positions cannot be closed any better.
 const FAR: f64 = f64::EPSILON;
+
+/// Part of its mobility without constraints below which a joint cannot give way to a blow.
+const HELD: f64 = 1e-6;
 
 /// A correction below this (in units of size) leaves a residual of its square.
 const SQUARE_ENOUGH: f64 = 1e-7;
@@ -386,20 +391,27 @@ impl Engine {
 
     /// The velocities behind an impulse along `row` (nv): δv by [M Gᵀ; G −E] [δv; Λ] = [p rowᵀ; 0] with row·v⁺ = −restitution row·v⁻.
     ///
+    /// False if the constraints hold row·v, as a driver does, so that no impulse changes it.
+    ///
     /// # Errors
     /// If the KKT matrix is singular.
-    pub fn impulse(&mut self, system: &mut dyn System, state: &mut State, row: &[f64], restitution: f64) -> Result<(), Why> {
+    pub fn impulse(&mut self, system: &mut dyn System, state: &mut State, row: &[f64], restitution: f64) -> Result<bool, Why> {
         self.evaluate(system, state.at(), Stage::Dynamics);
         self.factor()?;
         self.rhs.fill(0.0);
         self.kkt.solve(row, &self.rhs, &mut self.delta, &mut self.mu);
         let along = |x: &[f64]| row.iter().zip(x).map(|(r, x)| r * x).sum::<f64>();
+        let masses = self.terms.mass.iter().step_by(self.dims.v + 1);
+        let free: f64 = row.iter().zip(masses).map(|(r, m)| if *m > 0.0 { r * r / m } else { 0.0 }).sum();
+        if along(&self.delta) < HELD * free {
+            return Ok(false);
+        }
         let p = -(1.0 + restitution) * along(&state.v) / along(&self.delta);
         if !p.is_finite() {
             return Err(Why::Singular);
         }
         state.v.iter_mut().zip(&self.delta).for_each(|(v, d)| *v += p * d);
-        Ok(())
+        Ok(true)
     }
 
     /// Evaluates terms, and counts.

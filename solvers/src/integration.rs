@@ -103,6 +103,8 @@ pub struct Integration {
     /// Where given steps began to be counted: the start, or the last event.
     origin: f64,
     start: f64,
+    /// Roots that are looked for.
+    looked: Vec<usize>,
     roots: Vec<f64>,
     samples: Vec<f64>,
     /// Roots one look before those of `roots`.
@@ -113,6 +115,8 @@ pub struct Integration {
     power: Vec<f64>,
     work: Vec<f64>,
     zeno: Zeno,
+    /// Why there is no motion beyond the node.
+    halted: Option<Why>,
     /// The last number that was not finite, or friction without a solution, and when.
     spoiled: Option<(Why, f64)>,
 }
@@ -152,6 +156,7 @@ impl Integration {
             turn: 0,
             origin: start.t,
             start: start.t,
+            looked: (0..dims.roots).filter(|root| settings.locate || system.pattern().acting.contains(root)).collect(),
             roots: vec![0.0; dims.roots],
             samples: vec![0.0; dims.roots],
             older: vec![0.0; dims.roots],
@@ -161,6 +166,7 @@ impl Integration {
             power: vec![0.0; dims.work],
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
+            halted: None,
             spoiled: None,
         };
         run.begin(system).map_err(|why| Halt { why, t: start.t, h: 0.0 })?;
@@ -228,10 +234,17 @@ impl Integration {
         if let Control::Steps(steps) = self.settings.control {
             return Ok(steps[0]);
         }
-        let h0 = 0.01 * self.moment();
-        self.trial.copy_from(&self.node);
-        self.drift(system, h0);
-        self.engine.accelerate(system, &mut self.trial)?;
+        let mut h0 = 0.01 * self.moment();
+        // in its mode a friction that sticks grows far beyond its law: nearer to the start it still has a solution
+        for attempt in 0.. {
+            self.trial.copy_from(&self.node);
+            self.drift(system, h0);
+            match self.engine.accelerate(system, &mut self.trial) {
+                Ok(()) => break,
+                Err(why) if attempt == 8 => return Err(why),
+                Err(_) => h0 *= 0.1,
+            }
+        }
         let (s, e) = (&self.node.state, &self.engine);
         let first = e.step_norm(s, &s.v, &self.node.a, &self.node.zdot);
         let difference = |x: &[f64], y: &[f64], out: &mut [f64]| out.iter_mut().zip(x.iter().zip(y)).for_each(|(o, (x, y))| *o = x - y);
@@ -330,8 +343,12 @@ impl Integration {
         if self.engine.counts.steps >= self.settings.most_steps {
             return Err(Why::TooManySteps);
         }
+        if let Some(why) = self.halted {
+            return Err(why);
+        }
         let left = until - self.node.state.t;
-        if left <= 0.0 {
+        // an event may lie so near to the end that no step is left
+        if left <= 4.0 * f64::EPSILON * until.abs() {
             return Ok(Progress::End);
         }
         if let Some(ends) = self.pending.take() {
@@ -362,15 +379,6 @@ impl Integration {
             self.node.state.t = until;
         }
         self.end_bridge(system)?;
-        if !self.settings.locate {
-            if self.engine.follow_modes(system, &mut self.node.state) {
-                self.engine.accelerate(system, &mut self.node)?;
-            }
-            // implicit schemes have followed the modes themselves
-            self.engine.counts.stepped_over += usize::from(self.node.state.modes != self.last.state.modes);
-            self.balance(system)?;
-            return Ok(if ends { Progress::End } else { Progress::Step });
-        }
         self.finish(system, ends)
     }
 
@@ -379,6 +387,9 @@ impl Integration {
         match self.crossing(system)? {
             Some((theta, root)) => self.event(system, theta, root, ends),
             None => {
+                if !self.settings.locate {
+                    self.march_across(system)?;
+                }
                 self.balance(system)?;
                 Ok(if ends { Progress::End } else { Progress::Step })
             }

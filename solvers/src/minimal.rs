@@ -20,8 +20,8 @@ use std::cell::RefCell;
 
 mod loops;
 
-/// Part of the quality at the start below which the chart is changed, unless the caller knows better.
-const POOR: f64 = 1e-3;
+/// Part of the best quality below which the chart is changed, unless the caller knows better.
+const POOR: f64 = 0.1;
 
 /// Why a system has no minimal coordinates of this kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,8 +36,8 @@ pub enum Refused {
 ///
 /// q is the whole q of the inner system, v its independent velocities, λ the multipliers of its velocity-level rows. The chart (which
 /// velocities are independent) stands behind the inner modes in [`State::modes`], so that evaluations stay pure; the last root
-/// function watches it, and its crossing chooses another one and restarts the scheme. Its scale is the smallest singular value of
-/// diag(g_scale)^−½ G_d D_d^−½, and it is crossed at 1e-3 of the value at the start; see [`Minimal::change_chart_at`].
+/// function watches it, and its crossing chooses another one and restarts the scheme. Its quality is the smallest singular value of
+/// diag(g_scale)^−½ G_d D_d^−½; see [`Minimal::change_chart_at`].
 ///
 /// [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they use those of the last
 /// evaluation. Where rows depend on time that changes the guess, no more.
@@ -54,7 +54,7 @@ pub struct Minimal<S> {
     dims: Dims,
     inner: Dims,
     pattern: Pattern,
-    /// Quality of the chart at the start, and the part of it below which the chart is changed.
+    /// Quality of the chart at the start, and the part of the best one below which the chart is changed.
     quality: f64,
     poor: f64,
     /// M P (nv × n), and rows or columns of products with P.
@@ -100,15 +100,16 @@ impl<S: System> Minimal<S> {
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
         p.roots_by_reactions = inner.roots_by_reactions;
+        p.acting.clone_from(&inner.acting);
     }
 
-    /// Changes the chart at this part of the quality at the start instead of 1e-3.
+    /// Changes the chart at this part of the quality of the best chart there is, instead of 0.1; not before it has fallen to three
+    /// times this part of the quality at the start.
     ///
     /// A chart that degenerates ends in a turning point of its coordinates, and what it leaves as an error of the independent
-    /// coordinates reaches the other coordinates divided by its quality, their velocities by its square. A step that is chosen by the
-    /// error becomes short there in time; a given step may jump over the last good place, and Newton's method then fails. Where a
-    /// mechanism passes such positions, 0.1 or more is a better part (measured on a pendulum in x and y, `newmark` at 1e-5: an error
-    /// of 5e-3 with 1e-3, of 1e-3 with 0.1).
+    /// coordinates reaches the other coordinates divided by its quality, their velocities by its square (measured on a pendulum in x
+    /// and y, `newmark` at 1e-5: an error of 5e-3 with 1e-3, of 1e-3 with 0.1). Where every chart is poor, as in a singular position,
+    /// none is better, and the chart stays.
     pub fn change_chart_at(&mut self, part: f64) {
         self.poor = part;
     }
@@ -336,7 +337,12 @@ impl<S: System> System for Minimal<S> {
         if !own.is_empty() {
             loops.inner.roots(loops.state.at(), &loops.a, &loops.lambda, own);
         }
-        chart[0] = if closed { loops.quality() / self.quality - self.poor } else { -self.poor };
+        chart[0] = if closed {
+            let spare = loops.quality() / self.quality - 3.0 * self.poor;
+            if spare > 0.0 { spare } else { loops.relative_quality() - self.poor }
+        } else {
+            -self.poor
+        };
     }
 
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {

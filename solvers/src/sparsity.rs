@@ -93,6 +93,9 @@ pub struct Pattern {
     pub size_v: Vec<f64>,
     /// Whether root functions read a and λ; else they are functions of t, q, v and z alone, which saves a solution at each look.
     pub roots_by_reactions: bool,
+    /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
+    /// events, and of contacts whose crossing gives a blow.
+    pub acting: Vec<usize>,
 }
 
 impl Pattern {
@@ -114,6 +117,7 @@ impl Pattern {
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],
             roots_by_reactions: false,
+            acting: Vec::new(),
         }
     }
 }

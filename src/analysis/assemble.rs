@@ -2,9 +2,12 @@
 //!
 //! Guesses (`~`) and exact values first pull the drawn position towards themselves, all alike, in the sense of least squares.
 //! Then constraints and exact values are closed by Gauss-Newton steps that are shortest in the mass metric (Levenberg's
-//! damping where a step does not help), so that the branch is the one the guess lies on. Velocities follow linearly.
+//! damping where a step does not help): once from there, once from where they close best with guesses held as well, lest
+//! coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts. Velocities follow
+//! linearly.
 
 mod explain;
+mod guess;
 
 use super::least_squares::shortest;
 use crate::dynamics::Dynamics;
@@ -63,9 +66,17 @@ struct System<'a, G: Space<S = f64>> {
     modes: Vec<i32>,
     /// Rows asked at position level: those not anchored by the start.
     rows: Vec<usize>,
-    /// Whether exact values must hold.
-    exact: bool,
+    /// Which start values must hold.
+    held: Held,
     size: f64,
+}
+
+/// Which values of `start` are rows of a closing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Held {
+    Nothing,
+    Exact,
+    All,
 }
 
 const CONVERGED: f64 = 1e-12;
@@ -85,6 +96,9 @@ pub fn assemble<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assem
     system.guess(&mut q, &metric);
     let guessed = q.clone();
     let mut closed = system.close(&mut q, &metric);
+    if let Some(better) = system.by_guesses(&guessed, closed.then_some(&q), &metric) {
+        (q, closed) = (better, true);
+    }
     // a guess in a singular position (a straight linkage) has no direction to go: look around it
     let mut shake = Shake(1);
     for attempt in 0..8 {
@@ -92,8 +106,7 @@ pub fn assemble<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assem
             break;
         }
         let mut trial = guessed.clone();
-        let delta: Vec<f64> = (0..mechanism.nv).map(|_| shake.next() * 0.05 * f64::from(attempt + 1)).collect();
-        mechanism.retract(&mut trial, &delta);
+        mechanism.retract(&mut trial, &shake.displacement(mechanism.nv, 0.05 * f64::from(attempt + 1)));
         closed = system.close(&mut trial, &metric);
         if closed {
             q = trial;
@@ -101,7 +114,7 @@ pub fn assemble<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assem
     }
     if !closed {
         // whom to blame: would it close if the exact values gave way?
-        system.exact = false;
+        system.held = Held::Nothing;
         let closes = system.close(&mut q, &metric);
         system.evaluate(&q);
         return Err(if closes { system.explain_start() } else { system.explain() });
@@ -174,17 +187,18 @@ fn anchor<G: Space<S = f64>>(mechanism: &mut Mechanism<G>, q: &[f64], modes: &[i
 impl<'a, G: Space<S = f64>> System<'a, G> {
     fn new(mechanism: &'a Mechanism<G>) -> Self {
         let mut dynamics = Dynamics::new(mechanism);
-        let modes = mechanism.modes();
-        dynamics.time(0.0, &modes);
+        let mut modes = mechanism.modes();
+        dynamics.follow_time(0.0, &mut modes);
         let rows = (0..mechanism.rows.len()).filter(|r| !mechanism.rows[*r].anchored).collect();
         // the farthest point of any body from its own origin, and of the ground
         let reach = mechanism.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
-        Self { dynamics, modes, rows, exact: true, size: if reach > 0.0 { reach } else { 1.0 } }
+        Self { dynamics, modes, rows, held: Held::Exact, size: if reach > 0.0 { reach } else { 1.0 } }
     }
 
     fn evaluate(&mut self, q: &[f64]) {
         let zeros = vec![0.0; self.dynamics.mechanism.nv];
         self.dynamics.position(q, &self.modes);
+        self.dynamics.follow_position(&mut self.modes);
         self.dynamics.velocity(&zeros, &self.modes);
         self.dynamics.watch(q, &zeros, &self.modes);
         self.wind();
@@ -217,28 +231,6 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         }
     }
 
-    /// Residual and Jacobian of start values at position level, exact ones alone or all.
-    fn asked(&self, exact_only: bool, r: &mut Vec<f64>, jacobian: &mut Vec<f64>) {
-        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        for start in m.starts.iter().filter(|s| !(exact_only && s.guess)) {
-            let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
-            let scale = self.gauge_scale(gauge);
-            r.push((w.readings[gauge].x - start.value) * scale);
-            let first = jacobian.len();
-            jacobian.resize(first + m.nv, 0.0);
-            m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| jacobian[first + k] = x * scale);
-        }
-    }
-
-    /// Lengths are measured by the size of the mechanism, angles by themselves.
-    fn gauge_scale(&self, gauge: usize) -> f64 {
-        match self.dynamics.mechanism.gauges[gauge].measured {
-            Measured::Slide { .. } | Measured::Distance { .. } => 1.0 / self.size,
-            Measured::Coordinate { along, .. } if !along.turns => 1.0 / self.size,
-            _ => 1.0,
-        }
-    }
-
     /// Residual and Jacobian of constraints and exact values.
     fn hard(&self, r: &mut Vec<f64>, jacobian: &mut Vec<f64>) {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
@@ -249,27 +241,12 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             r.push(w.phi[row] * scale);
             jacobian.extend(w.g[row * m.nv..(row + 1) * m.nv].iter().map(|x| x * scale));
         }
-        if self.exact {
-            self.asked(true, r, jacobian);
+        if self.held != Held::Nothing {
+            self.asked(self.held == Held::Exact, r, jacobian);
         }
     }
 
-    /// Pulls the drawn position towards all asked values.
-    fn guess(&mut self, q: &mut [f64], metric: &[f64]) {
-        for _ in 0..30 {
-            self.evaluate(q);
-            let (mut r, mut jacobian) = (Vec::new(), Vec::new());
-            self.asked(false, &mut r, &mut jacobian);
-            if norm(&r) < CONVERGED {
-                break;
-            }
-            r.iter_mut().for_each(|r| *r = -*r);
-            let delta = self.bounded(shortest(&jacobian, &r, metric, 1e-12));
-            self.dynamics.mechanism.retract(q, &delta);
-        }
-    }
-
-    /// Closes constraints and exact values; false if they stay open.
+    /// Closes constraints and held values; false if they stay open.
     fn close(&mut self, q: &mut Vec<f64>, metric: &[f64]) -> bool {
         let (mut r, mut jacobian) = (Vec::new(), Vec::new());
         let mut damping = 0.0;
@@ -446,6 +423,11 @@ fn norm(x: &[f64]) -> f64 {
 struct Shake(u64);
 
 impl Shake {
+    /// A displacement of `nv` parts of at most this size.
+    fn displacement(&mut self, nv: usize, size: f64) -> Vec<f64> {
+        (0..nv).map(|_| self.next() * size).collect()
+    }
+
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0

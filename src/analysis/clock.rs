@@ -42,14 +42,12 @@ impl Clock {
     pub fn of_driver<G: Space<S = f64>>(
         dynamics: &mut Dynamics<'_, G>,
         modes: &mut [i32],
-        set: &mut impl FnMut(f64, &mut [i32]),
         output: usize,
         from: f64,
         length: f64,
     ) -> Result<Self, NeverThere> {
         let mut law = |t: f64| {
-            set(t, modes);
-            dynamics.time(t, modes);
+            dynamics.follow_time(t, modes);
             [0, 1, 2].map(|k| dynamics.work.motions[output + k])
         };
         let backwards = if length < 0.0 { -1.0 } else { 1.0 };
@@ -113,13 +111,7 @@ impl Clock {
     }
 
     /// Time at progress s.
-    pub fn time<G: Space<S = f64>>(
-        &self,
-        dynamics: &mut Dynamics<'_, G>,
-        modes: &mut [i32],
-        set: &mut impl FnMut(f64, &mut [i32]),
-        s: f64,
-    ) -> f64 {
+    pub fn time<G: Space<S = f64>>(&self, dynamics: &mut Dynamics<'_, G>, modes: &mut [i32], s: f64) -> f64 {
         if let Some(speed) = self.speed {
             return s / speed;
         }
@@ -128,8 +120,7 @@ impl Clock {
             return self.end;
         }
         let mut gone = |t: f64| {
-            set(t, modes);
-            dynamics.time(t, modes);
+            dynamics.follow_time(t, modes);
             dynamics.work.motions[output]
         };
         let f0 = gone(0.0);

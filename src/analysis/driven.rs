@@ -110,20 +110,43 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         }
     }
 
-    /// Newton's method from `self.q` at time `t`; leaves the factorisation of G at the solution.
+    /// Newton's method from `self.q` at time `t` in given modes; leaves the factorisation of G at the solution.
     ///
     /// # Errors
     /// If it does not converge, or G is singular on the way.
     pub fn position(&mut self, t: f64, modes: &[i32]) -> Result<(), NotReached> {
         self.dynamics.time(t, modes);
+        self.newton(|dynamics, q, delta| match delta {
+            Some(delta) => dynamics.nudge(q, delta, modes),
+            None => dynamics.position(q, modes),
+        })
+    }
+
+    /// [`Driven::position`] with modes of driver laws and functions of position taken from the values, in each step anew.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn follow(&mut self, t: f64, modes: &mut [i32]) -> Result<(), NotReached> {
+        self.dynamics.follow_time(t, modes);
+        self.newton(|dynamics, q, delta| {
+            match delta {
+                Some(delta) => dynamics.nudge(q, delta, modes),
+                None => dynamics.position(q, modes),
+            }
+            dynamics.follow_position(modes);
+        })
+    }
+
+    /// Newton's method; `place` evaluates a position, or one that a small displacement has led to.
+    fn newton(&mut self, mut place: impl FnMut(&mut Dynamics<'m, G>, &[f64], Option<&[f64]>)) -> Result<(), NotReached> {
         self.correction = 0.0;
         let mut last = f64::INFINITY;
         for step in 0..STEPS {
             if last < QUADRATIC {
-                self.dynamics.nudge(&self.q, &self.delta, modes);
+                place(&mut self.dynamics, &self.q, Some(&self.delta));
                 return self.factor();
             }
-            self.dynamics.position(&self.q, modes);
+            place(&mut self.dynamics, &self.q, None);
             self.factor()?;
             for (r, phi) in self.rhs.iter_mut().zip(&self.dynamics.work.phi) {
                 *r = -phi;

@@ -64,10 +64,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         columns: usize,
     ) -> Result<Self, NoPath> {
         let mut driven = Driven::new(mechanism, start);
-        let mut switching = Switching::new(mechanism, &observer);
+        let switching = Switching::new(mechanism, &observer);
         let mut modes = start.modes.clone();
-        let mut set = |t: f64, modes: &mut [i32]| switching.set_time(mechanism, t, modes);
-        let path = Path::trace(&mut driven, &mut modes, &mut set, clock.end())?;
+        let path = Path::trace(&mut driven, &mut modes, clock.end())?;
         let mut motion = Self {
             driven,
             observer,
@@ -116,10 +115,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Time at progress `s`.
     pub fn time(&mut self, s: f64) -> f64 {
-        let Self { clock, driven, switching, modes, .. } = self;
-        let mechanism = driven.dynamics.mechanism;
-        let mut set = |t: f64, modes: &mut [i32]| switching.set_time(mechanism, t, modes);
-        clock.time(&mut driven.dynamics, modes, &mut set, s)
+        self.clock.time(&mut self.driven.dynamics, &mut self.modes, s)
     }
 
     /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
@@ -127,9 +123,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let lost = Lost { at: self.clock.value(s) };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
-        match piece {
-            Some(piece) => self.modes[..m.switches].copy_from_slice(&self.pieces[piece]),
-            None => self.switching.set_time(m, t, &mut self.modes),
+        if let Some(piece) = piece {
+            self.modes[..m.switches].copy_from_slice(&self.pieces[piece]);
         }
         match self.dead_at(s) {
             Some(q) => self.singular(t, &q),
@@ -138,7 +133,10 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                 let near = self.path.guess(&self.driven, t, &mut q);
                 self.driven.q = q;
                 self.driven.wind(&mut self.modes, &self.path.nodes[near].turns);
-                let reached = self.driven.position(t, &self.modes);
+                let reached = match piece {
+                    Some(_) => self.driven.position(t, &self.modes),
+                    None => self.driven.follow(t, &mut self.modes),
+                };
                 if reached.is_err() || self.driven.condition() < SINGULAR {
                     let q = self.smooth(t).ok_or(lost)?;
                     self.singular(t, &q);
@@ -148,7 +146,10 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             }
         }
         if piece.is_none() {
-            self.switching.set_state(&self.driven.dynamics, &mut self.modes);
+            let d = &mut self.driven.dynamics;
+            for program in [&m.position_program, &m.velocity_program, &m.force_program, &m.state_program] {
+                d.switch(program, &mut self.modes);
+            }
         }
         self.driven.forces(&self.modes);
         if piece.is_none() {

@@ -64,23 +64,17 @@ impl Path {
     ///
     /// # Errors
     /// If the start is a singular position, or the range is endless.
-    pub fn trace<G: Space<S = f64>>(
-        driven: &mut Driven<'_, G>,
-        modes: &mut [i32],
-        set: &mut impl FnMut(f64, &mut [i32]),
-        to: f64,
-    ) -> Result<Self, NoPath> {
-        set(0.0, modes);
-        driven.position(0.0, modes).map_err(|_| NoPath::SingularStart)?;
+    pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Result<Self, NoPath> {
+        driven.follow(0.0, modes).map_err(|_| NoPath::SingularStart)?;
         if driven.condition() < SINGULAR {
             return Err(NoPath::SingularStart);
         }
         driven.rates(modes);
         let start = driven.node(0.0, modes);
-        let (mut nodes, dead_to) = march(driven, modes, set, &start, to)?;
+        let (mut nodes, dead_to) = march(driven, modes, &start, to)?;
         let mut dead = [None, dead_to];
         if dead[1].is_some() {
-            let (back, dead_back) = march(driven, modes, set, &start, -to)?;
+            let (back, dead_back) = march(driven, modes, &start, -to)?;
             dead[0] = dead_back;
             nodes = back.into_iter().skip(1).rev().chain(nodes).collect();
             if to < 0.0 {
@@ -131,7 +125,6 @@ impl Path {
 fn march<G: Space<S = f64>>(
     driven: &mut Driven<'_, G>,
     modes: &mut [i32],
-    set: &mut impl FnMut(f64, &mut [i32]),
     start: &Node,
     to: f64,
 ) -> Result<(Vec<Node>, Option<DeadPoint>), NoPath> {
@@ -151,7 +144,7 @@ fn march<G: Space<S = f64>>(
             h = left;
         }
         let t = if h == left { to } else { last.t + h };
-        match step(driven, modes, set, last, t, &mut delta) {
+        match step(driven, modes, last, t, &mut delta) {
             Ok(node) => {
                 nodes.push(node);
                 h = if (1.6 * h).abs() < longest.abs() { 1.6 * h } else { longest };
@@ -172,7 +165,6 @@ fn march<G: Space<S = f64>>(
 fn step<G: Space<S = f64>>(
     driven: &mut Driven<'_, G>,
     modes: &mut [i32],
-    set: &mut impl FnMut(f64, &mut [i32]),
     last: &Node,
     t: f64,
     delta: &mut [f64],
@@ -185,11 +177,10 @@ fn step<G: Space<S = f64>>(
     if size.is_nan() || size > FARTHEST {
         return Err(NotReached);
     }
-    set(t, modes);
     driven.q.copy_from_slice(&last.q);
     driven.dynamics.mechanism.retract(&mut driven.q, delta);
     driven.wind(modes, &last.turns);
-    driven.position(t, modes)?;
+    driven.follow(t, modes)?;
     if driven.correction > TRUSTED * size + 1e-9 {
         return Err(NotReached);
     }

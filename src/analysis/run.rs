@@ -147,18 +147,10 @@ fn clock<G: Space<S = f64>>(
             }
             let mut dynamics = Dynamics::new(mechanism);
             let mut modes = start.modes.clone();
-            let program = &mechanism.time_program;
-            let (mut inputs, mut registers) = (vec![0.0; program.inputs], vec![0.0; program.program.registers()]);
-            let mut set = |t: f64, modes: &mut [i32]| {
-                for &(input, _) in &program.fills {
-                    inputs[input] = t;
-                }
-                program.program.set_modes(&inputs, &mut registers, modes);
-            };
             dynamics.time(0.0, &modes);
             dynamics.position(&start.q, &modes);
             let from = dynamics.work.readings[drive.gauge].x;
-            Clock::of_driver(&mut dynamics, &mut modes, &mut set, drive.output, from, length)
+            Clock::of_driver(&mut dynamics, &mut modes, drive.output, from, length)
                 .map_err(|e| fault(e.0, "give the range as a time, as `over: 2 s`"))
         }
     }

@@ -1,4 +1,4 @@
-//! Modes of all expressions of a mechanism and its columns: set from a state, and how far each is from its switch.
+//! How far all expressions of a mechanism and its columns are from their switches.
 
 use super::observe::Observer;
 use crate::dynamics::Dynamics;
@@ -34,28 +34,6 @@ impl Switching {
             inputs: vec![0.0; most(|p| p.inputs)],
             registers: vec![0.0; most(|p| p.program.registers())],
             roots: vec![0.0; most(|p| p.program.switches().len()).max(observer.program().switches().len())],
-        }
-    }
-
-    /// Modes of the driver laws at time `t`.
-    pub fn set_time<G: Space<S = f64>>(&mut self, mechanism: &Mechanism<G>, t: f64, modes: &mut [i32]) {
-        let program = &mechanism.time_program;
-        if !program.program.switches().is_empty() {
-            for &(input, _) in &program.fills {
-                self.inputs[input] = t;
-            }
-            program.program.set_modes(&self.inputs, &mut self.registers, modes);
-        }
-    }
-
-    /// Modes of functions and forces at the state evaluated last.
-    pub fn set_state<G: Space<S = f64>>(&mut self, dynamics: &Dynamics<'_, G>, modes: &mut [i32]) {
-        let m = dynamics.mechanism;
-        for program in [&m.position_program, &m.velocity_program, &m.force_program, &m.state_program] {
-            if !program.program.switches().is_empty() {
-                self.fill(dynamics, program);
-                program.program.set_modes(&self.inputs, &mut self.registers, modes);
-            }
         }
     }
 

@@ -125,7 +125,7 @@ impl<G: Space> Dynamics<'_, G> {
     }
 
     /// Values and partial derivatives of functions of gauges.
-    fn functions(&mut self, modes: &[i32]) {
+    pub(super) fn functions(&mut self, modes: &[i32]) {
         let program = &self.mechanism.position_program;
         if program.outputs > 0 {
             self.fill(program);
@@ -135,7 +135,7 @@ impl<G: Space> Dynamics<'_, G> {
     }
 
     /// Φ and G from the gauges; entries outside of the pattern stay 0.
-    fn rows(&mut self) {
+    pub(super) fn rows(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;
         let Workspace { readings, columns, functions, motions, phi, g, .. } = &mut self.work;

@@ -236,3 +236,37 @@ fn a_driver_does_what_the_energy_gains() {
     assert!((gain - works).abs() < 1e-7 * figure("energy_scale"), "{gain} and {works}");
     assert!(figure("energy_drift") < 1e-7 * figure("energy_scale"), "{}", figure("energy_drift"));
 }
+
+/// Bodies without mass in cartesian coordinates: M is singular, the motion is that of joint coordinates.
+#[test]
+fn links_without_mass_move_alike_in_cartesian_coordinates() {
+    let model = "gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0], C: [30 cm, 0] }
+bodies:
+  crank: { bar: { length: 10 cm } }
+  coupler: { bar: { length: 30 cm, mass: 1.2 kg } }
+  rocker: { bar: { length: 25 cm } }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, coupler.start] }
+  B: { revolute: [coupler.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start] }
+start: { O.angle: 60 deg, O.omega: 15 rad/s, coupler.angle: ~40 deg, rocker.angle: ~97 deg }";
+    let mut verdict = Verdict::default();
+    let angle = |dynamics: &str| {
+        let run = run_text(
+            &format!(
+                "grashof: 1\nname: test\nspace: planar\n{model}\nstudies: {{ run: {{ dynamics: {{ until: 1 s, every: 1 s, {dynamics} }}, columns: [time, O.angle] }} }}"
+            ),
+            &["--no-plots"],
+        );
+        let table = run.succeeded().table("run");
+        table.rows.last().map_or(f64::NAN, |row| row[1])
+    };
+    let right = angle("tolerance: 1e-12");
+    for scheme in ["dop853", "radau5", "bdf"] {
+        let found = angle(&format!("tolerance: 1e-9, integrator: {scheme}, coordinates: cartesian"));
+        verdict.close(scheme, "cartesian", found, right, 1e-6);
+    }
+    verdict.give("links without mass");
+}

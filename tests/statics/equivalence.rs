@@ -121,3 +121,28 @@ start: { left.angle: -30 deg }",
     near(outcome.scalars[0], 3.0 * G, 1e-9);
     assert_eq!(outcome.results, [1.0]);
 }
+
+/// A chain with any of its joints cut hangs as it does on the tree.
+#[test]
+fn cut_chains_hang_straight() {
+    for cut in ["Q", "R", "P"] {
+        let joint =
+            |name: &str, between: &str| format!("{name}: {{ revolute: [{between}]{} }}", if name == cut { ", cut: true" } else { "" });
+        let found = planar(
+            "[0, -9.81 m/s^2]",
+            &format!(
+                "bodies: {{ a: {{ bar: {{ length: 1 m, mass: 1 kg }} }}, b: {{ bar: {{ length: 1 m, mass: 1 kg }} }}, c: {{ bar: {{ length: 0.5 m, mass: 2 kg }} }} }}
+joints: {{ {}, {}, {} }}
+start: {{ P.angle: -60 deg, b.angle: ~-50 deg, c.angle: ~-120 deg }}",
+                joint("P", "ground, a.start"),
+                joint("Q", "a.end, b.start"),
+                joint("R", "b.end, c.start")
+            ),
+            "y: last(c.end.y), x: last(c.end.x), pull: last(P.fy)",
+        );
+        near(found.scalars[0], -2.5, 1e-12);
+        near(found.scalars[1], 0.0, 1e-9);
+        near(found.scalars[2], 4.0 * G, 1e-10);
+        assert_eq!(found.results, [1.0]);
+    }
+}

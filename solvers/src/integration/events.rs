@@ -25,7 +25,7 @@ fn dip([a, b, c]: [f64; 3]) -> Option<f64> {
 impl Integration {
     /// The first root that leaves its positive side within the last step: θ just behind it, and its number.
     pub(super) fn crossing(&mut self, system: &mut dyn System) -> Result<Option<(f64, usize)>, Why> {
-        if self.engine.dims.roots == 0 {
+        if self.looked.is_empty() {
             return Ok(None);
         }
         self.interpolate(system)?;
@@ -37,7 +37,8 @@ impl Integration {
             self.look(system, look)?;
             self.samples.copy_from_slice(&self.probe);
             let mut first: Option<(f64, usize)> = None;
-            for root in 0..self.roots.len() {
+            for k in 0..self.looked.len() {
+                let root = self.looked[k];
                 let (g0, g1) = (self.roots[root], self.samples[root]);
                 if g1 < 0.0 {
                     let place = if g0 > 0.0 {
@@ -156,7 +157,11 @@ impl Integration {
                 Effect::Stop => stop = true,
                 Effect::Restart => restart = true,
                 Effect::Impulse { restitution, stops } | Effect::Bounce { restitution, stops } => {
-                    self.engine.impulse(system, &mut self.node.state, &self.row, restitution)?;
+                    if !self.engine.impulse(system, &mut self.node.state, &self.row, restitution)? {
+                        // the motion up to the blow stands; there is none behind it
+                        self.halted = Some(Why::Blocked(root));
+                        return Ok(Progress::Event);
+                    }
                     restart = true;
                     stop |= stops;
                 }
@@ -187,7 +192,18 @@ impl Integration {
     fn also_crossed(&mut self, system: &mut dyn System) -> Option<usize> {
         let Node { state, a, lambda, .. } = &self.node;
         system.roots(state.at(), a, lambda, &mut self.probe);
-        (0..self.probe.len()).find(|root| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root))
+        let near = |root: &usize| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root);
+        self.looked.iter().copied().find(near)
+    }
+
+    /// Modes of the node from its values, where switches are not located.
+    pub(super) fn march_across(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        if self.engine.follow_modes(system, &mut self.node.state) {
+            self.engine.accelerate(system, &mut self.node)?;
+        }
+        // implicit schemes have followed the modes themselves
+        self.engine.counts.stepped_over += usize::from(self.node.state.modes != self.last.state.modes);
+        Ok(())
     }
 
     /// Adds ∫ power dt over the last step by Lobatto's rule with five nodes, exact to degree seven (Abramowitz & Stegun 25.4.32).

@@ -42,6 +42,7 @@ pub struct Kkt {
     scale: Vec<f64>,
     /// Scaled E (m).
     e: Vec<f64>,
+    refinements: usize,
     /// Scaled [M Gᵀ; G 0] (n × n); not kept by the sparse form.
     matrix: Vec<f64>,
     /// L D Lᵀ of the scaled [M Gᵀ; G −E]: L (n × n), 1/D (n).
@@ -84,8 +85,12 @@ enum Source {
     Regular(usize),
 }
 
-/// Steps of iterative refinement.
+/// Steps of iterative refinement; and where a coordinate has no mass: E is then large beside what its rows feel.
 const REFINEMENTS: usize = 2;
+const REFINEMENTS_WITHOUT_MASS: usize = 8;
+
+/// Part of D below which a diagonal entry of M counts as none.
+const LIGHT: f64 = 1e-2;
 
 impl Kkt {
     /// A dense one for `nv` velocities and `rows` constraint rows, with scales of one.
@@ -144,6 +149,7 @@ impl Kkt {
             rows,
             scale: vec![1.0; n],
             e: vec![REGULARIZATION; rows],
+            refinements: REFINEMENTS,
             matrix: Vec::new(),
             l: Vec::new(),
             inverse: Vec::new(),
@@ -180,6 +186,8 @@ impl Kkt {
             // nothing is free and nothing constrains: minimal coordinates of what cannot move
             return Ok(());
         }
+        let light = mass.iter().step_by(self.nv + 1).zip(&self.scale).any(|(m, s)| m * s * s < LIGHT);
+        self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
         if let Factors::Sparse(sparse) = &mut self.factors {
             return sparse.factor(mass, g, &self.scale, &self.e);
         }
@@ -289,7 +297,7 @@ impl Kkt {
             *b = x * s;
         }
         // without rows there is no E to take away
-        self.apply(if self.rows == 0 { 0 } else { REFINEMENTS });
+        self.apply(if self.rows == 0 { 0 } else { self.refinements });
         let (d, s) = self.scale.split_at(nv);
         for ((out, x), d) in a.iter_mut().zip(&self.x).zip(d) {
             *out = x * d;

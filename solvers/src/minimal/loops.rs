@@ -23,6 +23,8 @@ pub(super) struct Loops<S> {
     rows: Vec<usize>,
     pub(super) independent: Vec<usize>,
     dependent: Vec<usize>,
+    /// Rows and dependent velocities that were put aside.
+    kept: [Vec<usize>; 2],
     /// Columns that elimination has taken.
     taken: Vec<bool>,
     /// Scaled rows of G for elimination (holonomic × nv).
@@ -82,6 +84,7 @@ impl<S: System> Loops<S> {
             rows: Vec::new(),
             independent: Vec::new(),
             dependent: Vec::new(),
+            kept: [Vec::with_capacity(dims.holonomic), Vec::with_capacity(nv)],
             taken: vec![false; nv],
             work: vec![0.0; dims.holonomic * nv],
             row_unit,
@@ -157,11 +160,41 @@ impl<S: System> Loops<S> {
         self.rows.len()
     }
 
-    /// Chooses independent velocities anew at the position closed last.
+    /// Chooses independent velocities anew at the position closed last; leaves them as they are where rank is lost.
     pub(super) fn choose_anew(&mut self) {
-        self.choose(&[], self.lu.order());
+        self.keep();
+        if self.choose(&[], self.lu.order()) < self.lu.order() {
+            self.restore();
+        }
         self.rows.sort_unstable();
         self.known = false;
+    }
+
+    /// Quality in parts of that of the chart that would be chosen anew at the position closed last.
+    pub(super) fn relative_quality(&mut self) -> f64 {
+        let own = self.quality();
+        self.keep();
+        let full = self.choose(&[], self.lu.order()) == self.lu.order();
+        let best = if full && self.factor() { self.quality() } else { own };
+        self.restore();
+        self.factor();
+        own / best
+    }
+
+    /// Puts the present choice aside.
+    fn keep(&mut self) {
+        let [rows, dependent] = &mut self.kept;
+        rows.clone_from(&self.rows);
+        dependent.clone_from(&self.dependent);
+    }
+
+    /// Takes the choice that was put aside.
+    fn restore(&mut self) {
+        let [rows, dependent] = &self.kept;
+        self.rows.clone_from(rows);
+        self.dependent.clone_from(dependent);
+        self.independent.clear();
+        self.independent.extend((0..self.dims.v).filter(|j| !self.dependent.contains(j)));
     }
 
     /// Closes anew at the next evaluation: the inner system may have changed.

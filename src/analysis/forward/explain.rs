@@ -28,6 +28,10 @@ where
             "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
             root_name(model, system, root)
         ),
+        Why::Blocked(root) => format!(
+            "at t = {t:.6} s {} is reached while drivers or other joints hold the joint to its motion, so that no blow can stop it: end the driver's motion before, or give the stop `stiffness` instead of `restitution`",
+            root_name(model, system, root)
+        ),
         Why::Error(_) | Why::StepSize => format!(
             "at t = {t:.6} s the step has shrunk to {:.1e} s and the error is still too large: a force grows without bound there, or is rougher than the tolerance allows; look at the motion just before, or ask for a larger `tolerance`",
             halt.h
@@ -48,7 +52,7 @@ pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, ro
     if *sigma >= 0.05
         || sigma.is_nan()
         || rows.is_empty()
-        || matches!(halt.why, Why::Zeno(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
+        || matches!(halt.why, Why::Zeno(_) | Why::Blocked(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
     {
         return None;
     }
@@ -82,7 +86,7 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
             mechanism.name_of_row(row)
         ),
         Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
-        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unavailable => "the state cannot be continued".into(),
+        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Blocked(_) | Why::Unavailable => "the state cannot be continued".into(),
     }
 }
 

@@ -176,6 +176,7 @@ where
                 || (!events.is_empty() && observer.needs_forces())
                 || mechanism.sides().next().is_some()
                 || !held.is_empty(),
+            acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
         };
         let mut kkt = Kkt::new(nv, rows);
         kkt.set_scale(&pattern.metric, &pattern.g_scale);

@@ -160,11 +160,7 @@ pub fn settled<G: Space<S = f64>>(mechanism: &Mechanism<G>, [q, v, z]: [&[f64]; 
         dynamics.position(q, &modes);
         dynamics.velocity(v, &modes);
         for staged in mechanism.programs() {
-            let mut inputs = vec![0.0; staged.inputs];
-            for &(input, leaf) in &staged.fills {
-                inputs[input] = dynamics.leaf(leaf);
-            }
-            staged.program.set_modes(&inputs, &mut vec![0.0; staged.program.registers()], &mut modes);
+            dynamics.switch(staged, &mut modes);
         }
     }
     modes

@@ -215,6 +215,10 @@ where
                 return if last <= CLOSED { Ok(()) } else { Err(Lost::Open) };
             }
             last = gap;
+            if gap <= 0.01 * CLOSED {
+                // near zero a gap may shrink for ever, far below the round-off of what it is the difference of
+                return Ok(());
+            }
             let wanted: Vec<f64> = self.terms.phi.iter().map(|p| -p).collect();
             let delta = shortest(&self.terms.g, &wanted, &self.system.pattern().metric, 0.0);
             self.system.retract(&mut self.state.q, &delta);

@@ -6,6 +6,13 @@ use crate::geometry::Space;
 use crate::scalar::Dual;
 use grashof_solvers::{At, Effect, Stage, State, System};
 
+impl Root {
+    /// Whether its crossing acts on the motion as a kink does not: by a blow, or by what an event of the model does or notes.
+    pub(super) fn acts(self) -> bool {
+        matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Event(_))
+    }
+}
+
 impl<G, D> Mechanical<'_, G, D>
 where
     G: Space<S = f64>,
@@ -61,6 +68,11 @@ where
         row.fill(0.0);
         m.gauges[stop.gauge].project(&self.dynamics.work.readings[stop.gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
         let speed = -stop.sense * self.dynamics.work.readings[stop.gauge].rate;
+        if speed < -stop.rest_speed {
+            // another blow at the same instant has thrown it back already
+            state.modes[mode] = 1;
+            return Effect::Record;
+        }
         let rebound = Effect::Bounce { restitution: stop.restitution, stops: false };
         if stop.restitution * speed >= stop.rest_speed {
             state.modes[mode] = 0;

@@ -1,0 +1,96 @@
+//! The branch of a linkage is the one that the guesses lie on.
+
+mod common;
+
+use common::Noise;
+use grashof::mechanism::Coordinates;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// The difference of two angles in (−π, π].
+fn apart(a: f64, b: f64) -> f64 {
+    let x = (a - b).rem_euclid(TAU);
+    if x > 0.5 * TAU { x - TAU } else { x }
+}
+
+/// A crank-rocker of 100, 300, 250 mm on a base of 300 mm at a crank angle, with a guess of one angle: angles of coupler and rocker.
+fn four_bar(crank: f64, guess: &str) -> [f64; 2] {
+    let text = format!(
+        "grashof: 1
+name: four-bar
+space: planar
+gravity: none
+ground: {{ O: [0, 0], C: [30 cm, 0] }}
+bodies: {{ crank: {{ bar: {{ length: 10 cm }} }}, coupler: {{ bar: {{ length: 30 cm }} }}, rocker: {{ bar: {{ length: 25 cm }} }} }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, coupler.start] }}
+  B: {{ revolute: [coupler.end, rocker.end] }}
+  C: {{ revolute: [ground.C, rocker.start] }}
+drivers: {{ d: {{ joint: O, speed: 60 rpm }} }}
+start: {{ O.angle: {crank} rad, {guess} }}
+studies: {{ k: {{ inverse: {{ over: 0.001 s, samples: 1 }}, columns: [coupler.angle, rocker.angle] }} }}
+"
+    );
+    let row = common::study(&text, "k", Coordinates::Joint).rows[0].clone();
+    [row[0], row[1]]
+}
+
+/// Angles of coupler and rocker on both branches, by the circles about the ends of crank and base.
+fn branches(crank: f64) -> [[f64; 2]; 2] {
+    let (a, c) = ((0.1 * crank.cos(), 0.1 * crank.sin()), (0.3, 0.0));
+    let (dx, dy) = (c.0 - a.0, c.1 - a.1);
+    let d = dx.hypot(dy);
+    let along = (d * d + 0.3 * 0.3 - 0.25 * 0.25) / (2.0 * d);
+    let up = (0.3 * 0.3 - along * along).sqrt();
+    [1.0, -1.0].map(|side| {
+        let b = (a.0 + (along * dx - side * up * dy) / d, a.1 + (along * dy + side * up * dx) / d);
+        [(b.1 - a.1).atan2(b.0 - a.0), (b.1 - c.1).atan2(b.0 - c.0)]
+    })
+}
+
+#[test]
+fn one_guessed_angle_chooses_the_branch() {
+    let mut noise = Noise(11);
+    for (k, name) in ["coupler.angle", "rocker.angle"].into_iter().enumerate() {
+        for _ in 0..12 {
+            let crank = 0.5 * TAU * noise.next();
+            let both = branches(crank);
+            for right in both {
+                let guess = right[k] + 0.25 * noise.next();
+                let other = if right == both[0] { both[1] } else { both[0] };
+                if apart(guess, right[k]).abs() > 0.8 * apart(guess, other[k]).abs() {
+                    continue;
+                }
+                let found = four_bar(crank, &format!("{name}: ~{guess} rad"));
+                let off = apart(found[0], right[0]).abs().max(apart(found[1], right[1]).abs());
+                assert!(off < 1e-10, "crank at {crank}, {name} ~{guess}: {found:?} instead of {right:?}");
+            }
+        }
+    }
+}
+
+/// A guess that one assembly meets exactly counts, though the drawn rod points straight away from its place.
+#[test]
+fn a_guess_that_can_be_met_is_met() {
+    for (guess, rod) in [(0.24, -FRAC_PI_2), (-0.36, FRAC_PI_2)] {
+        let text = format!(
+            "grashof: 1
+name: press
+space: planar
+gravity: none
+ground: {{ O: [0, 0.5 m] }}
+bodies: {{ crank: {{ bar: {{ length: 60 mm, mass: 12 kg }} }}, rod: {{ bar: {{ length: 300 mm, mass: 15 kg }} }}, ram: {{ mass: 80 kg }} }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, rod.start] }}
+  B: {{ revolute: [rod.end, ram.origin] }}
+  W: {{ slider: [ground.O, ram.origin], axis: [0, -1] }}
+drivers: {{ d: {{ joint: O, speed: 60 rpm }} }}
+start: {{ O.angle: 90 deg, W.position: ~{guess} m }}
+studies: {{ k: {{ kinematics: {{ over: 1 turn, samples: 4 }}, columns: [W.position, rod.angle] }} }}
+"
+        );
+        let row = common::study(&text, "k", Coordinates::Joint).rows[0].clone();
+        assert!((row[0] - guess).abs() < 1e-12 && apart(row[1], rod).abs() < 1e-6, "{row:?}");
+    }
+}
