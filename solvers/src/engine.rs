@@ -8,7 +8,7 @@
 //! The same matrix serves three times: the shortest way back to the constraints is meant in the metric M.
 
 use crate::friction::Friction;
-use crate::kkt::Kkt;
+use crate::kkt::{Kkt, ROUND_OFF};
 use crate::{At, Dims, Stage, State, System, Terms};
 
 /// A state with what follows from it.
@@ -145,6 +145,8 @@ pub struct Engine {
     pub size_v: Vec<f64>,
     /// 1/√(G D⁻¹ Gᵀ) of each row (m): Φ times this is a mass-weighted way.
     pub row_unit: Vec<f64>,
+    /// How much Φ changes when the coordinates move by their size, by the scale of each row (m); round-off is 1e-11 of it.
+    row_reach: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
     zeros: Vec<f64>,
@@ -170,6 +172,8 @@ impl Engine {
     pub fn new(system: &dyn System, control: Control) -> Self {
         let dims = system.dims();
         let pattern = system.pattern();
+        // entries of one size in units of `size_v`: g_scale = Σ (reach/size)²/D
+        let inverse: f64 = pattern.metric.iter().zip(&pattern.size_v).map(|(d, s)| (d * s * s).recip()).sum();
         Self {
             dims,
             terms: Terms::new(dims),
@@ -180,6 +184,7 @@ impl Engine {
             size_q: pattern.size_q.clone(),
             size_v: pattern.size_v.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
+            row_reach: pattern.g_scale.iter().map(|g| (g / inverse).sqrt()).collect(),
             delta: vec![0.0; dims.v],
             mu: vec![0.0; dims.rows()],
             zeros: vec![0.0; dims.v],
@@ -348,14 +353,15 @@ impl Engine {
     fn velocity_correction(&mut self, v: &[f64]) -> bool {
         let nv = self.dims.v;
         let mut needed = false;
-        for ((r, nu), row) in self.rhs.iter_mut().zip(&self.terms.nu).zip(self.terms.g.chunks_exact(nv.max(1))) {
+        let rows = self.terms.g.chunks_exact(nv.max(1)).zip(&self.row_reach);
+        for ((r, nu), (row, whole)) in self.rhs.iter_mut().zip(&self.terms.nu).zip(rows) {
             let (mut sum, mut size) = (0.0, 0.0);
             for (g, v) in row.iter().zip(v) {
                 sum += g * v;
                 size += (g * v).abs();
             }
             *r = nu - sum;
-            needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs());
+            needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs()) && reach(row, &self.size_v) > ROUND_OFF * whole;
         }
         if needed {
             self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
@@ -426,10 +432,9 @@ impl Engine {
     fn rows_residual(&self, residuals: impl Iterator<Item = f64>) -> f64 {
         let nv = self.dims.v.max(1);
         let mut largest = 0.0;
-        for (r, row) in residuals.zip(self.terms.g.chunks_exact(nv)) {
-            // |G_i| in units of size: how much Φ changes when the coordinates move by their size
-            let reach = row.iter().zip(&self.size_v).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()));
-            let size = r.abs() / if reach > 0.0 { reach } else { 1.0 };
+        for (r, (row, whole)) in residuals.zip(self.terms.g.chunks_exact(nv).zip(&self.row_reach)) {
+            let reach = reach(row, &self.size_v);
+            let size = r.abs() / if reach > ROUND_OFF * whole { reach } else { *whole };
             largest = f64::max(largest, size);
         }
         largest
@@ -474,6 +479,11 @@ impl Engine {
         }
         Ok(())
     }
+}
+
+/// |G_i| in units of size: how much Φ changes when the coordinates move by their size.
+fn reach(row: &[f64], size: &[f64]) -> f64 {
+    row.iter().zip(size).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()))
 }
 
 /// Index and size of the entry that is largest in size.

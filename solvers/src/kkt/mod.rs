@@ -24,7 +24,7 @@ mod small;
 pub mod sparse;
 
 pub(crate) use scale::root_inverse;
-pub use scale::{REGULARIZATION, metric, row_scale};
+pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
 use crate::{Pattern, Sparsity};
 use dense::{Lu, Singular, sized, square, square_mut};

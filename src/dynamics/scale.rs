@@ -1,0 +1,140 @@
+//! Scales of the constraint rows: each by its own natural size, so that round-off is told from a constraint.
+//!
+//! An entry of G is W · s with the unit wrench W = (p × f, f) of a gauge and the column s = (ω, −ω × p_k + d) of a velocity,
+//!
+//! ```text
+//! W · s = f · (ω × (p − p_k)) + f · d,      natural size: |f| |ω| (ℓ + ℓ_k) + |f| |d|,
+//! ```
+//!
+//! where the place p is the sum of what lies between it and the ground, of the size ℓ: it can cancel, its round-off does not. A
+//! couple n · ω has |n| |ω|. A second hinge on the axis of the first has entries of about 1e-16 in its rows and a natural size of 1.
+
+use super::Dynamics;
+use crate::geometry::{Pose, Space};
+use crate::mechanism::{Gauge, Measured, RowKind, Step};
+use grashof_solvers::kkt::natural_row_scale;
+
+/// Positions around: every coordinate moves by up to 0.4 rad or sizes of the mechanism, in no special direction.
+const STEP: f64 = 0.4;
+const GOLDEN: f64 = 2.4;
+const PROBES: [f64; 2] = [0.0, 2.0];
+
+/// Sizes of what the gauges are made of at one position.
+struct Sizes {
+    /// ℓ of each body: the largest distance from the origin on its road from the ground, m.
+    reach: Vec<f64>,
+    /// |ω|, |d| and ℓ of each column.
+    columns: Vec<[f64; 3]>,
+}
+
+impl<G: Space<S = f64>> Dynamics<'_, G> {
+    /// diag(G D⁻¹ Gᵀ) (rows) at the coordinates `q` (nq) evaluated last, by the natural sizes of the rows and by their sizes in
+    /// positions around; D (nv) is `metric`. Allocates.
+    #[must_use]
+    pub fn row_scale(&self, q: &[f64], modes: &[i32], metric: &[f64]) -> Vec<f64> {
+        let (mut natural, mut typical) = (self.natural(), self.work.g.clone());
+        let mut around = self.clone();
+        let mut unit = vec![1.0; self.mechanism.nv];
+        for step in &self.mechanism.steps {
+            if let Step::Axis { turns: false, v, .. } = step {
+                unit[*v] = self.mechanism.size();
+            }
+        }
+        for phase in PROBES {
+            let mut q = q.to_vec();
+            let delta: Vec<f64> = unit.iter().enumerate().map(|(k, unit)| STEP * unit * (GOLDEN * k as f64 + phase).cos()).collect();
+            self.mechanism.retract(&mut q, &delta);
+            around.position(&q, modes);
+            grow(&mut natural, &around.natural());
+            grow(&mut typical, &around.work.g);
+        }
+        natural_row_scale(&self.work.g, &typical, &natural, metric)
+    }
+
+    /// Sizes of the entries of G (rows × nv) before they cancel, at the position evaluated last. Allocates.
+    #[must_use]
+    pub fn natural(&self) -> Vec<f64> {
+        let m = self.mechanism;
+        let sizes = self.sizes();
+        let mut out = vec![0.0; m.rows.len() * m.nv];
+        for (row, out) in m.rows.iter().zip(out.chunks_exact_mut(m.nv.max(1))) {
+            let mut add = |gauge: usize, slope: f64| {
+                sizes.project(&m.gauges[gauge], &self.work.poses, |k, x| out[k] += slope.abs() * x);
+            };
+            match row.kind {
+                RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => add(gauge, 1.0),
+                RowKind::Ratio { first, second, ratio } => {
+                    add(second, 1.0);
+                    add(first, ratio);
+                }
+                RowKind::Function(f) => {
+                    let function = &m.functions[f];
+                    let slopes = &self.work.functions[function.value + 1..];
+                    function.gauges.iter().zip(slopes).for_each(|(&gauge, &slope)| add(gauge, slope));
+                }
+            }
+        }
+        out
+    }
+
+    /// Length of each row of [`Dynamics::natural`] times D^−½ (rows), at the position evaluated last. Allocates.
+    #[must_use]
+    pub fn natural_length(&self, metric: &[f64]) -> Vec<f64> {
+        let length = |row: &[f64]| row.iter().zip(metric).map(|(x, d)| x * x / d).sum::<f64>().sqrt();
+        if metric.is_empty() {
+            vec![0.0; self.mechanism.rows.len()]
+        } else {
+            self.natural().chunks_exact(metric.len()).map(length).collect()
+        }
+    }
+
+    fn sizes(&self) -> Sizes {
+        let (m, w) = (self.mechanism, &self.work);
+        let mut sizes = Sizes { reach: vec![0.0; m.bodies.len()], columns: vec![[0.0; 3]; m.nv] };
+        for node in &m.nodes {
+            let after = node.after.map_or(0.0, |x| length::<G>(x.p));
+            let far = [length::<G>(w.poses[node.parent].p) + length::<G>(node.before.p), length::<G>(w.poses[node.body].p) + after];
+            let reach = far.into_iter().fold(sizes.reach[node.parent], f64::max);
+            sizes.reach[node.body] = reach;
+            for step in &m.steps[node.steps.clone()] {
+                match *step {
+                    Step::Axis { d, turns, v, .. } => sizes.columns[v] = [f64::from(u8::from(turns)), length::<G>(d), reach],
+                    Step::Ball { v, .. } => sizes.columns[v..v + G::SPIN].fill([1.0, 0.0, reach]),
+                }
+            }
+        }
+        sizes
+    }
+}
+
+impl Sizes {
+    /// Sizes of ∂ẋ/∂v_k for the columns of a gauge, written by `put(k, size)`.
+    fn project<G: Space<S = f64>>(&self, gauge: &Gauge<G>, poses: &[Pose<G>], mut put: impl FnMut(usize, f64)) {
+        let reach = |body: usize, p: G::Vector| f64::max(self.reach[body], length::<G>(poses[body].p) + length::<G>(p));
+        // |n|, |f| and ℓ of the wrench
+        let [couple, force, far] = match gauge.measured {
+            Measured::Coordinate { along, .. } => return put(along.v, 1.0),
+            Measured::Slide { pa, pb, .. } | Measured::Distance { pa, pb } => [0.0, 1.0, f64::max(reach(gauge.a, pa), reach(gauge.b, pb))],
+            Measured::Dot { .. } | Measured::Angle => [1.0, 0.0, 0.0],
+            Measured::Turn { e1, e2, f, .. } => {
+                // θ̇ is the rate of the part of f in the plane, over its length
+                let f = G::rotate(poses[gauge.b].r, f);
+                let [c, s] = [e1, e2].map(|e| G::dot(f, G::rotate(poses[gauge.a].r, e)));
+                [c.hypot(s).recip(), 0.0, 0.0]
+            }
+        };
+        for &(k, _) in &gauge.columns {
+            let [turns, slides, at] = self.columns[k];
+            put(k, couple * turns + force * (turns * (far + at) + slides));
+        }
+    }
+}
+
+/// Each size becomes that of the other entry, if it is a larger number: a function may have none there.
+fn grow(sizes: &mut [f64], other: &[f64]) {
+    sizes.iter_mut().zip(other).filter(|(_, x)| x.is_finite()).for_each(|(size, x)| *size = size.abs().max(x.abs()));
+}
+
+fn length<G: Space<S = f64>>(p: G::Vector) -> f64 {
+    G::dot(p, p).sqrt()
+}
