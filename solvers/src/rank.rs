@@ -174,7 +174,7 @@ mod tests {
         let metric = [2.0, 1e-3, 40.0];
         for size in [1.0, 1e-6, 1e6] {
             let natural = vec![size; m * nv];
-            let scale = |g: &[f64]| natural_row_scale(g, g, &natural, &metric);
+            let scale = |g: &[f64]| natural_row_scale(g, &natural, &metric);
             let round_off: Vec<f64> = noise.vector(m * nv).iter().map(|x| 1e-15 * size * x).collect();
             let found = Rank::new(&round_off, &metric, &scale(&round_off), RANK_TOLERANCE);
             assert_eq!((found.rank, found.mobility(), found.dependent.len()), (0, 3, 5));

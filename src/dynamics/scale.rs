@@ -11,13 +11,17 @@
 
 use super::Dynamics;
 use crate::geometry::{Pose, Space};
-use crate::mechanism::{Gauge, Measured, RowKind, Step};
+use crate::mechanism::{Gauge, Measured, RowKind, RowOwner, Step};
 use grashof_solvers::kkt::natural_row_scale;
+use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
-/// Positions around: every coordinate moves by up to 0.4 rad or sizes of the mechanism, in no special direction.
+/// Positions around: the coordinate that moves most does so by 0.4 rad or sizes of the mechanism, one way and the other.
 const STEP: f64 = 0.4;
 const GOLDEN: f64 = 2.4;
-const PROBES: [f64; 2] = [0.0, 2.0];
+const PHASES: [f64; 2] = [0.0, 2.0];
+
+/// A row whose square is below this part of what it is around happens to vanish here.
+const VANISHING: f64 = 1e-2;
 
 /// Sizes of what the gauges are made of at one position.
 struct Sizes {
@@ -28,27 +32,54 @@ struct Sizes {
 }
 
 impl<G: Space<S = f64>> Dynamics<'_, G> {
-    /// diag(G D⁻¹ Gᵀ) (rows) at the coordinates `q` (nq) evaluated last, by the natural sizes of the rows and by their sizes in
-    /// positions around; D (nv) is `metric`. Allocates.
+    /// diag(G D⁻¹ Gᵀ) (rows) at the coordinates `q` (nq) evaluated last, with D (nv) the `metric`: by the natural sizes of the rows,
+    /// and for rows that vanish here by their entries in positions around. Allocates.
     #[must_use]
     pub fn row_scale(&self, q: &[f64], modes: &[i32], metric: &[f64]) -> Vec<f64> {
-        let (mut natural, mut typical) = (self.natural(), self.work.g.clone());
-        let mut around = self.clone();
-        let mut unit = vec![1.0; self.mechanism.nv];
-        for step in &self.mechanism.steps {
-            if let Step::Axis { turns: false, v, .. } = step {
-                unit[*v] = self.mechanism.size();
-            }
+        let m = self.mechanism;
+        let mut natural = self.natural();
+        let here = &self.work.g;
+        let scale = natural_row_scale(here, &natural, metric);
+        let motions = self.motions(&scale, metric);
+        if motions.is_empty() {
+            return scale;
         }
-        for phase in PROBES {
+        let unit = m.units();
+        let mut entries: Vec<f64> = here.iter().map(|g| g.abs()).collect();
+        let mut around = self.clone();
+        for delta in motions {
             let mut q = q.to_vec();
-            let delta: Vec<f64> = unit.iter().enumerate().map(|(k, unit)| STEP * unit * (GOLDEN * k as f64 + phase).cos()).collect();
-            self.mechanism.retract(&mut q, &delta);
+            m.retract(&mut q, &delta);
             around.position(&q, modes);
             grow(&mut natural, &around.natural());
-            grow(&mut typical, &around.work.g);
+            grow(&mut entries, &around.work.g);
         }
-        natural_row_scale(&self.work.g, &typical, &natural, metric)
+        let square = |row: &[f64]| row.iter().zip(&unit).map(|(g, u)| (g * u).powi(2)).sum::<f64>();
+        for (row, here) in entries.chunks_exact_mut(m.nv).zip(here.chunks_exact(m.nv)) {
+            // by units and not by D: beside the constraints a body that hardly resists a turn would count too much
+            if square(here) >= VANISHING * square(row) {
+                row.copy_from_slice(here);
+            }
+        }
+        natural_row_scale(&entries, &natural, metric)
+    }
+
+    /// Large displacements (nv each) along motions that the rows leave but for drivers, which move with time.
+    fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
+        let m = self.mechanism;
+        let passive = m.rows.iter().zip(self.work.g.chunks_exact(m.nv.max(1)).zip(scale));
+        let passive = passive.filter(|(row, _)| !matches!(row.owner, RowOwner::Driver(_)));
+        let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
+        let rank = Rank::new(&g.concat(), metric, &scale, RANK_TOLERANCE);
+        let (n, unit) = (rank.mobility(), m.units());
+        let along = |phase: f64| {
+            // in no special direction
+            let y: Vec<f64> = (0..n).map(|k| (GOLDEN * k as f64 + phase).cos()).collect();
+            let delta: Vec<f64> = rank.null_space.chunks_exact(n).map(|p| p.iter().zip(&y).map(|(p, y)| p * y).sum()).collect();
+            let most = delta.iter().zip(&unit).fold(0.0, |m, (d, u): (&f64, &f64)| f64::max(m, d.abs() / u));
+            delta.iter().map(|d| STEP * d / most).collect()
+        };
+        if n == 0 || scale.is_empty() { Vec::new() } else { PHASES.map(along).to_vec() }
     }
 
     /// Sizes of the entries of G (rows × nv) before they cancel, at the position evaluated last. Allocates.

@@ -197,6 +197,21 @@ impl<G: Space> Mechanism<G> {
         if reach > 0.0 { reach } else { 1.0 }
     }
 
+    /// What counts as a whole way of each velocity (nv): 1 rad, or the size, m.
+    #[must_use]
+    pub fn units(&self) -> Vec<f64>
+    where
+        G: Space<S = f64>,
+    {
+        let mut units = vec![1.0; self.nv];
+        for step in &self.steps {
+            if let Step::Axis { turns: false, v, .. } = step {
+                units[*v] = self.size();
+            }
+        }
+        units
+    }
+
     /// q ⊕ δ: moves the coordinates by a velocity times time, δ in the frame of v (shape nv).
     pub fn retract(&self, q: &mut [f64], delta: &[f64]) {
         for step in &self.steps {

@@ -10,6 +10,9 @@
 //! smallest non-zero singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½. Where rows are redundant, the multipliers are those of least
 //! λᵀEλ. An E that follows the present rows vanishes with them, and a smaller one loses energy in singular positions (measured).
 //!
+//! The diagonal of a row that is round-off at assembly is that of its natural size, and of one that happens to vanish there that of
+//! a position nearby ([`natural_row_scale`]).
+//!
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 

@@ -9,9 +9,6 @@ const MASS_FLOOR: f64 = 1e-6;
 /// Rows whose scale is below this part of the largest count as the largest: they happen to vanish in this position.
 const ROW_FLOOR: f64 = 1e-12;
 
-/// Rows whose scale is below this part of their typical one happen to vanish in this position.
-const VANISHING: f64 = 1e-2;
-
 /// Entries of a row below this part of their natural size are round-off; see [`natural_row_scale`].
 pub const ROUND_OFF: f64 = 1e-11;
 
@@ -42,23 +39,15 @@ pub fn row_scale(g: &[f64], metric: &[f64]) -> Vec<f64> {
     scale
 }
 
-/// The same for rows of which two more sizes of each entry are known (m × nv): the `typical` one in positions around, and the
-/// `natural` one before anything cancels, |n||ω| + |f||v| of n·ω + f·v. So each row is judged by itself.
+/// The same for rows whose entries have the sizes `natural` (m × nv) before they cancel: n·ω + f·v has the size |n||ω| + |f||v|.
 ///
-/// * A row that is below 1e-11 of its natural size everywhere is round-off and takes the scale of that size, Σ natural²/D: scaled
-///   by it, it is nearly 0 and constrains nothing.
-/// * A row that happens to vanish in this position, to below 0.1 of its typical size, takes the scale of that: E must last when
-///   it grows (measured, four-bar of 1 m through its flat position: started 1e-6 rad from it with the scale of the start, 13 J of
-///   33 J are lost).
-pub fn natural_row_scale(g: &[f64], typical: &[f64], natural: &[f64], metric: &[f64]) -> Vec<f64> {
-    let sizes = squares(typical, metric).into_iter().zip(squares(natural, metric));
-    let scale = |(own, (typical, natural)): (f64, (f64, f64))| match f64::max(own, typical) {
-        size if size <= ROUND_OFF * ROUND_OFF * natural => natural,
-        size if own < VANISHING * size => size,
-        _ => own,
-    };
+/// A row that is below 1e-11 of its natural size is round-off and takes the scale of that size, Σ natural²/D: scaled by it, it is
+/// nearly 0 and constrains nothing. So each row is judged by itself. A row that happens to vanish in this position is to be given
+/// with the entries of another one: E must last when it grows.
+pub fn natural_row_scale(g: &[f64], natural: &[f64], metric: &[f64]) -> Vec<f64> {
+    let scale = |(own, natural): (f64, f64)| if own > ROUND_OFF * ROUND_OFF * natural { own } else { natural };
     let positive = |x: f64| if x > 0.0 { x } else { 1.0 };
-    squares(g, metric).into_iter().zip(sizes).map(scale).map(positive).collect()
+    squares(g, metric).into_iter().zip(squares(natural, metric)).map(scale).map(positive).collect()
 }
 
 /// Σ_j g_ij²/D_j of each row.
@@ -91,12 +80,11 @@ mod tests {
     #[test]
     fn each_row_is_measured_by_itself() {
         let metric = [2.0, 4.0];
-        let natural = [1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 0.0, 0.0];
-        // a real row, one that is small for good, one that vanishes here, noise alone, and a row that is nothing
-        let g = [0.5, 2.0, 1e-9, 0.0, 1e-9, 0.0, 1e-16, -3e-17, 0.0, 0.0];
-        let typical = [0.6, 1.0, 2e-9, 0.0, 0.0, 0.4, 1e-16, 1e-16, 0.0, 0.0];
-        assert_eq!(natural_row_scale(&g, &typical, &natural, &metric), [1.125, 0.5e-18, 0.04, 1.5, 1.0]);
-        assert_eq!(natural_row_scale(&[], &[], &[], &[]), []);
+        let natural = [1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 0.0, 0.0];
+        // a real row, one that is small for good, noise alone, and a row that is nothing
+        let g = [0.5, 2.0, 1e-9, 0.0, 1e-16, -3e-17, 0.0, 0.0];
+        assert_eq!(natural_row_scale(&g, &natural, &metric), [1.125, 0.5e-18, 1.5, 1.0]);
+        assert_eq!(natural_row_scale(&[], &[], &[]), []);
     }
 
     #[test]
