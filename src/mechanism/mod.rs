@@ -203,10 +203,10 @@ impl<G: Space> Mechanism<G> {
     where
         G: Space<S = f64>,
     {
-        let mut units = vec![1.0; self.nv];
+        let (mut units, size) = (vec![1.0; self.nv], self.size());
         for step in &self.steps {
             if let Step::Axis { turns: false, v, .. } = step {
-                units[*v] = self.size();
+                units[*v] = size;
             }
         }
         units
