@@ -70,9 +70,9 @@ fn main() {
     let (andrews, andrews_start) = assembled::<Planar<f64>>(&andrews_model, Coordinates::Joint);
 
     let hand = CrankRocker::new(Parameters::default());
-    let mut turn = Turn::new(&model, &mechanism, &start);
-    let mut cartesian_turn = Turn::new(&model, &cartesian, &cartesian_start);
-    let mut spatial_turn = Turn::new(&spatial_model, &spatial, &spatial_start);
+    let mut turn = Turn::new(&mechanism, &start);
+    let mut cartesian_turn = Turn::new(&cartesian, &cartesian_start);
+    let mut spatial_turn = Turn::new(&spatial, &spatial_start);
     agree(&hand, &mut turn, "joint coordinates");
     agree(&hand, &mut cartesian_turn, "cartesian coordinates");
     agree(&hand, &mut spatial_turn, "space");
@@ -181,7 +181,7 @@ struct Turn<'m, G: Space<S = f64>> {
 }
 
 impl<'m, G: Space<S = f64>> Turn<'m, G> {
-    fn new(model: &Model, mechanism: &'m Mechanism<G>, start: &Assembled) -> Self {
+    fn new(mechanism: &'m Mechanism<G>, start: &Assembled) -> Self {
         Self {
             driven: Driven::new(mechanism, start),
             start: start.clone(),

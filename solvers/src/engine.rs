@@ -8,8 +8,10 @@
 //! The same matrix serves three times: the shortest way back to the constraints is meant in the metric M.
 
 use crate::friction::Friction;
-use crate::kkt::Kkt;
+use crate::kkt::{Kkt, ROUND_OFF};
 use crate::{At, Dims, Stage, State, System, Terms};
+
+mod projection;
 
 /// A state with what follows from it.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,6 +151,8 @@ pub struct Engine {
     pub row_unit: Vec<f64>,
     /// Whether the rows were independent at the start: else σ says nothing of singular positions.
     pub independent: bool,
+    /// How much Φ changes when the coordinates move by their size, by the scale of each row (m); round-off is 1e-11 of it.
+    row_reach: Vec<f64>,
     delta: Vec<f64>,
     mu: Vec<f64>,
     zeros: Vec<f64>,
@@ -156,27 +160,16 @@ pub struct Engine {
     modes: Vec<i32>,
 }
 
-/// Steps of Newton's method in a projection.
-const PROJECTIONS: usize = 12;
-
-/// Corrections in a row, and the way that is left to round-off.
-const REPEATED: usize = 10;
-const CLOSED: f64 = 4e-15;
-
-/// Round-off of Φ in parts of the largest coordinate: far from zero, positions cannot be closed any better.
-const FAR: f64 = f64::EPSILON;
-
 /// Part of its mobility without constraints below which a joint cannot give way to a blow.
 const HELD: f64 = 1e-6;
-
-/// A correction below this (in units of size) leaves a residual of its square.
-const SQUARE_ENOUGH: f64 = 1e-7;
 
 impl Engine {
     /// Tools for a system.
     pub fn new(system: &dyn System, control: Control) -> Self {
         let dims = system.dims();
         let pattern = system.pattern();
+        // entries of one size in units of `size_v`: g_scale = Σ (reach/size)²/D
+        let inverse: f64 = pattern.metric.iter().zip(&pattern.size_v).map(|(d, s)| (d * s * s).recip()).sum();
         Self {
             dims,
             terms: Terms::new(dims),
@@ -188,6 +181,7 @@ impl Engine {
             size_v: pattern.size_v.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
             independent: true,
+            row_reach: pattern.g_scale.iter().map(|g| (g / inverse).sqrt()).collect(),
             delta: vec![0.0; dims.v],
             mu: vec![0.0; dims.rows()],
             zeros: vec![0.0; dims.v],
@@ -251,134 +245,6 @@ impl Engine {
     pub fn accelerate(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
         let Node { state, a, lambda, zdot } = node;
         self.accelerations(system, state.at(), a, lambda, zdot)
-    }
-
-    /// Moves a state to the constraints, first q, then v, by the shortest way in the metric M, and evaluates a, λ, ż there.
-    ///
-    /// # Errors
-    /// If the constraints cannot be closed from here, and as [`Engine::accelerations`].
-    pub fn settle(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
-        self.settle_within(system, node, 0.0)
-    }
-
-    /// [`Engine::settle`] behind a step with error control: forces and γ are not evaluated anew after a correction δv of the
-    /// velocities below a hundredth of the tolerance. Accelerations then differ by ∂a/∂v δv, so that what the next step makes of
-    /// them, h ∂a/∂v δv, is less than the correction itself.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn settle_step(&mut self, system: &mut dyn System, node: &mut Node) -> Result<(), Why> {
-        let slack = if self.is_fixed() { 0.0 } else { 0.01 * self.tolerance() };
-        self.settle_within(system, node, slack)
-    }
-
-    fn settle_within(&mut self, system: &mut dyn System, node: &mut Node, slack: f64) -> Result<(), Why> {
-        self.project_within(system, &mut node.state, slack)?;
-        let Node { state, a, lambda, zdot } = node;
-        // the factors are those of this position, and the terms those of this position and velocity
-        self.solve(system, state.at(), a, lambda, zdot)
-    }
-
-    /// Moves a state to the constraints; leaves terms and factors of the state reached.
-    ///
-    /// # Errors
-    /// If the constraints cannot be closed from here, or the KKT matrix is singular.
-    pub fn project(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Why> {
-        self.project_within(system, state, 0.0)
-    }
-
-    fn project_within(&mut self, system: &mut dyn System, state: &mut State, slack: f64) -> Result<(), Why> {
-        let rows = self.dims.rows() > 0;
-        // a correction of v is to be expected unless it may be neglected
-        let exact = rows && slack == 0.0;
-        let stage = if exact { Stage::Velocity } else { Stage::Dynamics };
-        let rounded = FAR * state.q.iter().zip(&self.size_q).fold(0.0, |m, (q, s)| f64::max(m, q.abs() / s - 1.0));
-        if self.dims.holonomic > 0 {
-            self.evaluate(system, state.at(), Stage::Position);
-            if self.position_residual() > 1e-15 {
-                self.close(system, state)?;
-            }
-        }
-        self.evaluate(system, state.at(), stage);
-        // in a singular position E leaves a part of each correction to be done
-        for _ in 0..REPEATED {
-            if self.dims.holonomic == 0 || self.position_residual() <= CLOSED + rounded {
-                break;
-            }
-            self.close(system, state)?;
-            self.evaluate(system, state.at(), stage);
-        }
-        self.factor()?;
-        let mut size = 0.0;
-        for _ in 0..REPEATED {
-            if !rows || !self.velocity_correction(&state.v) {
-                break;
-            }
-            for ((v, d), s) in state.v.iter_mut().zip(&self.delta).zip(&self.size_v) {
-                size = f64::max(size, d.abs() / (s + v.abs()));
-                *v += d;
-            }
-        }
-        if exact || size.is_nan() || size > slack {
-            self.evaluate(system, state.at(), Stage::Dynamics);
-        }
-        Ok(())
-    }
-
-    /// Newton's method on Φ = 0 from a state that was evaluated last; the factors stay those of the first position.
-    fn close(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Why> {
-        let mut last = f64::INFINITY;
-        for iteration in 0..PROJECTIONS {
-            if iteration > 0 {
-                self.evaluate(system, state.at(), Stage::Position);
-            }
-            self.factor()?;
-            self.rhs.fill(0.0);
-            for (r, phi) in self.rhs.iter_mut().zip(&self.terms.phi) {
-                *r = -phi;
-            }
-            self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
-            system.retract(&mut state.q, &self.delta);
-            let size = self.delta.iter().zip(&self.size_v).fold(0.0, |m, (d, s)| f64::max(m, d.abs() / s));
-            if size < SQUARE_ENOUGH {
-                return Ok(());
-            }
-            if size.is_nan() || size >= 2.0 * last {
-                break;
-            }
-            last = size;
-        }
-        let (row, residual) = largest(&self.terms.phi);
-        Err(Why::Constraints { row, residual })
-    }
-
-    /// The shortest δv with G (v + δv) = ν, into `delta`; false if v is there already.
-    fn velocity_correction(&mut self, v: &[f64]) -> bool {
-        let nv = self.dims.v;
-        let mut needed = false;
-        for ((r, nu), row) in self.rhs.iter_mut().zip(&self.terms.nu).zip(self.terms.g.chunks_exact(nv.max(1))) {
-            let (mut sum, mut size) = (0.0, 0.0);
-            for (g, v) in row.iter().zip(v) {
-                sum += g * v;
-                size += (g * v).abs();
-            }
-            *r = nu - sum;
-            needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs());
-        }
-        if needed {
-            self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
-        }
-        needed
-    }
-
-    /// Removes from a velocity (nv) what lies across the constraints, in the metric M, by the terms and factors at hand.
-    pub fn tangential(&mut self, x: &mut [f64]) {
-        let nv = self.dims.v;
-        for (r, row) in self.rhs.iter_mut().zip(self.terms.g.chunks_exact(nv.max(1))) {
-            *r = -row.iter().zip(&*x).map(|(g, x)| g * x).sum::<f64>();
-        }
-        self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
-        x.iter_mut().zip(&self.delta).for_each(|(x, d)| *x += d);
     }
 
     /// Takes the modes of a state from its values; true if one has changed.
@@ -451,10 +317,9 @@ impl Engine {
     fn rows_residual(&self, residuals: impl Iterator<Item = f64>) -> f64 {
         let nv = self.dims.v.max(1);
         let mut largest = 0.0;
-        for (r, row) in residuals.zip(self.terms.g.chunks_exact(nv)) {
-            // |G_i| in units of size: how much Φ changes when the coordinates move by their size
-            let reach = row.iter().zip(&self.size_v).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()));
-            let size = r.abs() / if reach > 0.0 { reach } else { 1.0 };
+        for (r, (row, whole)) in residuals.zip(self.terms.g.chunks_exact(nv).zip(&self.row_reach)) {
+            let reach = reach(row, &self.size_v);
+            let size = r.abs() / if reach > ROUND_OFF * whole { reach } else { *whole };
             largest = f64::max(largest, size);
         }
         largest
@@ -499,6 +364,11 @@ impl Engine {
         }
         Ok(())
     }
+}
+
+/// |G_i| in units of size: how much Φ changes when the coordinates move by their size.
+fn reach(row: &[f64], size: &[f64]) -> f64 {
+    row.iter().zip(size).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()))
 }
 
 /// Index and size of the entry that is largest in size.

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-/// Part of the largest singular value below which a row counts as dependent, unless the caller knows better.
+/// Length that a scaled row must keep beside the others, unless the caller knows better; sound rows have the length 1.
 pub const RANK_TOLERANCE: f64 = 1e-8;
 
 /// What the constraint rows G (m × nv) amount to in one position.
@@ -27,17 +27,19 @@ impl Rank {
     ///
     /// Rows of Ĝ are orthogonalised by Gram-Schmidt, always the longest remainder next (Businger & Golub, Numer. Math. 7 (1965)
     /// 269-276, there by reflections), each twice against the basis ("twice is enough": Giraud et al., Numer. Math. 101 (2005)
-    /// 87-100). It ends when no remainder is longer than `tolerance` of the longest row. Then unit vectors complete the basis in
-    /// the same way: that is the null space. Costs about 2 nv² · max(nv, m) operations.
+    /// 87-100). A row depends on the others if its remainder is not longer than `tolerance`, or than that part of the row: by its
+    /// own measure, so that rows of round-off alone all depend. Then unit vectors complete the basis in the same way: that is the
+    /// null space. Costs about 2 nv² · max(nv, m) operations.
     pub fn new(g: &[f64], metric: &[f64], g_scale: &[f64], tolerance: f64) -> Self {
         let (nv, m) = (metric.len(), g_scale.len());
         let mut rows = scaled_rows(g, metric, g_scale);
         let mut basis: Vec<Vec<f64>> = Vec::with_capacity(nv);
         let mut left: Vec<usize> = (0..m).collect();
         let mut independent = Vec::new();
-        let threshold = tolerance * rows.iter().map(|row| norm(row)).fold(0.0, f64::max);
+        let threshold: Vec<f64> = rows.iter().map(|row| tolerance * f64::max(1.0, norm(row))).collect();
         while basis.len() < nv {
-            let Some(next) = longest(left.iter().map(|&i| norm(&rows[i])), threshold) else { break };
+            let beyond = |length: f64, threshold: f64| if length > threshold { length } else { 0.0 };
+            let Some(next) = longest(left.iter().map(|&i| beyond(norm(&rows[i]), threshold[i])), 0.0) else { break };
             let chosen = left.remove(next);
             independent.push(chosen);
             basis.push(unit(std::mem::take(&mut rows[chosen]), &basis));
@@ -125,7 +127,7 @@ fn norm(x: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kkt::{metric, row_scale};
+    use crate::kkt::{metric, natural_row_scale, row_scale};
     use crate::noise::Noise;
 
     fn rank(g: &[f64], nv: usize) -> Rank {
@@ -163,6 +165,36 @@ mod tests {
             assert_eq!(values.len(), m);
             assert!(values[r - 1] > 1e-4 && values[r] < 1e-12, "{values:?}");
         }
+    }
+
+    #[test]
+    fn rows_of_round_off_constrain_nothing() {
+        let mut noise = Noise(5);
+        let (nv, m) = (3, 5);
+        let metric = [2.0, 1e-3, 40.0];
+        for size in [1.0, 1e-6, 1e6] {
+            let natural = vec![size; m * nv];
+            let scale = |g: &[f64]| natural_row_scale(g, &natural, &metric);
+            let round_off: Vec<f64> = noise.vector(m * nv).iter().map(|x| 1e-15 * size * x).collect();
+            let found = Rank::new(&round_off, &metric, &scale(&round_off), RANK_TOLERANCE);
+            assert_eq!((found.rank, found.mobility(), found.dependent.len()), (0, 3, 5));
+            // rows as small as can be told from it constrain, alone and beside others
+            for small in [1e-9, 1e-3] {
+                let mut g = round_off.clone();
+                g[3..6].copy_from_slice(&[0.0, small * size, 0.0]);
+                assert_eq!(Rank::new(&g, &metric, &scale(&g), RANK_TOLERANCE).independent, [1]);
+                g[9..12].copy_from_slice(&[size, size, size]);
+                let found = Rank::new(&g, &metric, &scale(&g), RANK_TOLERANCE);
+                assert_eq!((found.rank, found.dependent), (2, vec![0, 2, 4]));
+            }
+        }
+    }
+
+    #[test]
+    fn far_from_where_they_were_scaled_each_row_is_judged_by_itself() {
+        // scaled where the first row was a millionth of what it is here
+        let g = [1e6, 0.0, 0.0, 1e6, 1e-9, 0.0, 0.0, 0.0, 0.1];
+        assert_eq!(Rank::new(&g, &[1.0; 3], &[1.0; 3], RANK_TOLERANCE).dependent, [1]);
     }
 
     #[test]

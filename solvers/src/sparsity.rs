@@ -85,7 +85,8 @@ pub struct Pattern {
     pub z_z: Sparsity,
     /// D (nv), see [`kkt::metric`](crate::kkt::metric).
     pub metric: Vec<f64>,
-    /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::row_scale`](crate::kkt::row_scale); E = 1e-8 of it.
+    /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::natural_row_scale`](crate::kkt::natural_row_scale), and
+    /// [`kkt::row_scale`](crate::kkt::row_scale) where nothing is known of rows but their entries; E = 1e-8 of it.
     pub g_scale: Vec<f64>,
     /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
     pub size_q: Vec<f64>,

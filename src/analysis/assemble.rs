@@ -9,12 +9,12 @@
 mod explain;
 mod guess;
 
-use super::least_squares::shortest;
+use super::least_squares::{shortest, shortest_beyond};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
 use explain::short;
-use grashof_solvers::kkt::metric;
+use grashof_solvers::kkt::{ROUND_OFF, metric};
 use std::f64::consts::TAU;
 
 /// A consistent start.
@@ -190,9 +190,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         let mut modes = mechanism.modes();
         dynamics.follow_time(0.0, &mut modes);
         let rows = (0..mechanism.rows.len()).filter(|r| !mechanism.rows[*r].anchored).collect();
-        // the farthest point of any body from its own origin, and of the ground
-        let reach = mechanism.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
-        Self { dynamics, modes, rows, held: Held::Exact, size: if reach > 0.0 { reach } else { 1.0 } }
+        Self { dynamics, modes, rows, held: Held::Exact, size: mechanism.size() }
     }
 
     fn evaluate(&mut self, q: &[f64]) {
@@ -246,6 +244,14 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         }
     }
 
+    /// Size of the rows of `hard`, before their entries cancel, in the metric: singular values below 1e-11 of it are round-off.
+    fn round_off(&self, metric: &[f64]) -> f64 {
+        let m = self.dynamics.mechanism;
+        let scale = |row: usize| if m.rows[row].angular { 1.0 } else { 1.0 / self.size };
+        let natural = self.dynamics.natural_length(metric);
+        ROUND_OFF * self.rows.iter().map(|&row| natural[row] * scale(row)).fold(0.0, f64::max)
+    }
+
     /// Closes constraints and held values; false if they stay open.
     fn close(&mut self, q: &mut Vec<f64>, metric: &[f64]) -> bool {
         let (mut r, mut jacobian) = (Vec::new(), Vec::new());
@@ -257,12 +263,12 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             if size < CONVERGED {
                 // one more step takes the last digits
                 let b: Vec<f64> = r.iter().map(|r| -r).collect();
-                self.dynamics.mechanism.retract(q, &shortest(&jacobian, &b, metric, 0.0));
+                self.dynamics.mechanism.retract(q, &shortest_beyond(self.round_off(metric), &jacobian, &b, metric, 0.0));
                 self.evaluate(q);
                 return true;
             }
             let b: Vec<f64> = r.iter().map(|r| -r).collect();
-            let delta = self.bounded(shortest(&jacobian, &b, metric, damping));
+            let delta = self.bounded(shortest_beyond(self.round_off(metric), &jacobian, &b, metric, damping));
             let mut trial = q.clone();
             self.dynamics.mechanism.retract(&mut trial, &delta);
             self.evaluate(&trial);
@@ -358,8 +364,9 @@ fn velocity<G: Space<S = f64>>(
     let missing = |v: &[f64]| -> Vec<f64> {
         b.iter().enumerate().map(|(i, b)| b - a[i * m.nv..(i + 1) * m.nv].iter().zip(v).map(|(a, v)| a * v).sum::<f64>()).collect()
     };
+    let round_off = ROUND_OFF * dynamics.natural_length(metric).into_iter().fold(0.0, f64::max);
     for _ in 0..2 {
-        let delta = shortest(&a, &missing(&v), metric, 0.0);
+        let delta = shortest_beyond(round_off, &a, &missing(&v), metric, 0.0);
         v.iter_mut().zip(delta).for_each(|(v, d)| *v += d);
     }
     let scale = 1.0 + b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));

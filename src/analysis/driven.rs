@@ -4,7 +4,7 @@ use super::assemble::Assembled;
 use crate::dynamics::{Dynamics, Reactions, rubbed, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
-use grashof_solvers::kkt::row_scale;
+use grashof_solvers::kkt::ROUND_OFF;
 use grashof_solvers::{Dims, Friction, Kkt, Lu, Pattern, Terms};
 
 /// Newton did not reach a position at a time.
@@ -71,12 +71,18 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         let mut dynamics = Dynamics::new(mechanism);
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
-        let g_scale = row_scale(&dynamics.work.g, &start.metric);
+        let g_scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
         let rubbing = Rubbing::new(mechanism, &start.metric, &g_scale);
         let solver = if rows == nv {
             let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let scale = dynamics.work.g.chunks_exact(nv.max(1)).map(|row| if size(row) > 0.0 { size(row).recip() } else { 1.0 });
-            let scale: Vec<f64> = scale.collect();
+            // a row that is round-off keeps its natural size, so that it leaves G as singular as it is
+            let unit = |(row, natural): (&[f64], &[f64])| match size(row).max(ROUND_OFF * size(natural)) {
+                0.0 => 1.0,
+                least if least > size(row) => size(natural).recip(),
+                _ => size(row).recip(),
+            };
+            let natural = dynamics.natural();
+            let scale: Vec<f64> = dynamics.work.g.chunks_exact(nv.max(1)).zip(natural.chunks_exact(nv.max(1))).map(unit).collect();
             let entries = scale.iter().flat_map(|s| std::iter::repeat_n(*s, nv)).collect();
             Solver::Square { lu: Lu::new(nv), scale, entries }
         } else {

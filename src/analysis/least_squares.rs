@@ -10,6 +10,12 @@ const RANK_TOLERANCE: f64 = 1e-10;
 /// With μ = 0 it is the pseudo-inverse in the metric; μ > 0 is Levenberg's damping.
 #[must_use]
 pub(crate) fn shortest(a: &[f64], b: &[f64], metric: &[f64], damping: f64) -> Vec<f64> {
+    shortest_beyond(0.0, a, b, metric, damping)
+}
+
+/// The same where singular values of A D^−½ up to `round_off` are nothing else, even if there are no larger ones.
+#[must_use]
+pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f64], damping: f64) -> Vec<f64> {
     let n = metric.len();
     if b.is_empty() || n == 0 {
         return vec![0.0; n];
@@ -21,7 +27,7 @@ pub(crate) fn shortest(a: &[f64], b: &[f64], metric: &[f64], damping: f64) -> Ve
     let mut y = u.transpose() * DVector::from_row_slice(b);
     let largest = svd.singular_values.max();
     for (y, s) in y.iter_mut().zip(svd.singular_values.iter()) {
-        *y *= if *s > RANK_TOLERANCE * largest { s / (s * s + damping * largest * largest) } else { 0.0 };
+        *y *= if *s > f64::max(RANK_TOLERANCE * largest, round_off) { s / (s * s + damping * largest * largest) } else { 0.0 };
     }
     let x = vt.transpose() * y;
     x.iter().zip(&root).map(|(x, r)| x / r).collect()
@@ -36,5 +42,12 @@ mod tests {
         // x + y = 2 twice; metric (1, 4): the shortest is (1.6, 0.4)
         let x = shortest(&[1.0, 1.0, 2.0, 2.0], &[2.0, 4.0], &[1.0, 4.0], 0.0);
         assert!((x[0] - 1.6).abs() < 1e-14 && (x[1] - 0.4).abs() < 1e-14, "{x:?}");
+    }
+
+    #[test]
+    fn rows_of_round_off_move_nothing() {
+        let noise = [3e-17, -1e-17, 2e-17, 5e-18];
+        assert!(shortest(&noise, &[1e-16, 1e-16], &[1.0, 4.0], 0.0)[0].abs() > 1.0);
+        assert_eq!(shortest_beyond(1e-11, &noise, &[1e-16, 1e-16], &[1.0, 4.0], 0.0), [0.0, 0.0]);
     }
 }

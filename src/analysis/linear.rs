@@ -26,7 +26,6 @@ use crate::dynamics::{Dynamics, LANES, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::Dual;
-use grashof_solvers::kkt::row_scale;
 use grashof_solvers::{Dims, Kkt, Tangent};
 use nalgebra::DMatrix;
 
@@ -45,8 +44,9 @@ pub struct Linear {
     pub spin: DMatrix<f64>,
     /// Number of first-order states.
     pub nz: usize,
-    /// D (nv).
+    /// D (nv) and diag(G D⁻¹ Gᵀ) (rows).
     metric: Vec<f64>,
+    row_scale: Vec<f64>,
     kkt: Kkt,
 }
 
@@ -90,7 +90,8 @@ impl Linear {
         let mut tangent = Tangent::new(Dims { v: nv, z: nz, holonomic: rows, ..Dims::default() });
         linearizer.tangents(at, &mut tangent);
         let mut kkt = Kkt::new(nv, rows);
-        kkt.set_scale(metric, &row_scale(&dynamics.work.g, metric));
+        let row_scale = dynamics.row_scale(at.q, at.modes, metric);
+        kkt.set_scale(metric, &row_scale);
         kkt.factor(&dynamics.work.mass, &dynamics.work.g).map_err(|_| Singular)?;
         Ok(Self {
             rows: linearizer.rows(at),
@@ -100,6 +101,7 @@ impl Linear {
             spin: spin(mechanism, at.v),
             nz,
             metric: metric.to_vec(),
+            row_scale,
             kkt,
         })
     }
@@ -131,13 +133,19 @@ impl Linear {
         a
     }
 
+    /// Independent velocities, `preferred` ones as far as the rows leave them independent.
+    #[must_use]
+    pub fn partition(&self, preferred: &[usize]) -> Partition {
+        Partition::new(&self.g, &self.metric, &self.row_scale, preferred)
+    }
+
     /// The same on independent velocities, `preferred` ones as far as the rows leave them independent.
     ///
     /// # Errors
     /// If the mass matrix is singular on them.
     pub fn reduce(&self, preferred: &[usize]) -> Result<Reduced, Singular> {
         let (nv, nz, rows) = (self.mass.nrows(), self.nz, self.g.nrows());
-        let partition = Partition::new(&self.g, &self.metric, preferred);
+        let partition = self.partition(preferred);
         let (p, n) = (&partition.p, partition.independent.len());
         let t = &self.tangent;
         let matrix = |rows: usize, columns: usize, x: &[f64]| DMatrix::from_row_slice(rows, columns, x);

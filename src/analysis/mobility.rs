@@ -6,7 +6,6 @@ use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, RowOwner};
 use crate::model::{Kind, Model, Study};
-use grashof_solvers::kkt::row_scale;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
 /// The mobility of a mechanism at its start.
@@ -27,19 +26,16 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    let g = rows(mechanism, start);
+    let (g, scale) = rows(mechanism, start);
     let nv = mechanism.nv;
-    let undriven: Vec<f64> = mechanism
-        .rows
-        .iter()
-        .enumerate()
-        .filter(|(_, r)| !matches!(r.owner, RowOwner::Driver(_)))
-        .flat_map(|(i, _)| g[i * nv..(i + 1) * nv].to_vec())
-        .collect();
-    let rank_of = |g: &[f64]| Rank::new(g, &start.metric, &row_scale(g, &start.metric), RANK_TOLERANCE);
-    let (free, driven) = (rank_of(&undriven), rank_of(&g));
+    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
+    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
+    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
+    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
+    let free = Rank::new(&of_undriven, &start.metric, &scale_of_undriven, RANK_TOLERANCE);
+    let driven = Rank::new(&g, &start.metric, &scale, RANK_TOLERANCE);
     Mobility {
-        grubler: nv as i64 - (undriven.len() / nv.max(1)) as i64,
+        grubler: nv as i64 - undriven.len() as i64,
         freedom: free.mobility(),
         left: driven.mobility(),
         rank: driven.rank,
@@ -47,12 +43,13 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     }
 }
 
-/// G at the start, by an evaluator of its own.
-fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Vec<f64> {
+/// G at the start and the scales of its rows, by an evaluator of its own.
+fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> (Vec<f64>, Vec<f64>) {
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.time(0.0, &start.modes);
     dynamics.position(&start.q, &start.modes);
-    dynamics.work.g
+    let scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
+    (dynamics.work.g, scale)
 }
 
 /// Whether the drivers leave no freedom and do not contend for the same one.

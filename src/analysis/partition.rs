@@ -3,10 +3,9 @@
 use super::outcome::Failure;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism};
-use grashof_solvers::kkt::row_scale;
 use nalgebra::{DMatrix, DVector};
 
-/// Part of the largest pivot below which a row depends on the others.
+/// Pivot of the scaled rows, and part of the largest pivot, below which a row depends on the others.
 const RANK_TOLERANCE: f64 = 1e-8;
 
 /// A division of velocities, v = (v_d, v_i), such that G_d has full column rank and as many columns as G has independent rows.
@@ -24,20 +23,20 @@ pub struct Partition {
 
 impl Partition {
     /// Divides the velocities; `preferred` ones are independent as far as the rows leave them so, the others are chosen by
-    /// elimination with complete pivoting. G (rows × nv) is scaled by the `metric` D of its velocities (nv) and by
-    /// diag(G D⁻¹ Gᵀ), so that units do not choose.
+    /// elimination with complete pivoting. G (rows × nv) is scaled by the `metric` D of its velocities (nv) and by the
+    /// `row_scale` diag(G D⁻¹ Gᵀ) of its rows, so that units do not choose.
     #[must_use]
-    pub fn new(g: &DMatrix<f64>, metric: &[f64], preferred: &[usize]) -> Self {
-        let dependent = pivots(Scaled::new(g, metric).g, preferred);
-        Self::of(g, metric, (0..g.ncols()).filter(|j| !dependent.contains(j)).collect())
+    pub fn new(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64], preferred: &[usize]) -> Self {
+        let dependent = pivots(Scaled::new(g, metric, row_scale).g, preferred);
+        Self::of(g, metric, row_scale, (0..g.ncols()).filter(|j| !dependent.contains(j)).collect())
     }
 
     /// The same division at another position, by its G.
     #[must_use]
-    pub fn of(g: &DMatrix<f64>, metric: &[f64], independent: Vec<usize>) -> Self {
+    pub fn of(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64], independent: Vec<usize>) -> Self {
         let (rows, nv) = g.shape();
         let dependent: Vec<usize> = (0..nv).filter(|j| !independent.contains(j)).collect();
-        let scaled = Scaled::new(g, metric);
+        let scaled = Scaled::new(g, metric, row_scale);
         let qr = scaled.g.select_columns(&dependent).qr();
         // full column rank: R is regular, R⁻¹Qᵀ is the inverse of least squares
         let mut inverse = qr.r().solve_upper_triangular(&qr.q().transpose()).unwrap_or_else(|| DMatrix::zeros(dependent.len(), rows));
@@ -79,10 +78,9 @@ struct Scaled {
 }
 
 impl Scaled {
-    fn new(g: &DMatrix<f64>, metric: &[f64]) -> Self {
-        let flat: Vec<f64> = g.transpose().as_slice().to_vec();
+    fn new(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64]) -> Self {
         let root = |x: &f64| x.sqrt().recip();
-        let row_unit: Vec<f64> = row_scale(&flat, metric).iter().map(root).collect();
+        let row_unit: Vec<f64> = row_scale.iter().map(root).collect();
         let unit: Vec<f64> = metric.iter().map(root).collect();
         let scaled = DMatrix::from_fn(g.nrows(), g.ncols(), |i, j| g[(i, j)] * row_unit[i] * unit[j]);
         Self { g: scaled, row_unit, unit }
@@ -92,7 +90,8 @@ impl Scaled {
 /// Columns that elimination takes, rising: those that are not preferred first.
 fn pivots(mut a: DMatrix<f64>, preferred: &[usize]) -> Vec<usize> {
     let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-    let mut threshold = 0.0;
+    // sound rows have the length 1: what is far shorter is round-off, also if nothing longer is there
+    let mut threshold = RANK_TOLERANCE;
     for kept in [preferred, &[]] {
         loop {
             let free = |j: &usize| !columns.contains(j) && !kept.contains(j);

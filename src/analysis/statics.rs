@@ -220,7 +220,7 @@ where
 
     fn partition(&mut self, pose: &Pose) -> super::partition::Partition {
         self.rest.show(pose);
-        self.names.partition(&self.rest.system.dynamics.work.g)
+        self.names.partition(&self.rest.system.dynamics, pose)
     }
 
     /// What a reader should know of an equilibrium.

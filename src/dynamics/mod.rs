@@ -14,6 +14,7 @@ mod forces;
 mod friction;
 mod kinematics;
 mod reaction;
+mod scale;
 mod switches;
 mod tangent;
 mod workspace;

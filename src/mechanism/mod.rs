@@ -187,6 +187,31 @@ impl<G: Space> Mechanism<G> {
         vec![0; self.switches + self.windings]
     }
 
+    /// Characteristic length, m: the farthest named point of any body from its own origin, and of the ground; 1 without any.
+    #[must_use]
+    pub fn size(&self) -> f64
+    where
+        G: Space<S = f64>,
+    {
+        let reach = self.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
+        if reach > 0.0 { reach } else { 1.0 }
+    }
+
+    /// What counts as a whole way of each velocity (nv): 1 rad, or the size, m.
+    #[must_use]
+    pub fn units(&self) -> Vec<f64>
+    where
+        G: Space<S = f64>,
+    {
+        let (mut units, size) = (vec![1.0; self.nv], self.size());
+        for step in &self.steps {
+            if let Step::Axis { turns: false, v, .. } = step {
+                units[*v] = size;
+            }
+        }
+        units
+    }
+
     /// q ⊕ δ: moves the coordinates by a velocity times time, δ in the frame of v (shape nv).
     pub fn retract(&self, q: &mut [f64], delta: &[f64]) {
         for step in &self.steps {

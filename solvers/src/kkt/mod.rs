@@ -10,6 +10,9 @@
 //! smallest non-zero singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½. Where rows are redundant, the multipliers are those of least
 //! λᵀEλ. An E that follows the present rows vanishes with them, and a smaller one loses energy in singular positions (measured).
 //!
+//! The diagonal of a row that is round-off at assembly is that of its natural size, and of one that happens to vanish there that of
+//! a position nearby ([`natural_row_scale`]).
+//!
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 
@@ -24,7 +27,7 @@ mod small;
 pub mod sparse;
 
 pub(crate) use scale::root_inverse;
-pub use scale::{REGULARIZATION, metric, row_scale};
+pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
 use crate::{Pattern, Sparsity};
 use dense::{Lu, Singular, sized, square, square_mut};

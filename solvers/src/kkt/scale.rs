@@ -9,6 +9,9 @@ const MASS_FLOOR: f64 = 1e-6;
 /// Rows whose scale is below this part of the largest count as the largest: they happen to vanish in this position.
 const ROW_FLOOR: f64 = 1e-12;
 
+/// Entries of a row below this part of their natural size are round-off; see [`natural_row_scale`].
+pub const ROUND_OFF: f64 = 1e-11;
+
 /// D (nv): the diagonal of M, with a floor at 1e-6 of the largest entry of the same unit.
 ///
 /// `mass` is nv × nv; `unit[i]` names the unit of coordinate i (0 an angle, 1 a length, as the caller likes). A unit without any
@@ -25,15 +28,31 @@ pub fn metric(mass: &[f64], unit: &[u8]) -> Vec<f64> {
 }
 
 /// diag(G D⁻¹ Gᵀ) (m): the inverse of the mass that each constraint row feels. `g` is m × nv.
+///
+/// For rows of which nothing but their entries is known: those that vanish against the largest count as that. If all of them are
+/// round-off, that is not seen; see [`natural_row_scale`].
 pub fn row_scale(g: &[f64], metric: &[f64]) -> Vec<f64> {
-    if metric.is_empty() {
-        return Vec::new();
-    }
-    let mut scale: Vec<f64> = g.chunks_exact(metric.len()).map(|row| row.iter().zip(metric).map(|(g, d)| g * g / d).sum()).collect();
+    let mut scale = squares(g, metric);
     let largest = scale.iter().fold(0.0, |m, &x| f64::max(m, x));
     let largest = if largest > 0.0 { largest } else { 1.0 };
     scale.iter_mut().filter(|x| **x < ROW_FLOOR * largest).for_each(|x| *x = largest);
     scale
+}
+
+/// The same for rows whose entries have the sizes `natural` (m × nv) before they cancel: n·ω + f·v has the size |n||ω| + |f||v|.
+///
+/// A row that is below 1e-11 of its natural size is round-off and takes the scale of that size, Σ natural²/D: scaled by it, it is
+/// nearly 0 and constrains nothing. So each row is judged by itself. A row that happens to vanish in this position is to be given
+/// with the entries of another one: E must last when it grows.
+pub fn natural_row_scale(g: &[f64], natural: &[f64], metric: &[f64]) -> Vec<f64> {
+    let scale = |(own, natural): (f64, f64)| if own > ROUND_OFF * ROUND_OFF * natural { own } else { natural };
+    let positive = |x: f64| if x > 0.0 { x } else { 1.0 };
+    squares(g, metric).into_iter().zip(squares(natural, metric)).map(scale).map(positive).collect()
+}
+
+/// Σ_j g_ij²/D_j of each row.
+fn squares(g: &[f64], metric: &[f64]) -> Vec<f64> {
+    g.chunks_exact(metric.len().max(1)).map(|row| row.iter().zip(metric).map(|(g, d)| g * g / d).sum()).collect()
 }
 
 /// The power of two nearest to 1/√x: scaling by it rounds nothing.
@@ -56,6 +75,16 @@ mod tests {
     fn rows_feel_the_inverse_mass() {
         assert_eq!(row_scale(&[1.0, 2.0, 0.0, 0.0], &[2.0, 4.0]), [1.5, 1.5]);
         assert_eq!(row_scale(&[0.0, 0.0], &[2.0, 4.0]), [1.0]);
+    }
+
+    #[test]
+    fn each_row_is_measured_by_itself() {
+        let metric = [2.0, 4.0];
+        let natural = [1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 0.0, 0.0];
+        // a real row, one that is small for good, noise alone, and a row that is nothing
+        let g = [0.5, 2.0, 1e-9, 0.0, 1e-16, -3e-17, 0.0, 0.0];
+        assert_eq!(natural_row_scale(&g, &natural, &metric), [1.125, 0.5e-18, 1.5, 1.0]);
+        assert_eq!(natural_row_scale(&[], &[], &[]), []);
     }
 
     #[test]

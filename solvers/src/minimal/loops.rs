@@ -11,7 +11,7 @@ const CLOSED: f64 = 1e-13;
 /// A correction below this (in units of size) leaves a residual of its square.
 const SQUARE_ENOUGH: f64 = 1e-8;
 
-/// Part of the largest pivot below which a row depends on the others.
+/// Pivot of the scaled rows, and part of the largest pivot, below which a row depends on the others.
 const RANK_TOLERANCE: f64 = 1e-8;
 
 /// A system with what follows from its independent velocities; sized once, then free of allocation.
@@ -132,7 +132,8 @@ impl<S: System> Loops<S> {
         self.taken.fill(false);
         self.rows.clear();
         self.dependent.clear();
-        let mut threshold = 0.0;
+        // sound rows have the length 1: what is far shorter is round-off, also if nothing longer is there
+        let mut threshold = RANK_TOLERANCE;
         while self.rows.len() < most {
             let free = |j: &usize| !self.taken[*j] && !kept.contains(j);
             let places = (0..h).filter(|i| !self.rows.contains(i)).flat_map(|i| (0..nv).filter(free).map(move |j| (i, j)));

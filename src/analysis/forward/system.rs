@@ -24,7 +24,6 @@ use crate::geometry::Space;
 use crate::mechanism::{EffortLaw, Measured, Mechanism, Row, RowOwner};
 use crate::model::Crossing;
 use crate::scalar::Dual;
-use grashof_solvers::kkt::row_scale;
 use grashof_solvers::{At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 use patterns::known_by_rows;
 
@@ -168,7 +167,7 @@ where
             z_q: Sparsity::dense(nz, nv),
             z_v: Sparsity::dense(nz, nv),
             z_z: Sparsity::dense(nz, nz),
-            g_scale: row_scale(&dynamics.work.g, &start.metric),
+            g_scale: dynamics.row_scale(&start.q, &start.modes, &start.metric),
             metric: start.metric.clone(),
             size_q,
             size_v: size,

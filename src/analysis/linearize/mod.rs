@@ -156,7 +156,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let mut linearizer = Linearizer::new(lifted);
         let point = Point { t: 0.0, q: &at.q, v: &at.v, z: &at.z, a: &answer.a, lambda: &answer.lambda, modes: &at.modes };
         let linear = Linear::new(m, &mut linearizer, &point, &self.start.metric).map_err(|_| undetermined())?;
-        let partition = Partition::new(&linear.g, &self.start.metric, &preferred(m));
+        let partition = linear.partition(&preferred(m));
         let own: Vec<String> = partition.independent.iter().map(|&i| names.coordinates[i].clone()).collect();
         with_mass(&(partition.p.transpose() * &linear.mass * &partition.p), &own, &self.study.place)?;
         let reduced = linear.reduce(&partition.independent).map_err(|_| undetermined())?;

@@ -8,7 +8,6 @@ use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use grashof_solvers::Kkt;
-use grashof_solvers::kkt::row_scale;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of closing, and so far closed: m or rad.
@@ -66,7 +65,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.work.z.copy_from_slice(&at.z);
         d.terms(0.0, &at.q, &at.v, &at.modes);
         d.rates(&at.modes);
-        self.kkt.set_scale(self.metric, &row_scale(&d.work.g, self.metric));
+        self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
         self.kkt.factor(&d.work.mass, &d.work.g).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };
         self.kkt.solve(&d.work.force, &d.work.gamma, &mut out.a, &mut out.lambda);
@@ -106,7 +105,9 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         }
         self.dynamics.velocity(&vec![0.0; m.nv], &at.modes);
         let w = &self.dynamics.work;
-        let here = Partition::of(&DMatrix::from_row_slice(m.rows.len(), m.nv, &w.g), self.metric, partition.independent.clone());
+        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &w.g);
+        let row_scale = self.dynamics.row_scale(&at.q, &at.modes, self.metric);
+        let here = Partition::of(&g, self.metric, &row_scale, partition.independent.clone());
         let nu = DMatrix::from_column_slice(m.rows.len(), 1, &w.nu);
         let v = &here.p * u + here.follow(&-nu);
         at.v.copy_from_slice(v.as_slice());

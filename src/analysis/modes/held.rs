@@ -94,7 +94,7 @@ impl Held {
         if !force.iter().chain(g.iter()).all(|x| x.is_finite()) {
             return Err(Singular);
         }
-        let partition = Partition::new(&g, metric, preferred);
+        let partition = Partition::new(&g, metric, &dynamics.row_scale(pose.q, pose.modes, metric), preferred);
         let lambda = partition.multipliers(&force);
         // joints press to the side that the multipliers say
         let mut modes = pose.modes.to_vec();

@@ -13,11 +13,12 @@
 //! this is the Hessian of the Lagrangian on the tangent space (Nocedal & Wright, Numerical Optimization, theorem 12.6).
 
 use crate::analysis::forward::system::Mechanical;
-use crate::analysis::least_squares::shortest;
+use crate::analysis::least_squares::{shortest, shortest_beyond};
 use crate::dynamics::LANES;
 use crate::geometry::{Force, Motion, Space};
 use crate::mechanism::{EffortLaw, Measured, Step, StretchOf};
 use crate::scalar::Dual;
+use grashof_solvers::kkt::ROUND_OFF;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 use grashof_solvers::{Stage, State, System, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
@@ -206,6 +207,7 @@ where
         if self.terms.phi.is_empty() {
             return Ok(());
         }
+        let round_off = ROUND_OFF * self.system.pattern().g_scale.iter().fold(0.0, |m, x| f64::max(m, x.sqrt()));
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             self.evaluate(Stage::Position);
@@ -220,10 +222,11 @@ where
                 return Ok(());
             }
             let wanted: Vec<f64> = self.terms.phi.iter().map(|p| -p).collect();
-            let delta = shortest(&self.terms.g, &wanted, &self.system.pattern().metric, 0.0);
+            let delta = shortest_beyond(round_off, &self.terms.g, &wanted, &self.system.pattern().metric, 0.0);
             self.system.retract(&mut self.state.q, &delta);
         }
-        Err(Lost::Open)
+        // round-off may shrink for ever
+        if last <= CLOSED { Ok(()) } else { Err(Lost::Open) }
     }
 
     /// Largest |Φ|, lengths by the size.
@@ -279,7 +282,7 @@ where
         let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
         let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..m).map(move |i| (i, k))).map(|(i, k)| g[i * nv + k] / root[k]).collect();
         let scaled: Vec<f64> = force.iter().zip(&root).map(|(f, r)| f / r).collect();
-        let lambda = if m == 0 { Vec::new() } else { shortest(&transposed, &scaled, e, 0.0) };
+        let lambda = if m == 0 { Vec::new() } else { shortest_beyond(RANK_TOLERANCE, &transposed, &scaled, e, 0.0) };
         let (grain, stiffness) = self.scales(&root);
         Pose {
             q: self.state.q.clone(),

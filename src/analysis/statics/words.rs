@@ -1,10 +1,11 @@
 //! Equilibria in words: coordinates by their names, what falls, what stays unbalanced.
 
-use super::pose::Lost;
+use super::pose::{Lost, Pose};
 use super::search::{Ended, Found};
 use crate::analysis::coordinates::{Coordinate, coordinates};
 use crate::analysis::outcome::{Failure, Unsolved};
 use crate::analysis::partition::{Partition, preferred};
+use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::model::Model;
@@ -32,11 +33,11 @@ impl Names {
         Self { all: coordinates(model, m), q: in_q, preferred: preferred(m), metric: metric.to_vec() }
     }
 
-    /// Independent velocities at a position with the rows G (rows × nv), and the motions P of the others with them.
-    pub(super) fn partition(&self, g: &[f64]) -> Partition {
-        let nv = self.metric.len();
-        let rows = g.len().checked_div(nv).unwrap_or(0);
-        Partition::new(&DMatrix::from_row_slice(rows, nv, g), &self.metric, &self.preferred)
+    /// Independent velocities at a pose, which was evaluated last, and the motions P of the others with them.
+    pub(super) fn partition<G: Space<S = f64>>(&self, dynamics: &Dynamics<'_, G>, pose: &Pose) -> Partition {
+        let m = dynamics.mechanism;
+        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &dynamics.work.g);
+        Partition::new(&g, &self.metric, &dynamics.row_scale(&pose.q, &pose.modes, &self.metric), &self.preferred)
     }
 
     /// The coordinate that a displacement (nv) moves most, lengths by the size.

@@ -1,0 +1,171 @@
+//! Scales of the constraint rows: each by its own natural size, so that round-off is told from a constraint.
+//!
+//! An entry of G is W · s with the unit wrench W = (p × f, f) of a gauge and the column s = (ω, −ω × p_k + d) of a velocity,
+//!
+//! ```text
+//! W · s = f · (ω × (p − p_k)) + f · d,      natural size: |f| |ω| (ℓ + ℓ_k) + |f| |d|,
+//! ```
+//!
+//! where the place p is the sum of what lies between it and the ground, of the size ℓ: it can cancel, its round-off does not. A
+//! couple n · ω has |n| |ω|. A second hinge on the axis of the first has entries of about 1e-16 in its rows and a natural size of 1.
+
+use super::Dynamics;
+use crate::geometry::{Pose, Space};
+use crate::mechanism::{Gauge, Measured, RowKind, RowOwner, Step};
+use grashof_solvers::kkt::natural_row_scale;
+use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
+
+/// Positions around: the coordinate that moves most does so by 0.4 rad or sizes of the mechanism, one way and the other.
+const STEP: f64 = 0.4;
+const GOLDEN: f64 = 2.4;
+const PHASES: [f64; 2] = [0.0, 2.0];
+
+/// A row whose square is below this part of what it is around happens to vanish here.
+const VANISHING: f64 = 1e-2;
+
+/// Sizes of what the gauges are made of at one position.
+struct Sizes {
+    /// ℓ of each body: the largest distance from the origin on its road from the ground, m.
+    reach: Vec<f64>,
+    /// |ω|, |d| and ℓ of each column.
+    columns: Vec<[f64; 3]>,
+}
+
+impl<G: Space<S = f64>> Dynamics<'_, G> {
+    /// diag(G D⁻¹ Gᵀ) (rows) at the coordinates `q` (nq) evaluated last, with D (nv) the `metric`: by the natural sizes of the rows,
+    /// and for rows that vanish here by their entries in positions around. Allocates.
+    #[must_use]
+    pub fn row_scale(&self, q: &[f64], modes: &[i32], metric: &[f64]) -> Vec<f64> {
+        let m = self.mechanism;
+        let mut natural = self.natural();
+        let here = &self.work.g;
+        let scale = natural_row_scale(here, &natural, metric);
+        let motions = self.motions(&scale, metric);
+        if motions.is_empty() {
+            return scale;
+        }
+        let unit = m.units();
+        let mut entries: Vec<f64> = here.iter().map(|g| g.abs()).collect();
+        let mut around = self.clone();
+        for delta in motions {
+            let mut q = q.to_vec();
+            m.retract(&mut q, &delta);
+            around.position(&q, modes);
+            grow(&mut natural, &around.natural());
+            grow(&mut entries, &around.work.g);
+        }
+        let square = |row: &[f64]| row.iter().zip(&unit).map(|(g, u)| (g * u).powi(2)).sum::<f64>();
+        for (row, here) in entries.chunks_exact_mut(m.nv).zip(here.chunks_exact(m.nv)) {
+            // by units and not by D: beside the constraints a body that hardly resists a turn would count too much
+            if square(here) >= VANISHING * square(row) {
+                row.copy_from_slice(here);
+            }
+        }
+        natural_row_scale(&entries, &natural, metric)
+    }
+
+    /// Large displacements (nv each) along motions that the rows leave but for drivers, which move with time.
+    fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
+        let m = self.mechanism;
+        let passive = m.rows.iter().zip(self.work.g.chunks_exact(m.nv.max(1)).zip(scale));
+        let passive = passive.filter(|(row, _)| !matches!(row.owner, RowOwner::Driver(_)));
+        let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
+        let rank = Rank::new(&g.concat(), metric, &scale, RANK_TOLERANCE);
+        let (n, unit) = (rank.mobility(), m.units());
+        let along = |phase: f64| {
+            // in no special direction
+            let y: Vec<f64> = (0..n).map(|k| (GOLDEN * k as f64 + phase).cos()).collect();
+            let delta: Vec<f64> = rank.null_space.chunks_exact(n).map(|p| p.iter().zip(&y).map(|(p, y)| p * y).sum()).collect();
+            let most = delta.iter().zip(&unit).fold(0.0, |m, (d, u): (&f64, &f64)| f64::max(m, d.abs() / u));
+            delta.iter().map(|d| STEP * d / most).collect()
+        };
+        if n == 0 || scale.is_empty() { Vec::new() } else { PHASES.map(along).to_vec() }
+    }
+
+    /// Sizes of the entries of G (rows × nv) before they cancel, at the position evaluated last. Allocates.
+    #[must_use]
+    pub fn natural(&self) -> Vec<f64> {
+        let m = self.mechanism;
+        let sizes = self.sizes();
+        let mut out = vec![0.0; m.rows.len() * m.nv];
+        for (row, out) in m.rows.iter().zip(out.chunks_exact_mut(m.nv.max(1))) {
+            let mut add = |gauge: usize, slope: f64| {
+                sizes.project(&m.gauges[gauge], &self.work.poses, |k, x| out[k] += slope.abs() * x);
+            };
+            match row.kind {
+                RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => add(gauge, 1.0),
+                RowKind::Ratio { first, second, ratio } => {
+                    add(second, 1.0);
+                    add(first, ratio);
+                }
+                RowKind::Function(f) => {
+                    let function = &m.functions[f];
+                    let slopes = &self.work.functions[function.value + 1..];
+                    function.gauges.iter().zip(slopes).for_each(|(&gauge, &slope)| add(gauge, slope));
+                }
+            }
+        }
+        out
+    }
+
+    /// Length of each row of [`Dynamics::natural`] times D^−½ (rows), at the position evaluated last. Allocates.
+    #[must_use]
+    pub fn natural_length(&self, metric: &[f64]) -> Vec<f64> {
+        let length = |row: &[f64]| row.iter().zip(metric).map(|(x, d)| x * x / d).sum::<f64>().sqrt();
+        if metric.is_empty() {
+            vec![0.0; self.mechanism.rows.len()]
+        } else {
+            self.natural().chunks_exact(metric.len()).map(length).collect()
+        }
+    }
+
+    fn sizes(&self) -> Sizes {
+        let (m, w) = (self.mechanism, &self.work);
+        let mut sizes = Sizes { reach: vec![0.0; m.bodies.len()], columns: vec![[0.0; 3]; m.nv] };
+        for node in &m.nodes {
+            let after = node.after.map_or(0.0, |x| length::<G>(x.p));
+            let far = [length::<G>(w.poses[node.parent].p) + length::<G>(node.before.p), length::<G>(w.poses[node.body].p) + after];
+            let reach = far.into_iter().fold(sizes.reach[node.parent], f64::max);
+            sizes.reach[node.body] = reach;
+            for step in &m.steps[node.steps.clone()] {
+                match *step {
+                    Step::Axis { d, turns, v, .. } => sizes.columns[v] = [f64::from(u8::from(turns)), length::<G>(d), reach],
+                    Step::Ball { v, .. } => sizes.columns[v..v + G::SPIN].fill([1.0, 0.0, reach]),
+                }
+            }
+        }
+        sizes
+    }
+}
+
+impl Sizes {
+    /// Sizes of ∂ẋ/∂v_k for the columns of a gauge, written by `put(k, size)`.
+    fn project<G: Space<S = f64>>(&self, gauge: &Gauge<G>, poses: &[Pose<G>], mut put: impl FnMut(usize, f64)) {
+        let reach = |body: usize, p: G::Vector| f64::max(self.reach[body], length::<G>(poses[body].p) + length::<G>(p));
+        // |n|, |f| and ℓ of the wrench
+        let [couple, force, far] = match gauge.measured {
+            Measured::Coordinate { along, .. } => return put(along.v, 1.0),
+            Measured::Slide { pa, pb, .. } | Measured::Distance { pa, pb } => [0.0, 1.0, f64::max(reach(gauge.a, pa), reach(gauge.b, pb))],
+            Measured::Dot { .. } | Measured::Angle => [1.0, 0.0, 0.0],
+            Measured::Turn { e1, e2, f, .. } => {
+                // θ̇ is the rate of the part of f in the plane, over its length
+                let f = G::rotate(poses[gauge.b].r, f);
+                let [c, s] = [e1, e2].map(|e| G::dot(f, G::rotate(poses[gauge.a].r, e)));
+                [c.hypot(s).recip(), 0.0, 0.0]
+            }
+        };
+        for &(k, _) in &gauge.columns {
+            let [turns, slides, at] = self.columns[k];
+            put(k, couple * turns + force * (turns * (far + at) + slides));
+        }
+    }
+}
+
+/// Each size becomes that of the other entry, if it is a larger number: a function may have none there.
+fn grow(sizes: &mut [f64], other: &[f64]) {
+    sizes.iter_mut().zip(other).filter(|(_, x)| x.is_finite()).for_each(|(size, x)| *size = size.abs().max(x.abs()));
+}
+
+fn length<G: Space<S = f64>>(p: G::Vector) -> f64 {
+    G::dot(p, p).sqrt()
+}
