@@ -25,6 +25,7 @@ pub mod scheme;
 pub mod schemes;
 pub mod sparsity;
 pub mod state;
+pub mod svd;
 pub mod system;
 
 #[cfg(test)]

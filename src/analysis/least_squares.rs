@@ -1,6 +1,7 @@
 //! Small least-squares solves at assembly, where rows may be redundant or contradict each other.
 
-use nalgebra::{DMatrix, DVector};
+use grashof_solvers::svd::Svd;
+use nalgebra::DMatrix;
 
 /// Part of the largest singular value below which a direction counts as not determined.
 const RANK_TOLERANCE: f64 = 1e-10;
@@ -22,14 +23,10 @@ pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f6
     }
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
     let scaled = DMatrix::from_fn(b.len(), n, |i, j| a[i * n + j] / root[j]);
-    let Some(svd) = scaled.try_svd(true, true, f64::EPSILON, 1000) else { return vec![0.0; n] };
-    let (Some(u), Some(vt)) = (&svd.u, &svd.v_t) else { return vec![0.0; n] };
-    let mut y = u.transpose() * DVector::from_row_slice(b);
-    let largest = svd.singular_values.max();
-    for (y, s) in y.iter_mut().zip(svd.singular_values.iter()) {
-        *y *= if *s > f64::max(RANK_TOLERANCE * largest, round_off) { s / (s * s + damping * largest * largest) } else { 0.0 };
-    }
-    let x = vt.transpose() * y;
+    let svd = Svd::new(&scaled);
+    let largest = svd.largest();
+    let least = f64::max(RANK_TOLERANCE * largest, round_off);
+    let x = svd.solve(b, |s| if s > least { s / (s * s + damping * largest * largest) } else { 0.0 });
     x.iter().zip(&root).map(|(x, r)| x / r).collect()
 }
 

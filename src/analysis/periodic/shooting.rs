@@ -19,6 +19,7 @@ use crate::analysis::forward::march::Eras;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
+use grashof_solvers::svd::Svd;
 use grashof_solvers::{State, System};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -161,9 +162,10 @@ fn step(map: &Map, missed: &[f64], sizes: &[f64]) -> Option<(DVector<f64>, Vec<C
     }
     let mut multipliers: Vec<Complex<f64>> = along.complex_eigenvalues().iter().copied().collect();
     multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
-    let svd = (along - DMatrix::identity(k, k)).svd(true, true);
-    let y = svd.solve(&right, NEUTRAL * svd.singular_values.max()).ok()?;
-    Some((surface * y, multipliers))
+    let svd = Svd::new(&(along - DMatrix::identity(k, k)));
+    let least = NEUTRAL * svd.largest();
+    let y = svd.solve(right.as_slice(), |s| if s > least { 1.0 / s } else { 0.0 });
+    Some((surface * DVector::from_vec(y), multipliers))
 }
 
 /// Orthonormal columns across a vector (m × m − 1), by Householder's reflection of it to its largest entry's axis.
