@@ -270,3 +270,27 @@ start: { O.angle: 60 deg, O.omega: 15 rad/s, coupler.angle: ~40 deg, rocker.angl
     }
     verdict.give("links without mass");
 }
+
+/// A driven joint with an exact start is no independent coordinate of minimal ones, and no fault.
+#[test]
+fn a_driven_joint_may_have_an_exact_start() {
+    let mut verdict = Verdict::default();
+    let angle = |dynamics: &str| {
+        let text = format!(
+            "grashof: 1
+name: driven arm
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: {{ a: {{ bar: {{ length: 0.3 m, mass: 1 kg }} }}, b: {{ bar: {{ length: 0.2 m, mass: 1 kg }} }} }}
+joints: {{ O: {{ revolute: [ground, a.start] }}, P: {{ revolute: [a.end, b.start] }} }}
+drivers: {{ d: {{ joint: O, angle: 0.5 rad*sin(7 rad/s*t) }} }}
+start: {{ O.angle: 0 rad, P.angle: 0 rad, P.omega: 3 rad/s }}
+studies: {{ run: {{ dynamics: {{ until: 1 s, every: 1 s, tolerance: 1e-10, {dynamics} }}, columns: [time, P.angle] }} }}
+"
+        );
+        let table = run_text(&text, &["--no-plots"]).succeeded().table("run");
+        table.rows.last().map_or(f64::NAN, |row| row[1])
+    };
+    verdict.close("P.angle", "minimal", angle("coordinates: minimal"), angle("coordinates: joint"), 1e-7);
+    verdict.give("driven arm");
+}

@@ -260,7 +260,8 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
     state
 }
 
-/// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start`.
+/// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start` that no driver
+/// moves.
 fn chart<'m, G: Space<S = f64>>(
     study: &Study,
     plan: &Plan,
@@ -274,12 +275,14 @@ fn chart<'m, G: Space<S = f64>>(
     // a joint that rests on a stop may be the one that was asked for: then others are
     let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
+    let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
+        Measured::Coordinate { along, .. } => Some(along.v),
+        _ => None,
+    };
+    let driven = |v: &usize| era.mechanism.drives.iter().any(|d| velocity(d.gauge) == Some(*v));
     let independent: Vec<usize> = asked
         .filter_map(|s| match s.asked {
-            Asked::Gauge { gauge, order: 0 } => match era.mechanism.gauges[gauge].measured {
-                Measured::Coordinate { along, .. } => Some(along.v),
-                _ => None,
-            },
+            Asked::Gauge { gauge, order: 0 } => velocity(gauge).filter(|v| !driven(v)),
             _ => None,
         })
         .collect();
