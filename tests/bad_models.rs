@@ -57,6 +57,10 @@ const FILES: &[(End, &[&str])] = &[
             "start-of-unknown",
             "plot-of-unknown",
             "take-from-nowhere",
+            "take-from-a-sweep",
+            "study-name-too-long",
+            "solve-equal-bounds",
+            "solve-target-of-the-run",
             "duplicate-name",
             "duplicate-key",
             "duplicate-section",
@@ -222,10 +226,14 @@ const FILES: &[(End, &[&str])] = &[
             "friction-bristle-in-inverse",
             "limits-beyond-at-the-start",
             "no-studies",
+            "take-out-of-range",
         ],
     ),
-    (Numerical, &["dead-point-start", "limits-passed-by-a-driver", "periodic-stalls", "statics-without-equilibrium"]),
-    (Stopped, &["dead-point-on-the-way"]),
+    (
+        Numerical,
+        &["dead-point-start", "limits-passed-by-a-driver", "periodic-stalls", "solve-out-of-range", "statics-without-equilibrium"],
+    ),
+    (Stopped, &["dead-point-on-the-way", "event-sets-out-of-range"]),
 ];
 
 /// Bad arguments: name of the snapshot, arguments (`OUT` is a fresh path), exit code.

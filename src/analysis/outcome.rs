@@ -1,6 +1,7 @@
 //! What a study leaves: columns, scalars, extremes, findings; names and numbers, ready for output.
 
 use super::extremum::Extremes;
+use crate::mechanism::BuildFault;
 use grashof_solvers::Counts;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
@@ -190,7 +191,7 @@ pub struct SceneJoint {
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
 pub enum Failure {
     /// The model has no mechanism at these parameters.
-    Model(Vec<crate::mechanism::BuildFault>),
+    Model(Vec<BuildFault>),
     /// The study asks for what the mechanism cannot give: freedom left over, too many drivers; with the path in the file.
     Study { code: &'static str, message: String, place: String, help: String },
     /// It did not begin or end for a numerical reason.
@@ -215,7 +216,13 @@ impl Failure {
     #[must_use]
     pub fn reason(&self) -> String {
         match self {
-            Self::Model(faults) => faults.iter().map(|f| f.message.clone()).collect::<Vec<_>>().join("; "),
+            Self::Model(faults) => {
+                let told = |f: &BuildFault| match f.place.as_str() {
+                    "" => f.message.clone(),
+                    place => format!("`{place}`: {}", f.message),
+                };
+                faults.iter().map(told).collect::<Vec<_>>().join("; ")
+            }
             Self::Study { message, .. } | Self::Numerical(message) | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
         }
     }

@@ -3,11 +3,11 @@
 use super::setup::Plan;
 use super::system::{Mechanical, Root};
 use crate::analysis::assemble::{Assembled, units};
-use crate::analysis::outcome::Failure;
+use crate::analysis::outcome::{Failure, Happened};
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
-use crate::model::{Model, Study};
+use crate::mechanism::{BuildFault, Mechanism};
+use crate::model::{Model, Parameter, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
 use grashof_solvers::{Control, Halt, Why};
@@ -41,6 +41,23 @@ where
         ),
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
+}
+
+/// Why a run ends at an event that has set parameters to what no mechanism can have.
+pub(super) fn set(model: &Model, events: &[Happened], changed: &[(usize, f64)], t: f64, faults: &[BuildFault]) -> String {
+    let happened = |name: &str| events.iter().any(|e| e.at == t && e.name == name);
+    let now: Vec<_> = model.events.iter().filter(|e| !e.set.is_empty() && happened(&e.name)).collect();
+    let names: Vec<String> = now.iter().map(|e| format!("`{}`", e.name)).collect();
+    let theirs = changed.iter().filter(|(i, _)| now.iter().any(|e| e.set.iter().any(|(set, _)| set == i)));
+    let values: Vec<String> = theirs.map(|&(i, x)| assigned(&model.parameters[i], x)).collect();
+    let (word, verb) = if names.len() == 1 { ("event", "sets") } else { ("events", "set") };
+    let faults = Failure::Model(faults.to_vec()).reason();
+    format!("at t = {t:.6} s the {word} {} {verb} {}, which cannot be: {faults}", names.join(", "), values.join(", "))
+}
+
+/// `c = -5 N m`.
+fn assigned(parameter: &Parameter, x: f64) -> String {
+    format!("`{}` = {x} {}", parameter.name, parameter.dimension.si()).trim_end().to_string()
 }
 
 /// The rows that become dependent where a run has stopped in a nearly singular position; none elsewhere, or if the reason is another.

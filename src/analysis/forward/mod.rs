@@ -49,8 +49,8 @@ where
 {
     let plan = setup::plan(model, study, forward, parameters)?;
     let watched = Watched::of(study);
-    check_rows(study, &plan, watched.ids.len().max(1))?;
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+    check_rows(study, &plan, watched.ids.len().max(1))?;
     let Recorded { mut trajectory, stopped, events, certificate, findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 

@@ -25,7 +25,7 @@ use super::sweep::parameters_with;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Leaf, Mechanism, build};
+use crate::mechanism::{Coordinates, Leaf, Mechanism, build, build_beside};
 use crate::model::{Linearize, Model, Study};
 use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
@@ -233,7 +233,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         for (j, &input) in inputs.iter().enumerate() {
             let column = slope(STEP * sized(self.parameters[input]), |e| {
                 let parameters = parameters_with(self.model, &[(input, self.parameters[input] + e)]);
-                let mut mechanism = build::<G>(self.model, &parameters, Coordinates::Joint).ok()?;
+                let mut mechanism = build_beside::<G>(self.model, &parameters, Coordinates::Joint).ok()?;
                 for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
                     if row.anchored {
                         (row.offset, row.anchored) = (before.offset, before.anchored);

@@ -1,7 +1,7 @@
 //! The ground and the bodies: shapes, figures, points, attached masses.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Attached, Body, Point, PointAt, PointRef, Shape};
 use crate::model::fault::{At, Spot};

@@ -1,7 +1,7 @@
 //! Couplings, drivers, motors and loads.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
 use crate::model::fault::{At, Spot};

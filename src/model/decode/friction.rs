@@ -1,7 +1,7 @@
 //! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use super::stops::STICK_SPEED;
 use crate::expression::{Dimension, Id};
 use crate::model::contacts::{Bristle, Friction, Pressure};

@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Joint, JointKind, PointRef};
 use crate::model::fault::{At, Spot};

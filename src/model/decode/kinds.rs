@@ -1,6 +1,6 @@
 //! The kinds of studies: their keys, their independent variables and results.
 
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use super::studies::Offer;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};

@@ -5,7 +5,7 @@
 //! any state.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use super::order::order;
 use super::values::{Draft, named, needs};
 use crate::expression::{Dimension, Symbol};

@@ -1,6 +1,6 @@
 //! `start`: one rule for positions and velocities, exact values and guesses.
 
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::{Start, StartValue};

@@ -1,7 +1,7 @@
 //! End stops of joints with one coordinate: with stiffness, as an expression of the coordinate and its rate, or rigid.
 
 use super::Decoder;
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::Stops;
 use crate::model::fault::{At, Spot};

@@ -1,6 +1,6 @@
 //! Parameters and tables, and the drafts of values that may need one another in any order.
 
-use super::checks::Rule;
+use crate::model::rules::Rule;
 use super::order::{order, tell};
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
