@@ -229,10 +229,7 @@ const FILES: &[(End, &[&str])] = &[
             "take-out-of-range",
         ],
     ),
-    (
-        Numerical,
-        &["dead-point-start", "limits-passed-by-a-driver", "periodic-stalls", "solve-out-of-range", "statics-without-equilibrium"],
-    ),
+    (Numerical, &["dead-point-start", "limits-passed-by-a-driver", "periodic-stalls", "solve-out-of-range", "statics-without-equilibrium"]),
     (Stopped, &["dead-point-on-the-way", "event-sets-out-of-range"]),
 ];
 

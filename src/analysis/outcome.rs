@@ -195,7 +195,7 @@ pub enum Failure {
     /// The study asks for what the mechanism cannot give: freedom left over, too many drivers; with the path in the file.
     Study { code: &'static str, message: String, place: String, help: String },
     /// It did not begin or end for a numerical reason.
-    Numerical(String),
+    Numerical { message: String, help: String },
     /// No value of the parameter that is varied meets the target.
     Unsolved(Unsolved),
 }
@@ -212,6 +212,16 @@ pub struct Unsolved {
 }
 
 impl Failure {
+    /// A numerical reason, with one remedy.
+    pub(crate) fn numerical(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Numerical { message: message.into(), help: help.into() }
+    }
+
+    /// It was ended from outside.
+    pub(crate) fn interrupted() -> Self {
+        Self::numerical("interrupted", "")
+    }
+
     /// In one sentence, as the `reason` of a sweep's row.
     #[must_use]
     pub fn reason(&self) -> String {
@@ -223,7 +233,7 @@ impl Failure {
                 };
                 faults.iter().map(told).collect::<Vec<_>>().join("; ")
             }
-            Self::Study { message, .. } | Self::Numerical(message) | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
+            Self::Study { message, .. } | Self::Numerical { message, .. } | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
         }
     }
 }

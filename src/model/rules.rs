@@ -172,8 +172,7 @@ impl Rule {
             return Some(Fault::new("bad-table", place, error.to_string(), "two or more points, x strictly rising"));
         }
         if let Some(bad) = x.iter().find(|x| !x.is_finite()) {
-            return fault("not-a-number", format!("the value is {bad}"), "a finite number")
-                .map(|fault| fault.help(UNDEFINED));
+            return fault("not-a-number", format!("the value is {bad}"), "a finite number").map(|fault| fault.help(UNDEFINED));
         }
         let first = x.first().copied().unwrap_or(0.0);
         match self {
@@ -192,9 +191,7 @@ impl Rule {
             Rule::Differ(what) if x.len() == 2 && x[0] == x[1] => {
                 fault("no-range", format!("both {what} are {first}"), "two values that differ").map(|fault| fault.help(VALUE))
             }
-            Rule::ConstrainedNewmark => {
-                newmark_fault(place(), first, x.get(1).copied().unwrap_or(first))
-            }
+            Rule::ConstrainedNewmark => newmark_fault(place(), first, x.get(1).copied().unwrap_or(first)),
             Rule::NotNegative(what) if first < 0.0 => {
                 fault("negative", format!("{what} is {first}"), "a value that is not negative").map(|fault| fault.help(SIGN))
             }

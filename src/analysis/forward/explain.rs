@@ -140,36 +140,9 @@ where
 /// Why a run has not begun.
 pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G>, start: &Assembled, halt: &Halt) -> Failure {
     if halt.why == Why::Singular
-        && let Some((body, how)) = unresisted(mechanism, start)
+        && let Some(failure) = massless(mechanism, start)
     {
-        return Failure::Study {
-            code: "singular-mass",
-            message: format!(
-                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
-                if how == "turn" { "inertia" } else { "mass" }
-            ),
-            place: format!("bodies.{body}"),
-            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
-        };
-    }
-    let massless: Vec<String> = mechanism
-        .nodes
-        .iter()
-        .filter(|n| crate::scalar::Scalar::value(mechanism.bodies[n.body].mass.mass) <= 0.0)
-        .map(|n| format!("`{}`", mechanism.bodies[n.body].name))
-        .collect();
-    if halt.why == Why::Singular && !massless.is_empty() {
-        return Failure::Study {
-            code: "singular-mass",
-            message: format!(
-                "the accelerations at the start are not determined: {} {} no mass and can move by {}",
-                massless.join(", "),
-                if massless.len() == 1 { "has" } else { "have" },
-                if massless.len() == 1 { "itself" } else { "themselves" }
-            ),
-            place: "bodies".into(),
-            help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
-        };
+        return failure;
     }
     Failure::Study {
         code: "no-start",
@@ -177,6 +150,31 @@ pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G
         place: study.place.clone(),
         help: "look at `grashof check`, which shows the start position and the freedom that is left".into(),
     }
+}
+
+/// That bodies without mass or inertia leave the accelerations open.
+pub(in crate::analysis) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    if let Some((body, how)) = unresisted(mechanism, start) {
+        return Some(Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
+                if how == "turn" { "inertia" } else { "mass" }
+            ),
+            place: format!("bodies.{body}"),
+            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
+        });
+    }
+    let bare = |body: usize| crate::scalar::Scalar::value(mechanism.bodies[body].mass.mass) <= 0.0;
+    let names: Vec<String> =
+        mechanism.nodes.iter().filter(|n| bare(n.body)).map(|n| format!("`{}`", mechanism.bodies[n.body].name)).collect();
+    let (verb, selves) = if names.len() == 1 { ("has", "itself") } else { ("have", "themselves") };
+    (!names.is_empty()).then(|| Failure::Study {
+        code: "singular-mass",
+        message: format!("the accelerations at the start are not determined: {} {verb} no mass and can move by {selves}", names.join(", ")),
+        place: "bodies".into(),
+        help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
+    })
 }
 
 /// A body that can move along a coordinate without resistance of any mass, and how it moves.

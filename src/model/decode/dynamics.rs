@@ -1,10 +1,10 @@
 //! Motion in time: keys, their ranges, and which of them go together.
 
 use super::Decoder;
-use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::fault::{At, Fault, Spot};
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::study::{Chart, Control, Forward, Integrator, Level};
 use crate::model::tables::INTEGRATORS;
 

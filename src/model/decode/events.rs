@@ -1,12 +1,12 @@
 //! Events: what crosses zero, and what happens then.
 
 use super::Decoder;
-use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{CouplingKind, Crossing, Event, Motion, Restitution, SpringOn};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::spans::Step;
 use crate::model::vocabulary::Known;

@@ -1,7 +1,6 @@
 //! Joints.
 
 use super::Decoder;
-use crate::model::rules::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Joint, JointKind, PointRef};
 use crate::model::fault::{At, Spot};
@@ -9,6 +8,7 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::{Coordinate, coordinates};
+use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;
 use crate::model::tables::JOINT_KINDS;

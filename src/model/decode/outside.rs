@@ -1,10 +1,10 @@
 //! What is given from outside, on the command line: values of parameters, and sweeps in place of a study's own.
 
-use crate::model::rules::Rule;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
 use crate::model::study::{Plot, ShownWhat, Sweep, Values};

@@ -1,6 +1,5 @@
 //! `start`: one rule for positions and velocities, exact values and guesses.
 
-use crate::model::rules::Rule;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::{Start, StartValue};
@@ -9,6 +8,7 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::Found;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::Quantity;
 

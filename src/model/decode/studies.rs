@@ -1,14 +1,14 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
-use super::{Check, Decoder};
-use crate::model::rules::Rule;
 use super::kinds::count;
 use super::outside::{Outside, retarget};
+use super::{Check, Decoder};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Functionals, Local, Reach};
 use crate::model::shape::clip;
 use crate::model::study::{Solve, Study, StudyResult, Sweep, Take, Values};

@@ -3,8 +3,8 @@
 use super::guard::opening;
 use super::inertia::{self, Tensor};
 use super::notes::Notes;
-use crate::model::rules::{impossible, negative_moment};
 use crate::model::fault::{Fault, Spot};
+use crate::model::rules::{impossible, negative_moment};
 use crate::model::shape::clip;
 use crate::model::suggest;
 use roxmltree::Node;
