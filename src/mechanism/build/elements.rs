@@ -103,11 +103,7 @@ impl<G: Space> Builder<'_, G> {
             _ => None,
         };
         let anchored = !matches!(driver.motion, Motion::Position(_));
-        let turns = match self.mechanism.gauges[gauge].measured {
-            Measured::Coordinate { along, .. } => along.turns,
-            Measured::Slide { .. } | Measured::Distance { .. } => false,
-            _ => true,
-        };
+        let turns = self.mechanism.gauges[gauge].turns();
         self.row(Row {
             kind: RowKind::Driver { gauge, driver: index },
             owner: RowOwner::Driver(index),
