@@ -70,7 +70,7 @@ impl Document {
     /// What of included files the model does not use, or not as it stands, one sentence each with its file and line.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        self.included.iter().flat_map(Included::notes).collect()
+        self.included.iter().flat_map(|included| included.notes(&self.root)).collect()
     }
 
     /// The file's name as given.
