@@ -249,32 +249,32 @@ grashof: 1
 name: ranges
 space: planar
 gravity: [0, -9.81 m/s^2]
-parameters: { m: 1 kg, i: 0.1 kg m^2, r: 10 cm, c: 1 N m, s: 1e-3 rad/s, e: 0.5, k: 100 N m/rad, d: 1 N m s/rad, rho: 0.8, h: 1 ms }
+parameters: { m1: 1 kg, i1: 0.1 kg m^2, r1: 10 cm, c1: 1 N m, s1: 1e-3 rad/s, e1: 0.5, k1: 100 N m/rad, d1: 1 N m s/rad, rho: 0.8, h1: 1 ms }
 bodies:
-  bob: { bar: { length: 1 m, mass: m }, attached: { rotor: { inertia: i } } }
-  wheel: { disc: { radius: r, mass: 1 kg } }
+  bob: { bar: { length: 1 m, mass: m1 }, attached: { rotor: { inertia: i1 } } }
+  wheel: { disc: { radius: r1, mass: 1 kg } }
 joints:
-  P: { revolute: [ground, bob.start], friction: { coulomb: c, stick_speed: s }, limits: { from: -80 deg, restitution: e } }
-  Q: { revolute: [bob.end, wheel.origin], limits: { from: -1 turn, stiffness: k, damping: d } }
+  P: { revolute: [ground, bob.start], friction: { coulomb: c1, stick_speed: s1 }, limits: { from: -80 deg, restitution: e1 } }
+  Q: { revolute: [bob.end, wheel.origin], limits: { from: -1 turn, stiffness: k1, damping: d1 } }
 start: { P.angle: -60 deg }
 studies:
-  swing: { dynamics: { until: 0.1 s, every: 0.05 s, integrator: generalized-alpha, rho: rho, step: h }, columns: [time, energy] }
+  swing: { dynamics: { until: 0.1 s, every: 0.05 s, integrator: generalized-alpha, rho: rho, step: h1 }, columns: [time, energy] }
 ";
 
 #[test]
 fn what_is_out_of_its_range_is_a_row_with_its_reason() {
     let place = Place::new("ranges", RANGES);
     for (parameter, good, bad, reason) in [
-        ("m", "1", "-1", "`bodies.bob.bar.mass`: the mass is -1"),
-        ("i", "0", "-1", "`bodies.bob.attached.rotor.inertia`: the inertia is -1"),
-        ("r", "0.1", "-1", "`bodies.wheel.disc.radius`: the radius is -1"),
-        ("c", "0", "-1", "`joints.P.friction.coulomb`: the friction is -1"),
-        ("s", "1", "0", "`joints.P.friction.stick_speed`: the speed is 0"),
-        ("e", "1", "2", "`joints.P.limits.restitution`: the restitution is 2"),
-        ("k", "1", "-100", "`joints.Q.limits.stiffness`: the stiffness is -100"),
-        ("d", "0", "-1", "`joints.Q.limits.damping`: the damping is -1"),
+        ("m1", "1", "-1", "`bodies.bob.bar.mass`: the mass is -1"),
+        ("i1", "0", "-1", "`bodies.bob.attached.rotor.inertia`: the inertia is -1"),
+        ("r1", "0.1", "-1", "`bodies.wheel.disc.radius`: the radius is -1"),
+        ("c1", "0", "-1", "`joints.P.friction.coulomb`: the friction is -1"),
+        ("s1", "1", "0", "`joints.P.friction.stick_speed`: the speed is 0"),
+        ("e1", "1", "2", "`joints.P.limits.restitution`: the restitution is 2"),
+        ("k1", "1", "-100", "`joints.Q.limits.stiffness`: the stiffness is -100"),
+        ("d1", "0", "-1", "`joints.Q.limits.damping`: the damping is -1"),
         ("rho", "1", "2", "`studies.swing.dynamics.rho`: rho is 2"),
-        ("h", "0.01", "0", "`studies.swing.dynamics.step`: the step is 0"),
+        ("h1", "0.01", "0", "`studies.swing.dynamics.step`: the step is 0"),
     ] {
         let [_, refused] = place.ends(2, &["check", "model.yaml", "--set", &format!("{parameter}={bad}")]);
         assert!(reason.ends_with(refused.lines().next().unwrap().split("]: ").nth(1).unwrap()), "{refused}");

@@ -51,11 +51,11 @@ impl Job<'_> {
                 self.explain(failure);
             }
             let (count, name) = (runs.len(), &study.name);
-            let (which, help) = match count {
-                1 => ("the one run".to_string(), "the reason stands above"),
-                _ => (format!("each of the {count} runs"), "the first reason stands above"),
+            let (what, help) = match count {
+                1 => (format!("the one run of study `{name}` did not begin"), "the reason stands above"),
+                _ => (format!("none of the {count} runs of study `{name}` began"), "the first reason stands above"),
             };
-            tell(&format!("error: {which} of study `{name}` could not begin\n  help: {help}"));
+            tell(&format!("error: {what}\n  help: {help}"));
             kept.remove();
             return Finished::nothing(code::NUMERICAL);
         }
