@@ -243,6 +243,48 @@ studies:
     assert_eq!(json["scalars"].as_object().unwrap().keys().filter(|name| name.starts_with("frequency_")).count(), 1);
 }
 
+/// A pendulum whose every number with a range is a parameter.
+const RANGES: &str = "\
+grashof: 1
+name: ranges
+space: planar
+gravity: [0, -9.81 m/s^2]
+parameters: { m1: 1 kg, i1: 0.1 kg m^2, r1: 10 cm, c1: 1 N m, s1: 1e-3 rad/s, e1: 0.5, k1: 100 N m/rad, d1: 1 N m s/rad, rho: 0.8, h1: 1 ms }
+bodies:
+  bob: { bar: { length: 1 m, mass: m1 }, attached: { rotor: { inertia: i1 } } }
+  wheel: { disc: { radius: r1, mass: 1 kg } }
+joints:
+  P: { revolute: [ground, bob.start], friction: { coulomb: c1, stick_speed: s1 }, limits: { from: -80 deg, restitution: e1 } }
+  Q: { revolute: [bob.end, wheel.origin], limits: { from: -1 turn, stiffness: k1, damping: d1 } }
+start: { P.angle: -60 deg }
+studies:
+  swing: { dynamics: { until: 0.1 s, every: 0.05 s, integrator: generalized-alpha, rho: rho, step: h1 }, columns: [time, energy] }
+";
+
+#[test]
+fn what_is_out_of_its_range_is_a_row_with_its_reason() {
+    let place = Place::new("ranges", RANGES);
+    for (parameter, good, bad, reason) in [
+        ("m1", "1", "-1", "`bodies.bob.bar.mass`: the mass is -1"),
+        ("i1", "0", "-1", "`bodies.bob.attached.rotor.inertia`: the inertia is -1"),
+        ("r1", "0.1", "-1", "`bodies.wheel.disc.radius`: the radius is -1"),
+        ("c1", "0", "-1", "`joints.P.friction.coulomb`: the friction is -1"),
+        ("s1", "1", "0", "`joints.P.friction.stick_speed`: the speed is 0"),
+        ("e1", "1", "2", "`joints.P.limits.restitution`: the restitution is 2"),
+        ("k1", "1", "-100", "`joints.Q.limits.stiffness`: the stiffness is -100"),
+        ("d1", "0", "-1", "`joints.Q.limits.damping`: the damping is -1"),
+        ("rho", "1", "2", "`studies.swing.dynamics.rho`: rho is 2"),
+        ("h1", "0.01", "0", "`studies.swing.dynamics.step`: the step is 0"),
+    ] {
+        let [_, refused] = place.ends(2, &["check", "model.yaml", "--set", &format!("{parameter}={bad}")]);
+        assert!(reason.ends_with(refused.lines().next().unwrap().split("]: ").nth(1).unwrap()), "{refused}");
+        place.ends(0, &["sweep", "model.yaml", "--over", &format!("{parameter}={good},{bad}"), "-o", "out", "--no-plots"]);
+        let rows = place.text(&format!("out/swing-over-{parameter}.csv"));
+        let rows: Vec<&str> = rows.lines().skip(1).map(|row| row.split_once(',').unwrap().1).collect();
+        assert_eq!(rows, ["", reason], "{parameter}");
+    }
+}
+
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let place = Place::new("threads", PENDULUM);

@@ -12,7 +12,7 @@ mod guess;
 use super::least_squares::{shortest, shortest_beyond};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
+use crate::mechanism::{Asked, Measured, Mechanism, Row, RowKind, RowOwner, Step};
 use explain::short;
 use grashof_solvers::kkt::{ROUND_OFF, metric};
 use std::f64::consts::TAU;
@@ -45,6 +45,8 @@ pub struct Found {
     pub found: f64,
     /// True if it was a guess.
     pub guess: bool,
+    /// Unit of both values.
+    pub unit: &'static str,
 }
 
 /// Why a mechanism cannot be assembled, in words.
@@ -376,18 +378,19 @@ fn velocity<G: Space<S = f64>>(
     {
         let held = i.checked_sub(m.rows.len()).and_then(|k| wanted(false).nth(k));
         let what = match held {
-            Some(s) => format!("the exact start value {} = {} (SI)", s.name, short(s.value)),
+            Some(s) => format!("the exact start value {} = {} {}", s.name, short(s.value), unit(m, s.asked)),
             None => m.name_of_row(i),
         };
+        let missed = format!("missed by {} {}", short(*x), held.map_or_else(|| unit_of_rate(m, i), |s| unit(m, s.asked)));
+        let missed = missed.trim_end();
         let start = Assembled { q: q.to_vec(), v, modes: modes.to_vec(), size, metric: metric.to_vec(), found: vec![] };
         let (freedom, drivers) = (super::mobility::mobility(m, &start).freedom, m.drives.len());
         if held.is_none() && freedom < drivers {
             return Err(AssemblyFault {
                 code: "over-constrained",
                 message: format!(
-                    "{drivers} drivers for a mechanism of {freedom} degree{} of freedom: {what} is missed by {} at the start",
-                    if freedom == 1 { "" } else { "s" },
-                    short(*x)
+                    "{drivers} drivers for a mechanism of {freedom} degree{} of freedom: {what} is {missed} at the start",
+                    if freedom == 1 { "" } else { "s" }
                 ),
                 place: "drivers".into(),
                 help: "remove drivers until there are as many as degrees of freedom".into(),
@@ -395,7 +398,7 @@ fn velocity<G: Space<S = f64>>(
         }
         return Err(AssemblyFault {
             code: "start-cannot-hold",
-            message: format!("the start velocities contradict each other or the drivers: {what} is missed by {}", short(*x)),
+            message: format!("the start velocities contradict each other or the drivers: {what} is {missed}"),
             place: held.map_or_else(|| "start".into(), |s| s.place.clone()),
             help: match held {
                 Some(_) => "put `~` before it, or remove it: drivers and other exact values fix it already".into(),
@@ -417,9 +420,32 @@ fn velocity<G: Space<S = f64>>(
                 Asked::Spin { body, axis } => G::spin_component(dynamics.work.twists[body].w, axis),
             },
             guess: s.guess,
+            unit: unit(m, s.asked),
         })
         .collect();
     Ok((v, found))
+}
+
+/// Unit of a start value.
+fn unit<G: Space>(m: &Mechanism<G>, asked: Asked) -> &'static str {
+    match asked {
+        Asked::Spin { .. } => "rad/s",
+        Asked::Gauge { gauge, order } => match (m.gauges[gauge].turns(), order) {
+            (true, 0) => "rad",
+            (true, _) => "rad/s",
+            (false, 0) => "m",
+            (false, _) => "m/s",
+        },
+    }
+}
+
+/// Unit of the rate of a row; none for a coupling by an expression.
+fn unit_of_rate<G: Space>(m: &Mechanism<G>, row: usize) -> &'static str {
+    match &m.rows[row] {
+        Row { kind: RowKind::Function(_), .. } => "",
+        Row { angular: true, .. } => "rad/s",
+        _ => "m/s",
+    }
 }
 
 fn norm(x: &[f64]) -> f64 {

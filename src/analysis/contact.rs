@@ -82,20 +82,23 @@ pub(super) fn passes<G: Space<S = f64>>(
         for stop in &mechanism.stops {
             let x = motion.driven.dynamics.work.readings[stop.gauge].x;
             if stop.gap(x) < -PASSED * stop.size(size) {
-                return Err(Failure::Numerical(format!(
-                    "at {name} = {at:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way; drive it less far, or give the stop a `stiffness`",
+                let message = format!(
+                    "at {name} = {at:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way",
                     joint(stop.joint),
                     stop.word(),
                     stop.at
-                )));
+                );
+                return Err(Failure::numerical(message, "drive it less far, or give the stop a `stiffness`"));
             }
         }
         if forces && motion.driven.jams() {
             let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", joint(p.joint))).collect();
-            return Err(Failure::Numerical(format!(
-                "at {name} = {at:.6} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox); give a smaller `coulomb`, a longer guide, or drive the motion from the other side",
+            let message = format!(
+                "at {name} = {at:.6} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox)",
                 names.join(", ")
-            )));
+            );
+            let help = "give a smaller `coulomb`, a longer guide, or drive the motion from the other side";
+            return Err(Failure::numerical(message, help));
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! What a study leaves: columns, scalars, extremes, findings; names and numbers, ready for output.
 
 use super::extremum::Extremes;
+use crate::mechanism::BuildFault;
 use grashof_solvers::Counts;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
@@ -190,11 +191,11 @@ pub struct SceneJoint {
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
 pub enum Failure {
     /// The model has no mechanism at these parameters.
-    Model(Vec<crate::mechanism::BuildFault>),
+    Model(Vec<BuildFault>),
     /// The study asks for what the mechanism cannot give: freedom left over, too many drivers; with the path in the file.
     Study { code: &'static str, message: String, place: String, help: String },
     /// It did not begin or end for a numerical reason.
-    Numerical(String),
+    Numerical { message: String, help: String },
     /// No value of the parameter that is varied meets the target.
     Unsolved(Unsolved),
 }
@@ -211,12 +212,28 @@ pub struct Unsolved {
 }
 
 impl Failure {
+    /// A numerical reason, with one remedy.
+    pub(crate) fn numerical(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Numerical { message: message.into(), help: help.into() }
+    }
+
+    /// It was ended from outside.
+    pub(crate) fn interrupted() -> Self {
+        Self::numerical("interrupted", "")
+    }
+
     /// In one sentence, as the `reason` of a sweep's row.
     #[must_use]
     pub fn reason(&self) -> String {
         match self {
-            Self::Model(faults) => faults.iter().map(|f| f.message.clone()).collect::<Vec<_>>().join("; "),
-            Self::Study { message, .. } | Self::Numerical(message) | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
+            Self::Model(faults) => {
+                let told = |f: &BuildFault| match f.place.as_str() {
+                    "" => f.message.clone(),
+                    place => format!("`{place}`: {}", f.message),
+                };
+                faults.iter().map(told).collect::<Vec<_>>().join("; ")
+            }
+            Self::Study { message, .. } | Self::Numerical { message, .. } | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
         }
     }
 }

@@ -87,7 +87,7 @@ where
             (Err(why), _) => return Err(why),
         }
     }
-    Err(Failure::Numerical("a continuation has no steps".into()))
+    Err(Failure::numerical("a continuation has no steps", "give `from` at least one step"))
 }
 
 /// The parameters of each step of a continuation; those of the study are the last ones, and the only ones without.

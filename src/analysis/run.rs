@@ -107,10 +107,13 @@ fn trace<'m, G: Space<S = f64>>(
     columns: usize,
 ) -> Result<Motion<'m, G>, Failure> {
     Motion::trace(mechanism, start, clock, observer, columns).map_err(|why| {
-        Failure::Numerical(match why {
-            NoPath::SingularStart => "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities".into(),
-            NoPath::TooLong => format!("the range asks for more than {MOST_NODES} steps"),
-        })
+        match why {
+            NoPath::SingularStart => Failure::numerical(
+                "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities",
+                "start elsewhere, or change the lengths",
+            ),
+            NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
+        }
     })
 }
 
@@ -211,8 +214,10 @@ fn observe<G: Space<S = f64>>(
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(model, mechanism, start, range, parameters, study)?;
     let mut motion = trace(mechanism, start, clock, observer, watched.ids.len())?;
-    let lost =
-        |l: Lost| Failure::Numerical(format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at));
+    let lost = |l: Lost| {
+        let message = format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at);
+        Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range")
+    };
     let rows = motion.sample(range.samples).map_err(lost)?;
     contact::passes((model, study, &independent(model, mechanism, clock)), &mut motion, &rows, start.size)?;
     let n = rows.places.len();

@@ -60,11 +60,10 @@ pub struct Task<'a> {
 /// # Errors
 /// [`Failure::Unsolved`] if no value does; the failure of the first run if none can be computed.
 pub fn solve(task: &Task<'_>) -> Result<(Outcome, Solved), Failure> {
-    let interrupted = || Failure::Numerical("interrupted".into());
     let trials = Trials::new(task);
     let f = |x: f64| trials.residual(x);
     let mut search = Search::new(&f, task.threads);
-    let zero = search.zero().map_err(|Interrupted| interrupted())?;
+    let zero = search.zero().map_err(|Interrupted| Failure::interrupted())?;
     let (jumps, gaps) = (search.jumps.first().copied(), search.gaps.first().copied());
     let words = Words { task, log: trials.log(), place: &|x| trials.parameter(x) };
     let Some(zero) = zero else {

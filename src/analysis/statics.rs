@@ -351,5 +351,5 @@ where
 }
 
 fn interrupted() -> Failure {
-    Failure::Numerical("interrupted".into())
+    Failure::interrupted()
 }

@@ -106,7 +106,7 @@ pub fn sweep(
         |k| {
             let (i, point) = &missing[k];
             if stop() {
-                return Run { at: point.clone(), solved: None, result: Err(Failure::Numerical("interrupted".into())) };
+                return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
             let run = at(model, study, point.clone(), 1, stop, &|_, _| {});
             done(*i, &run);

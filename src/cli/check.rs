@@ -60,7 +60,8 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
         out.push(format!("redundant constraints (harmless; single reactions are those of least size): {}", m.redundant.join("; ")));
     }
     if m.freedom < drivers {
-        out.push(format!("{drivers} drivers for {} degrees of freedom", m.freedom));
+        let drivers = counted(drivers, "driver", "drivers");
+        out.push(format!("{drivers} for {}", counted(m.freedom, "degree of freedom", "degrees of freedom")));
     }
     if m.freedom == 0 {
         out.push("the mechanism has no freedom: it is a structure at its start".into());
@@ -71,7 +72,8 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
 fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) {
     let m = &survey.mobility;
     let (nq, nv, rows) = survey.sizes;
-    say(&format!("{name}: {} bodies, {} joints, {} studies", survey.bodies.len(), survey.joints.len(), document.study_names().len()));
+    let (bodies, joints) = (counted(survey.bodies.len(), "body", "bodies"), counted(survey.joints.len(), "joint", "joints"));
+    say(&format!("{name}: {bodies}, {joints}, {}", counted(document.study_names().len(), "study", "studies")));
     say("\nmasses");
     for (name, mass, com, inertia) in &survey.bodies {
         say(&format!("  {name:<14} {:>12} kg   com ({}) m   inertia {} kg m^2", short(*mass), list(com), list(inertia)));
@@ -105,7 +107,8 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
     if !survey.start.is_empty() {
         say("\nstart                        asked            found");
         for f in &survey.start {
-            say(&format!("  {:<22} {}{:>14}   {:>14}", f.name, if f.guess { "~" } else { " " }, short(f.asked), short(f.found)));
+            let tilde = if f.guess { "~" } else { " " };
+            say(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
         }
     }
     if !findings.is_empty() {
@@ -114,6 +117,11 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
             say(&format!("  {finding}"));
         }
     }
+}
+
+/// `1 study`, `2 studies`.
+fn counted(n: usize, one: &str, more: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { more })
 }
 
 /// What included files hold beyond the model; nothing to be mended.

@@ -133,10 +133,9 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
             let message = format!("study `{study}`: {message}");
             (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
-        Failure::Numerical(message) => {
-            let help = "start elsewhere, change the lengths, or give a shorter range".to_string();
+        Failure::Numerical { message, help } => {
             let message = format!("study `{study}`: {message}");
-            (vec![document.diagnostic("numerical", &format!("studies.{study}"), message, "", Some(help))], code::NUMERICAL)
+            (vec![document.diagnostic("numerical", &format!("studies.{study}"), message, "", Some(help.clone()))], code::NUMERICAL)
         }
     };
     tell(Report::new(diagnostics).render(common.colored()).trim_end());

@@ -56,7 +56,10 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
             // never over somebody's work
             match std::fs::File::create_new(file).and_then(|mut f| f.write_all(imported.text.as_bytes())) {
                 Ok(()) => {
-                    tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
+                    let file = file.display();
+                    let bare: Vec<String> = imported.bare.iter().map(|body| format!("`{body}`")).collect();
+                    let first = if bare.is_empty() { String::new() } else { format!("give {} mass and inertia, then ", bare.join(", ")) };
+                    tell(&format!("wrote {file}; now: {first}grashof run {file}"));
                     code::DONE
                 }
                 Err(error) => {

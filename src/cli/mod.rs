@@ -150,6 +150,11 @@ pub(crate) fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
+    let to_file = matches!(cli.command, Command::Import(_));
+    if !to_file && cli.common.output.as_ref().is_some_and(|path| path.as_os_str() == "-") {
+        tell("error: `-o -` names no directory\n  help: write `-o DIR`; `--json` prints results on stdout without it");
+        return ExitCode::from(code::INPUT);
+    }
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),

@@ -9,7 +9,7 @@ pub(super) struct Arguments {
     /// Kind of model; `--list` shows them
     #[arg(default_value = "four-bar")]
     kind: String,
-    /// File to write [default: <kind>.yaml]; `-` for stdout
+    /// File to write [default: the kind with `_`, as four_bar.yaml]; `-` for stdout
     file: Option<PathBuf>,
     /// List the kinds
     #[arg(long)]

@@ -231,9 +231,6 @@ fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Comm
         tell(&format!("error: study `{for_study}` takes a scalar of `{}`, {what}\n  help: {help}", study.name));
         code
     };
-    if !study.sweep.is_empty() {
-        return Err(refuse("which is a sweep and has a list of values", "take it from a study of one run", code::INPUT));
-    }
     let Run { result, .. } = at(model, study, Vec::new(), common.threads(), &interrupted, &|_, _| {});
     let outcome = result
         .map_err(|failure| if interrupted() { code::INTERRUPTED } else { files::explain(document, &failure, &study.name, common) })?;

@@ -45,10 +45,25 @@ pub struct BuildFault {
 
 /// Builds the mechanism of a model at given parameter values (in the order of `model.parameters`).
 ///
+/// All parameter values go through here, from the file, a sweep, a `solve`, a `take` or an event: the rules of the model file are
+/// applied to them as they are when it is read.
+///
 /// # Errors
-/// All faults found: numbers that are not finite, impossible masses, axes without direction, quantities that cannot stand
-/// where they stand.
+/// All faults found: values out of their range, quantities that cannot stand where they stand.
 pub fn build<G: Space>(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Mechanism<G>, Vec<BuildFault>> {
+    let faults = model.faults(parameters);
+    if faults.is_empty() {
+        return build_beside(model, parameters, coordinates);
+    }
+    let faults = faults.into_iter();
+    Err(faults.map(|f| BuildFault { code: f.code, place: f.place, message: f.message, expected: f.expected, help: f.help }).collect())
+}
+
+/// As [`build`], a little beside parameters that the rules allow: a difference quotient may step over the end of a range.
+///
+/// # Errors
+/// Where there is no such mechanism.
+pub fn build_beside<G: Space>(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Mechanism<G>, Vec<BuildFault>> {
     let mut builder = Builder::<G>::new(model, parameters);
     builder.tables();
     builder.bodies();
@@ -122,15 +137,6 @@ impl<G: Space> Builder<'_, G> {
         let mut x = [0.0; 3];
         for (x, id) in x.iter_mut().zip(ids) {
             *x = self.number(*id, place);
-        }
-        x
-    }
-
-    /// A number that must not be negative.
-    fn not_negative(&mut self, id: Id, place: &str, what: &str) -> f64 {
-        let x = self.number(id, place);
-        if x < 0.0 {
-            self.fault("negative", place, format!("{what} {x}"), "zero or more", Some("check its sign".into()));
         }
         x
     }

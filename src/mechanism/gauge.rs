@@ -115,6 +115,15 @@ pub struct Reading<G: Space> {
 }
 
 impl<G: Space> Gauge<G> {
+    /// Whether it counts in rad; else in m. Cosines, which only rows hold, count as angles.
+    pub fn turns(&self) -> bool {
+        match self.measured {
+            Measured::Coordinate { along, .. } => along.turns,
+            Measured::Slide { .. } | Measured::Distance { .. } => false,
+            Measured::Dot { .. } | Measured::Angle | Measured::Turn { .. } => true,
+        }
+    }
+
     /// x and W from the poses (`poses[body]`), the tree coordinates `q` and columns `s`.
     #[inline(always)]
     pub fn position(&self, poses: &[Pose<G>], q: &[G::S], s: &[Motion<G>], windings: &[i32], out: &mut Reading<G>) {

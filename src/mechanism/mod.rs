@@ -12,7 +12,7 @@ mod row;
 mod start;
 mod tree;
 
-pub use build::{BuildFault, Coordinates, build};
+pub use build::{BuildFault, Coordinates, build, build_beside};
 pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};

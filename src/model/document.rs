@@ -70,7 +70,7 @@ impl Document {
     /// What of included files the model does not use, or not as it stands, one sentence each with its file and line.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        self.included.iter().flat_map(Included::notes).collect()
+        self.included.iter().flat_map(|included| included.notes(&self.root)).collect()
     }
 
     /// The file's name as given.
@@ -147,8 +147,8 @@ impl Document {
         let mut session = Session::new(self, selection);
         let mut faults = session.form();
         let meaning = session.meaning();
-        // what follows from a fault of form is not said again
-        let form: HashSet<String> = faults.iter().map(Fault::cause).collect();
+        // what follows from a fault of form is not said again; a misspelt key says nothing against its value
+        let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();
         faults.extend(
             meaning.into_iter().filter(|fault| fault.spot == Spot::Key || !form.contains(&fault.cause()) && !form.contains(&fault.place)),
         );

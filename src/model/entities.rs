@@ -4,6 +4,7 @@
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
 use super::contacts::{Friction, Stops};
+use super::rules::Check;
 use super::{study::Study, vocabulary::Quantity};
 use crate::expression::{Dimension, Id, Pool};
 
@@ -66,6 +67,8 @@ pub struct Model {
     pub variants: Vec<String>,
     /// Names of the parameters that were set from outside (`--set`), in the order given.
     pub set: Vec<String>,
+    /// What must hold of its numbers, and of those of its study.
+    pub checks: Vec<Check>,
 }
 
 /// A named number that can be set from outside.
@@ -330,22 +333,6 @@ pub enum LoadOn {
     Point { at: PointRef, force: Vec<Id>, torque: Vec<Id>, frame: usize },
     /// On a joint's coordinate: on the second body, reaction on the first; N m or N.
     Joint { joint: usize, effort: Id },
-}
-
-impl Model {
-    /// Puts numbers for the scalars that the study takes from others, in the order of its `take`.
-    pub fn give(&mut self, taken: &[f64]) {
-        for (input, quantity) in self.inputs.iter().enumerate() {
-            if let Quantity::Taken(k) = quantity
-                && let Some(value) = taken.get(*k)
-            {
-                self.pool.give(input as u32, *value);
-            }
-        }
-        if let Some(study) = &mut self.study {
-            study.take.iter_mut().zip(taken).for_each(|(take, value)| take.value = *value);
-        }
-    }
 }
 
 /// A spring, damper or both.

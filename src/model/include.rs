@@ -70,8 +70,12 @@ impl Included {
     }
 
     /// What of the file is not used, or not as it stands: `robot.urdf:12: ...`.
-    pub(crate) fn notes(&self) -> Vec<String> {
-        self.robot.notes.sentences(&self.text).into_iter().map(|(line, note)| format!("{}:{line}: {note}", self.file)).collect()
+    pub(crate) fn notes(&self, model: &Value) -> Vec<String> {
+        let heavy = |body: &str| {
+            let own = model.get("bodies").and_then(|bodies| bodies.get(body)).and_then(Value::as_mapping);
+            own.is_some_and(|own| own.keys().filter_map(Value::as_str).any(|key| !["points", "drawn", "com", "fictitious"].contains(&key)))
+        };
+        self.robot.notes.sentences(&self.text, &heavy).into_iter().map(|(line, note)| format!("{}:{line}: {note}", self.file)).collect()
     }
 }
 

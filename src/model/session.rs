@@ -220,6 +220,7 @@ impl<'d, 's> Session<'d, 's> {
     /// Scalars of a study, if it was decoded.
     fn taken(&self, scalars: &HashMap<&str, Scalars>, study: &str) -> Taken {
         match scalars.get(study) {
+            Some(_) if self.document.study_node(study).is_some_and(|node| node.get("sweep").is_some()) => Taken::Swept,
             Some(scalars) => Taken::Known(scalars.clone()),
             None if self.document.study_node(study).is_some() => Taken::Waiting,
             None => Taken::NoStudy,
@@ -277,7 +278,7 @@ impl<'d, 's> Session<'d, 's> {
                 let given = Outside { set: &outside, over: &self.selection.over };
                 let decoded = node.is_map().then(|| decoder.study(name, *node, &taken, &given));
                 faults.extend(once(std::iter::once((std::mem::take(&mut decoder.faults), &bases[base].variants[..]))));
-                let mut made = decoder.into_model();
+                let mut made = decoder.into_model(decoded.as_ref().map_or(&[], |decoded| &decoded.checks));
                 let set = decoded.as_ref().map_or(&outside, |decoded| &decoded.set);
                 for (i, value) in set {
                     made.parameters[*i].value = *value;

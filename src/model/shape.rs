@@ -260,6 +260,12 @@ impl Shapes<'_> {
                 fault.spot = Spot::Key;
                 fault.help = help.map(|name| format!("for example `{name}`"));
             }
+            if keys == Keys::Title && key.len() > LONGEST_TITLE {
+                let expected = format!("at most {LONGEST_TITLE} characters: files of results begin with it");
+                let fault = shapes.fault("bad-name", &here, format!("a name of {} characters", key.len()), expected);
+                fault.spot = Spot::Key;
+                fault.help = Some("give it a short name, and say the rest in `about`".to_owned());
+            }
             shapes.check(value, inner, &here);
         });
     }
@@ -322,6 +328,9 @@ pub(crate) fn describe(node: Node<'_>) -> String {
         Node::Plain(Value::Tagged(_)) => "a tagged value".to_owned(),
     }
 }
+
+/// Longest name of what files are named after: two of them make the name of a figure.
+const LONGEST_TITLE: usize = 100;
 
 /// A text short enough for a message.
 pub(crate) fn clip(text: &str) -> String {

@@ -58,8 +58,8 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
         Err(Box::new(fault))
     };
     if text.len() > MOST_BYTES {
-        let message = format!("the file has {} bytes", text.len());
-        return refuse("file-too-large", 0, 0, message, "at most 1 MiB (1048576 bytes)", "");
+        let message = format!("the file has more than {MOST_BYTES} bytes");
+        return refuse("file-too-large", 0, 0, message, "at most 1 MiB", "");
     }
     if let Some(at) = text.find('\0') {
         let message = "the file holds a zero byte".to_owned();

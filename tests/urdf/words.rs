@@ -70,6 +70,35 @@ fn hostile_files_are_refused_at_once() {
     }
 }
 
+/// What is large, equal or without mass is taken as it is meant.
+#[test]
+fn odd_numbers_are_read_as_they_are_meant() {
+    let robot = |axis: &str, limit: &str| {
+        format!(
+            "<robot name='r'><link name='base'/><link name='arm'/><joint name='j' type='revolute'><parent link='base'/>\
+             <child link='arm'/><axis xyz='{axis}'/><limit {limit}/></joint></robot>"
+        )
+    };
+    let stops = Import { stops: true, ..Import::default() };
+    let read = |axis: &str, limit: &str| import(robot(axis, limit).as_bytes(), "r.urdf", &stops);
+    let large = read("1e300 1e300 0", "lower='-1' upper='1' effort='1' velocity='1'").unwrap();
+    assert!(large.text.contains("axis: [0.7071067811865475, 0.7071067811865475, 0]") && large.text.contains("limits: {"), "{}", large.text);
+    let equal = read("0 0 1", "lower='0' upper='0' effort='1' velocity='1'").unwrap();
+    assert!(!equal.text.contains("limits: {"), "{}", equal.text);
+    for limit in ["effort='-1' velocity='1'", "effort='1' velocity='-1'"] {
+        assert_eq!(read("0 0 1", limit).unwrap_err().diagnostics[0].code, "negative");
+    }
+    assert_eq!(large.bare, ["arm"]);
+    // what the model gives mass needs no remark
+    let files = |_: &str| Ok(("r.urdf".to_owned(), robot("0 0 1", "effort='1' velocity='1'").into_bytes()));
+    let notes = |bodies: &str| {
+        let text = format!("grashof: 1\nname: n\nspace: spatial\ngravity: none\ninclude: {{ urdf: r.urdf }}\n{bodies}");
+        Document::with_files(text.as_bytes(), "model.yaml", &files).unwrap().notes()
+    };
+    let bare = |notes: Vec<String>| notes.iter().any(|note| note.contains("carry no mass"));
+    assert!(bare(notes("")) && !bare(notes("bodies: { arm: { mass: 1 kg, inertia: 0.1 kg m^2 } }\n")));
+}
+
 /// Faults of what comes from a file are shown in that file, faults of what the model says of it in the model.
 #[test]
 fn findings_stand_where_they_are_made() {

@@ -3,11 +3,11 @@
 use super::setup::Plan;
 use super::system::{Mechanical, Root};
 use crate::analysis::assemble::{Assembled, units};
-use crate::analysis::outcome::Failure;
+use crate::analysis::outcome::{Failure, Happened};
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
-use crate::model::{Model, Study};
+use crate::mechanism::{BuildFault, Mechanism};
+use crate::model::{Model, Parameter, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
 use grashof_solvers::{Control, Halt, Why};
@@ -45,6 +45,23 @@ where
         ),
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
+}
+
+/// Why a run ends at an event that has set parameters to what no mechanism can have.
+pub(super) fn set(model: &Model, events: &[Happened], changed: &[(usize, f64)], t: f64, faults: &[BuildFault]) -> String {
+    let happened = |name: &str| events.iter().any(|e| e.at == t && e.name == name);
+    let now: Vec<_> = model.events.iter().filter(|e| !e.set.is_empty() && happened(&e.name)).collect();
+    let names: Vec<String> = now.iter().map(|e| format!("`{}`", e.name)).collect();
+    let theirs = changed.iter().filter(|(i, _)| now.iter().any(|e| e.set.iter().any(|(set, _)| set == i)));
+    let values: Vec<String> = theirs.map(|&(i, x)| assigned(&model.parameters[i], x)).collect();
+    let (word, verb) = if names.len() == 1 { ("event", "sets") } else { ("events", "set") };
+    let faults = Failure::Model(faults.to_vec()).reason();
+    format!("at t = {t:.6} s the {word} {} {verb} {}, which cannot be: {faults}", names.join(", "), values.join(", "))
+}
+
+/// `c = -5 N m`.
+fn assigned(parameter: &Parameter, x: f64) -> String {
+    format!("`{}` = {x} {}", parameter.name, parameter.dimension.si()).trim_end().to_string()
 }
 
 /// The rows that become dependent where a run has stopped in a nearly singular position; none elsewhere, or if the reason is another.
@@ -127,36 +144,9 @@ where
 /// Why a run has not begun.
 pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G>, start: &Assembled, halt: &Halt) -> Failure {
     if halt.why == Why::Singular
-        && let Some((body, how)) = unresisted(mechanism, start)
+        && let Some(failure) = massless(mechanism, start)
     {
-        return Failure::Study {
-            code: "singular-mass",
-            message: format!(
-                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
-                if how == "turn" { "inertia" } else { "mass" }
-            ),
-            place: format!("bodies.{body}"),
-            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
-        };
-    }
-    let massless: Vec<String> = mechanism
-        .nodes
-        .iter()
-        .filter(|n| crate::scalar::Scalar::value(mechanism.bodies[n.body].mass.mass) <= 0.0)
-        .map(|n| format!("`{}`", mechanism.bodies[n.body].name))
-        .collect();
-    if halt.why == Why::Singular && !massless.is_empty() {
-        return Failure::Study {
-            code: "singular-mass",
-            message: format!(
-                "the accelerations at the start are not determined: {} {} no mass and can move by {}",
-                massless.join(", "),
-                if massless.len() == 1 { "has" } else { "have" },
-                if massless.len() == 1 { "itself" } else { "themselves" }
-            ),
-            place: "bodies".into(),
-            help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
-        };
+        return failure;
     }
     Failure::Study {
         code: "no-start",
@@ -164,6 +154,31 @@ pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G
         place: study.place.clone(),
         help: "look at `grashof check`, which shows the start position and the freedom that is left".into(),
     }
+}
+
+/// That bodies without mass or inertia leave the accelerations open.
+pub(in crate::analysis) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    if let Some((body, how)) = unresisted(mechanism, start) {
+        return Some(Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
+                if how == "turn" { "inertia" } else { "mass" }
+            ),
+            place: format!("bodies.{body}"),
+            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
+        });
+    }
+    let bare = |body: usize| crate::scalar::Scalar::value(mechanism.bodies[body].mass.mass) <= 0.0;
+    let names: Vec<String> =
+        mechanism.nodes.iter().filter(|n| bare(n.body)).map(|n| format!("`{}`", mechanism.bodies[n.body].name)).collect();
+    let (verb, selves) = if names.len() == 1 { ("has", "itself") } else { ("have", "themselves") };
+    (!names.is_empty()).then(|| Failure::Study {
+        code: "singular-mass",
+        message: format!("the accelerations at the start are not determined: {} {verb} no mass and can move by {selves}", names.join(", ")),
+        place: "bodies".into(),
+        help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
+    })
 }
 
 /// A body that can move along a coordinate without resistance of any mass, and how it moves.

@@ -174,7 +174,10 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
                 }
                 let set = flow.changed.clone();
                 let values = swept(study, parameters).into_iter().chain(set).collect::<Vec<_>>();
-                era = era.change(model, &parameters_with(model, &values), plan.coordinates, &flow.resting)?;
+                era = match era.change(model, &parameters_with(model, &values), plan.coordinates, &flow.resting) {
+                    Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
+                    changed => changed?,
+                };
                 flow.trajectory.era(machine(era));
             }
         }

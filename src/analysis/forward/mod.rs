@@ -4,7 +4,7 @@
 //! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
 
 pub(in crate::analysis) mod balance;
-mod explain;
+pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
 pub(in crate::analysis) mod setup;
 pub(in crate::analysis) mod system;
@@ -49,15 +49,20 @@ where
 {
     let plan = setup::plan(model, study, forward, parameters)?;
     let watched = Watched::of(study);
-    check_rows(study, &plan, watched.ids.len().max(1))?;
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+    check_rows(study, &plan, watched.ids.len().max(1))?;
     let Recorded { mut trajectory, stopped, events, certificate, findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
-        return Err(Failure::Numerical(reason.clone()));
+        return Err(Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"));
     }
-    let lost = |off: Off| Failure::Numerical(format!("the state at t = {} s could not be evaluated", off.at));
+    let lost = |off: Off| {
+        Failure::numerical(
+            format!("the state at t = {} s could not be evaluated", off.at),
+            "the position is nearly singular there: end the run before, or start elsewhere",
+        )
+    };
     let breaks = trajectory.breaks();
     let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;
     let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();

@@ -51,31 +51,19 @@ pub fn is_available(integrator: Integrator) -> bool {
     schemes::available(method(integrator))
 }
 
-/// The numbers of a study.
+/// The numbers of a study, which the build of its mechanism judges.
 ///
 /// # Errors
-/// If one cannot be used, or the scheme is not in this program.
+/// If the scheme is not in this program.
 pub(super) fn plan(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> Result<Plan, Failure> {
     let value = |id| model.pool.value(id, parameters);
-    let positive = |key: &str, x: f64, unit: &str| {
-        let fault = Failure::Study {
-            code: "not-positive",
-            message: format!("`{key}` is {x}{unit}"),
-            place: format!("{}.{key}", study.place),
-            help: format!("give a positive number for `{key}`"),
-        };
-        if x > 0.0 && x.is_finite() { Ok(x) } else { Err(fault) }
-    };
-    let until = positive("until", value(forward.until), " s")?;
-    let every = forward.every.map(|id| positive("every", value(id), " s")).transpose()?;
+    let (until, every) = (value(forward.until), forward.every.map(value));
     let control = match forward.control {
         model::Control::Step(id) => {
-            let h = positive("step", value(id), " s")?;
+            let h = value(id);
             Control::Steps([h, h])
         }
-        model::Control::Tolerance(id) => {
-            Control::Tolerance(id.map_or(Ok(TOLERANCE), |id| positive("tolerance", value(id), ""))?.max(1e-14))
-        }
+        model::Control::Tolerance(id) => Control::Tolerance(id.map_or(TOLERANCE, value).max(1e-14)),
     };
     if !is_available(forward.integrator) {
         return Err(Failure::Study {

@@ -14,6 +14,7 @@ mod probe;
 
 use super::assemble::{Assembled, assemble};
 use super::coordinates::coordinates;
+use super::forward::explain::massless;
 use super::linear::{Linear, Reduced};
 use super::modes::Rest;
 use super::modes::held::settled;
@@ -25,7 +26,7 @@ use super::sweep::parameters_with;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Leaf, Mechanism, build};
+use crate::mechanism::{Coordinates, Leaf, Mechanism, build, build_beside};
 use crate::model::{Linearize, Model, Study};
 use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
@@ -148,9 +149,12 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let m = self.mechanism;
         let mut probe = Probe::new(self.model, m, self.parameters, self.ids, &self.start.metric);
         let undetermined = || {
-            Failure::Numerical(
-                "the accelerations are not determined in the state: a moving body has no mass, or the position is singular".into(),
-            )
+            massless(m, self.start).unwrap_or_else(|| {
+                Failure::numerical(
+                    "the accelerations are not determined in the state: the position is singular",
+                    "take another state, away from a dead point",
+                )
+            })
         };
         let answer = probe.answer(at, &[], true).ok_or_else(undetermined)?;
         let mut linearizer = Linearizer::new(lifted);
@@ -233,7 +237,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         for (j, &input) in inputs.iter().enumerate() {
             let column = slope(STEP * sized(self.parameters[input]), |e| {
                 let parameters = parameters_with(self.model, &[(input, self.parameters[input] + e)]);
-                let mut mechanism = build::<G>(self.model, &parameters, Coordinates::Joint).ok()?;
+                let mut mechanism = build_beside::<G>(self.model, &parameters, Coordinates::Joint).ok()?;
                 for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
                     if row.anchored {
                         (row.offset, row.anchored) = (before.offset, before.anchored);
@@ -256,9 +260,10 @@ impl<G: Space<S = f64>> Bench<'_, G> {
     }
 
     fn lost(&self, what: &str) -> Failure {
-        Failure::Numerical(format!(
-            "the mechanism cannot be assembled a thousandth beside the state in {what}: the position is nearly singular"
-        ))
+        Failure::numerical(
+            format!("the mechanism cannot be assembled a thousandth beside the state in {what}: the position is nearly singular"),
+            "take another state, away from a dead point",
+        )
     }
 
     /// That the state does not rest, or that the equations change with time.

@@ -100,7 +100,7 @@ where
     };
     let pose = Pose { q: &rest.q, z: &rest.z, modes: &rest.modes };
     let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism))
-        .map_err(|_| Failure::Numerical("a force in the pose is not a number: look at tables and expressions of loads".into()))?;
+        .map_err(|_| Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads"))?;
     let all = coordinates(model, &mechanism);
     let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();
     let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();
@@ -119,8 +119,7 @@ where
         drawn = (0..names.len()).map(|i| found.vectors.column(i).into_owned()).collect();
     }
     if !potential || asked.damped {
-        let a = state_matrix(&held, asked.damped)
-            .ok_or_else(|| Failure::Numerical("the masses of the independent motions differ by more than the digits of a number".into()))?;
+        let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
         let found = damped(&a, names.len());
         if !potential {
             report.circulates(&held);
@@ -322,4 +321,12 @@ fn parts(names: &[String], sizes: &DVector<f64>) -> String {
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     format!("{rounded}")
+}
+
+/// The masses leave no digits for the lightest motion.
+fn too_unlike() -> Failure {
+    Failure::numerical(
+        "the masses of the independent motions differ by more than the digits of a number",
+        "give every moving body a mass and an inertia that matter",
+    )
 }

@@ -18,23 +18,31 @@ fn percent(x: f64) -> String {
 pub(super) fn broken(search: &Search<'_>, why: Broken) -> Failure {
     match why {
         Broken::Failure(failure) => failure,
-        Broken::Stopped(message) => Failure::Numerical(message),
-        Broken::Never { gone, t } => Failure::Numerical(never(search, gone, t)),
+        Broken::Stopped(message) => Failure::numerical(message, format!("the motion stops there: {LOOK}")),
+        Broken::Never { gone, t } => never(search, gone, t),
     }
 }
 
-/// A period whose end was never reached, in words.
-fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> String {
+/// What shows a motion that has no regime.
+const LOOK: &str = "look at it in a study of the kind `dynamics`";
+
+/// A period whose end was never reached.
+fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> Failure {
     let when = t.map_or_else(|| "however long it runs".to_owned(), |t| format!("up to t = {t:.6} s, where its steps run out"));
-    let look = "look at it in a study of the kind `dynamics`";
     match search.section {
-        Section::Time(period) => format!("a period of {period} s takes too many steps ({when}); ask for a larger `tolerance`"),
-        Section::Return(_) => {
-            format!("the expression of `through` does not rise through 0 again, {when}: the motion dies out, or runs away from it; {look}")
+        Section::Time(period) => {
+            Failure::numerical(format!("a period of {period} s takes too many steps ({when})"), "ask for a larger `tolerance`")
         }
-        Section::Advance(_, by) => format!(
-            "`{}` does not advance by a period, {when}: it has gone {gone:.6} of {by:.6}, and stalls, comes to rest or swings to and fro; {look}, and give it a stronger drive, less load or a faster start",
-            search.over
+        Section::Return(_) => Failure::numerical(
+            format!("the expression of `through` does not rise through 0 again, {when}: the motion dies out, or runs away from it"),
+            LOOK,
+        ),
+        Section::Advance(_, by) => Failure::numerical(
+            format!(
+                "`{}` does not advance by a period, {when}: it has gone {gone:.6} of {by:.6}, and stalls, comes to rest or swings to and fro",
+                search.over
+            ),
+            format!("{LOOK}, and give it a stronger drive, less load or a faster start"),
         ),
     }
 }
@@ -43,27 +51,36 @@ fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> String {
 pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
     match why {
         Unsettled::Broken(broken_off) => broken(search, broken_off),
-        Unsettled::Restless { one, two, .. } if two < 0.01 => Failure::Numerical(format!(
-            "the motion does not repeat itself after one period of `{0}` (it differs by {1}) but after two: ask for `by` twice as large",
-            search.over,
-            percent(one)
-        )),
-        Unsettled::Restless { one, periods: [before, last], .. } => Failure::Numerical(format!(
-            "the run does not settle: the last two periods, of {before:.6} s and {last:.6} s, still differ by {}; the motion runs away, or has no regime of this period; look at it in a study of the kind `dynamics`, or give `settle` and see where the search leads",
-            percent(one)
-        )),
+        Unsettled::Restless { one, two, .. } if two < 0.01 => Failure::numerical(
+            format!(
+                "the motion does not repeat itself after one period of `{}` (it differs by {}) but after two",
+                search.over,
+                percent(one)
+            ),
+            "ask for `by` twice as large",
+        ),
+        Unsettled::Restless { one, periods: [before, last], .. } => Failure::numerical(
+            format!(
+                "the run does not settle: the last two periods, of {before:.6} s and {last:.6} s, still differ by {}; the motion runs away, or has no regime of this period",
+                percent(one)
+            ),
+            format!("{LOOK}, or give `settle` and see where the search leads"),
+        ),
     }
 }
 
 /// A map without derivative.
 pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
     match why {
-        Rough::Touched(t) => Failure::Numerical(format!(
-            "at t = {t:.6} s of the period the motion only touches a switch or a stop, so that its neighbours differ from each other by more than they are apart: the map of a period has no derivative there; change a parameter a little, or smooth the switch"
-        )),
-        Rough::Rests => Failure::Numerical(
-            "a joint rests on a rigid stop in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank; give the stop a `stiffness` instead of a `restitution`"
-                .into(),
+        Rough::Touched(t) => Failure::numerical(
+            format!(
+                "at t = {t:.6} s of the period the motion only touches a switch or a stop, so that its neighbours differ from each other by more than they are apart: the map of a period has no derivative there"
+            ),
+            "change a parameter a little, or smooth the switch",
+        ),
+        Rough::Rests => Failure::numerical(
+            "a joint rests on a rigid stop in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",
+            "give the stop a `stiffness` instead of a `restitution`",
         ),
         Rough::Singular(t) => Failure::Study {
             code: "singular-mass",
@@ -88,19 +105,18 @@ pub(super) fn lost<G: Space<S = f64>>(search: &Search<'_>, eras: &Eras<G>, why: 
             "nothing in the model depends on time, so that its periods are its own: count them by what advances (`over: theta, by: 1 turn`) or by where they end (`over: t, through: ...`)"
         }
         _ => {
-            "there may be no regime of this period near the run; let it run longer (`settle`), begin elsewhere, or follow the regime from a parameter with which it exists (`from`)"
+            "there may be no regime of this period near the run: let it run longer (`settle`), begin elsewhere, or follow the regime from a parameter with which it exists (`from`)"
         }
     };
-    Failure::Numerical(format!(
-        "no regime is found: the begin and the end of the period stay {} of the size of the motion apart; {hint}",
-        percent(apart)
-    ))
+    let message =
+        format!("no regime is found: the begin and the end of the period stay {} of the size of the motion apart", percent(apart));
+    Failure::numerical(message, hint)
 }
 
 /// A failure on the way of a continuation.
 pub(super) fn on_the_way(failure: Failure, name: &str, x: f64) -> Failure {
     match failure {
-        Failure::Numerical(message) => Failure::Numerical(format!("followed to {name} = {x}: {message}")),
+        Failure::Numerical { message, help } => Failure::numerical(format!("followed to {name} = {x}: {message}"), help),
         other => other,
     }
 }

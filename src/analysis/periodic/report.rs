@@ -76,7 +76,10 @@ struct Seen {
 }
 
 fn lost(off: Off) -> Failure {
-    Failure::Numerical(format!("the state at t = {} s could not be evaluated", off.at))
+    Failure::numerical(
+        format!("the state at t = {} s could not be evaluated", off.at),
+        "look at the columns: one of them may not be defined there",
+    )
 }
 
 impl Regime<'_> {

@@ -51,7 +51,11 @@ impl Job<'_> {
                 self.explain(failure);
             }
             let (count, name) = (runs.len(), &study.name);
-            tell(&format!("error: none of the {count} runs of study `{name}` began\n  help: the first reason stands above"));
+            let (what, help) = match count {
+                1 => (format!("the one run of study `{name}` did not begin"), "the reason stands above"),
+                _ => (format!("none of the {count} runs of study `{name}` began"), "the first reason stands above"),
+            };
+            tell(&format!("error: {what}\n  help: {help}"));
             kept.remove();
             return Finished::nothing(code::NUMERICAL);
         }

@@ -34,13 +34,13 @@ impl<G: Space> Builder<'_, G> {
             let (mut bare, bar) = self.shape(index);
             let place = body.place.as_str();
             if let Some(id) = body.mass {
-                bare.mass = G::S::constant(self.not_negative(id, place, "the mass is"));
+                bare.mass = G::S::constant(self.number(id, place));
             }
             if let Some(com) = &body.com {
                 bare.com = G::vector(&self.triple(com, place));
             }
             if !body.inertia.is_empty() {
-                let figures = self.figures(&body.inertia, place, body.fictitious);
+                let figures = self.figures(&body.inertia, place);
                 bare.inertia = G::tensor(figures);
             }
             let mut points = Vec::new();
@@ -56,8 +56,8 @@ impl<G: Space> Builder<'_, G> {
             }
             let mut attached = Vec::new();
             for extra in &body.attached {
-                let mass = extra.mass.map_or(0.0, |id| self.not_negative(id, &extra.place, "the mass is"));
-                let figures = self.figures(&extra.inertia, &extra.place, false);
+                let mass = extra.mass.map_or(0.0, |id| self.number(id, &extra.place));
+                let figures = self.figures(&extra.inertia, &extra.place);
                 attached.push(Attached {
                     name: extra.name.clone(),
                     mass: MassProperties { mass: G::S::constant(mass), com: points[extra.at].1, inertia: G::tensor(figures) },
@@ -74,33 +74,15 @@ impl<G: Space> Builder<'_, G> {
         }
     }
 
-    /// Inertia figures Ixx, Iyy, Izz, Ixy, Ixz, Iyz from 1, 3 or 6 numbers, checked: a real body's principal values obey the
-    /// triangle inequality, those of a `fictitious` one are not negative.
-    fn figures(&mut self, ids: &[Id], place: &str, fictitious: bool) -> [f64; 6] {
+    /// Inertia figures Ixx, Iyy, Izz, Ixy, Ixz, Iyz from 1, 3 or 6 numbers.
+    fn figures(&mut self, ids: &[Id], place: &str) -> [f64; 6] {
         let x: Vec<f64> = ids.iter().map(|id| self.number(*id, place)).collect();
-        let figures = match x[..] {
+        match x[..] {
             [i] => [i, i, i, 0.0, 0.0, 0.0],
             [xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],
             [xx, yy, zz, xy, xz, yz] => [xx, yy, zz, xy, xz, yz],
             _ => [0.0; 6],
-        };
-        let [xx, yy, zz, xy, xz, yz] = figures;
-        let principal = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
-        let (sum, largest) = (principal.sum(), principal.max());
-        // round-off of the eigenvalues and of figures given to a few digits
-        // a fictitious one was read with the slack of the model file
-        let least = if fictitious { -1e-8 } else { -1e-12 };
-        if principal.min() < least * largest.abs() || !fictitious && 2.0 * largest > sum * (1.0 + 1e-6) {
-            let shown = principal.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(", ");
-            self.fault(
-                "impossible-inertia",
-                place,
-                format!("principal moments of inertia {shown} kg m^2"),
-                "none negative, and each at most the sum of the other two",
-                Some("no body of positive mass has such moments: check the figures and their order".into()),
-            );
         }
-        figures
     }
 
     /// Mass properties of the shape, and the ends of its bar.

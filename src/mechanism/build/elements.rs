@@ -103,11 +103,7 @@ impl<G: Space> Builder<'_, G> {
             _ => None,
         };
         let anchored = !matches!(driver.motion, Motion::Position(_));
-        let turns = match self.mechanism.gauges[gauge].measured {
-            Measured::Coordinate { along, .. } => along.turns,
-            Measured::Slide { .. } | Measured::Distance { .. } => false,
-            _ => true,
-        };
+        let turns = self.mechanism.gauges[gauge].turns();
         self.row(Row {
             kind: RowKind::Driver { gauge, driver: index },
             owner: RowOwner::Driver(index),
@@ -253,7 +249,7 @@ impl<G: Space> Builder<'_, G> {
         let effort = motor.torque.map(|torque| self.drive_effort(gauge, torque));
         self.mechanism.motor_efforts.push(effort);
         if let Some(inertia) = motor.inertia {
-            let inertia = self.not_negative(inertia, place, "the rotor inertia is");
+            let inertia = self.number(inertia, place);
             let gear = motor.gear.map_or(1.0, |g| self.number(g, place));
             self.mechanism.rotors.push(Rotor { gauge, inertia: G::S::constant(gear * gear * inertia) });
         }

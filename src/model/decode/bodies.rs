@@ -1,13 +1,13 @@
 //! The ground and the bodies: shapes, figures, points, attached masses.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Attached, Body, Point, PointAt, PointRef, Shape};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;
 

@@ -1,59 +1,15 @@
 //! Checks of numbers: what can only be seen when the parameters have values.
 
 use super::Decoder;
-use crate::expression::{Id, Table, TableError};
+use crate::expression::Id;
 use crate::model::fault::Fault;
+use crate::model::rules::{self, Values};
 use crate::model::spans::Step;
 
-/// What must hold of some values.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Rule {
-    /// Finite.
-    Finite,
-    /// Finite and not negative; the words say what it is.
-    NotNegative(&'static str),
-    /// Finite and positive.
-    Positive(&'static str),
-    /// Finite and not 0.
-    NotZero(&'static str),
-    /// Finite and not above a bound; the words say what it is.
-    AtMost(f64, &'static str),
-    /// Finite and between two bounds, which count; the words say what it is.
-    Within(f64, f64, &'static str),
-    /// Two values, the first one below the second.
-    Rising,
-    /// Weights alpha and beta of Newmark's scheme that work with constraints at position level.
-    ConstrainedNewmark,
-    /// Not all zero.
-    Direction,
-    /// Two points, components one after the other, that differ.
-    Distinct,
-    /// Principal and mixed moments of inertia of a body that can exist: 3 or 6 figures.
-    Inertia,
-    /// Principal and mixed moments of inertia whose principal values are not negative: 3 or 6 figures.
-    Moments,
-    /// Two values of one sign, neither 0.
-    Ratio,
-    /// Pairs that make the table of this index.
-    Table(usize),
-}
+/// A rule with its values and the steps to its place.
+pub(crate) type Check<'n> = rules::Check<Vec<Step<'n>>>;
 
-/// A rule with its values and its place.
-pub(crate) struct Check<'n> {
-    pub(crate) rule: Rule,
-    pub(crate) ids: Vec<Id>,
-    pub(crate) steps: Vec<Step<'n>>,
-}
-
-/// Parameters with numbers.
-pub(crate) struct Values {
-    /// Values; not a number where unknown or undefined.
-    pub(crate) numbers: Vec<f64>,
-    /// Which wait for a scalar of another study, or have a fault that was reported.
-    pub(crate) unknown: Vec<bool>,
-}
-
-impl Decoder<'_> {
+impl<'n> Decoder<'n> {
     /// Numbers of all parameters, with `set` over the file's values. `waiting` are those that a `take` decides.
     pub(crate) fn evaluate(&mut self, set: &[(usize, Id)], waiting: &[usize]) -> Values {
         let mut ids: Vec<Id> = self.world.model.parameters.iter().map(|p| p.value).collect();
@@ -87,12 +43,7 @@ impl Decoder<'_> {
             numbers[i] = self.pool.value(ids[i], &numbers);
             if !numbers[i].is_finite() {
                 unknown[i] = true;
-                let parameter = &self.world.model.parameters[i];
-                let message = format!("`{}` has no finite value: it is {}", parameter.name, numbers[i]);
-                self.faults.push(
-                    Fault::new("not-a-number", parameter.place.clone(), message, "a finite number")
-                        .help("look for a division by 0, a root or logarithm of a negative number, `asin` or `acos` beyond 1"),
-                );
+                self.faults.push(rules::not_finite(&self.world.model.parameters[i], numbers[i]));
             }
         }
         Values { numbers, unknown }
@@ -100,23 +51,9 @@ impl Decoder<'_> {
 
     /// Runs all checks from the `from`-th on, with these parameters.
     pub(crate) fn run_checks(&mut self, values: &Values, from: usize) {
-        let tables = self.tables_with(values);
-        let ids: Vec<Id> = self.checks[from..].iter().flat_map(|check| check.ids.iter().copied()).collect();
-        let numbers = self.pool.values_with_tables(&ids, &values.numbers, &tables);
-        let any_unknown = values.unknown.contains(&true);
-        let mut next = 0;
-        let mut found = Vec::new();
-        for check in &self.checks[from..] {
-            let numbers = &numbers[next..next + check.ids.len()];
-            next += check.ids.len();
-            if any_unknown && self.pool.parameters_of(&check.ids).iter().any(|i| values.unknown.get(*i as usize) == Some(&true)) {
-                continue;
-            }
-            if let Some(fault) = check.fault(numbers, &self.world.model.tables, self.layers) {
-                found.push(fault);
-            }
-        }
-        self.faults.extend(found);
+        let model = (&self.pool, &self.world.model.tables[..]);
+        let found = rules::broken(&self.checks[from..], model, values, &|steps| self.layers.source(steps));
+        self.faults.extend(found.into_iter().map(|(_, fault)| fault));
     }
 
     /// Number of checks so far.
@@ -124,180 +61,14 @@ impl Decoder<'_> {
         self.checks.len()
     }
 
-    /// Forgets the checks of a study.
-    pub(crate) fn forget_checks(&mut self, from: usize) {
-        self.checks.truncate(from);
+    /// The checks of a study, which are forgotten.
+    pub(crate) fn checks_from(&mut self, from: usize) -> Vec<Check<'n>> {
+        self.checks.split_off(from)
     }
 
-    /// The tables as functions; one that is faulty is replaced by a constant, its fault is found by its check.
-    fn tables_with(&self, values: &Values) -> Vec<Table> {
-        let tables = &self.world.model.tables;
-        let mut made = Vec::with_capacity(tables.len());
-        for table in tables {
-            let ids: Vec<Id> = table.points.iter().flat_map(|(x, y)| [*x, *y]).collect();
-            let numbers = self.pool.values(&ids, &values.numbers);
-            let points: Vec<(f64, f64)> = numbers.chunks(2).map(|p| (p[0], p[1])).collect();
-            let table = Table::new(&points, table.between, table.beyond);
-            made.extend(table.or_else(|_| Table::new(&[(0.0, 0.0), (1.0, 0.0)], Default::default(), Default::default())));
-        }
-        made
-    }
-}
-
-impl Check<'_> {
-    fn fault(&self, x: &[f64], tables: &[crate::model::entities::Table], layers: &crate::model::merge::Layers<'_>) -> Option<Fault> {
-        let fault = |code, message: String, expected: &str| Some(Fault::new(code, layers.source(&self.steps), message, expected));
-        if let Rule::Table(i) = self.rule {
-            let points: Vec<(f64, f64)> = x.chunks_exact(2).map(|p| (p[0], p[1])).collect();
-            let table = tables.get(i)?;
-            let error = Table::new(&points, table.between, table.beyond).err()?;
-            let mut steps = self.steps.clone();
-            if let TableError::NotRising(k) | TableError::NotFinite(k) = error {
-                steps.extend([Step::Index(k)]);
-            }
-            return Some(Fault::new("bad-table", layers.source(&steps), error.to_string(), "two or more points, x strictly rising"));
-        }
-        if let Some(bad) = x.iter().find(|x| !x.is_finite()) {
-            return fault("not-a-number", format!("the value is {bad}"), "a finite number")
-                .map(|fault| fault.help("look for a division by 0, a root or logarithm of a negative number, `asin` or `acos` beyond 1"));
-        }
-        let first = x.first().copied().unwrap_or(0.0);
-        match self.rule {
-            Rule::AtMost(most, what) if first > most => {
-                let expected = format!("at most {most}");
-                fault("too-large", format!("{what} is {first}"), &expected).map(|fault| fault.help(VALUE))
-            }
-            Rule::Within(least, most, what) if !(least..=most).contains(&first) => {
-                let expected = format!("a value from {} to {}", short(least), short(most));
-                fault("out-of-range", format!("{what} is {first}"), &expected).map(|fault| fault.help(VALUE))
-            }
-            Rule::Rising if x.len() == 2 && x[0] >= x[1] => {
-                fault("not-rising", format!("from {} to {}", x[0], x[1]), "a lower end below the upper one")
-                    .map(|fault| fault.help("exchange `from` and `to`, or check the parameters that they are made of"))
-            }
-            Rule::ConstrainedNewmark => {
-                super::dynamics::newmark_fault(layers.source(&self.steps), first, x.get(1).copied().unwrap_or(first))
-            }
-            Rule::NotNegative(what) if first < 0.0 => {
-                fault("negative", format!("{what} is {first}"), "a value that is not negative").map(|fault| fault.help(SIGN))
-            }
-            Rule::Positive(what) if first <= 0.0 => {
-                fault("not-positive", format!("{what} is {first}"), "a value above 0").map(|fault| fault.help(SIGN))
-            }
-            Rule::NotZero(what) if first == 0.0 => {
-                fault("zero", format!("{what} is 0"), "a value other than 0").map(|fault| fault.help("give the value that is meant"))
-            }
-            Rule::Direction if x.iter().all(|x| *x == 0.0) => fault("zero-axis", "all components are 0".to_owned(), "a direction")
-                .map(|fault| fault.help("give at least one component, as `[1, 0]` or in space `[0, 0, 1]`")),
-            Rule::Distinct if x.len().is_multiple_of(2) && x[..x.len() / 2] == x[x.len() / 2..] => {
-                fault("zero-length", "both ends are the same point".to_owned(), "two points that differ")
-            }
-            Rule::Inertia => impossible(x).and_then(|why| {
-                fault("impossible-inertia", why, "each principal moment at most the sum of the other two")
-                    .map(|fault| fault.help("check the figures, their order `[Ixx, Iyy, Izz]` and that they are about `com`"))
-            }),
-            Rule::Moments => negative_moment(x).and_then(|why| {
-                fault("impossible-inertia", why, "principal moments that are not negative")
-                    .map(|fault| fault.help("check the figures and their order `[Ixx, Iyy, Izz]`"))
-            }),
-            Rule::Ratio if x.contains(&0.0) || x.iter().any(|x| x.signum() != first.signum()) => {
-                fault("bad-span", format!("from {} to {}", x[0], x.get(1).copied().unwrap_or(x[0])), "for equal ratios both ends above 0")
-            }
-            _ => None,
-        }
-    }
-}
-
-/// A bound as a person writes it: a third is `1/3`.
-fn short(x: f64) -> String {
-    if (3.0 * x).fract() == 0.0 && x.fract() != 0.0 { format!("{}/3", 3.0 * x) } else { x.to_string() }
-}
-
-/// The remedy for a value that is out of its range.
-const VALUE: &str = "check it and the parameters that it is made of";
-/// The remedy for a value of the wrong sign.
-const SIGN: &str = "check its sign and the parameters that it is made of";
-
-/// Why figures Ixx, Iyy, Izz (, Ixy, Ixz, Iyz) belong to no body: a principal moment is negative, or larger than the sum of
-/// the other two (the integrals of y² + z², x² + z², x² + y² cannot be).
-pub(crate) fn impossible(x: &[f64]) -> Option<String> {
-    let (moments, slack) = principal(x)?;
-    if let Some(why) = negative_moment(x) {
-        return Some(why);
-    }
-    if moments[2] > moments[0] + moments[1] + slack {
-        return Some(format!(
-            "the principal moment {:.6} is larger than the sum of the others, {:.6} and {:.6}",
-            moments[2], moments[0], moments[1]
-        ));
-    }
-    None
-}
-
-/// Why figures Ixx, Iyy, Izz (, Ixy, Ixz, Iyz) belong to no body even with fictitious masses: a principal moment is negative.
-pub(crate) fn negative_moment(x: &[f64]) -> Option<String> {
-    let (moments, slack) = principal(x)?;
-    let shown = |x: f64| if x.abs() < 1e-3 { format!("{x:.3e}") } else { format!("{x:.6}") };
-    (moments[0] < -slack).then(|| format!("a principal moment of inertia is {}", shown(moments[0])))
-}
-
-/// Principal moments, ascending, and the slack for round-off in the figures.
-fn principal(x: &[f64]) -> Option<([f64; 3], f64)> {
-    let (a, b, c) = (*x.first()?, *x.get(1)?, *x.get(2)?);
-    let (d, e, f) = (x.get(3).copied().unwrap_or(0.0), x.get(4).copied().unwrap_or(0.0), x.get(5).copied().unwrap_or(0.0));
-    let moments = eigenvalues([[a, d, e], [d, b, f], [e, f, c]]);
-    Some((moments, 1e-9 * (moments[0].abs() + moments[2].abs())))
-}
-
-/// Eigenvalues of a symmetric 3 × 3 matrix, ascending, by Jacobi rotations: plain and unconditionally stable.
-fn eigenvalues(mut m: [[f64; 3]; 3]) -> [f64; 3] {
-    for _ in 0..50 {
-        let off = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
-        if off == 0.0 {
-            break;
-        }
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if m[p][q] == 0.0 {
-                continue;
-            }
-            let theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-            let c = 1.0 / t.hypot(1.0);
-            let s = t * c;
-            let r = 3 - p - q;
-            let (rp, rq) = (m[r][p], m[r][q]);
-            m[p][p] -= t * m[p][q];
-            m[q][q] += t * m[p][q];
-            m[p][q] = 0.0;
-            m[q][p] = 0.0;
-            m[r][p] = c * rp - s * rq;
-            m[p][r] = m[r][p];
-            m[r][q] = s * rp + c * rq;
-            m[q][r] = m[r][q];
-        }
-    }
-    let mut values = [m[0][0], m[1][1], m[2][2]];
-    values.sort_by(f64::total_cmp);
-    values
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn eigenvalues_of_a_matrix_with_a_known_spectrum() {
-        let [a, b, c] = eigenvalues([[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 2.0]]);
-        let root = 2.0_f64.sqrt();
-        assert!((a - (2.0 - root)).abs() < 1e-14 && (b - 2.0).abs() < 1e-14 && (c - (2.0 + root)).abs() < 1e-14);
-    }
-
-    #[test]
-    fn inertias_that_cannot_be() {
-        assert_eq!(impossible(&[1.0, 1.0, 2.0]), None);
-        assert!(impossible(&[1.0, 1.0, 2.1]).is_some());
-        assert!(impossible(&[1.0, 1.0, -1.0]).is_some());
-        assert!(impossible(&[1.0, 1.0, 1.0, 0.9, 0.0, 0.0]).is_some());
-        assert_eq!(impossible(&[1.0, 1.0, 1.0, 0.3, 0.0, 0.0]), None);
+    /// Checks that go with the model, their places looked up.
+    pub(crate) fn kept_checks(&self, checks: &[Check<'n>]) -> Vec<rules::Check> {
+        let kept = checks.iter().filter(|check| !check.once);
+        kept.map(|c| rules::Check { rule: c.rule, ids: c.ids.clone(), place: self.layers.source(&c.place), once: false }).collect()
     }
 }

@@ -1,10 +1,10 @@
 //! Motion in time: keys, their ranges, and which of them go together.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::fault::{At, Fault, Spot};
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::study::{Chart, Control, Forward, Integrator, Level};
 use crate::model::tables::INTEGRATORS;
 
@@ -180,7 +180,7 @@ pub(super) fn unstable_at_position_level(alpha: f64, beta: f64) -> Option<String
 }
 
 /// The fault of weights that are unstable there.
-pub(super) fn newmark_fault(place: String, alpha: f64, beta: f64) -> Option<Fault> {
+pub(crate) fn newmark_fault(place: String, alpha: f64, beta: f64) -> Option<Fault> {
     let message = unstable_at_position_level(alpha, beta)?;
     let expected = "at `level: position` a beta of at least 1/2 and an alpha above beta/2";
     Some(Fault::new("unstable", place, message, expected).help("use `level: stabilized`, or for example `alpha: 0.3025, beta: 0.6`"))

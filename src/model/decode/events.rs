@@ -1,12 +1,12 @@
 //! Events: what crosses zero, and what happens then.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{CouplingKind, Crossing, Event, Motion, Restitution, SpringOn};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::spans::Step;
 use crate::model::vocabulary::Known;
@@ -106,8 +106,8 @@ impl<'n> Decoder<'n> {
             let varies = matches!(steps, [Step::Key("loads" | "states" | "start"), ..]);
             !varies && !matches!(steps, [Step::Key("joints"), _, Step::Key("limits" | "friction"), ..])
         };
-        if let Some(check) = self.checks[..checks].iter().find(|check| fixed(&check.steps) && check.ids.iter().any(uses)) {
-            return Some(self.layers.source(&check.steps));
+        if let Some(check) = self.checks[..checks].iter().find(|check| fixed(&check.place) && check.ids.iter().any(uses)) {
+            return Some(self.layers.source(&check.place));
         }
         // expressions that vary have no check
         let drivers = model.drivers.iter().filter_map(|d| match &d.motion {

@@ -1,13 +1,13 @@
 //! Couplings, drivers, motors and loads.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::Allow;
 use crate::model::shape::clip;
 use crate::model::suggest;
@@ -119,7 +119,13 @@ impl<'n> Decoder<'n> {
     }
 
     fn driver(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>) -> Option<Driver> {
-        let (joint, coordinate) = self.driven(node.get("joint"), &at.key("joint"))?;
+        let Some((joint, coordinate)) = self.driven(node.get("joint"), &at.key("joint")) else {
+            // what is wrong with a motion of any kind is told all the same
+            for key in ["speed", "angle", "position"] {
+                self.value(node.get(key), &at.key(key), Want::Any, Allow::DRIVER);
+            }
+            return None;
+        };
         if let Some(other) = self.world.model.drivers.iter().find(|d| d.joint == joint) {
             let message = format!("this joint is driven by `{}` already", other.name);
             self.fault("driven-twice", &at.key("joint"), message, "one driver for a joint").help = Some("remove one of the two".to_owned());

@@ -1,7 +1,6 @@
 //! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
 
 use super::Decoder;
-use super::checks::Rule;
 use super::stops::STICK_SPEED;
 use crate::expression::{Dimension, Id};
 use crate::model::contacts::{Bristle, Friction, Pressure};
@@ -10,6 +9,7 @@ use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::quantities::Coordinate;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::Quantity;
 

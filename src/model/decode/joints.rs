@@ -1,7 +1,6 @@
 //! Joints.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{Joint, JointKind, PointRef};
 use crate::model::fault::{At, Spot};
@@ -9,6 +8,7 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::{Coordinate, coordinates};
+use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;
 use crate::model::tables::JOINT_KINDS;
@@ -31,7 +31,12 @@ impl<'n> Decoder<'n> {
     }
 
     fn joint(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>) -> Option<Joint> {
-        let word = JOINT_KINDS.into_iter().find(|kind| node.get(kind).is_some())?;
+        let Some(word) = JOINT_KINDS.into_iter().find(|kind| node.get(kind).is_some()) else {
+            // a misspelt kind was told: its points are read all the same
+            let misspelt = node.entries().into_iter().find(|(key, _)| suggest::nearest(key, JOINT_KINDS).is_some());
+            misspelt.and_then(|(key, _)| self.ends(node, key, at));
+            return None;
+        };
         let ends = self.ends(node, word, at);
         let planar = self.world.components() == 2;
         let (wrong, here) = if planar { (SPATIAL.contains(&word), "planar") } else { (PLANAR.contains(&word), "spatial") };

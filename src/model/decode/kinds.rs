@@ -1,6 +1,5 @@
 //! The kinds of studies: their keys, their independent variables and results.
 
-use super::checks::Rule;
 use super::studies::Offer;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
@@ -10,6 +9,7 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::Coordinate;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
 use crate::model::study::{Chart, Continued, Eigensolver, Kind, Linearize, Modes, Over, PeriodEnd, Periodic, Progress, Range};

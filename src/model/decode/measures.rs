@@ -5,7 +5,6 @@
 //! any state.
 
 use super::Decoder;
-use super::checks::Rule;
 use super::order::order;
 use super::values::{Draft, named, needs};
 use crate::expression::{Dimension, Symbol};
@@ -13,6 +12,7 @@ use crate::model::entities::{FirstOrder, Measure, SpringOn};
 use crate::model::fault::At;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use serde_yaml::Value;
 

@@ -21,7 +21,8 @@ mod studies;
 mod values;
 
 pub(crate) use bodies::QUANTITIES as BODY_QUANTITIES;
-pub(crate) use checks::{impossible as impossible_inertia, negative_moment};
+pub(crate) use checks::Check;
+pub(crate) use dynamics::newmark_fault;
 pub(crate) use order::{order, tell};
 pub(crate) use outside::Outside;
 pub(crate) use studies::{Scalars, Taken};
@@ -32,10 +33,10 @@ use super::fields::Want;
 use super::merge::{Layers, Node};
 use super::names;
 use super::quantities::{Sound, World};
+use super::rules::Rule;
 use super::scope::{Allow, Local, Reach, View};
 use super::shape::clip;
 use crate::expression::{self, Dimension, Expr, Id, Lowered, Pool, SyntaxError};
-use checks::{Check, Rule};
 use serde_yaml::Value;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -106,6 +107,7 @@ impl<'n> Decoder<'n> {
             study: None,
             variants: layers.patches.iter().map(|(name, _)| (*name).to_owned()).collect(),
             set: Vec::new(),
+            checks: Vec::new(),
         };
         let world = World {
             model,
@@ -157,7 +159,12 @@ impl<'n> Decoder<'n> {
     }
 
     fn check(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
-        self.checks.push(Check { rule, ids: ids.to_vec(), steps: at.steps() });
+        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: false });
+    }
+
+    /// A check of values that are taken before a study varies parameters.
+    fn check_once(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
+        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: true });
     }
 
     /// The syntax tree of a text.
@@ -341,9 +348,11 @@ impl<'n> Decoder<'n> {
         self.world.model.gravity = given.unwrap_or_else(|| vec![zero; self.world.components()]);
     }
 
-    /// The finished model; the decoder goes on without it.
-    pub(crate) fn into_model(self) -> Model {
+    /// The finished model, with the checks of its study beside its own.
+    pub(crate) fn into_model(self, of_study: &[Check<'n>]) -> Model {
+        let checks = [self.kept_checks(&self.checks), self.kept_checks(of_study)].concat();
         let mut model = self.world.model;
+        model.checks = checks;
         model.pool = self.pool;
         model
     }

@@ -1,10 +1,10 @@
 //! What is given from outside, on the command line: values of parameters, and sweeps in place of a study's own.
 
-use super::checks::Rule;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
 use crate::model::study::{Plot, ShownWhat, Sweep, Values};
@@ -171,7 +171,7 @@ impl<'n> Decoder<'n> {
         let (Some(from), Some(to), Some(count)) = (from, to, count) else { return (None, 1) };
         let log = spacing == Some("log");
         if self.pool.inputs_of(&[from, to]).is_empty() {
-            self.check(if log { Rule::Ratio } else { Rule::Finite }, &[from, to], &At::ROOT);
+            self.check_once(if log { Rule::Ratio } else { Rule::Finite }, &[from, to], &At::ROOT);
         }
         (Some(Values::Span { from, to, count, log }), count)
     }
@@ -186,7 +186,7 @@ impl<'n> Decoder<'n> {
         if let Some(ids) = &ids
             && self.pool.inputs_of(ids).is_empty()
         {
-            self.check(Rule::Finite, ids, &At::ROOT);
+            self.check_once(Rule::Finite, ids, &At::ROOT);
         }
         (ids.map(Values::List), count)
     }

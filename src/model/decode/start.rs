@@ -1,6 +1,5 @@
 //! `start`: one rule for positions and velocities, exact values and guesses.
 
-use super::checks::Rule;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::{Start, StartValue};
@@ -9,7 +8,9 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::Found;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
+use crate::model::suggest;
 use crate::model::vocabulary::Quantity;
 
 impl<'n> Decoder<'n> {
@@ -68,6 +69,21 @@ impl<'n> Decoder<'n> {
         Some((lowered.id, true))
     }
 
+    /// What of a body a start may give, and which of it a wrong word may mean.
+    fn of_body_at_start(&self, head: &str, rest: &str) -> Option<(String, Option<String>)> {
+        let Some(Entity::Body(_)) = self.world.names.get(head) else { return None };
+        let known: &[&str] = match self.world.components() {
+            2 => &["x", "y", "angle", "vx", "vy", "omega"],
+            _ => &["x", "y", "z", "rotation", "vx", "vy", "vz", "wx", "wy", "wz"],
+        };
+        if rest.is_empty() || rest.contains('.') {
+            return None;
+        }
+        let near = suggest::nearest(rest, known.iter().copied()).map(|near| format!("did you mean `{head}.{near}`?"));
+        let list = suggest::known(known.iter().copied()).unwrap_or_default();
+        Some((format!("what a start can give of a body: {list}"), near))
+    }
+
     /// The quantity that a key names, and what its value must be; `None` for a rotation. The fault is reported.
     fn start_quantity(&mut self, path: &str, at: &At<'_, '_>) -> Option<(Quantity, Option<Want>)> {
         const EXPECTED: &str = "a position or velocity of a joint or body, as `O.angle`, `S.velocity`, `crank.x`";
@@ -87,9 +103,10 @@ impl<'n> Decoder<'n> {
             Ok(found) => found,
             Err(why) if why.found.is_empty() => return None,
             Err(why) => {
-                let fault = self.fault("unknown-name", at, why.found, why.expected);
+                let (expected, help) = self.of_body_at_start(head, rest).unwrap_or((why.expected, why.help));
+                let fault = self.fault("unknown-name", at, why.found, expected);
                 fault.spot = Spot::Key;
-                fault.help = why.help;
+                fault.help = help;
                 return None;
             }
         };

@@ -1,12 +1,12 @@
 //! End stops of joints with one coordinate: with stiffness, as an expression of the coordinate and its rate, or rigid.
 
 use super::Decoder;
-use super::checks::Rule;
 use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::Stops;
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::quantities::Coordinate;
+use crate::model::rules::Rule;
 use crate::model::vocabulary::Quantity;
 
 /// Below this rate a joint sticks, rad/s or m/s, if its friction does not say another.

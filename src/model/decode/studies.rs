@@ -1,14 +1,14 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
-use super::Decoder;
-use super::checks::Rule;
 use super::kinds::count;
 use super::outside::{Outside, retarget};
+use super::{Check, Decoder};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Functionals, Local, Reach};
 use crate::model::shape::clip;
 use crate::model::study::{Solve, Study, StudyResult, Sweep, Take, Values};
@@ -22,6 +22,8 @@ pub(crate) enum Taken {
     NoStudy,
     /// It is part of a cycle, which was reported.
     Waiting,
+    /// It is a sweep, which has a list of values.
+    Swept,
     /// Its scalars.
     Known(Scalars),
 }
@@ -30,13 +32,15 @@ pub(crate) enum Taken {
 pub(crate) type Scalars = Vec<(String, Option<Dimension>)>;
 
 /// A decoded study, as far as it is sound.
-pub(crate) struct Decoded {
+pub(crate) struct Decoded<'n> {
     /// The study; `None` if its kind is faulty.
     pub(crate) study: Option<Study>,
     /// Parameters that it sets.
     pub(crate) set: Vec<(usize, Id)>,
     /// What others may take.
     pub(crate) scalars: Scalars,
+    /// What must hold of its own values.
+    pub(crate) checks: Vec<Check<'n>>,
 }
 
 /// What a kind of study offers.
@@ -69,7 +73,7 @@ pub(super) struct Frame<'s> {
 impl<'n> Decoder<'n> {
     /// Decodes a study of the file. `taken` gives the scalars of the studies that it takes from; what `outside` sweeps takes the
     /// place of the study's own sweep.
-    pub(crate) fn study(&mut self, name: &'n str, node: Node<'n>, taken: &dyn Fn(&str) -> Taken, outside: &Outside<'_>) -> Decoded {
+    pub(crate) fn study(&mut self, name: &'n str, node: Node<'n>, taken: &dyn Fn(&str) -> Taken, outside: &Outside<'_>) -> Decoded<'n> {
         let section = At::ROOT.key("studies");
         let at = section.key(name);
         let mut local = Local::default();
@@ -127,7 +131,7 @@ impl<'n> Decoder<'n> {
                 }
             }
         }
-        self.forget_checks(first_check);
+        let checks = self.checks_from(first_check);
         let mut offered: Scalars = frame.offer.results.iter().map(|(name, dimension)| (name.clone(), Some(*dimension))).collect();
         for (scalar, symbol) in &frame.local.symbols {
             if !offered.iter().any(|(name, _)| name == scalar) {
@@ -152,7 +156,7 @@ impl<'n> Decoder<'n> {
             expect,
             place: self.place(&at),
         });
-        Decoded { study, set: all, scalars: offered }
+        Decoded { study, set: all, scalars: offered, checks }
     }
 
     fn take(&mut self, node: Node<'n>, at: &At<'_, 'n>, taken: &dyn Fn(&str) -> Taken, local: &mut Local<'n>) -> Vec<Take> {
@@ -167,6 +171,11 @@ impl<'n> Decoder<'n> {
             if let Some((study, scalar)) = text.split_once('.') {
                 match taken(study) {
                     Taken::Waiting => {}
+                    Taken::Swept => {
+                        let message = format!("`{}` is a sweep and has a list of values", clip(study));
+                        self.fault("swept-study", &here, message, "a study of one run, or of a `solve`").help =
+                            Some("take it from a study without `sweep`".to_owned());
+                    }
                     Taken::NoStudy => {
                         let help = Some("write `STUDY.SCALAR` with a study of this file".to_owned());
                         self.fault("unknown-study", &here, format!("unknown study `{}`", clip(study)), "a study of this file").help = help;
@@ -268,7 +277,7 @@ impl<'n> Decoder<'n> {
                 let (from, to) = (end(self, "from", local), end(self, "to", local));
                 let (Some(from), Some(to)) = (from, to) else { continue };
                 if log && self.pool.inputs_of(&[from, to]).is_empty() {
-                    self.check(Rule::Ratio, &[from, to], &here);
+                    self.check_once(Rule::Ratio, &[from, to], &here);
                 }
                 Values::Span { from, to, count, log }
             };
@@ -288,7 +297,7 @@ impl<'n> Decoder<'n> {
             return None;
         }
         if self.pool.inputs_of(&[lowered.id]).is_empty() {
-            self.check(Rule::Finite, &[lowered.id], at);
+            self.check_once(Rule::Finite, &[lowered.id], at);
         }
         Some(lowered.id)
     }
@@ -305,8 +314,13 @@ impl<'n> Decoder<'n> {
         let dimension = self.world.parameters.get(parameter).copied().flatten()?;
         let between_at = here.key("between");
         let [from, to] = inner.get("between")?.items() else { return None };
-        let from = self.setting(Node::Plain(from), &between_at.index(0), Want::Of(dimension), &mut frame.local);
-        let to = self.setting(Node::Plain(to), &between_at.index(1), Want::Of(dimension), &mut frame.local);
+        let from = self.before(Node::Plain(from), &between_at.index(0), Want::Of(dimension), frame);
+        let to = self.before(Node::Plain(to), &between_at.index(1), Want::Of(dimension), frame);
+        if let (Some(from), Some(to)) = (from, to)
+            && self.pool.inputs_of(&[from, to]).is_empty()
+        {
+            self.check_once(Rule::Differ("bounds"), &[from, to], &between_at);
+        }
         let target_at = here.key("target");
         let targets = inner.get("target")?.entries();
         let [(scalar, value)] = targets[..] else {
@@ -322,8 +336,20 @@ impl<'n> Decoder<'n> {
                 return None;
             }
         };
-        let value = self.setting(value, &scalar_at, Want::Of(of?), &mut frame.local);
+        let value = self.before(value, &scalar_at, Want::Of(of?), frame);
         Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?) })
+    }
+
+    /// A bound or target of `solve`, which is known before a run.
+    fn before(&mut self, node: Node<'n>, at: &At<'_, 'n>, want: Want, frame: &mut Frame<'n>) -> Option<Id> {
+        let id = self.setting(node, at, want, &mut frame.local)?;
+        let taken = |input: &u32| matches!(self.world.model.inputs.get(*input as usize), Some(Quantity::Taken(_)));
+        if self.pool.inputs_of(&[id]).iter().all(taken) {
+            return Some(id);
+        }
+        self.fault("wrong-level", at, "a number that only a run gives", "an expression of parameters and taken scalars").help =
+            Some("make a scalar of the difference, and let its target be 0".to_owned());
+        None
     }
 
     pub(super) fn unknown_scalar(&mut self, name: &str, at: &At<'_, '_>, frame: &Frame<'_>) {

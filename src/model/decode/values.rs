@@ -1,6 +1,5 @@
 //! Parameters and tables, and the drafts of values that may need one another in any order.
 
-use super::checks::Rule;
 use super::order::{order, tell};
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
@@ -8,6 +7,7 @@ use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local, Reach};
 use serde_yaml::Value;
 use std::rc::Rc;

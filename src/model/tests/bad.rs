@@ -85,6 +85,13 @@ fn form() {
 }
 
 #[test]
+fn what_stands_behind_a_fault_is_read_all_the_same() {
+    let both = findings("revolute: [crank.end, coupler.start]", "revolut: [crank.end, coupler.begin]");
+    assert_eq!(both, ["unknown-key 16:8", "unknown-point 16:29"]);
+    assert_eq!(findings("joint: O, speed: speed", "joint: Q, speed: 60 Hz"), ["unknown-joint 19:28", "expression 19:41"]);
+}
+
+#[test]
 fn names() {
     for (from, to, expected) in [
         ("crank.end", "crnk.end", "unknown-body 16:19"),

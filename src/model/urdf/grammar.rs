@@ -25,6 +25,8 @@ enum Holds {
     Sizes(usize),
     /// One number, which may be infinite: no bound.
     Bound,
+    /// The size of something at most: one number that is not negative and may be infinite.
+    Most,
     /// A word of a list.
     Word(&'static [&'static str]),
 }
@@ -62,7 +64,7 @@ const fn leaf(name: &'static str, keys: &'static [Key]) -> Element {
     Element { name, keys, children: &[], choice: false }
 }
 
-use Holds::{Bound, Label, Numbers, Sizes, Text, Word};
+use Holds::{Bound, Label, Most, Numbers, Sizes, Text, Word};
 
 /// Kinds of joints; `spherical` is not in the specification, but `urdf-rs` and several simulators know it.
 pub(super) const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
@@ -110,8 +112,8 @@ static LIMIT: Element = leaf(
     &[
         Key("lower", Bound, false),
         Key("upper", Bound, false),
-        Key("effort", Bound, true),
-        Key("velocity", Bound, true),
+        Key("effort", Most, true),
+        Key("velocity", Most, true),
         Key("acceleration", Bound, false),
         Key("deceleration", Bound, false),
         Key("jerk", Bound, false),
@@ -300,6 +302,7 @@ impl Walk<'_> {
             Numbers(count) => (count, true, false),
             Sizes(count) => (count, false, false),
             Bound => (1, true, true),
+            Most => (1, false, true),
         };
         let expected = if count == 1 { "a number".to_owned() } else { format!("{count} numbers with spaces between them") };
         let mut found = 0;
@@ -337,7 +340,7 @@ fn written(key: &Key) -> String {
     let value = match key.1 {
         Label | Text | Word(_) => "...".to_owned(),
         Numbers(n) | Sizes(n) => vec!["..."; n].join(" "),
-        Bound => "...".to_owned(),
+        Bound | Most => "...".to_owned(),
     };
     format!("{}=\"{value}\"", key.0)
 }

@@ -14,8 +14,9 @@ const MOST_NODES: u32 = 2_000_000;
 /// The XML tree of a text.
 pub(super) fn tree(text: &str) -> Result<Document<'_>, Box<Fault>> {
     if text.len() > MOST_BYTES {
-        let message = format!("the file has {} bytes", text.len());
-        let fault = Fault::new("file-too-large", String::new(), message, "at most 16 MiB (16777216 bytes)");
+        // a larger one is not read to its end
+        let message = format!("the file has more than {MOST_BYTES} bytes");
+        let fault = Fault::new("file-too-large", String::new(), message, "at most 16 MiB");
         return Err(Box::new(fault.at(Spot::Nowhere)));
     }
     nesting(text)?;

@@ -4,6 +4,19 @@
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Notes {
     list: Vec<Note>,
+    /// Links that move and carry no mass.
+    bare: Vec<Bare>,
+}
+
+/// A link that moves and carries no mass.
+#[derive(Clone, Debug)]
+struct Bare {
+    /// Its name in the file.
+    name: String,
+    /// Its name and those of all that it carries, in the model.
+    bodies: Vec<String>,
+    /// Byte of the file.
+    at: usize,
 }
 
 /// One kind of remark with all that it is about.
@@ -36,6 +49,16 @@ impl Notes {
         self.add(sentence, Some(about), at);
     }
 
+    /// A link that moves and carries no mass; `bodies` are it and what it carries, by their names in the model.
+    pub(super) fn without_mass(&mut self, name: String, bodies: Vec<String>, at: usize) {
+        self.bare.push(Bare { name, bodies, at });
+    }
+
+    /// Bodies of the model that move and carry no mass.
+    pub(super) fn bare(&self) -> Vec<String> {
+        self.bare.iter().filter_map(|bare| bare.bodies.first().cloned()).collect()
+    }
+
     fn add(&mut self, sentence: &str, about: Option<String>, at: usize) {
         let index = self.list.iter().position(|note| note.sentence == sentence).unwrap_or_else(|| {
             self.list.push(Note { sentence: sentence.to_owned(), about: Vec::new(), count: 0, at });
@@ -45,10 +68,19 @@ impl Notes {
         self.list[index].about.extend(about);
     }
 
-    /// The remarks as sentences, with the line where each was made first.
-    pub(crate) fn sentences(&self, text: &str) -> Vec<(usize, String)> {
+    /// The remarks as sentences, with the line where each was made first. `heavy` tells whether the model itself gives a body mass.
+    pub(crate) fn sentences(&self, text: &str, heavy: &dyn Fn(&str) -> bool) -> Vec<(usize, String)> {
         let line = |at: usize| text.as_bytes()[..at.min(text.len())].iter().filter(|c| **c == b'\n').count() + 1;
-        self.list.iter().map(|note| (line(note.at), note.sentence.replacen("{}", &note.listed(), 1))).collect()
+        let bare: Vec<&Bare> = self.bare.iter().filter(|bare| !bare.bodies.iter().any(|body| heavy(body))).collect();
+        let last = bare.first().map(|first| Note {
+            sentence:
+                "links that move and carry no mass, without which a motion in time is not determined (give them `mass` and `inertia`): {}"
+                    .to_owned(),
+            about: bare.iter().map(|bare| bare.name.clone()).collect(),
+            count: bare.len(),
+            at: first.at,
+        });
+        self.list.iter().chain(&last).map(|note| (line(note.at), note.sentence.replacen("{}", &note.listed(), 1))).collect()
     }
 }
 

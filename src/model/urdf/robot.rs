@@ -3,8 +3,8 @@
 use super::guard::opening;
 use super::inertia::{self, Tensor};
 use super::notes::Notes;
-use crate::model::decode::{impossible_inertia, negative_moment};
 use crate::model::fault::{Fault, Spot};
+use crate::model::rules::{impossible, negative_moment};
 use crate::model::shape::clip;
 use crate::model::suggest;
 use roxmltree::Node;
@@ -164,7 +164,7 @@ impl Checks<'_> {
             let fault =
                 self.fault("impossible-inertia", at("inertia"), format!("{why}, of `{name}`"), "principal moments that are not negative");
             fault.help = Some("check the figures: no rotation of axes makes such a tensor".to_owned());
-        } else if let Some(why) = impossible_inertia(&figures) {
+        } else if let Some(why) = impossible(&figures) {
             fictitious = true;
             self.notes.about("an inertia that no real body has, kept as given: {}", format!("{} ({why})", data.name), at("inertia").start);
         }

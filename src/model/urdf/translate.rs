@@ -219,6 +219,9 @@ impl Work<'_, '_, '_> {
         let rpy = joint.data.origin.rpy.0;
         if !matches!(kind, "fixed" | "spherical") {
             let u = joint.data.axis.xyz.0;
+            // the largest component first: squares of large numbers are infinite
+            let largest = u.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let u = u.map(|x| x / largest);
             let size = u.iter().map(|x| x * x).sum::<f64>().sqrt();
             out.insert("axis".into(), vector(apply(&roll_pitch_yaw(rpy), u.map(|x| x / size))));
         }
@@ -274,7 +277,10 @@ impl Work<'_, '_, '_> {
         let mut remark = Vec::new();
         if let Some((low, high)) = joint.range() {
             let word = format!("{low} to {high} {}", units[0]);
-            if self.options.stops {
+            if self.options.stops && low == high {
+                remark.push(word.clone());
+                self.notes.about("position limits with equal ends, of which no stops are made: {}", format!("{name} {word}"), at);
+            } else if self.options.stops {
                 out.insert("limits".into(), stops(joint, turns, low, high).into());
             } else {
                 remark.push(word.clone());
@@ -407,6 +413,17 @@ impl Work<'_, '_, '_> {
         couplings
     }
 
+    /// A link and all that hang on it.
+    fn carried(&self, link: usize) -> Vec<usize> {
+        let mut found = vec![link];
+        let mut next = 0;
+        while let Some(&parent) = found.get(next) {
+            found.extend(self.robot.joints.iter().filter(|joint| joint.parent == parent).map(|joint| joint.child));
+            next += 1;
+        }
+        found
+    }
+
     /// Links that move and carry nothing with mass: the mass matrix is singular, so that motion in time has no accelerations.
     fn leaves(&mut self) {
         let robot = self.robot;
@@ -422,11 +439,8 @@ impl Work<'_, '_, '_> {
         }
         for joint in robot.joints.iter().filter(|joint| !heavy[joint.child] && joint.data.joint_type != JointType::Fixed) {
             let name = robot.links[joint.child].data.name.clone();
-            self.notes.about(
-                "links that move and carry no mass, so that their accelerations are not determined: {}",
-                name,
-                opening(joint.node).start,
-            );
+            let bodies = self.carried(joint.child).into_iter().map(|link| self.names.links[link].clone()).collect();
+            self.notes.without_mass(name, bodies, opening(joint.node).start);
         }
     }
 }

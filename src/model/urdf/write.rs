@@ -25,6 +25,8 @@ pub struct Imported {
     pub text: String,
     /// What of the URDF it does not use, or not as it stands; each with the line where it is met first.
     pub notes: Vec<(usize, String)>,
+    /// Bodies that need a mass before a motion in time can be computed.
+    pub bare: Vec<String>,
 }
 
 /// A complete model of a URDF: gravity along −z, a study of its fall. `file` is its name for messages.
@@ -36,8 +38,8 @@ pub fn import(bytes: &[u8], file: &str, asked: &Import) -> Result<Imported, Repo
     let base = if asked.free { Base::Free } else { Base::Fixed };
     let options = Options { prefix: &asked.prefix, base, stops: asked.stops, ..Options::default() };
     let robot = read(text, &options).map_err(|faults| document::report(file, text, &faults, &[]))?;
-    let notes = robot.notes.sentences(text);
-    Ok(Imported { text: written(&robot, file, &notes), notes })
+    let notes = robot.notes.sentences(text, &|_| false);
+    Ok(Imported { text: written(&robot, file, &notes), notes, bare: robot.notes.bare() })
 }
 
 /// The text of a model.
