@@ -456,3 +456,29 @@ fn a_bennett_linkage_moves_though_it_should_not() {
         );
     }
 }
+
+/// A massless link is drawn like a bar between two pins.
+#[test]
+fn links_of_fixed_distance_are_drawn() {
+    let text = "grashof: 1
+name: swing
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { A: [0, 1 m], B: [1 m, 1 m] }
+bodies: { seat: { bar: { length: 1 m, mass: 1 kg } } }
+joints:
+  L: { distance: [ground.A, seat.start], length: 0.5 m }
+  R: { distance: [ground.B, seat.end], length: 0.5 m }
+start: { seat.angle: ~0 deg, seat.x: ~0.4 m, seat.y: ~0.6 m }
+studies: { s: { dynamics: { until: 0.1 s, every: 0.1 s }, columns: [time] } }
+";
+    let outcome = common::study(text, "s", Coordinates::Joint);
+    let (_, scene) = &outcome.scenes[0];
+    for name in ["L", "R"] {
+        let poses = &scene.bodies.iter().find(|(n, _)| n == name).expect("the link").1;
+        for ends in poses {
+            assert!(((ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]) - 0.5).abs() < 1e-9, "{ends:?}");
+        }
+    }
+    assert_eq!(scene.joints.iter().filter(|j| j.kind == "revolute" && j.grounded).count(), 2);
+}

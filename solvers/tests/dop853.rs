@@ -205,6 +205,18 @@ fn the_slider_crank_with_equal_arms_keeps_its_branch() {
     let (node, _) = run(&mut system, precise(1e-12), t, |_, _| {});
     let s = &node.state;
     assert!(distance(&[s.q[2], s.v[2], s.q[6]], &[phi, rate, x]) < 1e-8);
+    // the energy, 1.2 J, is that of the motion alone
+    for (tolerance, allowed) in [(1e-8, 1e-6), (1e-10, 1e-8), (1e-12, 1e-10)] {
+        let mut system = SliderCrank::equal_arms(1e-15);
+        let energy = system.energy(&system.start());
+        let (mut drift, mut skew) = (0.0_f64, 0.0_f64);
+        run(&mut system, precise(tolerance), 10.0, |system, node| {
+            drift = drift.max((system.energy(&node.state) - energy).abs());
+            let q = &node.state.q;
+            skew = skew.max((q[2] + q[5]).sin().abs() * (10.0 * q[2].cos().abs()).min(1.0));
+        });
+        assert!(drift < allowed && skew < 1e-12, "{tolerance:e}: {drift:e} J, {skew:e}");
+    }
 }
 
 #[test]

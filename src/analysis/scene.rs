@@ -97,7 +97,21 @@ pub(super) fn of_poses<G: Space<S = f64>>(mechanism: &Mechanism<G>, poses: &[Vec
             }
         }
     }
+    scene_links(mechanism, poses, &view, &mut scene);
     scene
+}
+
+/// Massless links of the joints of the kind `distance`: each looks like a body between two pins.
+fn scene_links<G: Space<S = f64>>(mechanism: &Mechanism<G>, poses: &[Vec<Pose<G>>], view: &View, scene: &mut Scene) {
+    for joint in mechanism.joints.iter().filter(|j| j.kind == "distance") {
+        let places = |(body, at): (usize, G::Vector)| poses.iter().map(|x| view.flat::<G>(x[body].point(at))).collect::<Vec<_>>();
+        let (from, to) = (places(joint.a), places(joint.b));
+        scene.bodies.push((joint.name.clone(), from.iter().zip(&to).map(|(a, b)| vec![*a, *b]).collect()));
+        for (at, (body, _)) in [(from, joint.a), (to, joint.b)] {
+            let along = vec![[1.0, 0.0]; at.len()];
+            scene.joints.push(SceneJoint { name: String::new(), kind: "revolute", grounded: body == 0, at, along });
+        }
+    }
 }
 
 /// Points that outline a body: joint points, ends of its bar, the user's points and those of `drawn`.
