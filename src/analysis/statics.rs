@@ -239,7 +239,8 @@ where
         for (state, rate) in model.states.iter().zip(&found.pose.drift).filter(|(_, rate)| rate.abs() > 1e-9) {
             add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");
         }
-        for joint in model.joints.iter().filter(|j| j.friction.is_some()) {
+        let held = |joint: usize| model.drivers.iter().any(|d| d.joint == joint);
+        for (_, joint) in model.joints.iter().enumerate().filter(|(i, j)| j.friction.is_some() && !held(*i)) {
             let message =
                 format!("the friction of joint `{}` holds nothing here: with it the mechanism also rests beside this position", joint.name);
             add("friction", message, &format!("joints.{}.friction", joint.name));

@@ -131,3 +131,11 @@ start: { P.angle: 0 deg }");
     assert_eq!(list("equilibria.P.angle").len(), 2);
     assert_eq!(run.table("rest").rows.len(), 1);
 }
+
+#[test]
+fn friction_that_may_hold_is_named() {
+    let slope = run("gravity: [0, -9.81 m/s^2]
+bodies: { block: { mass: 1 kg } }
+joints: { S: { slider: [ground, block.origin], axis: [1, -0.1], friction: { coulomb: 5 N } } }");
+    told(&slope, &["moves on and on", "the friction of joints does not count here"]);
+}

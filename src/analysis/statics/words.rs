@@ -19,6 +19,8 @@ pub(super) struct Names {
     pub(super) q: Vec<Option<usize>>,
     preferred: Vec<usize>,
     metric: Vec<f64>,
+    /// Whether joints have friction, which does not count.
+    rubs: bool,
 }
 
 impl Names {
@@ -30,7 +32,13 @@ impl Names {
                 in_q[v] = Some(q);
             }
         }
-        Self { all: coordinates(model, m), q: in_q, preferred: preferred(m), metric: metric.to_vec() }
+        Self {
+            all: coordinates(model, m),
+            q: in_q,
+            preferred: preferred(m),
+            metric: metric.to_vec(),
+            rubs: model.joints.iter().any(|j| j.friction.is_some()),
+        }
     }
 
     /// Independent velocities at a pose, which was evaluated last, and the motions P of the others with them.
@@ -88,7 +96,8 @@ impl Names {
                 "begin elsewhere with `start`, or see with a study of the kind `dynamics` and some damping where it comes to rest",
             ),
         };
-        unsolved(format!("there is no equilibrium: {how}, {what}"), place, help)
+        let rubs = if self.rubs { "; the friction of joints does not count here, where it may hold: see with `dynamics`" } else { "" };
+        unsolved(format!("there is no equilibrium: {how}, {what}{rubs}"), place, help)
     }
 
     /// The failure of a search that has gone through a rigid stop.
