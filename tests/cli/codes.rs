@@ -1,0 +1,184 @@
+//! Exit codes: expectations, stops on the way, several studies, sweeps, interrupts.
+
+use super::*;
+
+/// The model with more keys in its study `turn`.
+fn with(lines: &str) -> String {
+    model().replace("    plot: { angles: [phi3], torque: [drive.torque] }\n", &format!("{lines}\n"))
+}
+
+#[test]
+fn an_expectation_that_is_not_met_ends_with_1() {
+    let place = Place::new("expect");
+    place.put("met.yaml", &with("    expect: { mean_power: { is: 0 W, within: 1e-6 W }, max(phi3) > 1: { is: 1, within: 0 } }"));
+    place.run(&["run", "met.yaml", "--no-plots"]).ends(0);
+    place.put("not.yaml", &with("    expect: { swing: { is: 1 rad, relative: 1e-3 } }"));
+    let done = place.run(&["run", "not.yaml", "--no-plots"]).ends(1);
+    assert!(done.stderr.contains("swing") && done.stderr.contains("not.yaml:26"), "{}", done.stderr);
+    // results are there all the same, and the JSON says it
+    let report = place.json("results/not/turn.json");
+    assert_eq!(report["status"], "done");
+    assert_eq!(report["findings"][0]["code"], "expectation");
+    assert!(place.0.join("results/not/lengths.csv").is_file(), "the other studies ran");
+}
+
+#[test]
+fn a_study_that_stops_on_its_way_keeps_its_rows() {
+    let place = Place::with_model("stops");
+    let done = place.run(&["run", "model.yaml", "--study", "turn", "--set", "l3=10 cm", "-o", "out"]).ends(3);
+    assert!(done.stderr.contains("dead point") && done.stderr.contains("model.yaml:"), "{}", done.stderr);
+    let report = place.json("out/turn.json");
+    assert_eq!(report["status"], "failed");
+    assert!(report["findings"].as_array().unwrap().iter().any(|f| f["code"] == "stopped"), "{}", report["findings"]);
+    let (_, rows) = csv(&place.text("out/turn.csv"));
+    assert!(rows.len() > 2 && rows.len() < 25, "{}", rows.len());
+    let theta: Vec<f64> = rows.iter().map(|row| row[0].parse().unwrap()).collect();
+    assert!(theta.windows(2).all(|w| w[0] <= w[1]) && theta[0] < 1.5 && theta[theta.len() - 1] > 1.6, "{theta:?}");
+}
+
+#[test]
+fn the_highest_code_of_several_studies_wins() {
+    let place = Place::new("highest");
+    // 3 of `turn` over 1 of `turn-again`, which runs although the first stopped
+    let text = model().replace(
+        "{ over: 1 turn, samples: 12 }\n  lengths",
+        "{ over: 0.1 rad, samples: 12 }\n    expect: { max(phi3): { is: 9, within: 1 } }\n  lengths",
+    );
+    place.put("model.yaml", &text);
+    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn-again", "--no-plots"]).ends(1);
+    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn", "--study", "turn-again", "--no-plots"]).ends(3);
+    assert!(place.0.join("results/model/turn-again.json").is_file());
+}
+
+#[test]
+fn a_sweep_fails_only_if_all_its_runs_do() {
+    let place = Place::new("sweep");
+    let sweep = |values: &str| model().replace("[10 cm, 50 cm, 55 cm, 5 m]", values);
+    // dead points and impossible lengths beside a good run: a result
+    place.put("some.yaml", &sweep("[5 m, 10 cm, 55 cm]"));
+    place.run(&["run", "some.yaml", "--study", "lengths", "--no-plots", "-o", "some"]).ends(0);
+    assert_eq!(place.json("some/lengths.json")["status"], "done");
+    assert!(!place.files("some").contains(&"lengths-001.csv".to_string()), "a run that never began has no curve");
+    // all stop on their way: rows are kept, code 3
+    place.put("stop.yaml", &sweep("[10 cm, 11 cm]"));
+    place.run(&["run", "stop.yaml", "--study", "lengths", "--no-plots", "-o", "stop"]).ends(3);
+    assert_eq!(place.files("stop"), ["lengths-001.csv", "lengths-002.csv", "lengths.csv", "lengths.json"]);
+    assert_eq!(place.json("stop/lengths.json")["status"], "failed");
+    // none begins: nothing is written
+    place.put("none.yaml", &sweep("[5 m, 6 m]"));
+    let done = place.run(&["run", "none.yaml", "--study", "lengths", "-o", "none"]).ends(3);
+    assert!(done.stderr.contains("none of the 2 runs"), "{}", done.stderr);
+    assert!(!place.0.join("none").exists());
+}
+
+#[test]
+fn what_is_set_beats_the_file_and_not_the_sweep() {
+    let place = Place::with_model("set");
+    let speed = |arguments: &[&str]| {
+        place.run(&[&["run", "model.yaml", "--study", "turn", "--no-plots", "-o", "out"], arguments].concat()).ends(0);
+        place.json("out/turn.json")["parameters"]["speed"].as_f64().unwrap()
+    };
+    assert!((speed(&[]) / (240.0 * std::f64::consts::TAU / 60.0) - 1.0).abs() < 1e-15);
+    assert_eq!(speed(&["--variant", "slow"]), std::f64::consts::TAU);
+    assert_eq!(speed(&["--variant", "slow", "--set", "speed=3"]), 3.0);
+    assert_eq!(speed(&["--set", "speed = 1 turn/s"]), std::f64::consts::TAU);
+    assert_eq!(speed(&["--set", "speed=5", "--set", "speed=7"]), 7.0, "the last one wins");
+    // a swept parameter: the study is skipped with a note, or refused if it was named
+    let done = place.run(&["run", "model.yaml", "--set", "l3=0.5", "--no-plots", "-o", "note"]).ends(0);
+    assert!(done.stderr.contains("note: study `lengths` is skipped"), "{}", done.stderr);
+    assert_eq!(place.files("note"), ["turn-again.csv", "turn-again.json", "turn.csv", "turn.json"]);
+    assert!(place.run(&["run", "model.yaml", "--set", "l3=0.5", "--no-plots", "-o", "note", "-q"]).ends(0).stderr.is_empty());
+    place.run(&["run", "model.yaml", "--set", "l3=0.5", "--study", "lengths", "-o", "refused"]).ends(2);
+    assert!(!place.0.join("refused").exists());
+    // another parameter reaches a sweep
+    place.run(&["run", "model.yaml", "--set", "l1=10 cm", "--study", "lengths", "--no-plots", "-o", "other"]).ends(0);
+    assert_eq!(place.json("other/lengths.json")["parameters"]["l1"], 0.1);
+}
+
+#[test]
+fn files_of_the_same_study_are_replaced_and_no_others() {
+    let place = Place::with_model("stale");
+    let kept = ["notes.txt", "turn.yaml", "turn-again-old.svg", "other.csv", "turnover.csv"];
+    let stale = ["turn-oldplot.svg", "turn-oldplot.png", "turn-007.csv"];
+    fs::create_dir_all(place.0.join("out/inner")).unwrap();
+    kept.iter().chain(&stale).for_each(|name| place.put(&format!("out/{name}"), "old"));
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out"]).ends(0);
+    for name in kept {
+        assert_eq!(place.text(&format!("out/{name}")), "old");
+    }
+    for name in stale {
+        assert!(!place.0.join("out").join(name).exists(), "{name}");
+    }
+    assert!(place.0.join("out/inner").is_dir() && place.0.join("out/turn-angles.svg").is_file());
+    // figures of an earlier run do not stay beside newer numbers
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--no-plots"]).ends(0);
+    assert!(!place.0.join("out/turn-angles.svg").exists());
+    assert!(!place.files("out").iter().any(|name| name.starts_with('.')), "no temporary file stays");
+    // a run that cannot begin leaves the earlier results alone
+    let before = place.contents_of_files("out");
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--set", "l3=5"]).ends(2);
+    assert_eq!(place.contents_of_files("out"), before);
+}
+
+#[test]
+fn a_closed_pipe_is_no_panic() {
+    let place = Place::with_model("pipe");
+    for arguments in [
+        &["schema"][..],
+        &["completions", "bash"],
+        &["--help"],
+        &["new", "four-bar", "-"],
+        &["check", "model.yaml"],
+        &["check", "model.yaml", "--json"],
+        &["run", "model.yaml", "--no-plots", "--units"],
+        &["run", "model.yaml", "--no-plots", "--json"],
+    ] {
+        let mut child = place.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let mut stderr = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+        let status = child.wait().unwrap();
+        assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+        assert_eq!(status.code(), Some(0), "{arguments:?}: {stderr}");
+    }
+    assert!(place.0.join("results/model/turn.csv").is_file());
+    // and errors into a closed pipe
+    let mut child = place.command(&["check", "nowhere.yaml"]).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(2));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_writes_nothing_and_ends_with_130() {
+    use std::time::{Duration, Instant};
+    let place = Place::new("interrupt");
+    let sweep = "{ from: 50 cm, to: 60 cm, count: 100000 }";
+    place.put("model.yaml", &model().replace("[10 cm, 50 cm, 55 cm, 5 m]", sweep));
+    let arguments = ["run", "model.yaml", "--study", "turn", "--study", "lengths", "-o", "out", "--no-plots"];
+    let mut child = place.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    // the first study is written and runs of the second one are kept: the handler was set long ago
+    while !place.0.join("out/lengths.partial").is_file() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    if !killed.is_ok_and(|status| status.success()) {
+        let _ = child.kill();
+        let _ = child.wait();
+        return;
+    }
+    let interrupted = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if interrupted.elapsed() > Duration::from_secs(60) {
+            child.kill().unwrap();
+            panic!("the interrupt was not heeded");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert_eq!(status.code(), Some(130));
+    assert_eq!(place.files("out"), ["lengths.partial", "turn.csv", "turn.json"], "the interrupted study is not written");
+}

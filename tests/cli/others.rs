@@ -1,0 +1,183 @@
+//! The commands beside `run`: completions, schema, new, check.
+
+use super::*;
+
+#[test]
+fn completions_of_all_shells() {
+    let place = Place::new("completions");
+    for (shell, sign) in [("bash", "complete"), ("zsh", "#compdef"), ("fish", "complete -c grashof")] {
+        let script = place.run(&["completions", shell]).ends(0);
+        assert!(script.stdout.contains(sign) && script.stdout.contains("check") && script.stderr.is_empty(), "{shell}");
+    }
+    // a shell that is there reads its script
+    for shell in ["bash", "zsh", "fish"] {
+        let script = place.run(&["completions", shell]).stdout;
+        place.put("script", &script);
+        if let Ok(output) = Command::new(shell).arg("-n").arg(place.0.join("script")).output() {
+            assert!(output.status.success(), "{shell}: {}", String::from_utf8_lossy(&output.stderr));
+        }
+    }
+}
+
+/// Whether `value` has the form that `schema` asks for, as far as types, keys, lists and alternatives go.
+fn fits(schema: &Value, value: &Value, root: &Value) -> Result<(), String> {
+    if let Some(to) = schema["$ref"].as_str() {
+        let at = to.strip_prefix('#').unwrap_or(to);
+        return fits(root.pointer(at).ok_or_else(|| format!("{to} leads nowhere"))?, value, root);
+    }
+    if let Some(all) = schema["allOf"].as_array() {
+        all.iter().try_for_each(|s| fits(s, value, root))?;
+    }
+    for several in ["anyOf", "oneOf"] {
+        if let Some(options) = schema[several].as_array() {
+            let found: Vec<_> = options.iter().map(|s| fits(s, value, root)).collect();
+            if found.iter().all(Result::is_err) {
+                return Err(format!("{value} fits none of {several}: {found:?}"));
+            }
+        }
+    }
+    if let Some(one) = schema["enum"].as_array()
+        && !one.contains(value)
+    {
+        return Err(format!("{value} is none of {one:?}"));
+    }
+    if let Some(constant) = schema.get("const")
+        && constant != value
+    {
+        return Err(format!("{value} is not {constant}"));
+    }
+    let is = |kind: &str| match kind {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_i64() || value.is_u64(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        _ => false,
+    };
+    let kinds: Vec<&str> = match &schema["type"] {
+        Value::String(kind) => vec![kind],
+        Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),
+        _ => vec![],
+    };
+    if !kinds.is_empty() && !kinds.iter().any(|kind| is(kind)) {
+        return Err(format!("{value} is none of {kinds:?}"));
+    }
+    if let Some(map) = value.as_object() {
+        for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            if !map.contains_key(key) {
+                return Err(format!("`{key}` is missing"));
+            }
+        }
+        for (key, inner) in map {
+            let within = |e: String| format!("{key}: {e}");
+            match (schema["properties"].get(key), &schema["additionalProperties"]) {
+                (Some(s), _) => fits(s, inner, root).map_err(within)?,
+                (None, Value::Bool(false)) if schema.get("patternProperties").is_none() => return Err(format!("`{key}` is not known")),
+                (None, s @ Value::Object(_)) => fits(s, inner, root).map_err(within)?,
+                _ => {}
+            }
+        }
+    }
+    for item in value.as_array().into_iter().flatten() {
+        if schema["items"].is_object() {
+            fits(&schema["items"], item, root)?;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_schema_fits_the_models_and_refuses_bad_ones() {
+    let place = Place::new("schema");
+    let done = place.run(&["schema"]).ends(0);
+    let schema = done.json();
+    assert!(done.stderr.is_empty() && schema["$schema"].is_string() && schema["properties"]["grashof"].is_object());
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["models", "src/cli/templates"] {
+        for entry in fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "yaml") {
+                let value: Value = serde_yaml::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+                fits(&schema, &value, &schema).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 6);
+    for name in ["misspelt-section", "misspelt-in-body", "misspelt-joint-option", "unknown-space", "missing-gravity", "list-at-top"] {
+        let text = fs::read_to_string(root.join(format!("tests/bad/{name}.yaml"))).unwrap();
+        let value: Value = serde_yaml::from_str(&text).unwrap();
+        assert!(fits(&schema, &value, &schema).is_err(), "{name} fits");
+    }
+}
+
+#[test]
+fn new_models_run() {
+    let place = Place::new("new");
+    let list = place.run(&["new", "--list"]).ends(0).stdout;
+    let kinds: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(kinds, ["four-bar", "slider-crank"]);
+    assert!(place.files("").is_empty(), "--list writes nothing");
+    for kind in kinds {
+        let file = format!("my {kind}.yaml");
+        let done = place.run(&["new", kind, &file]).ends(0);
+        assert!(done.stdout.is_empty() && done.stderr.contains(&file));
+        assert!(place.text(&file).lines().filter(|line| line.contains('#')).count() >= 3, "{kind}: comments");
+        let checked = place.run(&["check", &file, "--strict"]).ends(0);
+        assert!(checked.stderr.is_empty(), "{}", checked.stderr);
+        let run = place.run(&["run", &file]).ends(0);
+        assert!(run.stderr.is_empty() && !run.stdout.is_empty(), "{}", run.stderr);
+        assert!(place.files(&format!("results/my {kind}")).len() > 4);
+        // `-` is stdout
+        assert_eq!(place.run(&["new", kind, "-"]).ends(0).stdout, place.text(&file));
+    }
+    place.run(&["new"]).ends(0);
+    assert!(place.text("four_bar.yaml").contains("name: four-bar"));
+}
+
+#[test]
+fn new_never_overwrites() {
+    let place = Place::new("overwrite");
+    place.put("mine.yaml", "mine");
+    place.put("four_bar.yaml", "mine, too");
+    for arguments in [&["new", "four-bar", "mine.yaml"][..], &["new", "slider-crank", "mine.yaml"], &["new"]] {
+        let done = place.run(arguments).ends(2);
+        assert!(done.stderr.contains("error") && done.stderr.contains("help:"), "{}", done.stderr);
+    }
+    assert_eq!((place.text("mine.yaml").as_str(), place.text("four_bar.yaml").as_str()), ("mine", "mine, too"));
+    place.run(&["new", "four-bar", "no/such/place.yaml"]).ends(2);
+    place.run(&["new", "five-bar"]).ends(2);
+}
+
+#[test]
+fn check_tells_what_a_model_is() {
+    let place = Place::with_model("check");
+    let done = place.run(&["check", "model.yaml"]).ends(0);
+    for word in [
+        "crank",
+        "revolute",
+        "loop: ground -O- crank -A- coupler -B- rocker -C- ground",
+        "degrees of freedom        1",
+        "left by the drivers       0",
+        "crank-rocker",
+        "full turn",
+        "O.angle",
+        "~",
+    ] {
+        assert!(done.stdout.contains(word), "{word}\n{}", done.stdout);
+    }
+    assert!(done.stderr.is_empty() && place.files("").len() == 1, "check writes nothing");
+    assert!(place.run(&["check", "model.yaml", "--set", "l3=10 cm"]).ends(0).stdout.contains("rocker-crank"));
+    // findings: nothing without --strict, 1 with it
+    place.put("loose.yaml", &model().replace("O.angle: 90 deg", "O.angle: 90"));
+    let loose = place.run(&["check", "loose.yaml"]).ends(0);
+    assert!(loose.stderr.contains("warning") && loose.stdout.contains("findings"), "{}\n{}", loose.stdout, loose.stderr);
+    place.run(&["check", "loose.yaml", "--strict"]).ends(1);
+    place.run(&["check", "model.yaml", "--strict"]).ends(0);
+    assert_eq!(place.run(&["check", "loose.yaml", "--json", "--strict"]).ends(1).json()["findings"].as_array().unwrap().len(), 1);
+    // what cannot be assembled is an error of the model
+    assert!(place.run(&["check", "model.yaml", "--set", "l3=5"]).ends(2).stderr.contains("cannot be assembled"));
+}
