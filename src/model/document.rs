@@ -4,8 +4,8 @@ use super::diagnostics::{Diagnostic, Report};
 use super::entities::Model;
 use super::fault::{Fault, Spot};
 use super::include::{self, Files, Included};
+use super::inquiry::Inquiry;
 use super::merge::Node;
-use super::session::Session;
 use super::spans::Spans;
 use super::suggest;
 use super::yaml;
@@ -128,13 +128,13 @@ impl Document {
     /// # Errors
     /// Everything that is wrong with it. Warnings alone are no error; [`Self::check_all`] shows them.
     pub fn model(&self, selection: &Selection<'_>) -> Result<Model, Report> {
-        let mut session = Session::new(self, selection);
-        let mut faults = session.form();
+        let mut inquiry = Inquiry::new(self, selection);
+        let mut faults = inquiry.form();
         if faults.is_empty() {
             match selection.study {
                 Some(name) if self.study_node(name).is_none() => faults.push(self.unknown_study(name)),
-                Some(name) => return session.model_for(Some(name)),
-                None => return session.model_for(None),
+                Some(name) => return inquiry.model_for(Some(name)),
+                None => return inquiry.model_for(None),
             }
         }
         Err(self.report(&faults))
@@ -144,9 +144,9 @@ impl Document {
     /// Each finding once.
     #[must_use]
     pub fn check_all(&self, selection: &Selection<'_>) -> Report {
-        let mut session = Session::new(self, selection);
-        let mut faults = session.form();
-        let meaning = session.meaning();
+        let mut inquiry = Inquiry::new(self, selection);
+        let mut faults = inquiry.form();
+        let meaning = inquiry.meaning();
         // what follows from a fault of form is not said again; a misspelt key says nothing against its value
         let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();
         faults.extend(

@@ -45,7 +45,7 @@ fn with_variants(mut fault: Fault, variants: &[&str]) -> Fault {
 type Settings = Vec<(usize, Id)>;
 
 /// One reading: decoded models are shared by all studies with the same variants.
-pub(super) struct Session<'d, 's> {
+pub(super) struct Inquiry<'d, 's> {
     document: &'d Document,
     selection: &'s Selection<'s>,
     /// Studies to be read, those that others take from first; with their variants.
@@ -63,7 +63,7 @@ struct Base<'d> {
     merged: Merged<'d>,
 }
 
-impl<'d, 's> Session<'d, 's> {
+impl<'d, 's> Inquiry<'d, 's> {
     pub(super) fn new(document: &'d Document, selection: &'s Selection<'s>) -> Self {
         Self { document, selection, studies: Vec::new(), faults: Vec::new(), parsed: Parsed::new() }
     }
