@@ -1,5 +1,6 @@
 //! What a study leaves: columns, scalars, extremes, findings; names and numbers, ready for output.
 
+use super::assemble::AssemblyFault;
 use super::extremum::Extremes;
 use crate::mechanism::BuildFault;
 use grashof_solvers::Counts;
@@ -209,6 +210,12 @@ pub struct Unsolved {
     pub place: String,
     /// One remedy.
     pub help: String,
+}
+
+impl From<AssemblyFault> for Failure {
+    fn from(fault: AssemblyFault) -> Self {
+        Self::Study { code: fault.code, message: fault.message, place: fault.place, help: fault.help }
+    }
 }
 
 impl Failure {

@@ -70,7 +70,7 @@ fn driven<G: Space<S = f64>>(
     coordinates: Coordinates,
 ) -> Result<Outcome, Failure> {
     let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assembled(&mut mechanism)?;
+    let start = assemble(&mut mechanism)?;
     drivers_fit(&mechanism, &start, model, study)?;
     contact::begins(model, &mechanism, &start)?;
     contact::driven(model, &mechanism, study)?;
@@ -93,10 +93,6 @@ fn driven<G: Space<S = f64>>(
         results.push(offsets.residual);
     }
     observe(model, study, parameters, &mechanism, &start, range, results)
-}
-
-fn assembled<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Assembled, Failure> {
-    assemble(mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })
 }
 
 fn trace<'m, G: Space<S = f64>>(

@@ -34,12 +34,12 @@ use pose::{Pose, Rest};
 use search::{Ended, Found};
 use words::{Names, six};
 
-/// A pose in balance: Φ(q) = 0 and Gᵀλ = f(q, v = 0, z), at time 0.
+/// A mechanism that stands still at time 0, by itself (Φ(q) = 0 and Gᵀλ = f(q, v = 0, z)) or held.
 #[derive(Clone, Debug)]
-pub(super) struct Equilibrium {
+pub(super) struct Still {
     /// Coordinates (nq).
     pub(super) q: Vec<f64>,
-    /// First-order states (nz), at rest.
+    /// First-order states (nz).
     pub(super) z: Vec<f64>,
     /// Modes of the switches and windings there.
     pub(super) modes: Vec<i32>,
@@ -60,7 +60,7 @@ pub(super) fn equilibrium<G>(
     start: &Assembled,
     parameters: &[f64],
     stop: &dyn Fn() -> bool,
-) -> Result<Equilibrium, Failure>
+) -> Result<Still, Failure>
 where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
@@ -70,7 +70,7 @@ where
     let findings = bench.findings(&found);
     let Pose { q, z, mut modes, .. } = found.pose;
     modes.truncate(start.modes.len());
-    Ok(Equilibrium { q, z, modes, findings })
+    Ok(Still { q, z, modes, findings })
 }
 
 /// Runs a study of the kind `statics`.
@@ -83,7 +83,7 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+    let start = assemble(&mut mechanism)?;
     let lifted = mechanism.lift();
     let watched = Watched::of(study);
     let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);

@@ -40,7 +40,7 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+    let start = assemble(&mut mechanism)?;
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };

@@ -16,12 +16,12 @@ use super::assemble::{Assembled, assemble};
 use super::coordinates::coordinates;
 use super::forward::explain::massless;
 use super::linear::{Linear, Reduced};
-use super::modes::Rest;
 use super::modes::held::settled;
 use super::outcome::{Certificate, Failure, Finding, LinearSystem, List, Outcome};
 use super::partition::{Partition, preferred, with_mass};
 use super::run::{evaluate, expectations};
 use super::scene::{MECHANISM, of_poses};
+use super::statics::equilibrium;
 use super::sweep::parameters_with;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
@@ -51,12 +51,12 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+    let start = assemble(&mut mechanism)?;
     without_friction(&mechanism, study)?;
     let lifted = mechanism.lift();
     let mut findings = Vec::new();
     let mut at = if asked.at_equilibrium {
-        let rest = Rest::equilibrium(model, study, &mechanism, &lifted, &start, parameters, stop)?;
+        let rest = equilibrium::<G>(model, study, &mechanism, &lifted, &start, parameters, stop)?;
         findings = rest.findings;
         Whole { q: rest.q, v: vec![0.0; mechanism.nv], z: rest.z, modes: rest.modes }
     } else {

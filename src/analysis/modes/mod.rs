@@ -15,7 +15,7 @@ use super::coordinates::{Coordinate, coordinates};
 use super::outcome::{Certificate, Failure, Finding, List, Outcome};
 use super::partition::{preferred, with_mass};
 use super::run::{evaluate, expectations};
-use super::statics;
+use super::statics::{Still, equilibrium};
 use crate::dynamics::{LANES, Linearizer};
 use crate::geometry::Space;
 use crate::mechanism::{Coordinates, Mechanism, build};
@@ -43,42 +43,11 @@ const DRAWN: usize = 12;
 /// Parts of a shape that count in words, of the largest one.
 const PART: f64 = 0.3;
 
-/// The pose of a study at rest: coordinates, first-order states, modes, and what there is to say of it.
-pub(super) struct Rest {
-    pub(super) q: Vec<f64>,
-    pub(super) z: Vec<f64>,
-    pub(super) modes: Vec<i32>,
-    pub(super) findings: Vec<Finding>,
-}
-
-impl Rest {
-    /// The start, held.
-    pub(super) fn start<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Self {
-        let z = mechanism.state_starts.clone();
-        let modes = settled(mechanism, [&start.q, &vec![0.0; mechanism.nv], &z], &start.modes);
-        Self { q: start.q.clone(), z, modes, findings: Vec::new() }
-    }
-
-    /// The equilibrium that is found from the start.
-    ///
-    /// # Errors
-    /// If none is found.
-    pub(super) fn equilibrium<G>(
-        model: &Model,
-        study: &Study,
-        mechanism: &Mechanism<G>,
-        lifted: &Mechanism<G::Lift<Dual<LANES>>>,
-        start: &Assembled,
-        parameters: &[f64],
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Self, Failure>
-    where
-        G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-    {
-        let found = statics::equilibrium::<G>(model, study, mechanism, lifted, start, parameters, stop)?;
-        Ok(Self { q: found.q, z: found.z, modes: found.modes, findings: found.findings })
-    }
+/// The start as it would stand if it were held, with the modes that its forces have there.
+pub(super) fn held_start<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Still {
+    let z = mechanism.state_starts.clone();
+    let modes = settled(mechanism, [&start.q, &vec![0.0; mechanism.nv], &z], &start.modes);
+    Still { q: start.q.clone(), z, modes, findings: Vec::new() }
 }
 
 /// Runs a study of modes.
@@ -91,12 +60,12 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism).map_err(|f| Failure::Study { code: f.code, message: f.message, place: f.place, help: f.help })?;
+    let start = assemble(&mut mechanism)?;
     let lifted = mechanism.lift();
     let rest = if asked.at_equilibrium {
-        Rest::equilibrium(model, study, &mechanism, &lifted, &start, parameters, stop)?
+        equilibrium::<G>(model, study, &mechanism, &lifted, &start, parameters, stop)?
     } else {
-        Rest::start(&mechanism, &start)
+        held_start(&mechanism, &start)
     };
     let pose = Pose { q: &rest.q, z: &rest.z, modes: &rest.modes };
     let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism))
