@@ -21,13 +21,7 @@ pub(super) struct Arguments {
 
 /// Checks a model.
 pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
-    let Some(document) = files::document(&arguments.model, common) else { return code::INPUT };
-    let Some(selection) = files::selection(common, None) else { return code::INPUT };
-    let report = document.check_all(&selection);
-    files::print(&report, common);
-    if report.failed() {
-        return code::INPUT;
-    }
+    let Some((document, selection, report)) = files::sound(&arguments.model, common) else { return code::INPUT };
     let model = match document.model(&selection) {
         Ok(model) => model,
         Err(report) => {

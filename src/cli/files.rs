@@ -4,7 +4,7 @@ use super::{Common, code, tell};
 use grashof::analysis::outcome::{Failure, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
@@ -59,6 +59,28 @@ pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing
 
 fn why(error: &std::io::Error) -> String {
     if error.kind() == std::io::ErrorKind::NotFound { "there is no such file".to_string() } else { error.to_string() }
+}
+
+/// A model file without faults, with the selection that `--set` and `--variant` make and what there is to say of it, which
+/// has been printed.
+pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection<'static>, Report)> {
+    let document = document(model, common)?;
+    let selection = selection(common, None)?;
+    let report = document.check_all(&selection);
+    print(&report, common);
+    (!report.failed()).then_some((document, selection, report))
+}
+
+/// Writes a file that must not be there yet; a failure has been told.
+pub(super) fn write_new(file: &Path, text: &str) -> bool {
+    // never over somebody's work
+    let Err(error) = std::fs::File::create_new(file).and_then(|mut f| f.write_all(text.as_bytes())) else { return true };
+    let help = match error.kind() {
+        std::io::ErrorKind::AlreadyExists => "name another file, or remove this one",
+        _ => "name a file in a directory that can be written to",
+    };
+    tell(&format!("error: cannot write `{}`: {error}\n  help: {help}", file.display()));
+    false
 }
 
 /// Says in one line that included files hold more than the model uses.

@@ -2,7 +2,6 @@
 
 use super::{Common, code, files, say, tell};
 use grashof::model::{Import, import as import_urdf};
-use std::io::Write;
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -53,24 +52,14 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
             code::DONE
         }
         Some(file) => {
-            // never over somebody's work
-            match std::fs::File::create_new(file).and_then(|mut f| f.write_all(imported.text.as_bytes())) {
-                Ok(()) => {
-                    let file = file.display();
-                    let bare: Vec<String> = imported.bare.iter().map(|body| format!("`{body}`")).collect();
-                    let first = if bare.is_empty() { String::new() } else { format!("give {} mass and inertia, then ", bare.join(", ")) };
-                    tell(&format!("wrote {file}; now: {first}grashof run {file}"));
-                    code::DONE
-                }
-                Err(error) => {
-                    let help = match error.kind() {
-                        std::io::ErrorKind::AlreadyExists => "name another file, or remove this one",
-                        _ => "name a file in a directory that can be written to",
-                    };
-                    tell(&format!("error: cannot write `{}`: {error}\n  help: {help}", file.display()));
-                    code::INPUT
-                }
+            if !files::write_new(file, &imported.text) {
+                return code::INPUT;
             }
+            let file = file.display();
+            let bare: Vec<String> = imported.bare.iter().map(|body| format!("`{body}`")).collect();
+            let first = if bare.is_empty() { String::new() } else { format!("give {} mass and inertia, then ", bare.join(", ")) };
+            tell(&format!("wrote {file}; now: {first}grashof run {file}"));
+            code::DONE
         }
     }
 }

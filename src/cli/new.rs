@@ -1,7 +1,6 @@
 //! `grashof new`: commented models that run.
 
-use super::{code, say, tell};
-use std::io::Write;
+use super::{code, files, say, tell};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -45,20 +44,9 @@ pub(super) fn new(arguments: &Arguments) -> u8 {
         say(text.trim_end());
         return code::DONE;
     }
-    // never over somebody's work
-    let written = std::fs::File::create_new(&file).and_then(|mut f| f.write_all(text.as_bytes()));
-    match written {
-        Ok(()) => {
-            tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
-            code::DONE
-        }
-        Err(error) => {
-            let help = match error.kind() {
-                std::io::ErrorKind::AlreadyExists => "name another file, or remove this one",
-                _ => "name a file in a directory that can be written to",
-            };
-            tell(&format!("error: cannot write `{}`: {error}\n  help: {help}", file.display()));
-            code::INPUT
-        }
+    if !files::write_new(&file, text) {
+        return code::INPUT;
     }
+    tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
+    code::DONE
 }

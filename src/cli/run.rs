@@ -43,13 +43,7 @@ pub(super) struct Wanted {
 /// Runs the studies of a model.
 pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     watch_interrupts();
-    let Some(document) = files::document(&arguments.model, common) else { return code::INPUT };
-    let Some(selection) = files::selection(common, None) else { return code::INPUT };
-    let report = document.check_all(&selection);
-    files::print(&report, common);
-    if report.failed() {
-        return code::INPUT;
-    }
+    let Some((document, ..)) = files::sound(&arguments.model, common) else { return code::INPUT };
     files::tell_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {
@@ -62,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     let mut seen = HashSet::new();
     studies.retain(|study| seen.insert(study.clone()));
     let directory = files::directory(&arguments.model, common);
-    let session = Session { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
+    let request = Request { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
     let mut worst = code::DONE;
     let mut reports = Vec::new();
     let mut scalars = Scalars::new();
@@ -88,7 +82,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
             }
             None => {}
         }
-        let (code, report) = session.study(&model, study, study);
+        let (code, report) = request.study(&model, study, study);
         worst = worst.max(code);
         reports.extend(report);
         if interrupted() {
@@ -116,7 +110,7 @@ pub(super) fn refused(parameter: &str, study: &str) -> u8 {
 }
 
 /// Where studies are run and what is wanted of them.
-pub(super) struct Session<'a> {
+pub(super) struct Request<'a> {
     pub(super) document: &'a Document,
     pub(super) common: &'a Common,
     pub(super) wanted: &'a Wanted,
@@ -125,7 +119,7 @@ pub(super) struct Session<'a> {
     pub(super) directory: &'a Path,
 }
 
-impl Session<'_> {
+impl Request<'_> {
     /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
     /// report. An interrupt has been told.
     pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {

@@ -1,7 +1,7 @@
 //! `grashof sweep`: a study of the file over values of parameters that are named on the command line.
 
 use super::progress::{interrupted, watch_interrupts};
-use super::run::{Scalars, Session, Wanted, conflict, load_selected, refused};
+use super::run::{Request, Scalars, Wanted, conflict, load_selected, refused};
 use super::{Common, code, files, say, tell};
 use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
 
@@ -26,13 +26,7 @@ pub(super) struct Arguments {
 /// Sweeps a study.
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     watch_interrupts();
-    let Some(document) = files::document(&arguments.model, common) else { return code::INPUT };
-    let Some(selection) = files::selection(common, None) else { return code::INPUT };
-    let report = document.check_all(&selection);
-    files::print(&report, common);
-    if report.failed() {
-        return code::INPUT;
-    }
+    let Some((document, selection, _)) = files::sound(&arguments.model, common) else { return code::INPUT };
     files::tell_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(arguments, &known), over(&arguments.over)) else { return code::INPUT };
@@ -53,8 +47,8 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
         study.plots.extend(figure);
     }
     let directory = files::directory(&arguments.model, common);
-    let session = Session { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
-    let (code, report) = session.study(&model, study, &stem);
+    let request = Request { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
+    let (code, report) = request.study(&model, study, &stem);
     if let Some(report) = report {
         say(report.trim_end());
     }
