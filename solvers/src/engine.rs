@@ -62,6 +62,8 @@ pub struct Counts {
     pub bridges: usize,
     /// Switches that a scheme marched across.
     pub stepped_over: usize,
+    /// Root functions that could not be resolved in a part of a step: their signs at its nodes were taken.
+    pub unresolved: usize,
 }
 
 impl std::ops::AddAssign for Counts {
@@ -75,6 +77,7 @@ impl std::ops::AddAssign for Counts {
         self.events += other.events;
         self.bridges += other.bridges;
         self.stepped_over += other.stepped_over;
+        self.unresolved += other.unresolved;
     }
 }
 
@@ -102,6 +105,8 @@ pub enum Why {
     StepSize,
     /// Events pile up; the root that crossed last.
     Zeno(usize),
+    /// A root of time alone whose sign cannot be bounded.
+    Unresolved(usize),
     /// A blow against what drivers or other rows hold: the root of the contact.
     Blocked(usize),
     /// More steps than are allowed.

@@ -46,4 +46,4 @@ pub use scheme::{Level, Scheme};
 pub use schemes::Method;
 pub use sparsity::{Pattern, Sparsity};
 pub use state::{At, Dims, State};
-pub use system::{Effect, Stage, System, Tangent, Terms};
+pub use system::{Ahead, Effect, Stage, System, Tangent, Terms};

@@ -14,7 +14,7 @@
 
 use crate::engine::{Node, Why};
 use crate::kkt::row_scale;
-use crate::{At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::{Ahead, At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 use loops::Loops;
 use std::cell::RefCell;
 
@@ -100,6 +100,9 @@ impl<S: System> Minimal<S> {
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
         p.roots_by_reactions = inner.roots_by_reactions;
+        p.timed = inner.timed.clone();
+        p.rough = inner.rough.clone();
+        p.rough.push(self.inner.roots);
         p.acting.clone_from(&inner.acting);
     }
 
@@ -343,6 +346,10 @@ impl<S: System> System for Minimal<S> {
         } else {
             -self.poor
         };
+    }
+
+    fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
+        self.loops.get_mut().inner.ahead(At { modes: &at.modes[..self.inner.modes], ..at }, to, roots)
     }
 
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {

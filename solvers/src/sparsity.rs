@@ -97,6 +97,10 @@ pub struct Pattern {
     /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
     /// events, and of contacts whose crossing gives a blow.
     pub acting: Vec<usize>,
+    /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
+    pub timed: Vec<usize>,
+    /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
+    pub rough: Vec<usize>,
 }
 
 impl Pattern {
@@ -119,6 +123,8 @@ impl Pattern {
             size_v: vec![1.0; v],
             roots_by_reactions: false,
             acting: Vec::new(),
+            timed: Vec::new(),
+            rough: Vec::new(),
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn begins<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
     let mut dynamics = crate::dynamics::Dynamics::new(mechanism);
     dynamics.time(0.0, &start.modes);
     dynamics.position(&start.q, &start.modes);
-    for stop in &mechanism.stops {
+    for stop in mechanism.stops.iter().filter(|stop| stop.event.is_none()) {
         let x = dynamics.work.readings[stop.gauge].x;
         if stop.gap(x) < -PASSED * stop.size(start.size) {
             let joint = &model.joints[stop.joint];
@@ -79,7 +79,7 @@ pub(super) fn passes<G: Space<S = f64>>(
             continue;
         }
         let at = motion.clock.value(s);
-        for stop in &mechanism.stops {
+        for stop in mechanism.stops.iter().filter(|stop| stop.event.is_none()) {
             let x = motion.driven.dynamics.work.readings[stop.gauge].x;
             if stop.gap(x) < -PASSED * stop.size(size) {
                 let message = format!(

@@ -3,7 +3,7 @@
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Id, Program};
 use crate::geometry::{Motion, Space};
-use crate::mechanism::{EffortLaw, Mechanism, StretchOf};
+use crate::mechanism::{EffortLaw, Mechanism};
 use crate::model::{Model, Quantity};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
@@ -113,6 +113,12 @@ impl<G: Space<S = f64>> Observer<G> {
     #[must_use]
     pub fn switches_by_forces(&self) -> bool {
         !self.program.switches().is_empty() && self.needs_forces()
+    }
+
+    /// Inputs of the program that are time.
+    #[must_use]
+    pub fn times(&self) -> Vec<u32> {
+        self.fills.iter().filter(|(_, source)| matches!(source, Source::Time)).map(|(input, _)| *input as u32).collect()
     }
 
     /// Sets the modes of the columns' switches from the quantities read last.
@@ -238,16 +244,7 @@ impl<G: Space<S = f64>> Source<G> {
                 match order {
                     0 => d.extent(stretch.of) - stretch.rest,
                     1 => d.extent_rate(stretch.of),
-                    _ => match stretch.of {
-                        StretchOf::Gauge(g) => gauge_order(d, g, 2, a),
-                        StretchOf::Function(f) => {
-                            let function = &m.functions[f];
-                            let slopes = &w.functions[function.value + 1..];
-                            let along: f64 =
-                                function.gauges.iter().zip(slopes).map(|(&g, s)| s * (gauge_order(d, g, 2, a) - w.readings[g].drift)).sum();
-                            along + w.drifts[function.drift]
-                        }
-                    },
+                    _ => d.extent_acceleration(stretch.of, a),
                 }
             }
             Self::SpringForce(effort) => -w.efforts[effort],

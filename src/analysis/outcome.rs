@@ -136,6 +136,8 @@ pub struct March {
     pub dampers: f64,
     /// Energy that events have given or taken at once, J.
     pub impacts: f64,
+    /// Widest gap between looks at the conditions that depend on the motion, s; 0 where there are none.
+    pub widest_gap: f64,
     /// Largest residual of the velocity constraints over the rows, in units of size per second.
     pub velocity: f64,
     /// What was spent.
@@ -258,6 +260,7 @@ struct CountsFields {
     events: usize,
     bridges: usize,
     stepped_over: usize,
+    unresolved: usize,
 }
 
 /// A word that was written once: the same one again, kept as long as the program runs. There are few of them.

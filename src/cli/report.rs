@@ -150,6 +150,7 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
         number("work_loads", m.loads),
         number("work_dampers", m.dampers),
         number("work_impacts", m.impacts),
+        number("widest_gap", m.widest_gap),
         count("steps", m.counts.steps),
         count("rejected", m.counts.rejected),
         count("evaluations", m.counts.evaluations),
@@ -158,6 +159,7 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
         count("events", m.counts.events),
         count("bridges", m.counts.bridges),
         count("stepped_over", m.counts.stepped_over),
+        count("unresolved", m.counts.unresolved),
     ]);
     all
 }
@@ -176,8 +178,13 @@ fn march(outcome: &Outcome) -> String {
     let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));
     let bridges = if k.bridges > 0 { format!(", {} bridges over singular positions", k.bridges) } else { String::new() };
     let over = if k.stepped_over > 0 { format!(", {} switches stepped over", k.stepped_over) } else { String::new() };
+    let gap = if m.widest_gap > 0.0 {
+        format!("  conditions: resolved, with looks at most {:.1e} s apart\n", m.widest_gap)
+    } else {
+        String::new()
+    };
     format!(
-        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n",
+        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n{gap}",
         m.energy_drift, m.energy_scale, c.constraint, m.velocity, m.schemes, k.steps, k.rejected, k.evaluations, k.factorisations, k.events
     ) + &happened(outcome)
 }

@@ -253,6 +253,23 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
+    /// ẍ of a gauge or function from the accelerations a (nv): for a function Σ e_i (ẍ_i − c_i) and its drift.
+    #[must_use]
+    pub fn extent_acceleration(&self, of: StretchOf, a: &[G::S]) -> G::S {
+        let of_gauge = |i: usize| self.mechanism.gauges[i].acceleration(&self.work.readings[i], &self.work.columns, a);
+        match of {
+            StretchOf::Gauge(i) => of_gauge(i),
+            StretchOf::Function(f) => {
+                let function = &self.mechanism.functions[f];
+                let mut sum = self.work.drifts[function.drift];
+                for (i, &gauge) in function.gauges.iter().enumerate() {
+                    sum += self.work.functions[function.value + 1 + i] * (of_gauge(gauge) - self.work.readings[gauge].drift);
+                }
+                sum
+            }
+        }
+    }
+
     /// World position of a point of a body, m.
     #[must_use]
     pub fn point(&self, body: usize, at: G::Vector) -> G::Vector {

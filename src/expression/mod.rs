@@ -12,6 +12,7 @@ mod function;
 mod lexer;
 mod lower;
 mod parser;
+mod part;
 mod pool;
 mod program;
 mod quantity;
@@ -25,6 +26,7 @@ mod units;
 
 pub use lower::lower;
 pub use parser::{Expr, Kind, SyntaxError, parse};
+pub use part::{Part, Wanted};
 pub use pool::{Id, Node, Pool};
 pub use program::Program;
 pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};

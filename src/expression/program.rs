@@ -48,6 +48,41 @@ pub(super) enum Op {
     Table(u16, u8, u32, u32),
 }
 
+impl Op {
+    /// The same instruction on other registers.
+    pub(super) fn map(self, mut f: impl FnMut(u32) -> u32) -> Self {
+        match self {
+            Self::Const(_) | Self::Input(_) | Self::Compare(..) | Self::Sign(_) => self,
+            Self::Neg(a) => Self::Neg(f(a)),
+            Self::Add(a, b) => Self::Add(f(a), f(b)),
+            Self::Shift(a, c) => Self::Shift(f(a), c),
+            Self::Sub(a, b) => Self::Sub(f(a), f(b)),
+            Self::Mul(a, b) => Self::Mul(f(a), f(b)),
+            Self::Scale(a, c) => Self::Scale(f(a), c),
+            Self::Div(a, b) => Self::Div(f(a), f(b)),
+            Self::Powi(a, n) => Self::Powi(f(a), n),
+            Self::Powf(a, n) => Self::Powf(f(a), n),
+            Self::Pow(a, b) => Self::Pow(f(a), f(b)),
+            Self::SinCos(a) => Self::SinCos(f(a)),
+            Self::Tan(a) => Self::Tan(f(a)),
+            Self::Asin(a) => Self::Asin(f(a)),
+            Self::Acos(a) => Self::Acos(f(a)),
+            Self::Atan(a) => Self::Atan(f(a)),
+            Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
+            Self::Sqrt(a) => Self::Sqrt(f(a)),
+            Self::Exp(a) => Self::Exp(f(a)),
+            Self::Ln(a) => Self::Ln(f(a)),
+            Self::And(a, b) => Self::And(f(a), f(b)),
+            Self::Or(a, b) => Self::Or(f(a), f(b)),
+            Self::Not(a) => Self::Not(f(a)),
+            Self::If(c, a, b) => Self::If(f(c), f(a), f(b)),
+            Self::Signed(a, switch) => Self::Signed(f(a), switch),
+            Self::Select(a, b, switch) => Self::Select(f(a), f(b), switch),
+            Self::Table(table, order, x, switch) => Self::Table(table, order, f(x), switch),
+        }
+    }
+}
+
 /// A switch of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Decision {
@@ -75,7 +110,7 @@ pub struct Program {
 
 /// Runs one instruction whose result belongs into register `k`; returns the next free register.
 #[inline(always)]
-fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
+pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
     let at = |i: u32| r[i as usize];
     // conditions are constants that modes decided, so reading their value is no branch on a scalar
     let truth = |i: u32| r[i as usize].value() != 0.0;

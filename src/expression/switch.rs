@@ -10,6 +10,7 @@
 
 use super::pool::Id;
 use super::table::Table;
+use crate::scalar::Interval;
 
 /// A comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -114,6 +115,33 @@ impl<I: Copy> Test<I> {
             Self::Segment { table, x } => tables.get(table as usize).map_or(1.0, |t| t.inside(value(x), mode)),
         };
         if root.is_nan() { 1.0 } else { root }
+    }
+
+    /// Bounds of [`Self::root`] for operands in intervals, and the size of what it is the difference of; no interval where an operand
+    /// is undefined throughout.
+    pub(super) fn bounds(self, mode: i32, value: impl Fn(I) -> Interval, tables: &[Table]) -> (Interval, f64) {
+        let two_sided = |x: Interval| match mode {
+            0 if x.holds(0.0) => Interval { low: -x.magnitude(), high: 0.0 },
+            m if m > 0 || m == 0 && x.high < 0.0 => x,
+            _ => -x,
+        };
+        let size = |a: Interval, b: Interval| a.magnitude() + b.magnitude();
+        let ordered = |less: Interval, more: Interval| (if mode != 0 { more - less } else { less - more }, size(less, more));
+        match self {
+            Self::Compare(Compare::Less | Compare::LessEqual, a, b) | Self::Order(a, b) => ordered(value(a), value(b)),
+            Self::Compare(Compare::Greater | Compare::GreaterEqual, a, b) => ordered(value(b), value(a)),
+            Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => {
+                let (a, b) = (value(a), value(b));
+                (two_sided(a - b), size(a, b))
+            }
+            Self::Sign(a) => (two_sided(value(a)), value(a).magnitude()),
+            Self::Segment { table, x } => {
+                let x = value(x);
+                let table = tables.get(table as usize);
+                let none = (Interval::NONE, 0.0);
+                table.filter(|_| !x.is_none()).map_or(none, |t| (t.inside_of(x, mode), x.magnitude() + t.span()))
+            }
+        }
     }
 
     /// The mode on the other side of the end of `mode` that is nearest.

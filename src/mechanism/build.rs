@@ -77,6 +77,7 @@ pub fn build_beside<G: Space>(model: &Model, parameters: &[f64], coordinates: Co
     builder.constraints();
     builder.forces();
     builder.states();
+    builder.impacts();
     builder.gauges_of_programs();
     builder.mechanism.active_gauges = builder.mechanism.gauges.len();
     builder.remaining_slots();

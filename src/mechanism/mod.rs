@@ -170,10 +170,15 @@ impl<G: Space> Mechanism<G> {
 
     /// Adds a row that holds a joint on a rigid stop.
     pub fn rest(&mut self, stop: usize) {
-        let Stop { gauge, at, angular, .. } = self.stops[stop];
+        let Stop { along, at, angular, .. } = self.stops[stop];
+        let kind = match along {
+            Some(StretchOf::Gauge(gauge)) => RowKind::Gauge(gauge),
+            Some(StretchOf::Function(function)) => RowKind::Function(function),
+            None => return,
+        };
         let offset = G::S::constant(at);
         let label = String::new();
-        self.rows.push(Row { kind: RowKind::Gauge(gauge), owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
+        self.rows.push(Row { kind, owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
     }
 
     /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].

@@ -30,6 +30,7 @@ mod vocabulary;
 mod yaml;
 
 pub use contacts::*;
+pub(crate) use decode::REST_SPEED;
 pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
 pub use document::{Document, Selection};
 pub use entities::*;

@@ -1,15 +1,18 @@
-//! The number type that kinematics, dynamics and expressions are written in: `f64`, or [`Dual`] numbers that carry derivatives.
+//! The number type that kinematics, dynamics and expressions are written in: `f64`, [`Dual`] numbers that carry derivatives, or an
+//! [`Interval`] that holds all values.
 //!
 //! The trait is as small as the mechanics allows. No comparison is in it: a kernel that branched on a value would lose the
 //! derivative's meaning at the switch, so switches are decided outside by modes.
 
 mod dual;
+mod interval;
 
 pub use dual::Dual;
+pub use interval::Interval;
 use std::fmt::Debug;
 use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
 
-/// A real number or something that behaves like one (dual numbers now; lanes and tracing are possible).
+/// A real number or something that behaves like one (dual numbers and intervals now; lanes and tracing are possible).
 ///
 /// The supertraits are what nalgebra's matrix arithmetic asks for (`Num` brings zero, one and the four operations).
 pub trait Scalar:

@@ -31,6 +31,7 @@ pub(super) struct Balance {
     next: f64,
     counts: Counts,
     bridged: Vec<f64>,
+    widest_gap: f64,
     schemes: Vec<&'static str>,
 }
 
@@ -127,6 +128,7 @@ impl Balance {
             self.counts += counts;
         }
         self.bridged.extend(run.bridged());
+        self.widest_gap = self.widest_gap.max(run.widest_gap());
         for name in run.schemes() {
             if !self.schemes.contains(name) {
                 self.schemes.push(name);
@@ -148,6 +150,7 @@ impl Balance {
             loads: self.work[1],
             dampers: self.work[2],
             impacts: self.impacts,
+            widest_gap: self.widest_gap,
             velocity: 0.0,
             counts: self.counts,
         };

@@ -18,7 +18,7 @@ use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, RowOwner, build}
 use crate::model::{Model, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
-use grashof_solvers::{Control, Counts, Dense, Dims, Engine, Halt, Integration, Node, Progress, Settings, Stage, State, System};
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 use std::cell::OnceCell;
 
 /// Bytes that the steps of a run may take.
@@ -74,27 +74,27 @@ impl<G: Space<S = f64>> Eras<G> {
 }
 
 /// The system that is integrated: with all coordinates, or with independent ones alone.
-enum Charted<'m, G: Space<S = f64>> {
+pub(super) enum Charted<'m, G: Space<S = f64>> {
     Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
     Minimal(Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>),
 }
 
 impl<'m, G: Space<S = f64>> Charted<'m, G> {
-    fn system(&mut self) -> &mut dyn System {
+    pub(super) fn system(&mut self) -> &mut dyn System {
         match self {
             Self::Whole(system) => &mut **system,
             Self::Minimal(system) => &mut **system,
         }
     }
 
-    fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
+    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
         match self {
             Self::Whole(system) => system,
             Self::Minimal(system) => system.inner_mut(),
         }
     }
 
-    fn reduced(&self, state: &State) -> State {
+    pub(super) fn reduced(&self, state: &State) -> State {
         match self {
             Self::Whole(_) => state.clone(),
             Self::Minimal(system) => system.reduced(state),
@@ -102,7 +102,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
     }
 
     /// The node in all coordinates.
-    fn whole(&mut self, node: &Node, out: &mut Node) {
+    pub(super) fn whole(&mut self, node: &Node, out: &mut Node) {
         match self {
             Self::Whole(_) => out.copy_from(node),
             Self::Minimal(system) => {
@@ -137,7 +137,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
     from: Option<&State>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Recorded<'m, G>, Failure> {
-    let (all, watched) = watched(model, &eras.mechanism, ids);
+    let (all, watched) = watched(model, ids);
     let follow = !plan.settings.locate;
     let machine = |era: &'m Eras<G>| {
         let observer = Observer::new(model, &era.mechanism, &era.parameters, &all);
@@ -154,6 +154,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         trajectory: &mut trajectory,
         events: Vec::new(),
         balance: Balance::default(),
+        findings: Vec::new(),
         changed: Vec::new(),
         resting: Vec::new(),
         begins: Begins::Run,
@@ -181,75 +182,12 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
             }
         }
     };
-    let Flow { events, balance, .. } = flow;
-    let (certificate, findings) = balance.finish(plan);
+    let Flow { events, balance, findings: mut unresolved, .. } = flow;
+    let (certificate, mut findings) = balance.finish(plan);
+    unresolved.dedup_by(|a, b| a.path == b.path);
+    findings.append(&mut unresolved);
     trajectory.finish();
     Ok(Recorded { trajectory, stopped, events, certificate, findings })
-}
-
-/// What an integration alone has come to: nothing is recorded but its end.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bare {
-    /// Time reached, s.
-    pub t: f64,
-    /// Columns of the study there.
-    pub columns: Vec<f64>,
-    /// Largest |E − E(0) − work|, J, of the end alone.
-    pub energy_drift: f64,
-    /// Largest residuals of positions and velocities at the end, in units of size.
-    pub residuals: [f64; 2],
-    /// What was spent.
-    pub counts: Counts,
-    /// Why it has stopped on its way.
-    pub stopped: Option<String>,
-}
-
-/// Integrates a plan to its end, for measurements: `timer` is called with true when the steps begin and with false when they end.
-///
-/// # Errors
-/// If the run did not begin.
-pub(super) fn bare<G: Space<S = f64>>(
-    model: &Model,
-    study: &Study,
-    plan: &Plan,
-    ids: &[Id],
-    eras: &Eras<G>,
-    timer: &mut dyn FnMut(bool),
-) -> Result<Bare, Failure> {
-    let (all, watched) = watched(model, &eras.mechanism, ids);
-    let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
-    let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
-    let dims = system.dims();
-    let state = begin(eras, dims);
-    let mut chart = chart(study, plan, system, eras, &state)?;
-    let mut node = Node::new(dims);
-    let mut balance = Balance::default();
-    let settings = Settings { balance: false, ..plan.settings };
-    let start = chart.reduced(&state);
-    timer(true);
-    let begun = Integration::new(chart.system(), settings, &start);
-    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
-    chart.whole(run.node(), &mut node);
-    balance.begin(chart.mechanical(), &node, Begins::Run);
-    let stopped = loop {
-        match run.advance(chart.system(), plan.until) {
-            Ok(Progress::Step | Progress::Event) => {}
-            Ok(Progress::End | Progress::Stopped) => break None,
-            Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
-        }
-    };
-    timer(false);
-    chart.whole(run.node(), &mut node);
-    balance.end(chart.mechanical(), &node, &run, Counts::default());
-    let mut columns = vec![0.0; all.len()];
-    let mut engine = Engine::new(chart.mechanical(), Control::Tolerance(1e-8));
-    engine.evaluate(chart.mechanical(), node.state.at(), Stage::Velocity);
-    let residuals = [engine.position_residual(), engine.velocity_residual(&node.state.v)];
-    chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
-    chart.mechanical().columns(&node.state.modes, &mut columns);
-    columns.truncate(ids.len());
-    let drift = balance.finish(plan).0.march.map_or(0.0, |m| m.energy_drift);
-    Ok(Bare { t: node.state.t, columns, energy_drift: drift, residuals, counts: run.engine.counts, stopped })
 }
 
 /// The state at the assembled start.
@@ -264,7 +202,7 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
 
 /// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start` that no driver
 /// moves.
-fn chart<'m, G: Space<S = f64>>(
+pub(super) fn chart<'m, G: Space<S = f64>>(
     study: &Study,
     plan: &Plan,
     system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
@@ -319,6 +257,7 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
     events: Vec<Happened>,
     balance: Balance,
+    findings: Vec<Finding>,
     /// Parameters that events have set.
     changed: Vec<(usize, f64)>,
     /// Stops on which joints rest.
@@ -392,6 +331,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
         };
         self.balance.end(chart.mechanical(), &node, &run, inner.counts);
+        if let Some((root, t)) = run.unresolved() {
+            self.findings.push(explain::unresolved(self.model, chart.mechanical(), root, t));
+        }
         state.copy_from(&node.state);
         Ok(ended)
     }
@@ -452,6 +394,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
         let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
         let t = state.t;
+        system.forget_struck();
         self.note(&counted, t);
         counted
     }
@@ -467,6 +410,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
 
     /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
     fn stopped_by(&mut self, chart: &mut Charted<'m, G>, before: &Node, counted: &[usize]) -> After {
+        if let Some(event) = chart.mechanical().restless() {
+            return After::Stopped(explain::restless(self.model, event, before.state.t));
+        }
         if counted.iter().any(|&e| self.model.events[e].stop) {
             return After::Done;
         }

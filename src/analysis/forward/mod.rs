@@ -4,6 +4,7 @@
 //! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
 
 pub(in crate::analysis) mod balance;
+mod bare;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
 pub(in crate::analysis) mod setup;
@@ -11,7 +12,7 @@ pub(in crate::analysis) mod system;
 pub(in crate::analysis) mod trajectory;
 mod watch;
 
-pub use march::Bare;
+pub use bare::Bare;
 pub use setup::{is_available, method};
 
 use super::clock::Clock;
@@ -118,7 +119,7 @@ pub fn bare(model: &Model, study: &Study, forward: &Forward, parameters: &[f64],
         let plan = setup::plan(model, study, forward, parameters)?;
         let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
         let ids: Vec<_> = study.columns.iter().map(|c| c.value).collect();
-        march::bare(model, study, &plan, &ids, &eras, timer)
+        bare::bare(model, study, &plan, &ids, &eras, timer)
     }
     match model.space {
         Dimensions::Planar => in_space::<Planar<f64>>(model, study, forward, parameters, timer),

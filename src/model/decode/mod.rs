@@ -25,6 +25,7 @@ pub(crate) use checks::Check;
 pub(crate) use dynamics::newmark_fault;
 pub(crate) use order::{order, tell};
 pub(crate) use outside::Outside;
+pub(crate) use stops::REST_SPEED;
 pub(crate) use studies::{Scalars, Taken};
 
 use super::entities::{Dimensions, Model};

@@ -13,7 +13,7 @@ use crate::model::vocabulary::Quantity;
 pub(super) const STICK_SPEED: f64 = 1e-3;
 
 /// A rebound below this rate counts as rest, rad/s or m/s, if the limits do not say another.
-const REST_SPEED: f64 = 1e-3;
+pub(crate) const REST_SPEED: f64 = 1e-3;
 
 impl<'n> Decoder<'n> {
     /// The coordinate (order 0) or rate (order 1) of the joint that is being read.
