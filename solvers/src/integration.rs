@@ -413,9 +413,7 @@ impl Integration {
                         // what was cut short says nothing about the step that the error allows
                         let cut = ahead.is_some() || ends && !itself && !self.engine.is_fixed();
                         self.h = if cut { next.max(self.h) } else { next };
-                        if let (Some(width), false) = (self.resolved, self.engine.is_fixed()) {
-                            self.h = self.h.min(GROWTH * width);
-                        }
+                        self.limit_growth(self.resolved.unwrap_or(f64::INFINITY));
                         if let Some(ahead) = ahead {
                             self.trial.state.t = ahead;
                         }

@@ -255,7 +255,8 @@ impl Integration {
             return Ok(Progress::Event);
         }
         self.bridging = None;
-        self.limit_growth();
+        let longest = self.longest_gap();
+        self.limit_growth(longest);
         self.scheme.restart(system, &mut self.engine, &self.node, self.h)?;
         (self.turn, self.origin) = (0, self.node.state.t);
         Ok(Progress::Event)
@@ -269,15 +270,20 @@ impl Integration {
         self.looked.iter().copied().find(near)
     }
 
-    /// Keeps the step to the times between the last events that changed the motion.
-    fn limit_growth(&mut self) {
+    /// The longest of the times between the last events that changed the motion, of which one is now, s.
+    fn longest_gap(&mut self) -> f64 {
         let t = self.node.state.t;
         self.gaps.rotate_right(1);
         (self.gaps[0], self.changed) = (t - self.changed, t);
+        self.gaps.iter().fold(0.0, |m, gap| f64::max(m, *gap))
+    }
+
+    /// Keeps a step that is chosen by its error to a multiple of `time` (s).
+    pub(super) fn limit_growth(&mut self, time: f64) {
         // events that pile up are told as such, not as steps that are too short
-        let longest = self.gaps.iter().fold(PILE * (t - self.start), |m, gap| f64::max(m, *gap));
-        if !self.engine.is_fixed() && longest > 0.0 {
-            self.h = self.h.min(GROWTH * longest);
+        let least = PILE * (self.node.state.t - self.start);
+        if !self.engine.is_fixed() && time.max(least) > 0.0 {
+            self.h = self.h.min(GROWTH * time.max(least));
         }
     }
 
