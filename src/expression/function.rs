@@ -8,13 +8,15 @@ use super::units::Dimension;
 pub(super) enum Shape {
     /// A number in, a number out.
     Number,
+    /// A number in, an angle out.
+    Inverse,
     /// √: any dimension, halved.
     Root,
     /// The dimension of its argument.
     Same,
     /// Any dimension in, a number out.
     Plain,
-    /// Two arguments of one dimension, a number out.
+    /// Two arguments of one dimension, an angle out.
     Angle,
     /// Arguments of one dimension, which is the result's.
     Alike,
@@ -43,9 +45,9 @@ const FUNCTIONS: [Function; 17] = [
     function("sin", Shape::Number, (1, 1), "sin(x)"),
     function("cos", Shape::Number, (1, 1), "cos(x)"),
     function("tan", Shape::Number, (1, 1), "tan(x)"),
-    function("asin", Shape::Number, (1, 1), "asin(x)"),
-    function("acos", Shape::Number, (1, 1), "acos(x)"),
-    function("atan", Shape::Number, (1, 1), "atan(x)"),
+    function("asin", Shape::Inverse, (1, 1), "asin(x)"),
+    function("acos", Shape::Inverse, (1, 1), "acos(x)"),
+    function("atan", Shape::Inverse, (1, 1), "atan(x)"),
     function("exp", Shape::Number, (1, 1), "exp(x)"),
     function("log", Shape::Number, (1, 1), "log(x)"),
     function("atan2", Shape::Angle, (2, 2), "atan2(y, x)"),
@@ -146,7 +148,8 @@ impl Function {
     /// Dimension of the result from that of the arguments (of the one that counts).
     pub(super) fn dimension(&self, of: Dimension) -> Option<Dimension> {
         match self.shape {
-            Shape::Number | Shape::Plain | Shape::Angle => Some(Dimension::NONE),
+            Shape::Number | Shape::Plain => Some(Dimension::NONE),
+            Shape::Inverse | Shape::Angle => Some(Dimension::ANGLE),
             Shape::Root => of.sqrt(),
             Shape::Same | Shape::Alike | Shape::If => Some(of),
             Shape::Rate => Some(of.div(Dimension::TIME)),

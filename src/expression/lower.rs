@@ -64,7 +64,8 @@ impl Lowerer<'_> {
                 let id = self.pool.constant(*x);
                 Some(Lowered { any: *x == 0.0, ..self.made(id, Dimension::NONE, true) })
             }
-            Kind::Quantity(x, dimension) => {
+            Kind::Quantity(x, dimension, starred) => {
+                self.refuse_double(&expr.at, starred)?;
                 let id = self.pool.constant(*x);
                 Some(self.made(id, *dimension, false))
             }
@@ -86,6 +87,16 @@ impl Lowerer<'_> {
             Kind::Or(all) => self.joined(all, Pool::or),
             Kind::Call(name, name_at, arguments) => self.call(name, name_at, arguments, &expr.at),
         }
+    }
+
+    /// Refuses a quantity like `9.81 m/s^2*m` where `m` is a name too: both readings make sense.
+    fn refuse_double(&mut self, at: &Range<usize>, starred: &[Range<usize>]) -> Option<()> {
+        let Some(word_at) = starred.iter().find(|word| self.scope.has_value(self.slice(word))) else { return Some(()) };
+        let (word, behind) = (self.slice(word_at).to_owned(), self.slice(&(word_at.start..at.end)).to_owned());
+        let before = self.slice(&(at.start..word_at.start)).trim_end().trim_end_matches('*').trim_end().to_owned();
+        let help = Some(format!("write `({before})*{behind}` for the name, `{before}*1 {behind}` for the unit"));
+        self.fault(word_at, format!("`*{word}`, where `{word}` is a unit and a name of this file"), format!("`{word}` with one meaning"), help);
+        None
     }
 
     fn path(&mut self, path: &str, at: &Range<usize>) -> Option<Lowered> {
@@ -117,6 +128,8 @@ impl Lowerer<'_> {
         // whoever has a unit or a name decides, so that the bare number is blamed
         let leader = sized().find(|(l, _)| !l.bare).or_else(|| sized().next()).or(known.first());
         let dimension = leader.map_or(Dimension::NONE, |(l, _)| l.dimension);
+        let angular = sized().filter(|(l, _)| l.dimension == dimension).map(|(l, _)| l.dimension);
+        let dimension = angular.fold(dimension, Dimension::or_angle);
         let (any, bare) = (known.iter().all(|(l, _)| l.any), known.iter().all(|(l, _)| l.bare));
         let wrong: Vec<_> = sized().filter(|(l, _)| l.dimension != dimension).map(|(l, at)| (*l, (*at).clone())).collect();
         for (lowered, at) in wrong {
@@ -177,7 +190,7 @@ impl Lowerer<'_> {
         })?;
         let base = base?;
         let dimension = if base.any || base.dimension == Dimension::NONE {
-            Dimension::NONE
+            self.pool.constant_value(exponent.id).and_then(|n| base.dimension.power(n)).unwrap_or(Dimension::NONE)
         } else {
             let name = base.dimension.name();
             let Some(n) = self.pool.constant_value(exponent.id) else {
@@ -262,7 +275,7 @@ impl Lowerer<'_> {
             return None;
         }
         let (dimension, any, bare) = match function.shape {
-            Shape::Number => {
+            Shape::Number | Shape::Inverse => {
                 if let (Some(x), x_at) = &operands[0]
                     && x.expect(Dimension::NONE).is_err()
                 {

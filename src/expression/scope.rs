@@ -70,6 +70,9 @@ pub trait Scope {
     /// What to say about a name that does not exist, or may not be used here.
     fn name(&mut self, pool: &mut Pool, path: &str) -> Result<Symbol, Unknown>;
 
+    /// Whether a word alone is the name of a value, though it may not be used here.
+    fn has_value(&self, word: &str) -> bool;
+
     /// Number of the table of this name, with the dimensions of x and y.
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)>;
 

@@ -2,7 +2,6 @@
 
 use super::fault::{At, Fault, Spot};
 use super::merge::{Layers, Node};
-use crate::expression::unit;
 use std::collections::HashMap;
 
 /// Names that mean something everywhere.
@@ -107,20 +106,6 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<
                         .at(Spot::Key)
                         .help(help),
                 );
-            } else if matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::State(_) | Entity::Measure(_))
-                && unit(name).is_some()
-            {
-                let message = format!("`{name}` is a unit");
-                faults.push(
-                    Fault::new(
-                        "reserved-name",
-                        place(),
-                        message,
-                        format!("another name for {article}: `2*{name}` and `2 {name}` would differ"),
-                    )
-                    .at(Spot::Key)
-                    .help(format!("for example {}", instead(name))),
-                );
             }
             if let Some((first, where_)) = names.get(name) {
                 let message = format!("`{name}` is already the name of {} in `{where_}`", first.what());
@@ -147,25 +132,6 @@ pub(crate) fn taken(name: &str) -> Option<&'static str> {
     } else {
         None
     }
-}
-
-/// Names to take instead of a unit word.
-fn instead(unit: &str) -> String {
-    let word = match unit {
-        "m" => "mass",
-        "g" => "gravity",
-        "s" => "stroke",
-        "min" => "least",
-        "in" => "inner",
-        "N" => "force",
-        "W" => "power",
-        "V" => "voltage",
-        "A" => "area",
-        "H" => "height",
-        "J" => "inertia",
-        _ => return format!("`{unit}1`"),
-    };
-    format!("`{unit}1` or `{word}`")
 }
 
 /// `[A-Za-z][A-Za-z0-9_]*`

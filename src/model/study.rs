@@ -19,6 +19,8 @@ pub struct Study {
     pub solve: Option<Solve>,
     /// `take`: local name, study, scalar.
     pub take: Vec<Take>,
+    /// Dimension of the independent variable; `None` if the study has none.
+    pub independent: Option<Dimension>,
     /// Columns in the order of the CSV; the first is the independent variable if `columns` was silent.
     pub columns: Vec<Column>,
     /// True if the file names the columns.

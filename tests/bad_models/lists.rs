@@ -35,7 +35,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "duplicate-name",
             "duplicate-key",
             "duplicate-section",
-            "unit-as-parameter",
+            "unit-or-name",
             "reserved-name",
             "function-as-name",
             "bad-name",

@@ -149,6 +149,7 @@ impl<'n> Decoder<'n> {
             take,
             columns,
             columns_given,
+            independent: frame.offer.independent,
             scalars,
             results,
             functionals,
@@ -213,7 +214,6 @@ impl<'n> Decoder<'n> {
             }
             _ => crate::model::names::taken(name).map(str::to_owned),
         };
-        let why = why.or_else(|| crate::expression::unit(name).map(|_| "a unit".to_owned()));
         if let Some(why) = why {
             let fault = self.fault("reserved-name", at, format!("`{name}` is {why}"), format!("another name for {what}"));
             fault.spot = Spot::Key;
