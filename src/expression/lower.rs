@@ -8,7 +8,7 @@ use super::parser::{Expr, Kind};
 use super::pool::{Id, Node, Pool};
 use super::scope::{Fault, Lowered, Scope, Unknown};
 use super::switch::Compare;
-use super::units::{Dimension, unit};
+use super::units::{Dimension, nearest_unit, unit};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -39,7 +39,7 @@ type Operand = (Option<Lowered>, Range<usize>);
 
 impl Lowerer<'_> {
     fn fault(&mut self, at: &Range<usize>, found: String, expected: impl Into<String>, help: Option<String>) {
-        self.faults.push(Fault { at: at.clone(), found, expected: expected.into(), help });
+        self.faults.push(Fault { at: at.clone(), found, expected: expected.into(), help, wanted: None });
     }
 
     fn unknown(&mut self, at: &Range<usize>, unknown: Unknown) {
@@ -114,6 +114,10 @@ impl Lowerer<'_> {
             Err(mut unknown) => {
                 if unknown.help.is_none() && unit(path).is_some() {
                     unknown.help = Some(format!("`{path}` is a unit and stands behind its number: `1 {path}`"));
+                } else if unknown.help.is_none()
+                    && let Some(near) = nearest_unit(path)
+                {
+                    unknown.help = Some(format!("did you mean the unit `{near}`? It stands behind its number: `1 {near}`"));
                 }
                 self.unknown(at, unknown);
                 None
@@ -139,7 +143,8 @@ impl Lowerer<'_> {
                 let with_unit = if literal { dimension.written(text) } else { format!("({text})*{}", dimension.written("1")) };
                 format!("write `{with_unit}`")
             });
-            self.fault(&at, lowered.dimension.name(), dimension.name(), help);
+            let (found, expected) = (lowered.dimension.name(), dimension.name());
+            self.faults.push(Fault { at, found, expected, help, wanted: Some(dimension) });
         }
         (dimension, any, bare)
     }

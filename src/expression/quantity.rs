@@ -2,7 +2,7 @@
 
 use super::lexer::Token;
 use super::parser::{Expr, Kind, Parser, SyntaxError};
-use super::units::{Dimension, unit};
+use super::units::{Dimension, nearest_unit, unit};
 use std::f64::consts::TAU;
 
 /// Largest exponent of a unit.
@@ -120,7 +120,9 @@ impl Parser<'_> {
             return error("a unit or an operator", format!("write `{text} {units}`"));
         }
         let call = if self.token(1) == Token::Sign("(") { "(..)" } else { "" };
-        error("a unit or an operator", format!("a product is written with a star: `{text}*{word}{call}`"))
+        let near = nearest_unit(word).filter(|_| call.is_empty());
+        let near = near.map_or_else(String::new, |near| format!("did you mean `{text} {near}`? "));
+        error("a unit or an operator", format!("{near}a product is written with a star: `{text}*{word}{call}`").replace("? a", "? A"))
     }
 }
 
@@ -140,7 +142,7 @@ fn shifted(number: f64, power: i32) -> f64 {
 
 /// The units that a word probably means: `Nm` is `N m`, `KG` is `kg`, `mm2` is `mm^2`.
 fn meant(word: &str) -> Option<String> {
-    const LONG: [(&str, &str); 18] = [
+    const LONG: [(&str, &str); 24] = [
         ("degree", "deg"),
         ("degrees", "deg"),
         ("radian", "rad"),
@@ -148,6 +150,12 @@ fn meant(word: &str) -> Option<String> {
         ("meter", "m"),
         ("metre", "m"),
         ("meters", "m"),
+        ("metres", "m"),
+        ("lbs", "lb"),
+        ("pound", "lb"),
+        ("pounds", "lb"),
+        ("inches", "in"),
+        ("feet", "ft"),
         ("second", "s"),
         ("seconds", "s"),
         ("sec", "s"),
@@ -228,6 +236,8 @@ mod tests {
             ("2 KG", "write `2 kg`"),
             ("2 mm2", "write `2 mm^2`"),
             ("30 degrees", "write `30 deg`"),
+            ("5 cms", "did you mean `5 cm`? A product is written with a star: `5*cms`"),
+            ("0.5 lbs", "write `0.5 lb`"),
             ("2 k", "a product is written with a star: `2*k`"),
             ("2 f(a)", "a product is written with a star: `2*f(..)`"),
         ] {

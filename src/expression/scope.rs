@@ -35,6 +35,8 @@ pub struct Fault {
     pub expected: String,
     /// One remedy.
     pub help: Option<String>,
+    /// The dimension that was expected, where one was.
+    pub wanted: Option<Dimension>,
 }
 
 /// A lowered expression.

@@ -3,6 +3,7 @@
 //! A dimension remembers how often angle is in it, but only beside plain numbers and time: deg/deg is a number, 2*deg an angle,
 //! deg/s an angular speed, and m*rad is m. It is what numbers are shown in; two dimensions that differ in it alone are equal.
 
+use super::nearest::nearest;
 use super::parser::{Kind, parse};
 use std::f64::consts::{PI, TAU};
 use std::hash::{Hash, Hasher};
@@ -149,10 +150,10 @@ impl Dimension {
         Self { halves, angle: if (m, kg, a) == (0, 0, 0) { angle } else { 0 } }
     }
 
-    /// Whether this is an angle, or a rate of one.
+    /// Whether this is an angle.
     #[must_use]
-    pub fn is_angular(&self) -> bool {
-        self.angle == 2
+    pub fn is_angle(&self) -> bool {
+        *self == Self::NONE && self.angle == 2
     }
 
     /// The dimension of a sum of both, which are equal: `O.angle + 1` is an angle.
@@ -230,7 +231,8 @@ impl Dimension {
     }
 
     /// `number` with this dimension's unit, as a model file accepts it: `0.1 m`, `3 m^-1`.
-    pub(super) fn written(&self, number: &str) -> String {
+    #[must_use]
+    pub fn written(&self, number: &str) -> String {
         let unit = self.si();
         match unit.strip_prefix("1/") {
             _ if unit.is_empty() => number.to_owned(),
@@ -259,48 +261,68 @@ impl Div for Dimension {
     }
 }
 
-/// Size in SI and dimension of one unit word of the format; `None` for any other word (`Hz` among them: a turn or a radian?).
-#[must_use]
-pub fn unit(word: &str) -> Option<(f64, Dimension)> {
-    use Dimension as D;
-    Some(match word {
-        "m" => (1.0, D::LENGTH),
-        "km" => (1e3, D::LENGTH),
-        "cm" => (1e-2, D::LENGTH),
-        "mm" => (1e-3, D::LENGTH),
-        "um" => (1e-6, D::LENGTH),
-        "in" => (0.0254, D::LENGTH),
-        "ft" => (0.3048, D::LENGTH),
-        "kg" => (1.0, D::MASS),
-        "g" => (1e-3, D::MASS),
-        "s" => (1.0, D::TIME),
-        "ms" => (1e-3, D::TIME),
-        "us" => (1e-6, D::TIME),
-        "min" => (60.0, D::TIME),
-        "rad" => (1.0, D::ANGLE),
-        "mrad" => (1e-3, D::ANGLE),
-        "deg" => (PI / 180.0, D::ANGLE),
-        "turn" => (TAU, D::ANGLE),
-        "rpm" => (TAU / 60.0, D::ANGULAR_SPEED),
-        "%" => (1e-2, D::NONE),
-        "N" => (1.0, D::FORCE),
-        "kN" => (1e3, D::FORCE),
-        "MN" => (1e6, D::FORCE),
-        "J" => (1.0, D::ENERGY),
-        "kJ" => (1e3, D::ENERGY),
-        "W" => (1.0, D::POWER),
-        "kW" => (1e3, D::POWER),
-        "Pa" => (1.0, D::PRESSURE),
-        "kPa" => (1e3, D::PRESSURE),
-        "MPa" => (1e6, D::PRESSURE),
-        "GPa" => (1e9, D::PRESSURE),
-        "bar" => (1e5, D::PRESSURE),
-        "V" => (1.0, D::VOLTAGE),
-        "A" => (1.0, D::CURRENT),
-        "ohm" => (1.0, D::RESISTANCE),
-        "H" => (1.0, D::INDUCTANCE),
-        _ => return None,
-    })
+/// m; the inch of 1959.
+const INCH: f64 = 0.0254;
+/// m.
+const FOOT: f64 = 0.3048;
+/// kg; the avoirdupois pound of 1959.
+const POUND: f64 = 0.453_592_37;
+/// m/s²; of the third General Conference on Weights and Measures, 1901.
+const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// The unit words of the format, their size in SI and their dimension. `Hz` is none: a turn or a radian?
+const UNITS: [(&str, f64, Dimension); 41] = [
+    ("m", 1.0, Dimension::LENGTH),
+    ("km", 1e3, Dimension::LENGTH),
+    ("cm", 1e-2, Dimension::LENGTH),
+    ("mm", 1e-3, Dimension::LENGTH),
+    ("um", 1e-6, Dimension::LENGTH),
+    ("in", INCH, Dimension::LENGTH),
+    ("ft", FOOT, Dimension::LENGTH),
+    ("kg", 1.0, Dimension::MASS),
+    ("g", 1e-3, Dimension::MASS),
+    ("lb", POUND, Dimension::MASS),
+    ("s", 1.0, Dimension::TIME),
+    ("ms", 1e-3, Dimension::TIME),
+    ("us", 1e-6, Dimension::TIME),
+    ("min", 60.0, Dimension::TIME),
+    ("rad", 1.0, Dimension::ANGLE),
+    ("mrad", 1e-3, Dimension::ANGLE),
+    ("deg", PI / 180.0, Dimension::ANGLE),
+    ("turn", TAU, Dimension::ANGLE),
+    ("rpm", TAU / 60.0, Dimension::ANGULAR_SPEED),
+    ("mph", 0.44704, Dimension::SPEED),
+    ("%", 1e-2, Dimension::NONE),
+    ("N", 1.0, Dimension::FORCE),
+    ("kN", 1e3, Dimension::FORCE),
+    ("MN", 1e6, Dimension::FORCE),
+    ("lbf", POUND * STANDARD_GRAVITY, Dimension::FORCE),
+    ("kgf", STANDARD_GRAVITY, Dimension::FORCE),
+    ("J", 1.0, Dimension::ENERGY),
+    ("kJ", 1e3, Dimension::ENERGY),
+    ("W", 1.0, Dimension::POWER),
+    ("kW", 1e3, Dimension::POWER),
+    ("hp", 550.0 * FOOT * POUND * STANDARD_GRAVITY, Dimension::POWER),
+    ("Pa", 1.0, Dimension::PRESSURE),
+    ("kPa", 1e3, Dimension::PRESSURE),
+    ("MPa", 1e6, Dimension::PRESSURE),
+    ("GPa", 1e9, Dimension::PRESSURE),
+    ("bar", 1e5, Dimension::PRESSURE),
+    ("psi", POUND * STANDARD_GRAVITY / (INCH * INCH), Dimension::PRESSURE),
+    ("V", 1.0, Dimension::VOLTAGE),
+    ("A", 1.0, Dimension::CURRENT),
+    ("ohm", 1.0, Dimension::RESISTANCE),
+    ("H", 1.0, Dimension::INDUCTANCE),
+];
+
+/// Size in SI and dimension of one unit word of the format; `None` for any other word.
+pub(super) fn unit(word: &str) -> Option<(f64, Dimension)> {
+    UNITS.into_iter().find(|(known, ..)| *known == word).map(|(_, size, dimension)| (size, dimension))
+}
+
+/// The unit that a word of at least three letters probably means: `cms` is `cm`.
+pub(super) fn nearest_unit(word: &str) -> Option<&'static str> {
+    (word.len() > 2).then(|| nearest(word, UNITS.into_iter().map(|(known, ..)| known))).flatten()
 }
 
 /// Size in SI and dimension of a composite unit such as `N m s/rad`, by the rules of the format.
@@ -388,6 +410,26 @@ mod tests {
         for wrong in ["", "N/m s", "Hz", "m + 2 m", "2 m", "(m)", "m^2.5", "/s", "e5 m", "m 3", "k"] {
             assert_eq!(parse_unit(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn customary_units_are_those_of_their_definitions() {
+        let si = |unit: &str| parse_unit(unit).unwrap();
+        for (text, other) in [
+            ("lbf", "lb ft/s^2"),
+            ("kgf", "kg m/s^2"),
+            ("psi", "lbf/in^2"),
+            ("hp", "ft lbf/s"),
+            ("mph", "ft/min"),
+        ] {
+            assert_eq!(si(text).1, si(other).1, "{text}");
+        }
+        // NIST Special Publication 811, appendix B
+        for (text, x) in [("lb", 0.453_592_37), ("lbf", 4.448_222), ("psi", 6894.757), ("hp", 745.6999), ("mph", 0.44704), ("kgf", 9.80665)] {
+            assert!((si(text).0 / x - 1.0).abs() < 1.2e-7, "{text}: {}", si(text).0);
+        }
+        assert!((si("hp").0 / (550.0 * si("ft lbf/s").0) - 1.0).abs() < 1e-15);
+        assert!((si("mph").0 / (5280.0 / 60.0 * si("ft/min").0) - 1.0).abs() < 1e-15);
     }
 
     #[test]

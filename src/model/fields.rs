@@ -18,6 +18,15 @@ pub(crate) enum Want {
 }
 
 impl Want {
+    /// Whether an angle is wanted: a bare number over a turn is suspect.
+    pub(crate) fn is_angle(self) -> bool {
+        match self {
+            Self::Angle => true,
+            Self::Of(dimension) => dimension.is_angle(),
+            Self::Varies(_) | Self::Any => false,
+        }
+    }
+
     /// For messages and the schema: `length (m)`.
     pub(crate) fn name(self) -> String {
         match self {

@@ -290,6 +290,8 @@ pub struct Solve {
     pub between: [Id; 2],
     /// Scalar name and target.
     pub target: (String, Id),
+    /// Units in which the file writes the bounds and the target, with their sizes in SI; `None` where it writes none.
+    pub units: [Option<(String, f64)>; 2],
 }
 
 /// `take`: a scalar of another study.

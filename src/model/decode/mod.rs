@@ -31,7 +31,7 @@ use super::entities::{Dimensions, Model};
 use super::fault::{At, Fault, Spot};
 use super::fields::Want;
 use super::merge::{Layers, Node};
-use super::names;
+use super::names::{self, Entity};
 use super::quantities::{Sound, World};
 use super::rules::Rule;
 use super::scope::{Allow, Local, Reach, View};
@@ -234,7 +234,9 @@ impl<'n> Decoder<'n> {
                         let form =
                             ["`", "a function", "a quantity whose", "a constant"].iter().any(|start| fault.expected.starts_with(start));
                         let code = code.unwrap_or(if form { "expression" } else { "wrong-dimension" });
-                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(fault.help)
+                        let slice = text.get(fault.at.clone()).unwrap_or_default();
+                        let help = fault.help.or_else(|| fault.wanted.and_then(|wanted| self.unit_missing(slice, wanted)));
+                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(help)
                     };
                     self.faults.push(made.at(origin.spot(fault.at)));
                 }
@@ -268,7 +270,9 @@ impl<'n> Decoder<'n> {
             let place = self.place(at);
             let text = node.text().unwrap_or_default();
             let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
-            if lowered.dimension == Dimension::NONE {
+            if let Some(help) = self.unit_missing(text, dimension) {
+                fault.help = Some(help);
+            } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
             }
             if let Some(origin) = origin {
@@ -277,7 +281,7 @@ impl<'n> Decoder<'n> {
             self.faults.push(fault);
             return false;
         }
-        if want == Want::Angle
+        if want.is_angle()
             && lowered.bare
             && let Some(x) = self.pool.constant_value(lowered.id)
             && x.abs() > std::f64::consts::TAU
@@ -294,6 +298,18 @@ impl<'n> Decoder<'n> {
             );
         }
         true
+    }
+
+    /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
+    fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
+        let Some(Entity::Parameter(i)) = self.world.names.get(text.trim()).copied() else { return None };
+        let value = match self.section("parameters").get(i)?.1 {
+            Node::Plain(Value::Number(n)) => n.to_string(),
+            Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => text.trim().to_owned(),
+            _ => return None,
+        };
+        let written = wanted.written(&value);
+        (written != value).then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
     }
 
     /// A value of a wanted dimension that may use what `allow` says.

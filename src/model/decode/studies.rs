@@ -313,8 +313,8 @@ impl<'n> Decoder<'n> {
         }
         let dimension = self.world.parameters.get(parameter).copied().flatten()?;
         let between_at = here.key("between");
-        let [from, to] = inner.get("between")?.items() else { return None };
-        let from = self.before(Node::Plain(from), &between_at.index(0), Want::Of(dimension), frame);
+        let [from_node, to] = inner.get("between")?.items() else { return None };
+        let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::Of(dimension), frame);
         let to = self.before(Node::Plain(to), &between_at.index(1), Want::Of(dimension), frame);
         if let (Some(from), Some(to)) = (from, to)
             && self.pool.inputs_of(&[from, to]).is_empty()
@@ -323,7 +323,7 @@ impl<'n> Decoder<'n> {
         }
         let target_at = here.key("target");
         let targets = inner.get("target")?.entries();
-        let [(scalar, value)] = targets[..] else {
+        let [(scalar, value_node)] = targets[..] else {
             let message = format!("{} targets", targets.len());
             self.fault("wrong-size", &target_at, message, "one scalar and its value, `{ delta: 0.01 }`").spot = Spot::Key;
             return None;
@@ -336,8 +336,9 @@ impl<'n> Decoder<'n> {
                 return None;
             }
         };
-        let value = self.before(value, &scalar_at, Want::Of(of?), frame);
-        Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?) })
+        let value = self.before(value_node, &scalar_at, Want::Of(of?), frame);
+        let units = [unit_of(Node::Plain(from_node), dimension), unit_of(value_node, of?)];
+        Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?), units })
     }
 
     /// A bound or target of `solve`, which is known before a run.
@@ -371,6 +372,13 @@ impl<'n> Decoder<'n> {
             kind: frame.offer.word,
         });
     }
+}
+
+/// The unit in which a plain quantity of the file is written, with its size in SI.
+fn unit_of(node: Node<'_>, dimension: Dimension) -> Option<(String, f64)> {
+    let unit = node.text()?.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-. ".contains(c));
+    let (size, of) = crate::expression::parse_unit(unit)?;
+    (of == dimension).then(|| (unit.to_owned(), size))
 }
 
 impl Frame<'_> {
