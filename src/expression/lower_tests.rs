@@ -97,10 +97,41 @@ fn values_of_the_format() {
         ("atan2(l3, l1) + abs(-k)*sign(-l1)", 3.0_f64.atan2(1.0) - 5.0, none),
         ("log(exp(2)) + sin(0) + asin(1)*2/pi", 3.0, none),
         ("l3 + 0", 3.0, Dimension::LENGTH),
+        ("floor(k/2) + 10*floor(-k/2)", 2.0 - 30.0, none),
+        ("ceil(k/2) + 10*ceil(-k/2)", 3.0 - 20.0, none),
+        ("round(k/2) + 10*round(-k/2) + 100*round(k/3)", 3.0 - 20.0 + 200.0, none),
+        ("floor(1e12 + 0.5)", 1e12, none),
+        ("mod(7.5 m, l3)", 1.5, Dimension::LENGTH),
+        ("mod(-7.5 m, l3)", 1.5, Dimension::LENGTH),
+        ("mod(7.5 m, -l3)", -1.5, Dimension::LENGTH),
+        ("mod(400 deg, 1 turn)/1 deg", 40.0, none),
+        ("hypot(l3, 4 m)", 5.0, Dimension::LENGTH),
+        ("log10(1000) - 3", 0.0, none),
+        ("cosh(k)^2 - sinh(k)^2", 1.0, none),
+        ("tanh(1e-9) - 1e-9", 0.0, none),
+        ("tanh(800) + tanh(-800)", 0.0, none),
+        ("tanh(1) - (exp(2) - 1)/(exp(2) + 1)", 0.0, none),
     ] {
         let (found, unit) = value(text);
-        assert!((found - x).abs() < 1e-14 * x.abs().max(1.0), "{text}: {found}");
+        assert!((found - x).abs() < 1e-14 * x.abs().max(if text.contains("cosh") { 1e3 } else { 1.0 }), "{text}: {found}");
         assert_eq!(unit, dimension, "{text}");
+    }
+}
+
+#[test]
+fn whole_numbers_are_undefined_where_they_cannot_be_counted() {
+    let mut pool = Pool::new();
+    let floor = lowered(&mut pool, "floor(slide.x/1 m)").unwrap().id;
+    let program = pool.program(&[floor], &[], &std::sync::Arc::default());
+    let at = |x: f64| {
+        let (mut registers, mut modes, mut out) = (vec![0.0; program.registers()], vec![0; pool.switches().len()], [0.0]);
+        program.set_modes(&[0.0, x], &mut registers, &mut modes);
+        program.eval(&[0.0, x], &modes, &mut registers, &mut out);
+        out[0]
+    };
+    assert_eq!((at(-2.5), at(2.0e9)), (-3.0, 2.0e9));
+    for x in [3e9, -3e9, f64::NAN, f64::INFINITY] {
+        assert!(at(x).is_nan(), "{x}");
     }
 }
 

@@ -161,14 +161,13 @@ impl<I: Copy> Test<I> {
 mod tests {
     use super::*;
 
-    const TESTS: [Test<usize>; 7] = [
+    const TESTS: [Test<usize>; 6] = [
         Test::Compare(Compare::Less, 0, 1),
         Test::Compare(Compare::LessEqual, 0, 1),
         Test::Compare(Compare::Equal, 0, 1),
         Test::Compare(Compare::NotEqual, 0, 1),
         Test::Sign(0),
         Test::Order(0, 1),
-        Test::Whole(0),
     ];
 
     #[test]
@@ -182,6 +181,20 @@ mod tests {
                 assert_ne!(mode, other);
                 assert!(test.root(other, value, &[]) < 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_counted_on_both_sides_of_zero() {
+        let test = Test::Whole(0);
+        for (x, mode, root, next) in [(2.25, 2, 0.25, 1), (2.75, 2, 0.25, 3), (-0.25, -1, 0.25, 0), (-0.75, -1, 0.25, -2), (3.0, 3, 0.0, 2)] {
+            assert_eq!((test.mode(|_| x, &[]), test.root(mode, |_| x, &[]), test.neighbour(mode, |_| x, &[])), (mode, root, next), "{x}");
+        }
+        // upwards through 3
+        assert_eq!((test.root(2, |_| 3.0, &[]), test.neighbour(2, |_| 3.0, &[])), (0.0, 3));
+        for x in [f64::NAN, f64::INFINITY, 1e10, -1e10] {
+            let mode = test.mode(|_| x, &[]);
+            assert!(whole(mode).is_nan() && test.root(mode, |_| x, &[]) == 1.0 && test.neighbour(mode, |_| x, &[]) == mode, "{x}");
         }
     }
 

@@ -18,13 +18,9 @@ pub(crate) enum Want {
 }
 
 impl Want {
-    /// Whether an angle is wanted: a bare number over a turn is suspect.
-    pub(crate) fn is_angle(self) -> bool {
-        match self {
-            Self::Angle => true,
-            Self::Of(dimension) => dimension.is_angle(),
-            Self::Varies(_) | Self::Any => false,
-        }
+    /// A value for something that has this dimension.
+    pub(crate) fn of(dimension: Dimension) -> Self {
+        if dimension.is_angle() { Self::Angle } else { Self::Of(dimension) }
     }
 
     /// For messages and the schema: `length (m)`.

@@ -281,7 +281,7 @@ impl<'n> Decoder<'n> {
             self.faults.push(fault);
             return false;
         }
-        if want.is_angle()
+        if want == Want::Angle
             && lowered.bare
             && let Some(x) = self.pool.constant_value(lowered.id)
             && x.abs() > std::f64::consts::TAU

@@ -237,7 +237,7 @@ impl<'n> Decoder<'n> {
             let Some(dimension) = self.world.parameters.get(i).copied().flatten() else { continue };
             let allow = Allow { tables: false, what: "`set`", ..Allow::PARAMETER };
             let Some((lowered, _)) = self.any(value, &here, allow, local) else { continue };
-            if !self.fits(&lowered, Want::Of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
+            if !self.fits(&lowered, Want::of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
                 continue;
             }
             if !self.pool.inputs_of(&[lowered.id]).is_empty() {
@@ -256,7 +256,7 @@ impl<'n> Decoder<'n> {
             let here = section.key(name);
             let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
             let Some(dimension) = self.world.parameters.get(parameter).copied().flatten() else { continue };
-            let want = Want::Of(dimension);
+            let want = Want::of(dimension);
             let values = if value.is_list() {
                 let mut ids = Vec::new();
                 for (i, item) in value.items().iter().enumerate() {
@@ -314,8 +314,8 @@ impl<'n> Decoder<'n> {
         let dimension = self.world.parameters.get(parameter).copied().flatten()?;
         let between_at = here.key("between");
         let [from_node, to] = inner.get("between")?.items() else { return None };
-        let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::Of(dimension), frame);
-        let to = self.before(Node::Plain(to), &between_at.index(1), Want::Of(dimension), frame);
+        let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::of(dimension), frame);
+        let to = self.before(Node::Plain(to), &between_at.index(1), Want::of(dimension), frame);
         if let (Some(from), Some(to)) = (from, to)
             && self.pool.inputs_of(&[from, to]).is_empty()
         {
@@ -336,7 +336,7 @@ impl<'n> Decoder<'n> {
                 return None;
             }
         };
-        let value = self.before(value_node, &scalar_at, Want::Of(of?), frame);
+        let value = self.before(value_node, &scalar_at, Want::of(of?), frame);
         let units = [unit_of(Node::Plain(from_node), dimension), unit_of(value_node, of?)];
         Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?), units })
     }
