@@ -63,7 +63,8 @@ fn hindered(document: &Document, study: &str, common: &Common) -> Option<String>
     if !matches!(asked.kind, Kind::Inverse(_)) || pulls {
         return None;
     }
-    let massless = survey(&model, &values).ok()?.bodies.iter().all(|(_, mass, _, inertia)| *mass == 0.0 && inertia.iter().all(|i| *i == 0.0));
+    let massless =
+        survey(&model, &values).ok()?.bodies.iter().all(|(_, mass, _, inertia)| *mass == 0.0 && inertia.iter().all(|i| *i == 0.0));
     massless.then(|| format!("study `{study}`: no body has a mass and nothing pulls, so that all forces are zero"))
 }
 
@@ -80,7 +81,11 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     }
     if let [first, ..] = &survey.forgotten[..] {
         let names: Vec<String> = survey.forgotten.iter().map(|name| format!("`{name}`")).collect();
-        let them = if names.len() == 1 { format!("body `{first}` is in no joint and moves freely") } else { format!("bodies {} are in no joint and move freely", names.join(", ")) };
+        let them = if names.len() == 1 {
+            format!("body `{first}` is in no joint and moves freely")
+        } else {
+            format!("bodies {} are in no joint and move freely", names.join(", "))
+        };
         out.push(format!("{them}: give it a joint, or say in `start` where it begins"));
     }
     if m.freedom == 0 {

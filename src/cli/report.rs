@@ -34,11 +34,8 @@ fn scalars(study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     // a kind may name results that this mechanism does not have, as the frequency of a mode
     let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
     let results = present.map(|(r, value)| Scalar { name: r.name.clone(), value: *value, unit: r.dimension.si() });
-    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar {
-        name: s.name.clone(),
-        value: *value,
-        unit: s.dimension.si(),
-    });
+    let own =
+        study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar { name: s.name.clone(), value: *value, unit: s.dimension.si() });
     let taken = study.take.iter().map(|t| Scalar { name: t.name.clone(), value: t.value, unit: t.dimension.si() });
     taken.chain(results).chain(own).collect()
 }

@@ -95,7 +95,12 @@ impl Lowerer<'_> {
         let (word, behind) = (self.slice(word_at).to_owned(), self.slice(&(word_at.start..at.end)).to_owned());
         let before = self.slice(&(at.start..word_at.start)).trim_end().trim_end_matches('*').trim_end().to_owned();
         let help = Some(format!("write `({before})*{behind}` for the name, `{before}*1 {behind}` for the unit"));
-        self.fault(word_at, format!("`*{word}`, where `{word}` is a unit and a name of this file"), format!("`{word}` with one meaning"), help);
+        self.fault(
+            word_at,
+            format!("`*{word}`, where `{word}` is a unit and a name of this file"),
+            format!("`{word}` with one meaning"),
+            help,
+        );
         None
     }
 

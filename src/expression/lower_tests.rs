@@ -228,7 +228,16 @@ fn bare_numbers_adapt_to_fields_but_not_to_neighbours() {
         assert_eq!(l.expect(Dimension::SPEED).is_ok(), bare || any, "{text}");
     }
     let found = faults("l3 + 0.1");
-    assert_eq!(found, [Fault { at: 5..8, found: "a number".into(), expected: "length (m)".into(), help: Some("write `0.1 m`".into()), wanted: Some(Dimension::LENGTH) }]);
+    assert_eq!(
+        found,
+        [Fault {
+            at: 5..8,
+            found: "a number".into(),
+            expected: "length (m)".into(),
+            help: Some("write `0.1 m`".into()),
+            wanted: Some(Dimension::LENGTH)
+        }]
+    );
     assert_eq!(faults("0.1 + l3")[0].at, 0..3);
     assert_eq!(faults("slide.vx < 2*3")[0].help.as_deref(), Some("write `(2*3)*1 m/s`"));
     assert_eq!(faults("1/t > 3")[0].help.as_deref(), Some("write `3 s^-1`"));

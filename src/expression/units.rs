@@ -415,17 +415,12 @@ mod tests {
     #[test]
     fn customary_units_are_those_of_their_definitions() {
         let si = |unit: &str| parse_unit(unit).unwrap();
-        for (text, other) in [
-            ("lbf", "lb ft/s^2"),
-            ("kgf", "kg m/s^2"),
-            ("psi", "lbf/in^2"),
-            ("hp", "ft lbf/s"),
-            ("mph", "ft/min"),
-        ] {
+        for (text, other) in [("lbf", "lb ft/s^2"), ("kgf", "kg m/s^2"), ("psi", "lbf/in^2"), ("hp", "ft lbf/s"), ("mph", "ft/min")] {
             assert_eq!(si(text).1, si(other).1, "{text}");
         }
         // NIST Special Publication 811, appendix B
-        for (text, x) in [("lb", 0.453_592_37), ("lbf", 4.448_222), ("psi", 6894.757), ("hp", 745.6999), ("mph", 0.44704), ("kgf", 9.80665)] {
+        for (text, x) in [("lb", 0.453_592_37), ("lbf", 4.448_222), ("psi", 6894.757), ("hp", 745.6999), ("mph", 0.44704), ("kgf", 9.80665)]
+        {
             assert!((si(text).0 / x - 1.0).abs() < 1.2e-7, "{text}: {}", si(text).0);
         }
         assert!((si("hp").0 / (550.0 * si("ft lbf/s").0) - 1.0).abs() < 1e-15);

@@ -44,6 +44,9 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "many-faults",
             // numbers, units, expressions
             "wrong-unit",
+            "misspelt-unit",
+            "misspelt-function",
+            "parameter-without-unit",
             "hertz",
             "wrong-dimension",
             "wrong-dimension-of-parameter",
@@ -106,6 +109,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "two-components-in-space",
             "missing-gravity",
             "missing-space",
+            "missing-space-in-a-block",
             "missing-version",
             "missing-bodies",
             "version-2",
@@ -187,6 +191,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
         NotBegun,
         &[
             "unclosable-loop",
+            "link-too-long",
+            "body-without-joint",
             "exact-start-cannot-hold",
             "start-velocities-contradict",
             "two-drivers",

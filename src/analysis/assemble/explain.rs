@@ -54,12 +54,7 @@ impl<G: Space<S = f64>> System<'_, G> {
                 parts.push(format!("{what} stays off by {}", short(*phi)));
             }
         }
-        AssemblyFault {
-            code: "not-assembled",
-            message: format!("the mechanism cannot be assembled: {}", parts.join("; ")),
-            place,
-            help,
-        }
+        AssemblyFault { code: "not-assembled", message: format!("the mechanism cannot be assembled: {}", parts.join("; ")), place, help }
     }
 
     /// The exact values that keep the mechanism open; evaluated at the nearest position without them.

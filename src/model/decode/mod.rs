@@ -274,6 +274,8 @@ impl<'n> Decoder<'n> {
                 fault.help = Some(help);
             } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
+            } else {
+                fault.help = self.unit_or_name(text);
             }
             if let Some(origin) = origin {
                 fault.spot = origin.spot(0..text.len());
@@ -300,6 +302,14 @@ impl<'n> Decoder<'n> {
         true
     }
 
+    /// What to write for a name that became a unit, since it stands directly behind a number.
+    fn unit_or_name(&self, text: &str) -> Option<String> {
+        let (number, word) = text.trim().split_once(' ')?;
+        let named = matches!(self.world.names.get(word), Some(Entity::Parameter(_)));
+        let unit = named && number.parse::<f64>().is_ok() && expression::parse_unit(word).is_some();
+        unit.then(|| format!("`{word}` directly behind a number is the unit; for the parameter write `{number}*{word}`"))
+    }
+
     /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
     fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
         let Some(Entity::Parameter(i)) = self.world.names.get(text.trim()).copied() else { return None };
@@ -309,7 +319,8 @@ impl<'n> Decoder<'n> {
             _ => return None,
         };
         let written = wanted.written(&value);
-        (written != value).then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
+        (written != value)
+            .then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
     }
 
     /// A value of a wanted dimension that may use what `allow` says.
