@@ -122,14 +122,17 @@ pub(super) fn remedy(name: &str) -> String {
     if let Some((_, text)) = OTHERS.into_iter().find(|(other, _)| *other == name) {
         return (*text).to_owned();
     }
-    let lower = name.to_ascii_lowercase();
-    let known = FUNCTIONS.into_iter().map(|f| f.usage).chain(FUNCTIONALS.into_iter().map(|f| f.usage));
-    let word = |usage: &'static str| usage.split('(').next().unwrap_or(usage);
-    let near = nearest(&lower, known.clone().map(word));
-    match known.clone().find(|usage| Some(word(usage)) == near) {
+    match meant(name) {
         Some(usage) => format!("did you mean `{usage}`? If a product is meant, write `{name}*(..)`"),
         None => format!("if a product is meant, write `{name}*(..)`"),
     }
+}
+
+/// How the function is called that a misspelt name probably means.
+pub(super) fn meant(name: &str) -> Option<&'static str> {
+    let known = FUNCTIONS.into_iter().map(|f| (f.name, f.usage)).chain(FUNCTIONALS.into_iter().map(|f| (f.name, f.usage)));
+    let near = nearest(name, known.clone().map(|(name, _)| name))?;
+    known.into_iter().find(|(name, _)| *name == near).map(|(_, usage)| usage)
 }
 
 /// Whether expressions have a function or a functional of this name.
@@ -210,7 +213,7 @@ mod tests {
     fn remedies() {
         assert!(remedy("k").contains("`k*(..)`"));
         assert!(remedy("Sin").contains("sin(x)"));
-        assert!(remedy("maxx").contains("`max(a, b)`") && remedy("tahn").contains("`tanh(x)`"));
+        assert!(remedy("maxx").contains("`max(a, b)`") && remedy("tanhh").contains("`tanh(x)`"));
         assert!(remedy("ln").contains("log(x)"));
     }
 }

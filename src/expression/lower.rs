@@ -257,8 +257,11 @@ impl Lowerer<'_> {
         if let Some((table, x, y)) = self.scope.table(name) {
             return self.table(name, (table, x, y), arguments, at);
         }
-        for argument in arguments {
-            self.expr(argument);
+        // what may stand in a function is known only of a known one
+        if function::meant(name).is_none() {
+            for argument in arguments {
+                self.expr(argument);
+            }
         }
         self.fault(name_at, format!("`{name}(..)`"), "a function or a table", Some(function::remedy(name)));
         None
