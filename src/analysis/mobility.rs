@@ -76,6 +76,7 @@ pub(super) fn drivers_fit<G: Space<S = f64>>(
         });
     }
     if m.left > 0 {
+        let loose = loose(mechanism);
         let kind = match study.kind {
             Kind::Kinematics(_) => "kinematics",
             Kind::Balance { .. } => "balance",
@@ -84,17 +85,38 @@ pub(super) fn drivers_fit<G: Space<S = f64>>(
         return Err(Failure::Study {
             code: "under-constrained",
             message: format!(
-                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`",
+                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
                 m.freedom,
                 plural(m.freedom),
                 plural(drivers),
-                if m.left == 1 { "one is".into() } else { format!("{} are", m.left) }
+                if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
+                in_no_joint(&loose)
             ),
             place: if drivers == 0 { study.place.clone() } else { "drivers".into() },
-            help: "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            help: match loose.first() {
+                Some(body) => format!("give `{body}` a joint, or remove it"),
+                None => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            },
         });
     }
     Ok(())
+}
+
+/// Names of the bodies that no joint leads to.
+#[must_use]
+pub fn loose<G: Space>(mechanism: &Mechanism<G>) -> Vec<&str> {
+    let joined = |body: usize| mechanism.joints.iter().any(|j| j.a.0 == body || j.b.0 == body);
+    (1..mechanism.bodies.len()).filter(|&b| !joined(b)).map(|b| mechanism.bodies[b].name.as_str()).collect()
+}
+
+/// `; body `rod` is in no joint`.
+fn in_no_joint(loose: &[&str]) -> String {
+    let names: Vec<String> = loose.iter().take(3).map(|name| format!("`{name}`")).collect();
+    match loose.len() {
+        0 => String::new(),
+        1 => format!("; body {} is in no joint", names[0]),
+        n => format!("; bodies {}{} are in no joint", names.join(", "), if n > 3 { ", ..." } else { "" }),
+    }
 }
 
 fn plural(n: usize) -> &'static str {

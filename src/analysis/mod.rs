@@ -29,6 +29,7 @@ pub mod partition;
 pub mod path;
 mod periodic;
 pub mod quadrature;
+pub mod rehearsal;
 pub mod root;
 pub mod run;
 mod scene;

@@ -69,11 +69,7 @@ fn driven<G: Space<S = f64>>(
     parameters: &[f64],
     coordinates: Coordinates,
 ) -> Result<Outcome, Failure> {
-    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
-    drivers_fit(&mechanism, &start, model, study)?;
-    contact::begins(model, &mechanism, &start)?;
-    contact::driven(model, &mechanism, study)?;
+    let (mut mechanism, start) = prepared::<G>(model, study, parameters, coordinates)?;
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
@@ -95,6 +91,24 @@ fn driven<G: Space<S = f64>>(
     observe(model, study, parameters, &mechanism, &start, range, results)
 }
 
+/// The mechanism at the start of a study whose motion its drivers prescribe.
+///
+/// # Errors
+/// Why the study cannot begin.
+pub(super) fn prepared<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<(Mechanism<G>, Assembled), Failure> {
+    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+    let start = assemble(&mut mechanism)?;
+    drivers_fit(&mechanism, &start, model, study)?;
+    contact::begins(model, &mechanism, &start)?;
+    contact::driven(model, &mechanism, study)?;
+    Ok((mechanism, start))
+}
+
 fn trace<'m, G: Space<S = f64>>(
     mechanism: &'m Mechanism<G>,
     start: &Assembled,
@@ -114,7 +128,7 @@ fn trace<'m, G: Space<S = f64>>(
 }
 
 /// The independent variable of a range.
-fn clock<G: Space<S = f64>>(
+pub(super) fn clock<G: Space<S = f64>>(
     model: &Model,
     mechanism: &Mechanism<G>,
     start: &Assembled,

@@ -1,11 +1,11 @@
 //! What a mechanism is before anything moves: masses, topology, freedom, start.
 
 use super::assemble::{Found, assemble};
-use super::mobility::{Grashof, Mobility, grashof, mobility};
+use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
 use super::outcome::Failure;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, build, describe_loop};
-use crate::model::{Dimensions, Model};
+use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
 use crate::scalar::Scalar;
 
 /// A mechanism looked over at its start.
@@ -25,6 +25,8 @@ pub struct Survey {
     pub grashof: Option<Grashof>,
     /// Start asked and found.
     pub start: Vec<Found>,
+    /// Bodies that no joint leads to and nothing else of the model names.
+    pub forgotten: Vec<String>,
 }
 
 /// Looks a model over at given parameters.
@@ -68,5 +70,19 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         mobility: mobility(m, &start),
         grashof: grashof(m),
         start: start.found,
+        forgotten: loose(m).into_iter().filter(|name| !is_named(model, name)).map(str::to_owned).collect(),
     })
+}
+
+/// Whether a start value, a load or a spring names a body: then it is meant to be free.
+fn is_named(model: &Model, name: &str) -> bool {
+    let is = |body: usize| model.bodies[body].name == name;
+    let start = model.start.iter().any(|s| match s.quantity {
+        Quantity::Point { at, .. } => is(at.body),
+        Quantity::Angle { body, .. } | Quantity::Spin { body, .. } | Quantity::Quaternion { body, .. } => is(body),
+        _ => matches!(s.value, StartValue::Rotation { .. }) && s.name.split('.').next() == Some(name),
+    });
+    let load = model.loads.iter().any(|l| matches!(&l.on, LoadOn::Point { at, .. } if is(at.body)));
+    let spring = model.springs.iter().any(|s| matches!(&s.on, SpringOn::Between(a, b) if is(a.body) || is(b.body)));
+    start || load || spring
 }

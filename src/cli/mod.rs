@@ -19,7 +19,6 @@ mod schemes;
 mod statics;
 mod study;
 mod sweep;
-mod units;
 mod verify;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

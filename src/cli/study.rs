@@ -86,10 +86,10 @@ impl Job<'_> {
         } else {
             code = code.max(self.expectations(&outcome));
         }
-        let table = report::rows(self.model, study, &outcome);
+        let table = report::rows(study, &outcome);
         let mut staging = Staging::new();
         staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::json(self.model, study, &outcome, solved.as_ref());
+        let report = report::json(study, &outcome, solved.as_ref());
         staging.add(format!("{}.json", self.study), report.clone());
         for (name, bytes) in linear::files(study, &outcome) {
             staging.add(name, bytes);
@@ -98,7 +98,7 @@ impl Job<'_> {
             self.draw(&mut staging, figures::figures(self.model, study, &[(None, &outcome)]), &outcome);
         }
         let output = Output {
-            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(self.model, study, &outcome),
+            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(study, &outcome),
             report,
             columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
         };

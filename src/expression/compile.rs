@@ -134,6 +134,10 @@ impl Compiler<'_> {
             Node::Sqrt(a) => Op::Sqrt(self.register(a)),
             Node::Exp(a) => Op::Exp(self.register(a)),
             Node::Ln(a) => Op::Ln(self.register(a)),
+            Node::Log10(a) => Op::Log10(self.register(a)),
+            Node::Sinh(a) => Op::Sinh(self.register(a)),
+            Node::Cosh(a) => Op::Cosh(self.register(a)),
+            Node::Tanh(a) => Op::Tanh(self.register(a)),
             Node::Compare { op, switch } => Op::Compare(op, switch),
             Node::And(a, b) => Op::And(self.register(a), self.register(b)),
             Node::Or(a, b) => Op::Or(self.register(a), self.register(b)),
@@ -141,6 +145,7 @@ impl Compiler<'_> {
             Node::If { condition, then, other } => Op::If(self.register(condition), self.register(then), self.register(other)),
             Node::Abs { a, switch } => Op::Signed(self.register(a), switch),
             Node::Sign { switch } => Op::Sign(switch),
+            Node::Floor { a, switch } => Op::Floor(self.register(a), switch),
             Node::Min { a, b, switch } => Op::Select(self.register(a), self.register(b), switch),
             Node::Max { a, b, switch } => Op::Select(self.register(b), self.register(a), switch),
             Node::Table { table, order, x, switch } => match u16::try_from(table) {

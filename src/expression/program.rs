@@ -1,6 +1,6 @@
 //! Straight-line code: the form in which expressions are evaluated, on any scalar.
 
-use super::switch::{Compare, Test};
+use super::switch::{Compare, Test, whole};
 use super::table::Table;
 use crate::scalar::Scalar;
 use std::sync::Arc;
@@ -32,6 +32,10 @@ pub(super) enum Op {
     Sqrt(u32),
     Exp(u32),
     Ln(u32),
+    Log10(u32),
+    Sinh(u32),
+    Cosh(u32),
+    Tanh(u32),
     Compare(Compare, u32),
     And(u32, u32),
     Or(u32, u32),
@@ -42,6 +46,8 @@ pub(super) enum Op {
     Signed(u32, u32),
     /// The mode of a switch.
     Sign(u32),
+    /// Operand, switch: the mode as a number.
+    Floor(u32, u32),
     /// Value in modes but 0, value in mode 0, switch.
     Select(u32, u32, u32),
     /// Table, order, argument, switch.
@@ -143,6 +149,10 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::Sqrt(a) => at(a).sqrt(),
         Op::Exp(a) => at(a).exp(),
         Op::Ln(a) => at(a).ln(),
+        Op::Log10(a) => at(a).log10(),
+        Op::Sinh(a) => at(a).sinh(),
+        Op::Cosh(a) => at(a).cosh(),
+        Op::Tanh(a) => at(a).tanh(),
         Op::Compare(op, switch) => boolean(op.holds(mode(switch))),
         Op::And(a, b) => boolean(truth(a) && truth(b)),
         Op::Or(a, b) => boolean(truth(a) || truth(b)),
@@ -150,6 +160,8 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::If(c, a, b) => at(if truth(c) { a } else { b }),
         Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
         Op::Sign(switch) => S::constant(f64::from(mode(switch))),
+        // what is undefined stays so
+        Op::Floor(a, switch) => S::constant(whole(mode(switch)) + 0.0 * at(a).value()),
         Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
         Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
             Some(table) => table.eval(at(x), mode(switch), order),

@@ -40,6 +40,14 @@ pub trait Scalar:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
+    /// Logarithm to the base 10.
+    fn log10(self) -> Self;
+    /// sinh x.
+    fn sinh(self) -> Self;
+    /// cosh x.
+    fn cosh(self) -> Self;
+    /// tanh x.
+    fn tanh(self) -> Self;
     /// x to a constant power.
     fn powf(self, n: f64) -> Self;
     /// x to an integer power.
@@ -87,6 +95,18 @@ impl Scalar for f64 {
     }
     fn ln(self) -> Self {
         f64::ln(self)
+    }
+    fn log10(self) -> Self {
+        f64::log10(self)
+    }
+    fn sinh(self) -> Self {
+        f64::sinh(self)
+    }
+    fn cosh(self) -> Self {
+        f64::cosh(self)
+    }
+    fn tanh(self) -> Self {
+        f64::tanh(self)
     }
     fn powf(self, n: f64) -> Self {
         f64::powf(self, n)

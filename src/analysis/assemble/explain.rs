@@ -2,7 +2,7 @@
 
 use super::{AssemblyFault, System};
 use crate::geometry::Space;
-use crate::mechanism::{Asked, RowOwner, Start, describe_loop};
+use crate::mechanism::{Asked, Joint, Mechanism, RowOwner, Start, describe_loop};
 
 impl<G: Space<S = f64>> System<'_, G> {
     pub(super) fn explain_facing(&self) -> AssemblyFault {
@@ -21,6 +21,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         let mut parts = Vec::new();
         let mut place = String::from("start");
+        let mut help = "check lengths and points, or give guesses in `start` that are nearer to an assembly".to_owned();
         for (index, joint) in m.joints.iter().enumerate() {
             let (mut gap, mut tilt) = (0.0_f64, 0.0_f64);
             for (row, phi) in m.rows.iter().zip(&w.phi).filter(|(r, _)| r.owner == RowOwner::Joint(index)) {
@@ -28,14 +29,19 @@ impl<G: Space<S = f64>> System<'_, G> {
             }
             if gap.sqrt() > 1e-9 * self.size || tilt.sqrt() > 1e-9 {
                 let path = describe_loop(m, joint);
-                let others: Vec<&str> =
-                    m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).map(|j| j.name.as_str()).collect();
+                let shared: Vec<&Joint<G>> = m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).collect();
+                let others: Vec<&str> = shared.iter().map(|j| j.name.as_str()).collect();
+                let too_long = too_long(m, &shared);
+                if let Some((body, _)) = &too_long {
+                    help = format!("make `{body}` shorter, or the others longer");
+                }
                 parts.push(format!(
-                    "the loop {path} stays open at joint `{}` by {} mm and {} deg (joints {} share it)",
+                    "the loop {path} stays open at joint `{}` by {} mm and {} deg (joints {} share it){}",
                     joint.name,
                     short(gap.sqrt() * 1e3),
                     short(tilt.sqrt().to_degrees()),
-                    others.join(", ")
+                    others.join(", "),
+                    too_long.map_or_else(String::new, |(_, words)| words)
                 ));
                 if place == "start" {
                     place = format!("joints.{}", joint.name);
@@ -48,12 +54,7 @@ impl<G: Space<S = f64>> System<'_, G> {
                 parts.push(format!("{what} stays off by {}", short(*phi)));
             }
         }
-        AssemblyFault {
-            code: "not-assembled",
-            message: format!("the mechanism cannot be assembled: {}", parts.join("; ")),
-            place,
-            help: "check lengths and points, or give guesses in `start` that are nearer to an assembly".into(),
-        }
+        AssemblyFault { code: "not-assembled", message: format!("the mechanism cannot be assembled: {}", parts.join("; ")), place, help }
     }
 
     /// The exact values that keep the mechanism open; evaluated at the nearest position without them.
@@ -81,6 +82,36 @@ impl<G: Space<S = f64>> System<'_, G> {
             help: format!("put `~` before {}, so that it may give way, or check the lengths", if one { "it" } else { "one of them" }),
         }
     }
+}
+
+/// The body of a loop of hinges that is longer between its two than all others together, so that no position closes the loop,
+/// with the sentence that says so.
+fn too_long<G: Space<S = f64>>(m: &Mechanism<G>, hinges: &[&Joint<G>]) -> Option<(String, String)> {
+    if hinges.len() < 2 || !hinges.iter().all(|j| matches!(j.kind, "revolute" | "spherical" | "universal")) {
+        return None;
+    }
+    let end = |j: &Joint<G>, body: usize| [&j.a, &j.b].into_iter().find(|end| end.0 == body).map(|end| end.1);
+    let mut bodies: Vec<usize> = hinges.iter().flat_map(|j| [j.a.0, j.b.0]).collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let mut lengths = Vec::new();
+    for body in bodies {
+        let [from, to] = hinges.iter().filter_map(|j| end(j, body)).collect::<Vec<_>>()[..] else { return None };
+        let along = to - from;
+        lengths.push((m.bodies[body].name.as_str(), G::dot(along, along).sqrt()));
+    }
+    let total: f64 = lengths.iter().map(|(_, length)| length).sum();
+    let (name, longest) = *lengths.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others: Vec<String> = lengths.iter().filter(|l| l.0 != name).map(|(name, length)| format!("`{name}` {}", short(*length))).collect();
+    (longest > (total - longest) * (1.0 + 1e-12)).then(|| {
+        let words = format!(
+            ": `{name}` is {} m long between its joints, more than the others together, {} = {} m",
+            short(longest),
+            others.join(" + "),
+            short(total - longest)
+        );
+        (name.to_owned(), words)
+    })
 }
 
 /// Four significant digits, for sentences.

@@ -89,7 +89,7 @@ impl Words<'_> {
 
     /// The target, of the first run that has one.
     fn target(&self) -> String {
-        self.log.iter().map(|run| run.target).find(|x| !x.is_nan()).map_or_else(String::new, |x| with_unit(x, self.dimension()))
+        self.log.iter().map(|run| run.target).find(|x| !x.is_nan()).map_or_else(String::new, |x| self.with_unit(x))
     }
 
     fn dimension(&self) -> Dimension {
@@ -98,20 +98,25 @@ impl Words<'_> {
         own.or_else(|| study.results.iter().find(|r| r.name == *name).map(|r| r.dimension)).unwrap_or(Dimension::NONE)
     }
 
+    /// The scalar with its unit.
+    fn with_unit(&self, x: f64) -> String {
+        with_unit(x, self.dimension(), &self.task.solve.units[1])
+    }
+
     /// The parameter at a place, with its unit.
     fn at(&self, x: f64) -> String {
-        with_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension)
+        with_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension, &self.task.solve.units[0])
     }
 
     /// The scalar of the run at a place.
     fn scalar(&self, x: f64) -> String {
         let scalar = self.log.iter().find(|run| run.x == x).map_or(f64::NAN, |run| run.scalar);
-        with_unit(scalar, self.dimension())
+        self.with_unit(scalar)
     }
 
     /// `0.3 at 1 kg m^2`.
     fn told(&self, run: &Trial) -> String {
-        let scalar = if run.why.is_some() { "unknown".into() } else { with_unit(run.scalar, self.dimension()) };
+        let scalar = if run.why.is_some() { "unknown".into() } else { self.with_unit(run.scalar) };
         format!("{scalar} at {}", self.at(run.x))
     }
 
@@ -126,9 +131,10 @@ impl Words<'_> {
     }
 }
 
-/// A number of seven digits with its unit.
-fn with_unit(x: f64, dimension: Dimension) -> String {
+/// A number of seven digits with its unit, that of the file if it has one.
+fn with_unit(x: f64, dimension: Dimension, own: &Option<(String, f64)>) -> String {
+    let (x, unit) = own.as_ref().map_or_else(|| (x, dimension.si()), |(unit, size)| (x / size, unit.clone()));
     let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
     let number = if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") };
-    format!("{number} {}", dimension.si()).trim_end().to_string()
+    format!("{number} {unit}").trim_end().to_string()
 }

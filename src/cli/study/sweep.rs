@@ -86,7 +86,7 @@ impl Job<'_> {
         for (i, run) in runs.iter().enumerate() {
             if let Ok(outcome) = &run.result {
                 let stem = format!("{}-{:03}", self.study, i + 1);
-                staging.add(format!("{stem}.csv"), write_csv(&report::rows(self.model, study, outcome)));
+                staging.add(format!("{stem}.csv"), write_csv(&report::rows(study, outcome)));
                 for (name, bytes) in linear::files(study, outcome) {
                     staging.add(format!("{stem}{}", name.strip_prefix(&study.name).unwrap_or(&name)), bytes);
                 }

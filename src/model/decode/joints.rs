@@ -56,7 +56,7 @@ impl<'n> Decoder<'n> {
         let axis = self.direction(node.get("axis"), &at.key("axis"));
         let to = self.direction(node.get("to"), &at.key("to"));
         let effort = single.map_or(Dimension::TORQUE, Coordinate::effort);
-        let rate = single.map_or(Dimension::FREQUENCY, |c| c.dimension(1));
+        let rate = single.map_or(Dimension::ANGULAR_SPEED, |c| c.dimension(1));
         let rpy = self.roll_pitch_yaw(node, at);
         let zero = self.coordinate(node, "zero", at, single);
         let damping = self.of(node, "damping", at, effort.div(rate));

@@ -157,7 +157,6 @@ fn faults_of_states() {
         ("(share - warmth)/1 s", "mean(warmth)", "wrong-level"),
         ("{ rate: (share - warmth)/1 s }", "{ start: O.angle, rate: 0 }", "wrong-level"),
         ("{ rate: (share - warmth)/1 s }", "{ start: 1 }", "missing-key"),
-        ("warmth: { rate: (share - warmth)/1 s }", "A: { rate: share/1 s }", "reserved-name"),
         ("warmth: { rate: (share - warmth)/1 s }", "power: { rate: share/1 s }", "duplicate-name"),
         ("reach: 10 cm", "reach: current*1 m/1 A", "wrong-level"),
         ("axis: [1, 0]", "axis: [1, current/1 A]", "wrong-level"),
