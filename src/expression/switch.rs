@@ -131,8 +131,11 @@ impl<I: Copy> Test<I> {
             Self::Compare(Compare::Greater | Compare::GreaterEqual, a, b) => ordered(value(b), value(a)),
             Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => two_sided(value(a) - value(b)),
             Self::Sign(a) => two_sided(value(a)),
-            // NaN outside
-            Self::Whole(a) => (value(a) - whole(mode)).min(whole(mode) + 1.0 - value(a)),
+            // smooth: the product of the distances from both ends; NaN outside
+            Self::Whole(a) => {
+                let above = value(a) - whole(mode);
+                above * (1.0 - above)
+            }
             Self::Segment { table, x } => tables.get(table as usize).map_or(1.0, |t| t.inside(value(x), mode)),
         };
         if root.is_nan() { 1.0 } else { root }
@@ -156,6 +159,11 @@ impl<I: Copy> Test<I> {
                 (two_sided(a - b), size(a, b))
             }
             Self::Sign(a) => (two_sided(value(a)), value(a).magnitude()),
+            Self::Whole(a) => {
+                let one = Interval::constant(1.0);
+                let above = value(a) - Interval::constant(whole(mode));
+                (above * (one - above), value(a).magnitude() + 1.0)
+            }
             Self::Segment { table, x } => {
                 let x = value(x);
                 let table = tables.get(table as usize);

@@ -199,9 +199,10 @@ impl Scalar for Interval {
     fn constant(x: f64) -> Self {
         Self { low: x, high: x }
     }
-    /// The middle.
+    /// The middle; of all numbers 0.
     fn value(self) -> f64 {
-        0.5 * (self.low + self.high)
+        let finite = |x: f64| if x.is_infinite() { f64::MAX.copysign(x) } else { x };
+        0.5 * finite(self.low) + 0.5 * finite(self.high)
     }
     fn sqrt(self) -> Self {
         self.within(Self { low: 0.0, high: f64::INFINITY }, f64::sqrt)
@@ -242,6 +243,19 @@ impl Scalar for Interval {
     fn ln(self) -> Self {
         self.within(Self { low: 0.0, high: f64::INFINITY }, f64::ln)
     }
+    fn log10(self) -> Self {
+        self.within(Self { low: 0.0, high: f64::INFINITY }, f64::log10)
+    }
+    fn sinh(self) -> Self {
+        self.monotone(f64::sinh)
+    }
+    fn cosh(self) -> Self {
+        let ends = self.monotone(f64::cosh);
+        Self { low: if self.holds(0.0) { 1.0 } else { ends.low.max(1.0) }, ..ends }
+    }
+    fn tanh(self) -> Self {
+        self.monotone(f64::tanh)
+    }
     fn powf(self, n: f64) -> Self {
         if n == n.trunc() && n.abs() < f64::from(i32::MAX) {
             return self.powi(n as i32);
@@ -276,8 +290,12 @@ mod tests {
 
     type OfTwo<S> = fn(S, S) -> S;
 
-    fn functions<S: Scalar>() -> [OfTwo<S>; 18] {
+    fn functions<S: Scalar>() -> [OfTwo<S>; 22] {
         [
+            |x, _| x.log10(),
+            |x, _| x.sinh(),
+            |x, _| x.cosh(),
+            |x, _| x.tanh(),
             |x, y| x + y,
             |x, y| x - y,
             |x, y| x * y,
