@@ -1,6 +1,10 @@
-//! The branch of a linkage is the one that the guesses lie on.
+//! The branch of a linkage is the one that the guesses lie on; what a start leaves open does not depend on coordinates and cuts.
 
+#[path = "assembly/alike.rs"]
+mod alike;
 mod common;
+#[path = "assembly/open.rs"]
+mod open;
 
 use common::Noise;
 use grashof::mechanism::Coordinates;

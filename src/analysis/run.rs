@@ -15,7 +15,7 @@ use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
 use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
 use crate::scalar::Dual;
 use std::sync::Arc;
@@ -69,8 +69,7 @@ fn driven<G: Space<S = f64>>(
     parameters: &[f64],
     coordinates: Coordinates,
 ) -> Result<Outcome, Failure> {
-    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mut mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
     drivers_fit(&mechanism, &start, model, study)?;
     contact::begins(model, &mechanism, &start)?;
     contact::driven(model, &mechanism, study)?;

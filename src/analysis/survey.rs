@@ -4,7 +4,7 @@ use super::assemble::{Found, assemble};
 use super::mobility::{Grashof, Mobility, grashof, mobility};
 use super::outcome::Failure;
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, build, describe_loop};
+use crate::mechanism::{Coordinates, describe_loop};
 use crate::model::{Dimensions, Model};
 use crate::scalar::Scalar;
 
@@ -39,8 +39,7 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 }
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };

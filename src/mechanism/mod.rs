@@ -12,12 +12,12 @@ mod row;
 mod start;
 mod tree;
 
-pub use build::{BuildFault, Coordinates, build, build_beside};
+pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
 pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
-pub use start::{Asked, Start};
+pub use start::{Asked, Orientation, Start};
 pub use tree::{Step, describe_loop};
 
 use crate::expression::Table;
@@ -106,8 +106,8 @@ pub struct Mechanism<G: Space> {
     pub stretches: Vec<Stretch<G>>,
     /// Asked start values.
     pub starts: Vec<Start>,
-    /// Bodies whose start orientation is asked for, as matrices: where the search begins.
-    pub orientations: Vec<(usize, [[f64; 3]; 3])>,
+    /// Orientations of bodies that starts ask for.
+    pub orientations: Vec<Orientation>,
     /// Forces along gauges.
     pub efforts: Vec<Effort<G>>,
     /// Which effort is a spring's elastic and damping force: `spring_efforts[spring]`.

@@ -45,8 +45,7 @@ impl<G: Space<S = f64>> Eras<G> {
     /// # Errors
     /// If the model has none, or it cannot be assembled.
     pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
-        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-        let start = assemble(&mut mechanism)?;
+        let (mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
         contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
