@@ -13,7 +13,7 @@ mod start;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
-pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
+pub use force::{Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
@@ -120,6 +120,8 @@ pub struct Mechanism<G: Space> {
     pub friction_efforts: Vec<Option<usize>>,
     /// First-order state of a joint's bristles: `bristles[joint]`.
     pub bristles: Vec<Option<usize>>,
+    /// End stops that give way.
+    pub buffers: Vec<Buffer>,
     /// Rigid stops.
     pub stops: Vec<Stop>,
     /// Rotors that turn with gauges.
@@ -308,6 +310,7 @@ impl<G: Space> Mechanism<G> {
             pressings: self.pressings.clone(),
             friction_efforts: self.friction_efforts.clone(),
             bristles: self.bristles.clone(),
+            buffers: self.buffers.clone(),
             stops: self.stops.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
             pulls: self.pulls.iter().map(Pull::lift).collect(),

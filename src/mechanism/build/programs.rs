@@ -40,6 +40,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 pressings: vec![],
                 friction_efforts: vec![],
                 bristles: vec![],
+                buffers: vec![],
                 stops: vec![],
                 rotors: vec![],
                 pulls: vec![],
