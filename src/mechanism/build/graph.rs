@@ -88,12 +88,12 @@ impl<G: Space> Builder<'_, G> {
             let first = self.direction(Some(first), axis, place);
             second = self.direction(Some(other), axis, place);
             triad = joint::triad(first);
-            if joint::dot(first, second).abs() > 1e-9 {
+            if joint::dot(first, joint::apply(&align, second)).abs() > 1e-9 {
                 self.fault(
                     "axes-not-crossed",
                     place,
                     "the two axes of the universal joint are not at right angles".into(),
-                    "axes whose scalar product is 0 with both bodies as drawn",
+                    "axes whose scalar product is 0 where both coordinates are 0, the second body turned by `rpy` or `to`",
                     Some("make the second axis perpendicular to the first, as `axes: [[0, 0, 1], [1, 0, 0]]`".into()),
                 );
             }
