@@ -2,9 +2,13 @@
 
 #[path = "assembly/alike.rs"]
 mod alike;
+#[path = "assembly/change.rs"]
+mod change;
 mod common;
 #[path = "assembly/open.rs"]
 mod open;
+#[path = "assembly/universal.rs"]
+mod universal;
 
 use common::Noise;
 use grashof::mechanism::Coordinates;

@@ -9,8 +9,10 @@
 //! the mechanism (Levenberg's damping where a step does not help): once from there, once from where they close best with guesses
 //! held as well, lest coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts. What
 //! is left open after that is as near to the drawn pose as can be, in least squares over the coordinates of all joints
-//! (`nearest.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest.
+//! (`nearest.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
+//! on one of these (`branch.rs`).
 
+mod branch;
 mod carry;
 mod close;
 mod explain;
@@ -20,11 +22,12 @@ mod position;
 mod rotation;
 mod velocity;
 
-use super::outcome::Failure;
+use super::outcome::{Failure, Finding};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Coordinates, Mechanism, Step, build, build_uncut, is_uncut};
 use crate::model::Model;
+pub use branch::ChangePoint;
 use grashof_solvers::kkt;
 
 /// A consistent start.
@@ -42,6 +45,15 @@ pub struct Assembled {
     pub metric: Vec<f64>,
     /// Asked and found values of `start`.
     pub found: Vec<Found>,
+    /// What the position is if branches of the motion cross there.
+    pub change: Option<ChangePoint>,
+}
+
+impl Assembled {
+    /// What a reader should know of the start.
+    pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.change.iter().map(|change| Finding { code: "change-point", message: change.message.clone(), path: "start".into() })
+    }
 }
 
 /// An asked start value and what was found.
@@ -62,7 +74,7 @@ pub struct Found {
 /// Why a mechanism cannot be assembled, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AssemblyFault {
-    /// Kebab-case kind: `not-assembled`, `start-cannot-hold`, `over-constrained`.
+    /// Kebab-case kind: `not-assembled`, `start-cannot-hold`, `over-constrained`, `dead-point`.
     pub code: &'static str,
     /// What stays open.
     pub message: String,
@@ -77,6 +89,7 @@ struct Begun {
     q: Vec<f64>,
     v: Vec<f64>,
     modes: Vec<i32>,
+    change: Option<ChangePoint>,
 }
 
 /// The mechanism of a model at given parameters (in file order) with its assembled start; the start fixes the anchors of its rows.
@@ -99,16 +112,16 @@ pub fn assemble<G: Space<S = f64>>(
     };
     let size = mechanism.size();
     let found = found::found(&mechanism, &begun)?;
-    let Begun { q, v, modes } = begun;
-    Ok((mechanism, Assembled { q, v, modes, size, metric, found }))
+    let Begun { q, v, modes, change } = begun;
+    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change }))
 }
 
 /// Position and velocity on the tree at hand.
 fn begin<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Begun, AssemblyFault> {
     let (q, modes) = position::position(mechanism)?;
     anchor(mechanism, &q, &modes);
-    let v = velocity::velocity(mechanism, &q, &modes)?;
-    Ok(Begun { q, v, modes })
+    let (v, change) = velocity::velocity(mechanism, &q, &modes)?;
+    Ok(Begun { q, v, modes, change })
 }
 
 /// Anchors of drivers, gears, racks and distances without a length, from the found position.

@@ -47,7 +47,7 @@ impl Level {
     }
 
     /// b − A x.
-    fn missing(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn missing(&self, x: &[f64]) -> Vec<f64> {
         self.b.iter().zip(self.a.chunks_exact(x.len())).map(|(b, row)| b - dot(row, x)).collect()
     }
 }

@@ -26,7 +26,9 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    let rows = rows(mechanism, &start.q, &start.modes, &start.metric);
+    // in a change point rows lose rank that they have everywhere else
+    let q = start.change.as_ref().map_or(&start.q, |change| &change.beside);
+    let rows = rows(mechanism, q, &start.modes, &start.metric);
     let free = undriven(mechanism, &rows, &start.metric);
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
     let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();

@@ -255,7 +255,7 @@ fn observe<G: Space<S = f64>>(
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
-        findings: findings(mechanism, &motion),
+        findings: start.findings().chain(findings(mechanism, &motion)).collect(),
         certificate: certificate(&mut motion, &rows),
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],

@@ -2,7 +2,7 @@
 
 use super::assemble::{Found, assemble};
 use super::mobility::{Grashof, Mobility, grashof, mobility};
-use super::outcome::Failure;
+use super::outcome::{Failure, Finding};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, describe_loop};
 use crate::model::{Dimensions, Model};
@@ -25,6 +25,10 @@ pub struct Survey {
     pub grashof: Option<Grashof>,
     /// Start asked and found.
     pub start: Vec<Found>,
+    /// Distances without a length, by the names of their joints: those at the start, m.
+    pub lengths: Vec<(String, f64)>,
+    /// What the start is, if it is a special one.
+    pub findings: Vec<Finding>,
 }
 
 /// Looks a model over at given parameters.
@@ -66,6 +70,12 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         sizes: (m.nq, m.nv, m.rows.len()),
         mobility: mobility(m, &start),
         grashof: grashof(m),
+        lengths: m
+            .joints
+            .iter()
+            .filter_map(|j| Some((j.name.clone(), m.rows[j.rows.clone()].iter().find(|row| row.anchored)?.offset)))
+            .collect(),
+        findings: start.findings().collect(),
         start: start.found,
     })
 }

@@ -38,8 +38,7 @@ fn index(noise: &mut Noise, n: usize) -> usize {
 }
 
 /// Kinds with the coordinates that a start can give of them.
-const PLANAR: [(&str, &[&str]); 4] =
-    [("revolute", &["angle"]), ("slider", &["position"]), ("pin-in-slot", &["position", "angle"]), ("free", &["x", "y", "angle"])];
+const PLANAR: [(&str, &[&str]); 3] = [("revolute", &["angle"]), ("slider", &["position"]), ("fixed", &[])];
 const SPATIAL: [(&str, &[&str]); 8] = [
     ("revolute", &["angle"]),
     ("slider", &["position"]),
@@ -48,12 +47,16 @@ const SPATIAL: [(&str, &[&str]); 8] = [
     ("screw", &["angle"]),
     ("universal", &["angle1", "angle2"]),
     ("spherical", &[]),
-    ("free", &["x", "y", "z"]),
+    ("fixed", &[]),
 ];
 
 /// The rate of a coordinate.
 fn rate(coordinate: &str) -> String {
-    coordinate.replace("angle", "omega").replace("position", "velocity").replace(['x', 'y', 'z'], "v$0")
+    match coordinate {
+        "position" => "velocity".into(),
+        "x" | "y" => format!("v{coordinate}"),
+        angle => angle.replace("angle", "omega"),
+    }
 }
 
 /// A tree of bodies with random joints; some coordinates and rates are given, exactly or guessed.
@@ -71,7 +74,7 @@ fn tree(planar: bool, seed: u64) -> Random {
         let inertia = if planar { "0.3" } else { "[0.3, 0.4, 0.5]" };
         let [p, q, com] = [0; 3].map(|_| list(&mut noise, n));
         head += &format!("  b{b}: {{ mass: 2, com: {com}, inertia: {inertia}, points: {{ P: {p}, Q: {q} }} }}\n");
-        let (kind, coordinates) = if planar { PLANAR[index(&mut noise, 4)] } else { SPATIAL[index(&mut noise, 8)] };
+        let (kind, coordinates) = if planar { PLANAR[index(&mut noise, 3)] } else { SPATIAL[index(&mut noise, 8)] };
         let parent = index(&mut noise, b + 1);
         let parent = if parent == 0 { "ground".to_string() } else { format!("b{}", parent - 1) };
         // either body may be named first
@@ -80,18 +83,15 @@ fn tree(planar: bool, seed: u64) -> Random {
         match kind {
             "universal" => joint += ", axes: [[0, 0.6, 0.8], [1, 0, 0]]",
             "screw" => joint += &format!(", pitch: 0.2, axis: {}", list(&mut noise, n)),
-            "spherical" | "free" | "fixed" => {}
+            "spherical" | "fixed" => {}
             "revolute" if planar => {}
             _ => joint += &format!(", axis: {}", list(&mut noise, n)),
         }
-        if !planar && kind != "free" && noise.next() > -0.5 {
+        if !planar && noise.next() > -0.5 {
             let angles: Vec<String> = (0..3).map(|_| (PI * noise.next()).to_string()).collect();
             joint += &format!(", rpy: [{}]", angles.join(", "));
         }
         joints.push(joint + " }\n");
-        if kind == "free" {
-            continue;
-        }
         for coordinate in coordinates {
             let sign = if noise.next() > 0.0 { "" } else { "~" };
             if noise.next() > -0.2 {
@@ -212,9 +212,8 @@ fn guesses_that_can_be_met_are_met() {
         if !assembles::<Spatial<f64>>(&random) {
             continue;
         }
-        random.start = "  b0.vx: ~0.1\n".into();
+        // somewhere on the constraints, where the random guesses lead to
         let (m, start) = assembled::<Spatial<f64>>(&random.text(None), Coordinates::Joint);
-        // another pose: away along what is free, closed again
         let mut d = Dynamics::new(&m);
         d.time(0.0, &start.modes);
         d.position(&start.q, &start.modes);
@@ -222,7 +221,7 @@ fn guesses_that_can_be_met_are_met() {
         d.watch(&start.q, &start.v, &start.modes);
         let mut asked = String::new();
         for (joint, of) in m.joints.iter().zip(random.joints.iter()) {
-            let kind = SPATIAL.iter().find(|(kind, _)| of.contains(&format!("{kind}:")) && *kind != "free");
+            let kind = SPATIAL.iter().find(|(kind, _)| of.contains(&format!("{kind}:")));
             for (coordinate, &slot) in kind.map_or(&[][..], |(_, c)| c).iter().zip(&joint.slots) {
                 asked += &format!("  {}.{coordinate}: ~{}\n", joint.name, d.work.readings[slot].x);
             }

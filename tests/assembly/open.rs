@@ -67,7 +67,8 @@ fn a_loop_begins_where_no_place_beside_is_nearer_to_the_drawing() {
     let [least, _] = sums(FOUR_BAR);
     let others = &start.q[1..];
     for beside in [-1e-2, -1e-3, 1e-3, 1e-2] {
-        let text = format!("{FOUR_BAR}start: {{ O.angle: {} rad, A.angle: ~{} rad, C.angle: ~{} rad }}\n", angle + beside, others[0], others[1]);
+        let text =
+            format!("{FOUR_BAR}start: {{ O.angle: {} rad, A.angle: ~{} rad, C.angle: ~{} rad }}\n", angle + beside, others[0], others[1]);
         let (m, beside) = assembled(&text, Coordinates::Joint);
         let sum: f64 = joints(&m, &beside).iter().map(|[x, _]| x * x).sum();
         assert!(sum > least, "{sum} beside {least}");

@@ -2,7 +2,7 @@
 //! poses, so that nothing is searched.
 
 use super::rotation::{self, spin};
-use super::{Begun, anchor};
+use super::{Begun, ChangePoint, anchor};
 use crate::dynamics::Dynamics;
 use crate::geometry::{Pose, Space, basis};
 use crate::mechanism::{Measured, Mechanism, Node, Step};
@@ -10,11 +10,22 @@ use std::f64::consts::PI;
 
 /// The start of `from`, in the coordinates of `to`, whose rows it anchors.
 pub(super) fn carry<G: Space<S = f64>>(from: &Mechanism<G>, begun: &Begun, to: &mut Mechanism<G>) -> Begun {
+    let (q, v, modes) = carried(from, [&begun.q, &begun.v], &begun.modes, to);
+    let change = begun.change.as_ref().map(|change| {
+        let beside = carried(from, [&change.beside, &begun.v], &begun.modes, to).0;
+        ChangePoint { beside, message: change.message.clone() }
+    });
+    anchor(to, &q, &modes);
+    Begun { q, v, modes, change }
+}
+
+/// Coordinates, velocities and modes of a state [q, v] of `from` in the coordinates of `to`.
+fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[i32], to: &Mechanism<G>) -> (Vec<f64>, Vec<f64>, Vec<i32>) {
     let mut dynamics = Dynamics::new(from);
-    dynamics.time(0.0, &begun.modes);
-    dynamics.position(&begun.q, &begun.modes);
-    dynamics.velocity(&begun.v, &begun.modes);
-    dynamics.watch(&begun.q, &begun.v, &begun.modes);
+    dynamics.time(0.0, modes);
+    dynamics.position(state[0], modes);
+    dynamics.velocity(state[1], modes);
+    dynamics.watch(state[0], state[1], modes);
     let (mut q, mut v) = (to.drawn(), vec![0.0; to.nv]);
     for (index, node) in to.nodes.iter().enumerate() {
         coordinates(&dynamics, to, index, node, &mut q, &mut v);
@@ -33,19 +44,11 @@ pub(super) fn carry<G: Space<S = f64>>(from: &Mechanism<G>, begun: &Begun, to: &
         }
     }
     wind(&dynamics, to, &mut modes);
-    anchor(to, &q, &modes);
-    Begun { q, v, modes }
+    (q, v, modes)
 }
 
 /// Coordinates of a branch, and the velocities of its axes.
-fn coordinates<G: Space<S = f64>>(
-    from: &Dynamics<'_, G>,
-    to: &Mechanism<G>,
-    index: usize,
-    node: &Node<G>,
-    q: &mut [f64],
-    v: &mut [f64],
-) {
+fn coordinates<G: Space<S = f64>>(from: &Dynamics<'_, G>, to: &Mechanism<G>, index: usize, node: &Node<G>, q: &mut [f64], v: &mut [f64]) {
     let work = &from.work;
     let mut slots = to.joint_of_node[index].map(|joint| from.mechanism.joints[joint].slots.iter().map(|&slot| work.readings[slot]));
     let (parent, body) = (work.poses[node.parent], work.poses[node.body]);
@@ -66,10 +69,8 @@ fn coordinates<G: Space<S = f64>>(
             }
             Step::Ball { q: i, reversed, .. } => {
                 let after = node.after.map_or_else(G::identity, |pose: Pose<G>| pose.r);
-                let turn = G::multiply(
-                    G::multiply(G::inverse(node.before.r), G::multiply(G::inverse(parent.r), body.r)),
-                    G::inverse(after),
-                );
+                let turn =
+                    G::multiply(G::multiply(G::inverse(node.before.r), G::multiply(G::inverse(parent.r), body.r)), G::inverse(after));
                 let unit = rotation::quaternion(&rotation::matrix::<G>(if reversed { G::inverse(turn) } else { turn }));
                 q[i..i + 4].copy_from_slice(&[unit.w, unit.i, unit.j, unit.k]);
             }

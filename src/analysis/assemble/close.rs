@@ -5,7 +5,7 @@ use super::{joint_metric, norm};
 use crate::analysis::least_squares::shortest_beyond;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Measured, Mechanism};
+use crate::mechanism::{Asked, Measured, Mechanism, Step};
 use grashof_solvers::kkt::ROUND_OFF;
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
@@ -149,7 +149,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                 return true;
             }
             let b: Vec<f64> = r.iter().map(|r| -r).collect();
-            if size < CONVERGED {
+            if size < CONVERGED.max(self.rounding(q)) {
                 // one more step takes the last digits
                 self.dynamics.mechanism.retract(q, &shortest_beyond(self.round_off(), &jacobian, &b, &self.metric, 0.0));
                 self.evaluate(q);
@@ -178,6 +178,15 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             }
         }
         false
+    }
+
+    /// Rounding of coordinates, in rad and sizes: after many turns it is all that counts.
+    fn rounding(&self, q: &[f64]) -> f64 {
+        let largest = |step: &Step<G>| match *step {
+            Step::Axis { q: k, v, .. } => q[k].abs() * self.metric[v].sqrt(),
+            Step::Ball { .. } => 1.0,
+        };
+        8.0 * f64::EPSILON * self.dynamics.mechanism.steps.iter().map(largest).fold(0.0, f64::max)
     }
 
     /// A step of at most half a radian or half the size of the mechanism.

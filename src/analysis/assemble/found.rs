@@ -17,7 +17,7 @@ const EXACT: f64 = 1e-7;
 /// # Errors
 /// If an exact value is not met.
 pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Result<Vec<Found>, AssemblyFault> {
-    let Begun { q, v, modes } = begun;
+    let Begun { q, v, modes, .. } = begun;
     let mut dynamics = Dynamics::new(m);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);

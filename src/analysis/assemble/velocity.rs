@@ -1,6 +1,7 @@
 //! The velocity of a start: constraints, drivers and exact values hold; then guesses in least squares; what is left over rests.
 
 use super::AssemblyFault;
+use super::branch::ChangePoint;
 use super::close::System;
 use super::explain::{short, unit, unit_of_rate};
 use crate::analysis::least_squares::{Level, in_turn};
@@ -8,11 +9,15 @@ use crate::geometry::Space;
 use crate::mechanism::{Asked, Mechanism, Start};
 use grashof_solvers::kkt::ROUND_OFF;
 
-/// Velocities (nv) at an assembled position.
+/// Velocities (nv) at an assembled position, and what it is if branches cross there.
 ///
 /// # Errors
 /// If exact values, constraints and drivers contradict each other.
-pub(super) fn velocity<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32]) -> Result<Vec<f64>, AssemblyFault> {
+pub(super) fn velocity<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    q: &[f64],
+    modes: &[i32],
+) -> Result<(Vec<f64>, Option<ChangePoint>), AssemblyFault> {
     let mut system = System::new(mechanism);
     system.modes.copy_from_slice(modes);
     let zeros = vec![0.0; mechanism.nv];
@@ -20,11 +25,21 @@ pub(super) fn velocity<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], m
     system.dynamics.position(q, modes);
     system.dynamics.velocity(&zeros, modes);
     system.dynamics.watch(q, &zeros, modes);
-    let levels = [system.what_holds(), system.guessed_rates(), system.rest(q)];
+    // where all joints are on the tree the shortest velocity is what rests most
+    let looped = mechanism.joints.iter().any(|joint| joint.tree.is_none());
+    let rest = if looped { system.rest(q) } else { Level::default() };
+    let levels = [system.what_holds(), system.guessed_rates(), rest];
     let mut v = in_turn(&levels, &system.metric, zeros);
     // once more takes the last digits
     v = in_turn(&levels, &system.metric, v);
-    system.contradiction(q, &v).map_or(Ok(v), Err)
+    if let Some(fault) = system.contradiction(q, &v) {
+        return Err(fault);
+    }
+    let [holds, ..] = &levels;
+    Ok(match system.branch(q, &v, holds) {
+        Some((v, point)) => (v, Some(point)),
+        None => (v, None),
+    })
 }
 
 impl<G: Space<S = f64>> System<'_, G> {
@@ -61,7 +76,8 @@ impl<G: Space<S = f64>> System<'_, G> {
         level
     }
 
-    fn guessed_rates(&self) -> Level {
+    /// Rows of guessed rates.
+    pub(super) fn guessed_rates(&self) -> Level {
         let mut level = Level::default();
         self.rates(true, &mut level);
         level
@@ -75,12 +91,9 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
-    /// All joints at rest; nothing where all are on the tree, since the shortest velocity is what rests most there.
-    fn rest(&self, q: &[f64]) -> Level {
+    /// All joints at rest.
+    pub(super) fn rest(&self, q: &[f64]) -> Level {
         let (mut r, mut level) = (Vec::new(), Level::default());
-        if self.dynamics.mechanism.joints.iter().all(|joint| joint.tree.is_some()) {
-            return level;
-        }
         self.joints(q, true, &mut r, &mut level.a);
         level.b = vec![0.0; r.len()];
         level
@@ -117,6 +130,16 @@ impl<G: Space<S = f64>> System<'_, G> {
                 ),
                 place: "drivers".into(),
                 help: "remove drivers until there are as many as degrees of freedom".into(),
+            });
+        }
+        if exact.is_empty() && drivers == 1 {
+            return Some(AssemblyFault {
+                code: "dead-point",
+                message: format!(
+                    "the start is a dead point, where the links are in a line and no finite velocity moves the driver on: {what} is {missed}"
+                ),
+                place: "start".into(),
+                help: "start beside it, by another exact value, or drive another joint".into(),
             });
         }
         Some(AssemblyFault {

@@ -273,6 +273,7 @@ fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
+    explain::charted(study, &era.start, state)?;
     // a joint that rests on a stop may be the one that was asked for: then others are
     let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
