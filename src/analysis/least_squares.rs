@@ -48,7 +48,7 @@ impl Level {
 
     /// b − A x.
     pub(crate) fn missing(&self, x: &[f64]) -> Vec<f64> {
-        self.b.iter().zip(self.a.chunks_exact(x.len())).map(|(b, row)| b - dot(row, x)).collect()
+        self.b.iter().zip(self.a.chunks_exact(x.len().max(1))).map(|(b, row)| b - dot(row, x)).collect()
     }
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64>
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
     let mut x = x;
     let levels: Vec<&Level> = levels.iter().filter(|level| !level.b.is_empty()).collect();
-    if levels.iter().all(|level| level.missing(&x).iter().all(|b| *b == 0.0)) {
+    if n == 0 || levels.iter().all(|level| level.missing(&x).iter().all(|b| *b == 0.0)) {
         return x;
     }
     // motions that the levels so far leave open, in units of the metric

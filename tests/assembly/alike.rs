@@ -87,7 +87,7 @@ fn tree(planar: bool, seed: u64) -> Random {
             "revolute" if planar => {}
             _ => joint += &format!(", axis: {}", list(&mut noise, n)),
         }
-        if !planar && noise.next() > -0.5 {
+        if !planar && kind != "universal" && noise.next() > -0.5 {
             let angles: Vec<String> = (0..3).map(|_| (PI * noise.next()).to_string()).collect();
             joint += &format!(", rpy: [{}]", angles.join(", "));
         }

@@ -5,15 +5,14 @@
 //! quadratic equation in z, whose roots are the branches; where rows are redundant everywhere it is 0 = 0. (Lerbet & Hao, Mechanism
 //! and Machine Theory 34 (1999) 1055-1069: the tangent cone of second order.)
 //!
-//! Of two branches counts the one that guessed rates name, else the one that leads towards guessed positions, else the one whose rates
-//! are nearest to zero, as in any start.
+//! Of two branches counts the one that guessed rates name, else the one whose rates are nearest to zero, as in any start.
 
 use super::close::{Held, System};
 use super::explain::short;
 use super::norm;
 use crate::analysis::least_squares::{Level, left_open};
 use crate::geometry::Space;
-use crate::mechanism::{Asked, RowOwner};
+use crate::mechanism::RowOwner;
 
 /// Part by which a branch must be better than the other to be chosen.
 const BETTER: f64 = 1e-6;
@@ -101,39 +100,16 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// Which of two branches counts.
-    fn choose(&mut self, q: &[f64], branches: &[Vec<f64>; 2]) -> usize {
+    fn choose(&self, q: &[f64], branches: &[Vec<f64>; 2]) -> usize {
         let guessed = self.guessed_rates();
-        let [missed, away, rates] = {
-            let mut scores = [[0.0; 2]; 3];
-            for (k, v) in branches.iter().enumerate() {
-                scores[0][k] = norm(&guessed.missing(v));
-                let _ = self.gamma(q, v);
-                scores[1][k] = -self.towards();
-                scores[2][k] = norm(&self.rest(q).missing(v));
-            }
-            scores
-        };
-        for [first, second] in [missed, away, rates] {
+        let rest = self.rest(q);
+        let scores = [&self.guessed_rates(), &rest].map(|level| branches.each_ref().map(|v| norm(&level.missing(v))));
+        for [first, second] in scores {
             if (first - second).abs() > BETTER * (first.abs() + second.abs()) + f64::MIN_POSITIVE.sqrt() {
                 return usize::from(second < first);
             }
         }
         0
-    }
-
-    /// Rate at which guessed positions come nearer, by what they are missed by; at the velocity evaluated last.
-    fn towards(&self) -> f64 {
-        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let guesses = m.starts.iter().filter(|s| s.guess);
-        guesses
-            .filter_map(|s| match s.asked {
-                Asked::Gauge { gauge, order: 0 } => {
-                    let missed = (s.value - w.readings[gauge].x) * self.gauge_scale(gauge);
-                    (missed.abs() > 1e-9).then(|| missed * w.readings[gauge].rate * self.gauge_scale(gauge))
-                }
-                _ => None,
-            })
-            .sum()
     }
 
     /// Rates of the joints' first coordinates.

@@ -37,6 +37,12 @@ impl<G: Space<S = f64>> System<'_, G> {
         self.held = Held::Exact;
     }
 
+    /// Moves a closed position as near to all asked values as can be where none of them is held.
+    pub(super) fn near_asked(&mut self, q: &mut Vec<f64>) {
+        self.approach(q, Near::Guesses);
+        self.evaluate(q);
+    }
+
     /// Holds the guesses at what they have come to.
     fn hold(&mut self, q: &[f64]) {
         self.evaluate(q);
@@ -107,7 +113,8 @@ impl<G: Space<S = f64>> System<'_, G> {
         for (r, row) in r.iter().zip(jacobian.chunks_exact(m.nv.max(1))) {
             sum.iter_mut().zip(row).for_each(|(s, x)| *s += r * x);
         }
-        for start in m.starts.iter().filter(|s| self.held == Held::All || !s.guess) {
+        let held = |guess: bool| self.held == Held::All || self.held == Held::Exact && !guess;
+        for start in m.starts.iter().filter(|s| held(s.guess)) {
             if let Asked::Gauge { gauge, order: 0 } = start.asked
                 && let Measured::Coordinate { along, .. } = m.gauges[gauge].measured
             {

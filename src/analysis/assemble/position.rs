@@ -35,6 +35,7 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
     }
     // a guess in a singular position (a straight linkage) has no direction to go: look around it
     let mut shake = Shake(1);
+    let mut open = (system.gap(&q), q.clone());
     for attempt in 0..8 {
         if closed && system.faces() {
             break;
@@ -44,14 +45,23 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
         closed = system.close(&mut trial);
         if closed {
             q = trial;
+        } else {
+            let gap = system.gap(&trial);
+            if gap < open.0 {
+                open = (gap, trial);
+            }
         }
     }
     if !closed {
-        // whom to blame: would it close if the exact values gave way?
+        // whom to blame: would it close if the exact values gave way? From where it is open least
+        q = open.1;
         system.held = Held::Nothing;
-        let closes = system.close(&mut q);
+        if system.close(&mut q) {
+            system.near_asked(&mut q);
+            return Err(system.explain_start());
+        }
         system.evaluate(&q);
-        return Err(if closes { system.explain_start() } else { system.explain() });
+        return Err(system.explain());
     }
     if !system.faces() {
         return Err(system.explain_facing());
@@ -216,6 +226,14 @@ impl<G: Space<S = f64>> System<'_, G> {
         self.evaluate(q);
         let (mut r, mut jacobian) = (Vec::new(), Vec::new());
         self.asked(false, &mut r, &mut jacobian);
+        norm(&r)
+    }
+
+    /// Size of the residuals that hold, rad and sizes.
+    fn gap(&mut self, q: &[f64]) -> f64 {
+        self.evaluate(q);
+        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        self.hard(&mut r, &mut jacobian);
         norm(&r)
     }
 

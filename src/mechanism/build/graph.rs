@@ -93,7 +93,7 @@ impl<G: Space> Builder<'_, G> {
                     "axes-not-crossed",
                     place,
                     "the two axes of the universal joint are not at right angles".into(),
-                    "axes whose scalar product is 0 where both coordinates are 0, the second body turned by `rpy` or `to`",
+                    "axes whose scalar product is 0 with both bodies as drawn",
                     Some("make the second axis perpendicular to the first, as `axes: [[0, 0, 1], [1, 0, 0]]`".into()),
                 );
             }
