@@ -26,16 +26,14 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    let (g, scale) = rows(mechanism, start);
-    let nv = mechanism.nv;
-    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
-    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
-    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
-    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
-    let free = Rank::new(&of_undriven, &start.metric, &scale_of_undriven, RANK_TOLERANCE);
-    let driven = Rank::new(&g, &start.metric, &scale, RANK_TOLERANCE);
+    // in a change point rows lose rank that they have everywhere else
+    let q = start.change.as_ref().map_or(&start.q, |change| &change.beside);
+    let rows = rows(mechanism, q, &start.modes, &start.metric);
+    let free = undriven(mechanism, &rows, &start.metric);
+    let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
+    let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();
     Mobility {
-        grubler: nv as i64 - undriven.len() as i64,
+        grubler: mechanism.nv as i64 - (mechanism.rows.len() - drivers) as i64,
         freedom: free.mobility(),
         left: driven.mobility(),
         rank: driven.rank,
@@ -43,12 +41,27 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     }
 }
 
+/// Degrees of freedom without drivers at a position.
+pub(super) fn freedom<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> usize {
+    undriven(mechanism, &rows(mechanism, q, modes, metric), metric).mobility()
+}
+
+/// Rank of all rows but those of drivers.
+fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): &(Vec<f64>, Vec<f64>), metric: &[f64]) -> Rank {
+    let nv = mechanism.nv;
+    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
+    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
+    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
+    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
+    Rank::new(&of_undriven, metric, &scale_of_undriven, RANK_TOLERANCE)
+}
+
 /// G at the start and the scales of its rows, by an evaluator of its own.
-fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> (Vec<f64>, Vec<f64>) {
+fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut dynamics = Dynamics::new(mechanism);
-    dynamics.time(0.0, &start.modes);
-    dynamics.position(&start.q, &start.modes);
-    let scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
+    dynamics.time(0.0, modes);
+    dynamics.position(q, modes);
+    let scale = dynamics.row_scale(q, modes, metric);
     (dynamics.work.g, scale)
 }
 

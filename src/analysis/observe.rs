@@ -264,10 +264,7 @@ impl<G: Space<S = f64>> Source<G> {
                 G::component(x, axis) / mass
             }
             Self::Kinetic => d.kinetic_energy(),
-            Self::Potential => {
-                let springs: f64 = (0..m.stretches.len()).map(|s| d.spring_energy(s, modes)).sum();
-                d.gravity_energy() + springs
-            }
+            Self::Potential => d.potential_energy(modes),
             Self::Momentum(axis) => G::component(d.momentum().f, axis),
             Self::Shaking(axis) => G::component(r.shaking.f, axis),
             Self::ShakingMoment(axis) => G::spin_component(r.shaking.n, axis),

@@ -15,7 +15,7 @@ use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
 use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
 use crate::scalar::Dual;
 use std::sync::Arc;
@@ -101,8 +101,7 @@ pub(super) fn prepared<G: Space<S = f64>>(
     parameters: &[f64],
     coordinates: Coordinates,
 ) -> Result<(Mechanism<G>, Assembled), Failure> {
-    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
     drivers_fit(&mechanism, &start, model, study)?;
     contact::begins(model, &mechanism, &start)?;
     contact::driven(model, &mechanism, study)?;
@@ -270,7 +269,7 @@ fn observe<G: Space<S = f64>>(
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
-        findings: findings(mechanism, &motion),
+        findings: start.findings().chain(findings(mechanism, &motion)).collect(),
         certificate: certificate(&mut motion, &rows),
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],

@@ -27,7 +27,7 @@ use super::scene;
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{FunctionalKind, Model, Study};
 use crate::scalar::Dual;
 use pose::{Pose, Rest};
@@ -82,8 +82,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let watched = Watched::of(study);
     let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);

@@ -2,9 +2,9 @@
 
 use super::assemble::{Found, assemble};
 use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
-use super::outcome::Failure;
+use super::outcome::{Failure, Finding};
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, build, describe_loop};
+use crate::mechanism::{Coordinates, describe_loop};
 use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
 use crate::scalar::Scalar;
 
@@ -27,6 +27,10 @@ pub struct Survey {
     pub start: Vec<Found>,
     /// Bodies that no joint leads to and nothing else of the model names.
     pub forgotten: Vec<String>,
+    /// Distances without a length, by the names of their joints: those at the start, m.
+    pub lengths: Vec<(String, f64)>,
+    /// What the start is, if it is a special one.
+    pub findings: Vec<Finding>,
 }
 
 /// Looks a model over at given parameters.
@@ -41,8 +45,7 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 }
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };
@@ -69,6 +72,12 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         sizes: (m.nq, m.nv, m.rows.len()),
         mobility: mobility(m, &start),
         grashof: grashof(m),
+        lengths: m
+            .joints
+            .iter()
+            .filter_map(|j| Some((j.name.clone(), m.rows[j.rows.clone()].iter().find(|row| row.anchored)?.offset)))
+            .collect(),
+        findings: start.findings().collect(),
         start: start.found,
         forgotten: loose(m).into_iter().filter(|name| !is_named(model, name)).map(str::to_owned).collect(),
     })

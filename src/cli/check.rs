@@ -75,6 +75,7 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     if !m.redundant.is_empty() {
         out.push(format!("redundant constraints (harmless; single reactions are those of least size): {}", m.redundant.join("; ")));
     }
+    out.extend(survey.findings.iter().map(|finding| finding.message.clone()));
     if m.freedom < drivers {
         let drivers = counted(drivers, "driver", "drivers");
         out.push(format!("{drivers} for {}", counted(m.freedom, "degree of freedom", "degrees of freedom")));
@@ -136,6 +137,10 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
             say(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
         }
     }
+    if !survey.lengths.is_empty() {
+        say("\ndistances as at the start");
+        survey.lengths.iter().for_each(|(name, length)| say(&format!("  {name:<22} {:>14} m", short(*length))));
+    }
     if !findings.is_empty() {
         say("\nfindings");
         for finding in findings {
@@ -184,6 +189,7 @@ fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
         "start": survey.start.iter().map(|f| json!({
             "name": f.name, "guess": f.guess, "asked": json_number(f.asked), "found": json_number(f.found),
         })).collect::<Vec<_>>(),
+        "lengths": survey.lengths.iter().map(|(name, length)| json!({ "name": name, "length": json_number(*length) })).collect::<Vec<_>>(),
         "findings": findings,
     })
 }

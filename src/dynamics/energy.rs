@@ -32,6 +32,28 @@ impl<G: Space> Dynamics<'_, G> {
         sum
     }
 
+    /// Potential energy of gravity, springs and end stops that give way, J.
+    #[must_use]
+    pub fn potential_energy(&mut self, modes: &mut [i32]) -> G::S {
+        let mut sum = self.gravity_energy();
+        for spring in 0..self.mechanism.stretches.len() {
+            sum += self.spring_energy(spring, modes);
+        }
+        for buffer in &self.mechanism.buffers {
+            sum += buffer.energy(self.work.readings[buffer.gauge].x).0;
+        }
+        sum
+    }
+
+    /// Power of the effort of each end stop that gives way, and the rate of what it stores, W: the rest is that of a damper. After
+    /// [`Dynamics::loads`].
+    pub fn buffer_powers(&self) -> impl Iterator<Item = [G::S; 2]> {
+        self.mechanism.buffers.iter().map(|buffer| {
+            let reading = &self.work.readings[buffer.gauge];
+            [self.work.efforts[buffer.effort] * reading.rate, buffer.energy(reading.x).1 * reading.rate]
+        })
+    }
+
     /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫ F ds by Gauss-Legendre on 32 panels for a law.
     #[must_use]
     pub fn spring_energy(&mut self, spring: usize, modes: &mut [i32]) -> G::S {

@@ -205,6 +205,35 @@ impl Stop {
     }
 }
 
+/// End stops that give way: ½ k d² where the coordinate is by d beyond an end. Their force is an effort.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buffer {
+    /// The effort.
+    pub effort: usize,
+    /// The gauge of the coordinate.
+    pub gauge: usize,
+    /// Each end, rad or m, with the sense in which it pushes: 1 at the lower end, −1 at the upper.
+    pub ends: Vec<(f64, f64)>,
+    /// k, N m/rad or N/m.
+    pub stiffness: f64,
+}
+
+impl Buffer {
+    /// Energy ½ k d² (J) and its slope by the coordinate, at x.
+    #[must_use]
+    pub fn energy<S: Scalar>(&self, x: S) -> (S, S) {
+        let (mut energy, mut slope) = (S::default(), S::default());
+        for &(at, sense) in &self.ends {
+            let depth = (S::constant(at) - x).scale(sense);
+            if depth.value() > 0.0 {
+                energy += (depth * depth).scale(0.5 * self.stiffness);
+                slope -= depth.scale(sense * self.stiffness);
+            }
+        }
+        (energy, slope)
+    }
+}
+
 /// A load at a point of a body.
 #[derive(Clone, Debug)]
 pub struct Pull<G: Space> {

@@ -12,12 +12,12 @@ mod row;
 mod start;
 mod tree;
 
-pub use build::{BuildFault, Coordinates, build, build_beside};
-pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
+pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
+pub use force::{Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
-pub use start::{Asked, Start};
+pub use start::{Asked, Orientation, Start};
 pub use tree::{Step, describe_loop};
 
 use crate::expression::Table;
@@ -106,8 +106,8 @@ pub struct Mechanism<G: Space> {
     pub stretches: Vec<Stretch<G>>,
     /// Asked start values.
     pub starts: Vec<Start>,
-    /// Bodies whose start orientation is asked for, as matrices: where the search begins.
-    pub orientations: Vec<(usize, [[f64; 3]; 3])>,
+    /// Orientations of bodies that starts ask for.
+    pub orientations: Vec<Orientation>,
     /// Forces along gauges.
     pub efforts: Vec<Effort<G>>,
     /// Which effort is a spring's elastic and damping force: `spring_efforts[spring]`.
@@ -120,6 +120,8 @@ pub struct Mechanism<G: Space> {
     pub friction_efforts: Vec<Option<usize>>,
     /// First-order state of a joint's bristles: `bristles[joint]`.
     pub bristles: Vec<Option<usize>>,
+    /// End stops that give way.
+    pub buffers: Vec<Buffer>,
     /// Rigid stops.
     pub stops: Vec<Stop>,
     /// Rotors that turn with gauges.
@@ -313,6 +315,7 @@ impl<G: Space> Mechanism<G> {
             pressings: self.pressings.clone(),
             friction_efforts: self.friction_efforts.clone(),
             bristles: self.bristles.clone(),
+            buffers: self.buffers.clone(),
             stops: self.stops.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
             pulls: self.pulls.iter().map(Pull::lift).collect(),

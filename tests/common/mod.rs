@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+use grashof::analysis::assemble::{Assembled, assemble};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::{run::run, sweep};
 use grashof::dynamics::{Dynamics, Reactions};
@@ -34,6 +35,12 @@ pub(crate) fn model(text: &str, study: Option<&str>) -> Model {
 pub(crate) fn mechanism<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> Mechanism<G> {
     let model = model(text, None);
     build::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+/// The mechanism of a text in the given coordinates with its start.
+pub(crate) fn assembled<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> (Mechanism<G>, Assembled) {
+    let model = model(text, None);
+    assemble::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|f| panic!("{}", f.reason()))
 }
 
 /// A study of a text, run to its end.

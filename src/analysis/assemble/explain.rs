@@ -1,8 +1,10 @@
 //! Why a mechanism stays open, in words: which loop, its gap, which joints share it, which exact values are in the way.
 
-use super::{AssemblyFault, System};
+use super::AssemblyFault;
+use super::close::System;
+use super::found::orientation;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Joint, Mechanism, RowOwner, Start, describe_loop};
+use crate::mechanism::{Asked, Joint, Mechanism, Row, RowKind, RowOwner, Start, describe_loop};
 
 impl<G: Space<S = f64>> System<'_, G> {
     pub(super) fn explain_facing(&self) -> AssemblyFault {
@@ -60,14 +62,17 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// The exact values that keep the mechanism open; evaluated at the nearest position without them.
     pub(super) fn explain_start(&self) -> AssemblyFault {
         let w = &self.dynamics.work;
-        let exact = |start: &&Start| !start.guess && matches!(start.asked, Asked::Gauge { order: 0, .. });
+        let of_position = |asked| matches!(asked, Asked::Gauge { order: 0, .. } | Asked::Orientation(_));
+        let exact = |start: &&Start| !start.guess && of_position(start.asked);
         let starts: Vec<&Start> = self.dynamics.mechanism.starts.iter().filter(exact).collect();
         let list = |value: &dyn Fn(&Start) -> f64| -> String {
             starts.iter().map(|s| format!("{} = {}", s.name, short(value(s)))).collect::<Vec<_>>().join(", ")
         };
+        let m = self.dynamics.mechanism;
         let found = |start: &Start| match start.asked {
             Asked::Gauge { gauge, .. } => w.readings[gauge].x,
-            Asked::Spin { .. } => f64::NAN,
+            Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.poses[m.orientations[k].body].r).0,
+            Asked::Spin { .. } => 0.0,
         };
         let one = starts.len() == 1;
         AssemblyFault {
@@ -122,5 +127,28 @@ pub(super) fn short(x: f64) -> String {
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
     } else {
         format!("{x:.3e}")
+    }
+}
+
+/// Unit of a start value.
+pub(super) fn unit<G: Space>(m: &Mechanism<G>, asked: Asked) -> &'static str {
+    match asked {
+        Asked::Spin { .. } => "rad/s",
+        Asked::Orientation(_) => "rad",
+        Asked::Gauge { gauge, order } => match (m.gauges[gauge].turns(), order) {
+            (true, 0) => "rad",
+            (true, _) => "rad/s",
+            (false, 0) => "m",
+            (false, _) => "m/s",
+        },
+    }
+}
+
+/// Unit of the rate of a row; none for a coupling by an expression.
+pub(super) fn unit_of_rate<G: Space>(m: &Mechanism<G>, row: usize) -> &'static str {
+    match &m.rows[row] {
+        Row { kind: RowKind::Function(_), .. } => "",
+        Row { angular: true, .. } => "rad/s",
+        _ => "m/s",
     }
 }

@@ -46,8 +46,7 @@ where
     let kinetic = d.kinetic_energy();
     let mut modes = node.state.modes.clone();
     modes.truncate(d.mechanism.switches + d.mechanism.windings);
-    let springs: f64 = (0..d.mechanism.stretches.len()).map(|s| d.spring_energy(s, &mut modes)).sum();
-    [kinetic, kinetic + d.gravity_energy() + springs]
+    [kinetic, kinetic + d.potential_energy(&mut modes)]
 }
 
 impl Balance {

@@ -45,8 +45,7 @@ impl<G: Space<S = f64>> Eras<G> {
     /// # Errors
     /// If the model has none, or it cannot be assembled.
     pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
-        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-        let start = assemble(&mut mechanism)?;
+        let (mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
         contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
@@ -212,6 +211,7 @@ pub(super) fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
+    explain::charted(study, &era.start, state)?;
     // a joint that rests on a stop may be the one that was asked for: then others are
     let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);

@@ -92,7 +92,7 @@ where
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
-        findings,
+        findings: eras.start.findings().chain(findings).collect(),
         certificate,
         events,
         scenes: vec![(scene::MECHANISM.into(), scene)],

@@ -356,6 +356,9 @@ where
                 EffortLaw::Friction { .. } => w[2] += size * rate,
             }
         }
+        for [done, stored] in self.dynamics.buffer_powers() {
+            (w[1], w[2]) = (w[1] - done, w[2] + done + stored);
+        }
     }
 
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {

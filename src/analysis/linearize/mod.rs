@@ -26,7 +26,7 @@ use super::sweep::parameters_with;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Leaf, Mechanism, build, build_beside};
+use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Model, Study};
 use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
@@ -50,8 +50,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
     without_friction(&mechanism, study)?;
     let lifted = mechanism.lift();
     let mut findings = Vec::new();

@@ -18,7 +18,7 @@ use super::run::{evaluate, expectations};
 use super::statics::{Still, equilibrium};
 use crate::dynamics::{LANES, Linearizer};
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Eigensolver, Model, Modes, Study};
 use crate::scalar::Dual;
 use damped::{Damped, damped, state_matrix};
@@ -59,8 +59,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let rest = if asked.at_equilibrium {
         equilibrium::<G>(model, study, &mechanism, &lifted, &start, parameters, stop)?

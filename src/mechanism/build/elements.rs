@@ -2,7 +2,7 @@
 
 use super::super::force::StretchOf;
 use super::super::gauge::Measured;
-use super::super::{Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
+use super::super::{Buffer, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -187,10 +187,16 @@ impl<G: Space> Builder<'_, G> {
     /// End stops and dry friction.
     fn joint_contact(&mut self, index: usize) {
         let joint = &self.model.joints[index];
-        if let Some(force) = joint.limit_force
+        if let Some(limit) = &joint.limit
             && let Some(gauge) = self.coordinate(index, &joint.place)
         {
-            self.drive_effort(gauge, force);
+            let effort = self.drive_effort(gauge, limit.force);
+            let place = format!("{}.limits", joint.place);
+            let ends =
+                [(limit.from, 1.0), (limit.to, -1.0)].into_iter().filter_map(|(end, sense)| Some((self.number(end?, &place), sense)));
+            let ends = ends.collect();
+            let stiffness = self.number(limit.stiffness, &place);
+            self.mechanism.buffers.push(Buffer { effort, gauge, ends, stiffness });
         }
         if let Some(stops) = joint.stops
             && let Some(gauge) = self.coordinate(index, &joint.place)

@@ -7,7 +7,7 @@ use super::super::{Joint, Node, Row, RowKind, RowOwner};
 use super::{Builder, Coordinates, along};
 use crate::expression::Id;
 use crate::geometry::{Pose, Space};
-use crate::model::{JointKind, Quantity, roll_pitch_yaw};
+use crate::model::{self, JointKind, Quantity, roll_pitch_yaw};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -41,6 +41,7 @@ impl<G: Space> Builder<'_, G> {
                 rows: 0..0,
                 freedom: shape.freedom(self.planar),
                 facing: shape.facing::<G>(self.planar),
+                turns: shape.turns::<G>(self.planar),
             });
         }
         for branch in branches {
@@ -64,8 +65,7 @@ impl<G: Space> Builder<'_, G> {
             || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
         let freedom = self.shapes[joint].freedom(self.planar);
         let rank = if driven { 0 } else { 1 + freedom };
-        // with rows of its own the reaction that presses is a function of their multipliers alone
-        let cut = j.cut || j.friction.as_ref().is_some_and(|f| f.pressed.is_some());
+        let cut = self.honour_cuts && is_cut(j);
         Edge { a: j.a.body, b: j.b.body, rank: (!cut && self.shapes[joint].spans()).then_some(rank) }
     }
 
@@ -88,7 +88,7 @@ impl<G: Space> Builder<'_, G> {
             let first = self.direction(Some(first), axis, place);
             second = self.direction(Some(other), axis, place);
             triad = joint::triad(first);
-            if joint::dot(first, second).abs() > 1e-9 {
+            if joint::dot(first, joint::apply(&align, second)).abs() > 1e-9 {
                 self.fault(
                     "axes-not-crossed",
                     place,
@@ -248,6 +248,12 @@ impl<G: Space> Builder<'_, G> {
             self.mechanism.joints[index].rows = first..self.mechanism.rows.len();
         }
     }
+}
+
+/// Whether a joint is kept off the tree: by wish, or because with rows of its own the reaction that presses is a function of their
+/// multipliers alone.
+pub(super) fn is_cut(joint: &model::Joint) -> bool {
+    joint.cut || joint.friction.as_ref().is_some_and(|f| f.pressed.is_some())
 }
 
 /// The free joint of a body's own, from the ground.

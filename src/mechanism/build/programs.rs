@@ -16,6 +16,7 @@ impl<'m, G: Space> Builder<'m, G> {
             model,
             parameters,
             planar: model.space == Dimensions::Planar,
+            honour_cuts: true,
             mechanism: Mechanism {
                 bodies: vec![],
                 nodes: vec![],
@@ -39,6 +40,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 pressings: vec![],
                 friction_efforts: vec![],
                 bristles: vec![],
+                buffers: vec![],
                 stops: vec![],
                 rotors: vec![],
                 pulls: vec![],
