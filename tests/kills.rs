@@ -6,6 +6,7 @@
 
 #![cfg(unix)]
 
+use grashof::output::Staging;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -119,6 +120,9 @@ fn holds(out: &Path, sets: &[Contents; 2], own: &Contents) {
         } else if name.starts_with('.') {
             let temporary = suffix.as_ref().is_some_and(|suffix| name.ends_with(suffix));
             assert!(temporary || name == RECORD || name == ".grashof.json.new", "{name} is recorded nowhere");
+        } else if name.ends_with(".partial") {
+            // finished runs, for the next run of the sweep
+            assert!(bytes.starts_with(&b"grashof1"[..bytes.len().min(8)]));
         } else {
             assert!(sets.iter().any(|set| set.get(name) == Some(bytes)), "{name} is neither the old nor the new one");
         }
@@ -191,4 +195,31 @@ fn every_file_is_old_or_new_and_the_next_run_mends() {
     });
     println!("{kills} kills, {while_writing} of them while a set was written, {mixed} of these between two of its files");
     assert!(while_writing > 0, "no kill has hit the writing");
+}
+
+/// Runs that write into one directory at the same time leave the set of one of them.
+#[test]
+fn runs_at_the_same_time_leave_whole_sets() {
+    let directory = std::env::temp_dir().join(format!("grashof-together-{}", std::process::id()));
+    let _ = fs::remove_dir_all(&directory);
+    std::thread::scope(|scope| {
+        for worker in 0..4 {
+            let directory = &directory;
+            scope.spawn(move || {
+                for round in 0..10 {
+                    let mut staging = Staging::new();
+                    // each makes a figure that others do not
+                    for name in ["a.csv".to_string(), "a.json".into(), format!("a-{worker}.svg")] {
+                        staging.add(name, format!("{worker} {round}"));
+                    }
+                    staging.commit(directory, "a", false).unwrap();
+                }
+            });
+        }
+    });
+    let found = contents(&directory);
+    let (last, names) = (&found["a.csv"], found.keys().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(&found["a.json"], last);
+    assert_eq!(names, [RECORD, &format!("a-{}.svg", last[0] as char), "a.csv", "a.json"]);
+    fs::remove_dir_all(directory).unwrap();
 }

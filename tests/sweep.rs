@@ -134,7 +134,8 @@ fn the_command_line_sweeps_as_the_file_does() {
     let place = Place::new("same", FOUR_BAR);
     place.ends(0, &["run", "model.yaml", "--study", "lengths", "-o", "file"]);
     let [stdout, stderr] = place.ends(0, &["sweep", "model.yaml", "--study", "turn", "--over", "l3=0.5..0.6:3", "-o", "line"]);
-    assert!(stdout.starts_with("turn-over-l3\n") && stderr.is_empty(), "{stdout}{stderr}");
+    assert!(stdout.starts_with("turn-over-l3\n"), "{stdout}");
+    assert!(stderr.lines().count() == 1 && stderr.starts_with("note: what the file expects of its own values is not judged"), "{stderr}");
     let beginning = |names: Vec<String>, from: &str| names.into_iter().map(|n| n.replace(from, "*")).collect::<Vec<_>>();
     let mut file = beginning(place.names("file"), "lengths");
     // the drawn numbers of whole runs that the file does not ask for

@@ -4,16 +4,16 @@
 //! and a watch ends the program for it; only a motion in time, which keeps its rows up to there, and the writing of files are
 //! waited for. A second signal ends the program at once.
 
-use super::terminal::{take_errors, tell_interrupted};
+use super::terminal::{take_errors, tell, tell_interrupted};
 use super::{code, end};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Between looks of the watch.
-const LOOK: Duration = Duration::from_millis(10);
+const LOOK: Duration = Duration::from_millis(5);
 /// What ends by itself does so within this.
-const GRACE: Duration = Duration::from_millis(60);
+const GRACE: Duration = Duration::from_millis(40);
 /// What a motion in time that has heard the signal is given for its rows.
 const FOR_ROWS: Duration = Duration::from_secs(20);
 
@@ -64,8 +64,10 @@ pub(super) fn uncut<T>(work: impl FnOnce() -> T) -> T {
 
 /// Says what was interrupted; the program ends by itself from here.
 pub(super) fn tell_end(message: &str) {
-    // if the watch is at it, it ends the program any moment
-    if !ENDING.swap(true, Ordering::SeqCst) {
+    if ENDING.swap(true, Ordering::SeqCst) {
+        // the watch is telling it, and ends the program any moment
+        std::thread::sleep(Duration::from_secs(1));
+    } else {
         tell_interrupted(message);
     }
 }
@@ -76,9 +78,15 @@ fn watch() {
     }
     let begun = Instant::now();
     std::thread::sleep(GRACE);
-    while UNCUT.load(Ordering::SeqCst) > 0
-        || (KEEPS.load(Ordering::Relaxed) && HEARD.load(Ordering::Relaxed) && begun.elapsed() < FOR_ROWS)
-    {
+    let mut told = false;
+    loop {
+        let keeps = KEEPS.load(Ordering::Relaxed) && HEARD.load(Ordering::Relaxed) && begun.elapsed() < FOR_ROWS;
+        if ENDING.load(Ordering::SeqCst) || (!keeps && UNCUT.load(Ordering::SeqCst) == 0) {
+            break;
+        }
+        if keeps && !std::mem::replace(&mut told, true) {
+            std::thread::spawn(|| tell("interrupted: what there is up to here is being written; a second signal ends the program at once"));
+        }
         std::thread::sleep(LOOK);
     }
     if ENDING.swap(true, Ordering::SeqCst) {
@@ -91,7 +99,7 @@ fn watch() {
         end(code::INTERRUPTED, take_errors())
     });
     let telling = Instant::now();
-    while !told.is_finished() && telling.elapsed() < LOOK {
+    while !told.is_finished() && telling.elapsed() < 2 * LOOK {
         std::thread::sleep(LOOK / 10);
     }
     std::process::exit(i32::from(code::INTERRUPTED));

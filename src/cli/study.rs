@@ -165,7 +165,8 @@ impl Job<'_> {
         }
         match files::commit(staging, self.directory, self.study, self.common) {
             Ok(()) => {
-                interrupt::begins(format!("interrupted: study `{}` was the last one", self.study), false);
+                let what = if code == code::INTERRUPTED { "is written up to there" } else { "was the last one" };
+                interrupt::begins(format!("interrupted: study `{}` {what}", self.study), code == code::INTERRUPTED);
                 Finished { code, output: Some(output), computed: Vec::new() }
             }
             Err(unwritten) => Finished::nothing(code.max(unwritten)),

@@ -68,10 +68,7 @@ fn chosen<'a>(arguments: &'a Arguments, known: &'a [String]) -> Option<&'a str> 
             None
         }
         (None, several) => {
-            fail(
-                &format!("the model has {} studies", several.len()),
-                &format!("name one of them with `--study`: {}", several.join(", ")),
-            );
+            fail(&format!("the model has {} studies", several.len()), &format!("name one of them with `--study`: {}", several.join(", ")));
             None
         }
     }

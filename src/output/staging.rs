@@ -188,7 +188,10 @@ fn recovered(directory: &Path) -> Result<(Manifest, Vec<String>), WriteError> {
     };
     if writing.files.iter().all(|(name, mark)| stands(name, mark) || ready(name, mark)) {
         manifest.finish(directory, &writing)?;
-        return Ok((manifest, vec![format!("a run of `{study}` was killed while it wrote into {}: its files are complete now", directory.display())]));
+        return Ok((
+            manifest,
+            vec![format!("a run of `{study}` was killed while it wrote into {}: its files are complete now", directory.display())],
+        ));
     }
     // before the first rename, or with temporary files that somebody has taken away
     for (name, mark) in writing.files.iter().filter(|(name, mark)| stands(name, mark)) {

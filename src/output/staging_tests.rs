@@ -183,26 +183,3 @@ fn a_record_that_lies_reaches_nothing_outside_and_nobody_s_own() {
         assert_eq!(own, ["own", "own"], "{text}");
     }
 }
-
-#[test]
-fn runs_at_the_same_time_leave_whole_sets() {
-    let scratch = Scratch::new("together");
-    std::thread::scope(|scope| {
-        for worker in 0..4 {
-            let directory = &scratch.0;
-            scope.spawn(move || {
-                for round in 0..10 {
-                    let text = format!("{worker} {round}");
-                    let mut files = vec![("a.csv", text.as_str()), ("a.json", &text)];
-                    // each makes a figure that others do not
-                    let own = format!("a-{worker}.svg");
-                    files.push((&own, &text));
-                    staged(&files).commit(directory, "a", false).unwrap();
-                }
-            });
-        }
-    });
-    let last = scratch.text("a.csv");
-    assert_eq!(scratch.text("a.json"), last);
-    assert_eq!(scratch.names(), [format!("a-{}.svg", &last[..1]), "a.csv".into(), "a.json".into()]);
-}

@@ -29,7 +29,9 @@ fn expectations_are_those_of_the_file_s_own_values() {
     let lines = "    expect: { swing: { is: 1, within: 1e-3 } }\n    set: { speed: 100 rpm }\n";
     place.put("model.yaml", &with(lines));
     let turn = ["run", "model.yaml", "--study", "turn", "--no-plots"];
-    let note = |options: &str| format!("note: what the file expects of its own values is not judged, since `{options} what is computed; `--expect` judges it\n");
+    let note = |options: &str| {
+        format!("note: what the file expects of its own values is not judged, since `{options} what is computed; `--expect` judges it\n")
+    };
     for (change, told) in [
         (&["--set", "l1=14 cm"][..], "--set` changes"),
         (&["--variant", "slow"], "--variant` changes"),
@@ -152,7 +154,10 @@ fn files_of_an_earlier_run_are_replaced_and_no_others() {
     assert!(refused.contains("out/turn.csv: the file there is not as an earlier run has written it"), "{refused}");
     assert_eq!(place.text("out/turn.csv"), table);
     place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--force"]).ends(0);
-    assert!(place.text("out/turn.csv") != table && fs::read(place.0.join("out/turn-angles.png")).unwrap() != b"own", "replaced because it was asked for");
+    assert!(
+        place.text("out/turn.csv") != table && fs::read(place.0.join("out/turn-angles.png")).unwrap() != b"own",
+        "replaced because it was asked for"
+    );
     kept();
     assert!(place.0.join("out/inner").is_dir() && place.0.join("out/turn-angles.svg").is_file());
     // figures of an earlier run do not stay beside newer numbers

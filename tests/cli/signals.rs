@@ -49,9 +49,9 @@ fn ended(mut child: Child, after: Duration, signal: &str) -> Option<(Duration, D
 fn hears(place: &Place, arguments: &[&str]) {
     for signal in ["-INT", "-TERM"] {
         let mut best = Duration::MAX;
-        for tries in 0..6 {
+        for tries in 0..12 {
             let child = place.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-            let after = Duration::from_millis(250 >> tries.min(3));
+            let after = Duration::from_millis(250 >> (tries % 4));
             let Some((took, done)) = ended(child, after, signal) else { continue };
             // before the handler is set a signal ends the program as any other
             if done.code == -1 {

@@ -52,7 +52,10 @@ fn nothing_of_a_file_steers_the_terminal() {
     let place = Place::new("steer");
     let keys = "grashof: 1\nname: \"x\\e[2J\\u202evil\"\nspace: planar\ngravity: none\nabout: \"\\e]0;pwn\\a\"\n";
     place.put("keys.yaml", &format!("{keys}\"foo\\e[2J\": 1\nbodies: {{ \"b\\e[31m\": {{ mass: 1 }} }}\n"));
-    place.put("good.yaml", &format!("{keys}bodies: {{ b: {{ mass: 1 }} }}\nstudies: {{ s: {{ about: \"\\e[2J\\u009b\", statics: {{ from: start }} }} }}\n"));
+    place.put(
+        "good.yaml",
+        &format!("{keys}bodies: {{ b: {{ mass: 1 }} }}\nstudies: {{ s: {{ about: \"\\e[2J\\u009b\", statics: {{ from: start }} }} }}\n"),
+    );
     place.put("raw.yaml", "grashof: 1\nname: x\u{9b}2J\nfoo\u{1b}[2J: 1\n");
     for arguments in [
         &["check", "keys.yaml"][..],
@@ -79,7 +82,9 @@ fn errors_are_json_too() {
     let place = Place::with_model("errors");
     place.put("bad.yaml", &model().replace("length: l1", "length: l9"));
     let of = |arguments: &[&str], code: i32| place.run(arguments).ends(code).json();
-    for (command, more) in [("check", &[][..]), ("sweep", &["--over", "l3=1"]), ("modes", &[]), ("statics", &[]), ("compare", &["--study", "turn"])] {
+    for (command, more) in
+        [("check", &[][..]), ("sweep", &["--over", "l3=1"]), ("modes", &[]), ("statics", &[]), ("compare", &["--study", "turn"])]
+    {
         let found = of(&[&[command, "bad.yaml", "--json"], more].concat(), 2);
         assert_eq!(found["status"], "failed", "{command}");
         let error = &found["errors"][0];
@@ -141,7 +146,9 @@ fn pipes_and_links_in_the_way_are_left_alone() {
     assert!(place.run(&["check", "robot.yaml"]).ends(2).stderr.contains("it is no plain file"));
     // where finished runs are kept: a pipe, a link out of the directory, and somebody's own file
     place.put("mine", "own");
-    for (out, what) in [("pipe", "is no plain file"), ("link", "is no plain file"), ("own", "holds no finished runs"), ("dangling", "is no plain file")] {
+    for (out, what) in
+        [("pipe", "is no plain file"), ("link", "is no plain file"), ("own", "holds no finished runs"), ("dangling", "is no plain file")]
+    {
         fs::create_dir(place.0.join(out)).unwrap();
         let partial = place.0.join(out).join("lengths.partial");
         match out {

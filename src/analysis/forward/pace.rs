@@ -89,7 +89,9 @@ impl Slow {
             "take `integrator: radau5`, whose steps may be longer than that".to_string()
         } else {
             let reached = t * (MOST / *count as f64).max(1.0);
-            format!("see whether lengths, masses and stiffnesses there are in the units that were meant, or end sooner, as with `until: {reached:.0e} s`")
+            format!(
+                "see whether lengths, masses and stiffnesses there are in the units that were meant, or end sooner, as with `until: {reached:.0e} s`"
+            )
         };
         format!("at t = {t:.3e} s {why}{what}; {how}")
     }
@@ -132,4 +134,39 @@ where
     let names: Vec<String> = moves.map(|(&i, _)| format!("`{}`", all[i].name)).take(3).collect();
     let verb = if names.len() == 1 { "moves" } else { "move" };
     (!names.is_empty()).then(|| (format!("{} {verb}", names.join(", ")), motion.value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanism::Coordinates;
+    use grashof_solvers::Settings;
+
+    /// Steps until a run of 1 s is stopped, of steps of these lengths.
+    fn stopped(control: Control, length: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
+        let settings = Settings { control, ..Settings::default() };
+        let plan = Plan { until: 1.0, every: None, settings, coordinates: Coordinates::Joint, minimal: false };
+        let (mut pace, mut t) = (Pace::default(), 0.0);
+        for k in 0..2_000_000 {
+            let next = t + length(k);
+            if let Some(Slow::Steps(count, needed)) = pace.step([t, next], 0, &plan) {
+                return Some((count, needed));
+            }
+            t = next;
+        }
+        None
+    }
+
+    #[test]
+    fn what_is_too_slow_all_the_time_is_stopped() {
+        let tolerance = Control::Tolerance(1e-8);
+        let (count, needed) = stopped(tolerance, |_| 1e-12).expect("a stop");
+        assert!(count == 200_000 && (needed / 1e12 - 1.0).abs() < 1e-3, "{count} {needed}");
+        // a million steps are enough for it, or a slow stretch is over, or has only just begun
+        assert_eq!(stopped(tolerance, |_| 1e-6), None);
+        assert_eq!(stopped(tolerance, |k| if k < 150_000 { 1e-12 } else { 5e-7 }), None);
+        assert_eq!(stopped(tolerance, |k| if k < 50_000 { 1e-5 } else { 1e-12 }), None);
+        // fixed steps are as many as they are
+        assert_eq!(stopped(Control::Steps([1e-12; 2]), |_| 1e-12), None);
+    }
 }

@@ -1,7 +1,7 @@
 //! A study of many runs: a sweep, kept while it goes on.
 
-use super::super::kept::Kept;
 use super::super::interrupt::{self, interrupted};
+use super::super::kept::Kept;
 use super::super::progress::Progress;
 use super::super::{code, fail, figures, linear, report, tell};
 use super::{Finished, Job, Output, values};

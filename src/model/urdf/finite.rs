@@ -16,18 +16,20 @@ pub(super) fn check(translation: &Translation) -> Vec<Fault> {
 fn walk(translation: &Translation, path: String, value: &Value, faults: &mut Vec<Fault>) {
     match value {
         Value::Mapping(entries) => {
-            entries.iter().for_each(|(key, value)| walk(translation, format!("{path}.{}", key.as_str().unwrap_or_default()), value, faults));
+            entries
+                .iter()
+                .for_each(|(key, value)| walk(translation, format!("{path}.{}", key.as_str().unwrap_or_default()), value, faults));
         }
-        Value::Sequence(items) if items.iter().any(infinite) => faults.push(fault(translation, &path)),
-        Value::Sequence(items) => items.iter().enumerate().for_each(|(i, item)| walk(translation, format!("{path}[{i}]"), item, faults)),
+        // one fault for a list of points, whose numbers come from the same element
         value if infinite(value) => faults.push(fault(translation, &path)),
         _ => {}
     }
 }
 
-/// Whether a number, or the number of a quantity, is not finite.
+/// Whether a number, the number of a quantity, or one in a list is not finite.
 fn infinite(value: &Value) -> bool {
     match value {
+        Value::Sequence(items) => items.iter().any(infinite),
         Value::Number(x) => x.as_f64().is_some_and(|x| !x.is_finite()),
         // a name has no space
         Value::String(text) => ["inf ", "-inf ", "NaN "].iter().any(|head| text.starts_with(head)),
