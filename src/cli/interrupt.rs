@@ -13,7 +13,9 @@ use std::time::{Duration, Instant};
 /// Between looks of the watch.
 const LOOK: Duration = Duration::from_millis(5);
 /// What ends by itself does so within this.
-const GRACE: Duration = Duration::from_millis(40);
+const GRACE: Duration = Duration::from_millis(30);
+/// What the watch gives itself to say so.
+const TO_TELL: Duration = Duration::from_millis(50);
 /// What a motion in time that has heard the signal is given for its rows.
 const FOR_ROWS: Duration = Duration::from_secs(20);
 
@@ -99,7 +101,7 @@ fn watch() {
         end(code::INTERRUPTED, take_errors())
     });
     let telling = Instant::now();
-    while !told.is_finished() && telling.elapsed() < 2 * LOOK {
+    while !told.is_finished() && telling.elapsed() < TO_TELL {
         std::thread::sleep(LOOK / 10);
     }
     std::process::exit(i32::from(code::INTERRUPTED));

@@ -187,6 +187,10 @@ fn recovered(directory: &Path) -> Result<(Manifest, Vec<String>), WriteError> {
         mark.fits(&writing.temporary(directory, name)) && may_replace(directory, name, Some(mark), &manifest, false).is_ok()
     };
     if writing.files.iter().all(|(name, mark)| stands(name, mark) || ready(name, mark)) {
+        // a torn one beside a file that has not changed from the set before
+        let torn =
+            writing.files.iter().map(|(name, mark)| (writing.temporary(directory, name), mark)).filter(|(path, mark)| !mark.fits(path));
+        torn.for_each(|(path, _)| discard(&path));
         manifest.finish(directory, &writing)?;
         return Ok((
             manifest,

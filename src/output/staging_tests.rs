@@ -140,6 +140,11 @@ fn what_a_killed_run_left_is_finished_or_cleared() {
     let notes = prepare(&scratch.0, &[], false).unwrap();
     assert!(notes[0].contains("those of the run before"), "{notes:?}");
     assert_eq!((scratch.names(), scratch.text("a.json")), (vec!["a.csv".into(), "a.json".into()], "old".into()));
+    // a set like the one before, of which a file was half written
+    scratch.killed(&[("a.csv", "old"), ("a.json", "old")], 0);
+    scratch.put(".a.json.new-0.0", "ol");
+    prepare(&scratch.0, &[], false).unwrap();
+    assert_eq!((scratch.names(), scratch.text("a.json")), (vec!["a.csv".into(), "a.json".into()], "old".into()));
     // somebody has taken away what would make it whole: the record tells, and the next run mends it
     scratch.killed(&new, 1);
     fs::remove_file(scratch.0.join(".a.json.new-0.0")).unwrap();
