@@ -75,7 +75,10 @@ fn run(directory: &Path, arguments: &[&str], out: &Path) -> (i32, String) {
     assert!(!stderr.contains('\x1b'), "{arguments:?}: colours without a terminal\n{stderr}");
     let code = output.status.code().unwrap_or_else(|| panic!("{arguments:?} was killed: {}\n{stderr}", output.status));
     // only a run of several studies may tell results beside an error
-    if code == 2 && !arguments.contains(&"--no-plots") {
+    if arguments.contains(&"--json") {
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("errors as JSON");
+        assert!(code != 2 || told[0]["errors"][0]["message"].is_string(), "{arguments:?}: {told}");
+    } else if code == 2 && !arguments.contains(&"--no-plots") {
         assert!(output.stdout.is_empty(), "{arguments:?}: stdout {}", String::from_utf8_lossy(&output.stdout));
     }
     (code, stderr)

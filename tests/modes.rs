@@ -172,7 +172,7 @@ fn a_four_bar_in_balance_has_one_frequency_in_all_coordinates() {
     for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
         close("space", &eigenvalues::<Spatial<f64>>(&four_bar(true, rest), coordinates), &right, 1e-9);
         let (.., held) = held::<Spatial<f64>>(&four_bar(true, rest), coordinates);
-        let damping = |h: &Held| damped(&state_matrix(h, true).expect("masses"), 1)[0].value;
+        let damping = |h: &Held| damped(&state_matrix(h, true).expect("masses"), 1).expect("numbers")[0].value;
         close("μ", &[damping(&held).re, damping(&held).im], &[damping(&plain).re, damping(&plain).im], 1e-9);
     }
 }

@@ -11,6 +11,7 @@ mod contact;
 pub mod continuous;
 pub mod coordinates;
 pub mod driven;
+pub mod eigenvalues;
 pub mod extremum;
 mod fold;
 pub mod forward;

@@ -5,7 +5,7 @@
 //! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension, and an energy in
 //! units of the largest energy or work of the run: what is zero but for rounding has no digits to lose.
 
-use super::progress::interrupted;
+use super::interrupt::interrupted;
 use super::schemes::{self, Steps, word};
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;

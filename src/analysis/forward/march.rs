@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::explain;
+use super::pace::Pace;
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
@@ -20,9 +21,6 @@ use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 use std::cell::OnceCell;
-
-/// Bytes that the steps of a run may take.
-const MOST_BYTES: usize = 3 << 30;
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
@@ -154,6 +152,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         events: Vec::new(),
         balance: Balance::default(),
         findings: Vec::new(),
+        pace: Pace::default(),
         changed: Vec::new(),
         resting: Vec::new(),
         begins: Begins::Run,
@@ -258,6 +257,7 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     events: Vec<Happened>,
     balance: Balance,
     findings: Vec<Finding>,
+    pace: Pace,
     /// Parameters that events have set.
     changed: Vec<(usize, f64)>,
     /// Stops on which joints rest.
@@ -323,8 +323,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 }
                 self.trajectory.piece(&node);
             }
-            if self.trajectory.size() > MOST_BYTES {
-                break After::Stopped(format!("the steps no longer fit into memory at t = {} s", node.state.t));
+            if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
+                break After::Stopped(slow.told(self.model, era, self.plan, &node));
             }
             if progress == Progress::End {
                 break After::Done;

@@ -7,6 +7,7 @@ pub(in crate::analysis) mod balance;
 mod bare;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
+mod pace;
 pub(in crate::analysis) mod setup;
 pub(in crate::analysis) mod system;
 pub(in crate::analysis) mod trajectory;

@@ -14,6 +14,7 @@ mod probe;
 
 use super::assemble::{Assembled, assemble};
 use super::coordinates::coordinates;
+use super::eigenvalues::eigenvalues;
 use super::forward::explain::massless;
 use super::linear::{Linear, Reduced};
 use super::modes::held::settled;
@@ -70,10 +71,13 @@ where
     let (base, reduced) = bench.linear(&lifted, &mut at, &names)?;
     let system = bench.system(&at, &base, &reduced, &names)?;
     findings.extend(bench.findings(&at, &base, &names, &reduced.partition));
-    let mut poles: Vec<(f64, f64)> = match reduced.a.nrows() {
-        0 => Vec::new(),
-        _ => reduced.a.clone().complex_eigenvalues().iter().map(|p| (p.re, p.im)).collect(),
-    };
+    let poles = eigenvalues(&reduced.a).ok_or_else(|| {
+        Failure::numerical(
+            "the poles cannot be found: a stiffness or damping is too large for the masses that it acts on",
+            "look for a value of the wrong unit or sign among springs, dampers and masses",
+        )
+    })?;
+    let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values };
     let scalars: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();

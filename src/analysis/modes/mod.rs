@@ -88,7 +88,7 @@ where
     }
     if !potential || asked.damped {
         let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
-        let found = damped(&a, names.len());
+        let found = damped(&a, names.len()).ok_or_else(beyond)?;
         if !potential {
             report.circulates(&held);
         }
@@ -289,6 +289,14 @@ fn parts(names: &[String], sizes: &DVector<f64>) -> String {
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     format!("{rounded}")
+}
+
+/// Forces and masses give no eigenvalues in numbers of a computer.
+fn beyond() -> Failure {
+    Failure::numerical(
+        "the eigenvalues cannot be found: a stiffness or damping is too large for the masses that it acts on",
+        "look for a value of the wrong unit or sign among springs, dampers and masses",
+    )
 }
 
 /// The masses leave no digits for the lightest motion.
