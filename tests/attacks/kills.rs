@@ -87,7 +87,7 @@ fn a_killed_run_leaves_whole_files() {
             while names(&out) == before && child.try_wait().unwrap().is_none() {
                 std::thread::sleep(Duration::from_micros(50));
             }
-            std::thread::sleep(Duration::from_micros(dice.next(3000) as u64));
+            std::thread::sleep(Duration::from_micros(dice.next(1000) as u64));
         }
         child.kill().unwrap();
         if child.wait().unwrap().success() {
