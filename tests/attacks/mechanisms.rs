@@ -22,12 +22,17 @@ struct Link {
     rate: f64,
 }
 
+/// A joint between the ground and the last body that closes a loop.
+struct Closure {
+    kind: &'static str,
+    places: [[f64; 3]; 2],
+}
+
 /// A mechanism, of which texts for the plane and for space are made.
 struct Chance {
     planar: bool,
     links: Vec<Link>,
-    /// A joint that closes a loop: its kind, two bodies, two places.
-    closure: Option<(&'static str, [usize; 2], [[f64; 3]; 2])>,
+    closure: Option<Closure>,
     stiffness: f64,
     damping: f64,
     gravity: [f64; 3],
@@ -69,21 +74,18 @@ impl Chance {
             let parent = links.len();
             links.push(link(parent));
         }
-        for i in 1..count {
+        for (i, link) in links.iter_mut().enumerate().skip(1) {
             if dice.next(3) == 0 {
-                links[i].parent = dice.next(i + 1);
+                link.parent = dice.next(i + 1);
             }
         }
         // a loop over three joints or more, which keeps a freedom
         let closure = (count > 2 && dice.next(2) == 0).then(|| {
-            let kind = if count > 3 && planar && dice.next(2) == 0 { "revolute" } else { "distance" };
+            let pinned = count > 3 && planar && dice.next(2) == 0;
             let place = vector(dice, planar);
-            let far = if kind == "distance" { vector(dice, planar).map(|x| x * 0.5) } else { [0.0; 3] };
-            (
-                kind,
-                [0, count],
-                [place, [place[0] + far[0] + if kind == "distance" { 0.7 } else { 0.0 }, place[1] + far[1], place[2] + far[2]]],
-            )
+            let off = vector(dice, planar);
+            let far = [place[0] + 0.5 * off[0] + 0.7, place[1] + 0.5 * off[1], place[2] + 0.5 * off[2]];
+            if pinned { Closure { kind: "revolute", places: [place; 2] } } else { Closure { kind: "distance", places: [place, far] } }
         });
         let damping = if dice.next(2) == 0 { 0.0 } else { between(dice, 0.1, 2.0) };
         let mut gravity = vector(dice, planar);
@@ -96,23 +98,12 @@ impl Chance {
         let list = |v: [f64; 3]| if planar { format!("[{}, {}]", v[0], v[1]) } else { format!("[{}, {}, {}]", v[0], v[1], v[2]) };
         let name = |body: usize| if body == 0 { "ground".to_owned() } else { format!("b{body}") };
         let mut points = vec![String::new(); self.links.len() + 1];
-        let (mut joints, mut start, mut shown) = (String::new(), Vec::new(), Vec::new());
-        for (i, link) in self.links.iter().enumerate() {
-            let i = i + 1;
+        let (mut joints, mut bodies, mut start, mut shown) = (String::new(), String::new(), Vec::new(), Vec::new());
+        for (link, i) in self.links.iter().zip(1..) {
             for body in [link.parent, i] {
                 write!(points[body], "j{i}: {}, ", list(link.place)).unwrap();
             }
-            let axis = match link.kind {
-                "spherical" => String::new(),
-                "revolute" if planar => String::new(),
-                "universal" => {
-                    let a = link.axis;
-                    format!(", axes: [{}, [{}, {}, 0]]", list(a), -a[1], a[0])
-                }
-                "screw" => format!(", axis: {}, pitch: 0.3", list(link.axis)),
-                _ => format!(", axis: {}", list(link.axis)),
-            };
-            writeln!(joints, "  j{i}: {{ {}: [{}.j{i}, b{i}.j{i}]{axis} }}", link.kind, name(link.parent)).unwrap();
+            writeln!(joints, "  j{i}: {{ {}: [{}.j{i}, b{i}.j{i}]{} }}", link.kind, name(link.parent), link.axis(planar)).unwrap();
             // a loop may not allow the rates of its joints, and those of other kinds of joints would be left open: all rest
             let moving = self.planar && self.closure.is_none();
             match link.kind {
@@ -122,37 +113,48 @@ impl Chance {
             }
             shown.extend([format!("b{i}.com.x"), format!("b{i}.com.y")]);
         }
-        if let Some((kind, bodies, places)) = &self.closure {
-            for (body, place) in bodies.iter().zip(places) {
-                write!(points[*body], "close: {}, ", list(*place)).unwrap();
+        let last = self.links.len();
+        if let Some(Closure { kind, places }) = &self.closure {
+            for (body, place) in [0, last].into_iter().zip(places) {
+                write!(points[body], "close: {}, ", list(*place)).unwrap();
             }
             let axis = if planar || *kind == "distance" { "" } else { ", axis: [0, 0, 1]" };
-            writeln!(joints, "  c: {{ {kind}: [{}.close, {}.close]{axis} }}", name(bodies[0]), name(bodies[1])).unwrap();
+            writeln!(joints, "  c: {{ {kind}: [ground.close, b{last}.close]{axis} }}").unwrap();
         }
-        let last = self.links.len();
-        let mut text = format!(
-            "grashof: 1\nname: chance\nspace: {}\ngravity: {}\nground: {{ post: {}, {} }}\nbodies:\n",
+        for (link, i) in self.links.iter().zip(1..) {
+            let inertia = if planar { format!("{}", link.inertia) } else { format!("[0.5, 0.4, {}]", link.inertia) };
+            let points = points[i].trim_end_matches(", ");
+            let com = list(link.com);
+            writeln!(bodies, "  b{i}: {{ mass: {}, inertia: {inertia}, com: {com}, points: {{ {points} }} }}", link.mass).unwrap();
+        }
+        format!(
+            "grashof: 1\nname: chance\nspace: {}\ngravity: {}\nground: {{ post: {}, {} }}\nbodies:\n{bodies}joints:\n{joints}\
+             springs:\n  s: {{ between: [ground.post, b{last}.com], stiffness: {}, length: 1, damping: {} }}\nstart: {{ {} }}\n\
+             studies:\n  move:\n    dynamics: {{ until: 0.4 s, every: 0.1 s{options} }}\n    columns: [time, energy.total, {}]\n",
             if planar { "planar" } else { "spatial" },
             list(self.gravity),
             list([-1.5, 1.7, if self.planar { 0.0 } else { 0.4 }]),
-            points[0].trim_end_matches(", ")
-        );
-        for (i, link) in self.links.iter().enumerate() {
-            let inertia = if planar { format!("{}", link.inertia) } else { format!("[0.5, 0.4, {}]", link.inertia) };
-            let points = points[i + 1].trim_end_matches(", ");
-            writeln!(text, "  b{}: {{ mass: {}, inertia: {inertia}, com: {}, points: {{ {points} }} }}", i + 1, link.mass, list(link.com))
-                .unwrap();
-        }
-        let (k, c) = (self.stiffness, self.damping);
-        write!(
-            text,
-            "joints:\n{joints}springs:\n  s: {{ between: [ground.post, b{last}.com], stiffness: {k}, length: 1, damping: {c} }}\n\
-             start: {{ {} }}\nstudies:\n  move:\n    dynamics: {{ until: 0.4 s, every: 0.1 s{options} }}\n    columns: [time, energy.total, {}]\n",
+            points[0].trim_end_matches(", "),
+            self.stiffness,
+            self.damping,
             start.join(", "),
             shown.join(", ")
         )
-        .unwrap();
-        text
+    }
+}
+
+impl Link {
+    /// The options of its joint.
+    fn axis(&self, planar: bool) -> String {
+        let [x, y, z] = self.axis;
+        match self.kind {
+            "spherical" => String::new(),
+            "revolute" if planar => String::new(),
+            "universal" => format!(", axes: [[{x}, {y}, {z}], [{}, {x}, 0]]", -y),
+            "screw" => format!(", axis: [{x}, {y}, {z}], pitch: 0.3"),
+            _ if planar => format!(", axis: [{x}, {y}]"),
+            _ => format!(", axis: [{x}, {y}, {z}]"),
+        }
     }
 }
 
