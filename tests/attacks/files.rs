@@ -1,27 +1,17 @@
-//! Damages models at random and runs what is left of them, in this process.
+//! Damages model files and URDF at random and runs what is left of them, in this process.
 
+use crate::dice::Dice;
+use crate::{cases, seeded, setting, tell};
 use grashof::analysis::run::run;
 use grashof::analysis::survey::survey;
 use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
-use grashof::model::{Document, Kind, Over, Selection};
+use grashof::model::{Document, Import, Kind, Over, Selection, import};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
-
-/// xorshift64*: small, the same everywhere.
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn next(&mut self, below: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize % below.max(1)
-    }
-}
 
 const PIECES: [&str; 28] = [
     "{", "}", "[", "]", ": ", ",", "- ", "*", "&a ", "!t ", "|", "'", "\"", "~", "null", "\n", "\n  ", "1e400", ".nan", "ü", "(", ")",
@@ -93,7 +83,7 @@ enum Fate {
     Ran,
 }
 
-/// Reads a model and runs one of its studies with few samples.
+/// Reads a model as `check` does and runs one of its studies as `run` does, with few samples.
 fn live(bytes: &[u8], choice: usize) -> Fate {
     let Ok(document) = Document::from_bytes(bytes, "damaged.yaml") else { return Fate::Refused };
     let report = document.check_all(&Selection::default());
@@ -103,7 +93,8 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
         return Fate::Refused;
     }
     let selection = Selection { study: Some(&names[choice % names.len()]), ..Selection::default() };
-    let Ok(mut model) = document.model(&selection) else { return Fate::Refused };
+    let mut model =
+        document.model(&selection).unwrap_or_else(|report| panic!("`check` finds nothing, `run` does: {}", report.render(false)));
     let Some(mut study) = model.study.take() else { return Fate::Refused };
     match &mut study.kind {
         Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => {
@@ -114,15 +105,18 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
             }
             range.samples = 12;
         }
-        Kind::Statics | Kind::Modes(_) | Kind::Linearize(_) => {}
-        // motions in time may be long without a hang
-        Kind::Dynamics(_) | Kind::Periodic(_) => return Fate::Refused,
+        Kind::Statics | Kind::Modes(_) | Kind::Linearize(_) | Kind::Dynamics(_) => {}
+        // asks `stop` between its integrations only
+        Kind::Periodic(_) => return Fate::Refused,
     }
     let _ = survey(&model, &sweep::parameters(&model));
     let grid = sweep::grid(&model, &study);
     let set: Vec<(usize, f64)> =
         study.sweep.iter().map(|s| s.parameter).zip(grid.get(choice % grid.len().max(1)).cloned().unwrap_or_default()).collect();
-    match run(&model, &study, &sweep::parameters_with(&model, &set), Coordinates::Joint, &|| false) {
+    // motions in time may be long without a hang: they have to hear that they shall stop
+    let begun = Instant::now();
+    let stop = || begun.elapsed() > Duration::from_millis(500);
+    match run(&model, &study, &sweep::parameters_with(&model, &set), Coordinates::Joint, &stop) {
         Ok(outcome) => {
             assert!(outcome.places.iter().all(|x| x.is_finite()), "places {:?}", outcome.places);
             if outcome.stopped.is_some() { Fate::Failed } else { Fate::Ran }
@@ -134,34 +128,40 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
     }
 }
 
-fn models() -> Vec<(String, String)> {
+/// Translates a URDF; what comes out is a model that is read without a fault.
+fn translated(bytes: &[u8], _: usize) -> Fate {
+    let Ok(imported) = import(bytes, "damaged.urdf", &Import::default()) else { return Fate::Refused };
+    let report = Document::from_bytes(imported.text.as_bytes(), "imported.yaml").map(|d| d.check_all(&Selection::default()));
+    let report = report.unwrap_or_else(|report| report);
+    assert!(!report.failed(), "`import` writes what `check` refuses:\n{}\n{}", report.render(false), imported.text);
+    Fate::Ran
+}
+
+/// Files with an ending, below directories of the project: name and text.
+fn texts(directories: &[&str], ending: &str) -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut found: Vec<(String, String)> = ["models", "src/cli/templates"]
+    let mut found: Vec<(String, String)> = directories
         .iter()
         .flat_map(|folder| fs::read_dir(root.join(folder)).unwrap())
         .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "yaml"))
+        .filter(|path| path.extension().is_some_and(|e| e == ending))
         .map(|path| (path.file_stem().unwrap().to_string_lossy().into_owned(), fs::read_to_string(path).unwrap()))
         .collect();
     found.sort();
     found
 }
 
-fn setting(name: &str, otherwise: u64) -> u64 {
-    std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise)
-}
-
-#[expect(clippy::print_stderr, reason = "a count for who tries many by hand")]
-pub(crate) fn models_never_panic_or_hang() {
-    let models = models();
-    let rounds = setting("GRASHOF_MUTATIONS", 300);
-    let mut dice = Dice(0x0DD5_EED5 ^ setting("GRASHOF_SEED", 0).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+/// Damages texts, each case from another of them, and lives with them on a thread of their own.
+fn attack(kind: &str, texts: &[(String, String)], short: u64, live: fn(&[u8], usize) -> Fate) {
+    let rounds = cases(short);
+    let patience = Duration::from_secs(setting("GRASHOF_PATIENCE", 60));
+    let mut dice = seeded(0x0DD5_EED5);
     let (mut fates, mut faults, mut slowest) = ([0; 3], Vec::new(), (Duration::ZERO, 0));
     for round in 0..rounds {
-        let (name, text) = &models[dice.next(models.len())];
+        let (name, text) = &texts[dice.next(texts.len())];
         let (bytes, choice) = (damaged(text, &mut dice), dice.next(1000));
         let mut keep = |what: &str| {
-            let path = std::env::temp_dir().join(format!("grashof-damaged-{what}-{round}.yaml"));
+            let path = std::env::temp_dir().join(format!("grashof-damaged-{what}-{round}.{kind}"));
             fs::write(&path, &bytes).unwrap();
             faults.push(format!("{what}: round {round}, from {name}, study {choice}: {}", path.display()));
         };
@@ -171,7 +171,7 @@ pub(crate) fn models_never_panic_or_hang() {
             let fate = catch_unwind(AssertUnwindSafe(|| live(&mutant, choice)));
             let _ = told.send(fate.ok());
         });
-        match tells.recv_timeout(Duration::from_secs(setting("GRASHOF_PATIENCE", 60))) {
+        match tells.recv_timeout(patience) {
             Ok(Some(fate)) => fates[fate as usize] += 1,
             Ok(None) => keep("panic"),
             Err(_) => keep("hang"),
@@ -181,7 +181,26 @@ pub(crate) fn models_never_panic_or_hang() {
         }
     }
     let [refused, failed, ran] = fates;
-    eprintln!("{refused} refused, {failed} failed, {ran} ran; slowest {:?} in round {}", slowest.0, slowest.1);
+    let slow = format!("slowest {:.1?} in round {}", slowest.0, slowest.1);
+    tell(&format!(
+        "{kind}: {rounds} cases: {refused} refused, {failed} failed with a reason, {ran} ran; {slow}; {} findings",
+        faults.len()
+    ));
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(ran * 8 > rounds, "too few still run: {ran}");
+}
+
+/// Damaged models are refused with a diagnostic, fail with a reason, or run; what `check` lets pass begins to run.
+#[test]
+fn damaged_models_never_panic_or_hang() {
+    let mut texts = texts(&["models", "src/cli/templates", "tests/external/models"], "yaml");
+    // what takes seconds by itself would hide what hangs
+    texts.retain(|(name, _)| name != "iftomm_a02_four_bar_40");
+    attack("yaml", &texts, 300, live);
+}
+
+/// A damaged URDF is refused, or becomes a model without faults.
+#[test]
+fn damaged_robots_are_refused_or_become_models() {
+    attack("urdf", &texts(&["models", "tests/urdf", "tests/external/models/urdf"], "urdf"), 1000, translated);
 }
