@@ -11,7 +11,7 @@
 
 use super::pool::Id;
 use super::table::Table;
-use crate::scalar::Interval;
+use crate::scalar::{Interval, Scalar};
 
 /// A comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
