@@ -196,8 +196,15 @@ impl Table {
     /// Distance of `x` from the nearest end of `segment`: positive inside, negative outside.
     #[must_use]
     pub fn inside(&self, x: f64, segment: i32) -> f64 {
+        let [low, high] = self.from_ends(x, segment);
+        low.min(high)
+    }
+
+    /// Distances of `x` from the lower and the upper end of `segment`: positive inside.
+    #[must_use]
+    pub fn from_ends(&self, x: f64, segment: i32) -> [f64; 2] {
         let (low, high) = self.ends(segment);
-        (x - low).min(high - x)
+        [x - low, high - x]
     }
 
     /// The segment beyond the end of `segment` that is nearest to `x`.
