@@ -22,6 +22,11 @@ pub trait Curve {
     fn middle(&self, from: f64, to: f64, _piece: usize) -> f64 {
         0.5 * (from + to)
     }
+
+    /// On what width a piece is known to be smooth at a place, as the steps of an integrator tell; 0 if nothing is known.
+    fn smooth(&self, _at: f64, _piece: usize) -> f64 {
+        0.0
+    }
 }
 
 /// Samples of a [`Curve`].

@@ -32,9 +32,8 @@ const ROUND_OFF: f64 = 100.0;
 /// Nodes of the path to a first stretch.
 const NODES_TO_A_STRETCH: usize = 4;
 
-/// Most switches of a motion, and most looks for them.
-const MOST_SWITCHES: usize = 50_000;
-const MOST_LOOKS: usize = 1_000_000;
+/// Most looks for switches, some 25 for each that is found.
+const MOST_LOOKS: usize = 300_000;
 
 /// A lowest place beyond this part of the half-width of a stretch is the end where the distance is known to be zero.
 const NEAR_END: f64 = 0.999;
@@ -212,6 +211,18 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
                 self.enter(stretch.from, next, &mut panels)?;
             }
             let Stretch { from, to, closed, .. } = stretch;
+            // up to a switch so near there is nothing to be seen; and effort has an end
+            let short = !closed.is_empty() && to - from <= NARROWEST * self.range();
+            let exhausted = self.looks > MOST_LOOKS;
+            if short || exhausted {
+                if exhausted {
+                    let switch = self.fresh.first().copied().unwrap_or(self.distances(to)?[0].switch);
+                    self.motion.leave(switch, from);
+                }
+                let piece = self.piece();
+                panels.push(Panel::of(&mut *self.motion, from, to, piece)?);
+                continue;
+            }
             match self.look(from, to, &closed)? {
                 Look::Clear(panel) => {
                     panels.push(panel);
@@ -223,6 +234,7 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
                 }
                 Look::Ends { before, at, switches, next } => {
                     let near = TOGETHER * self.range();
+                    let at = if at - from <= near { from } else { at };
                     // what stood at the end is looked at again in the new modes
                     match waiting.last_mut() {
                         Some(behind) => {
@@ -329,7 +341,10 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
                 return self.ends([seen.place(j - 1), seen.place(j)], &ended, &seen.roots[j - 1], &seen.roots[j]);
             }
             let begin = self.distances(from)?;
-            let fresh = ended.iter().any(|&k| self.fresh.contains(&begin[k].switch) && begin[k].root > -self.floor[k].max(WIDTH * seen.size(k)));
+            let begins = from - self.motion.breaks[self.motion.breaks.len() - 1] <= TOGETHER * self.range();
+            let near_zero = |k: usize| begin[k].root > -self.floor[k].max(WIDTH * seen.size(k));
+            // what has just changed is zero there, and may come below zero again soon
+            let fresh = begins && ended.iter().any(|&k| self.fresh.contains(&begin[k].switch) && near_zero(k));
             if fresh && to - from > NARROWEST * self.range() {
                 return Ok(Look::Cut(seen.place(0)));
             }
@@ -367,12 +382,8 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
             if settled || least > 4.0 * self.basis.rough(&values) {
                 continue;
             }
-            if self.basis.tail(&values) > WIDTH * size {
-                if to - from > NARROWEST * self.range() && self.looks < MOST_LOOKS && self.motion.breaks.len() < MOST_SWITCHES {
-                    cut = true;
-                } else if to - from > NARROWEST * self.range() {
-                    self.motion.leave(switch, 0.5 * (from + to));
-                }
+            if self.basis.tail(&values) > self.floor[k].max(WIDTH * size) {
+                cut |= to - from > NARROWEST * self.range();
                 continue;
             }
             let (s, low) = self.basis.dip(&values);

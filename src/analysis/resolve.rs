@@ -14,7 +14,7 @@ use super::panel::{Basis, NODES, Panel, noise};
 pub(super) const FIRST_PANELS: usize = 24;
 
 /// Evaluations at most, unless the first panels take more.
-pub(super) const MOST_EVALUATIONS: usize = 200_000;
+pub(super) const MOST_EVALUATIONS: usize = 500_000;
 
 /// Panels narrower than this part of the range are not halved: they hold a jump.
 const NARROWEST: f64 = 1e-10;
@@ -24,6 +24,12 @@ const EDGE: f64 = 1e-7;
 
 /// A column may leave out this part of its size on a narrow panel, as a square root does at its begin.
 const STEEP: f64 = 1e-3;
+
+/// A column that changes by more than the last part of its size within panels narrower than the first part of an integrator's step,
+/// which together are narrower than the second part of it, is not to be trusted there.
+const FINE: f64 = 1.0 / 256.0;
+const LOCAL: f64 = 1.0 / 8.0;
+const MUCH: f64 = 0.1;
 
 /// Values that differ by so many times the round-off are still the same.
 const ROUND_OFF: f64 = 64.0;
@@ -149,6 +155,7 @@ pub(super) fn resolve<C: Curve>(curve: &mut C, panels: Vec<Panel>, breaks: &[f64
         level = next;
     }
     done.sort_by(|a, b| (a.piece, a.from).partial_cmp(&(b.piece, b.from)).unwrap_or(std::cmp::Ordering::Equal));
+    work.doubt(&done);
     work.finish(done)
 }
 
@@ -192,14 +199,15 @@ impl<C: Curve> Work<'_, C> {
             return Ok(Err(panel));
         }
         // round-off may be larger here than where it was measured
-        if depth > 0 && depth.is_multiple_of(4) && panel.width() > 16.0 * APART * self.range {
+        let exhausted = self.evaluations + 2 * NODES > most;
+        if !exhausted && depth > 0 && depth.is_multiple_of(4) && panel.width() > 16.0 * APART * self.range {
             self.measure(panel.from + MEASURED[1] * panel.width(), panel.piece)?;
             if self.resolved(&panel) {
                 return Ok(Err(panel));
             }
         }
         let narrow = panel.width() <= NARROWEST * self.range;
-        if narrow || self.evaluations + 2 * NODES > most {
+        if narrow || exhausted {
             self.leave(&panel, narrow);
             return Ok(Err(panel));
         }
@@ -245,6 +253,32 @@ impl<C: Curve> Work<'_, C> {
         }
     }
 
+    /// Leaves columns open that change by much within a small part of a step of an integrator, and not beside: the step does not
+    /// know of it. So do reactions next to a singular position, which they multiply the errors of the state by.
+    fn doubt(&mut self, panels: &[Panel]) {
+        let narrow = |p: &Panel| p.width() < FINE * self.curve.smooth(0.5 * (p.from + p.to), p.piece);
+        let mut open: Vec<Open> = Vec::new();
+        for run in panels.chunk_by(|a, b| a.piece == b.piece && narrow(a) && narrow(b)) {
+            let (first, last) = (&run[0], &run[run.len() - 1]);
+            let at = 0.5 * (first.from + last.to);
+            if !narrow(first) || last.to - first.from > LOCAL * self.curve.smooth(at, first.piece) {
+                continue;
+            }
+            for column in 0..self.size.len() {
+                let values: Vec<f64> = run.iter().flat_map(|p| p.column(column)).collect();
+                let [least, most] = [f64::min, f64::max].map(|f| values.iter().copied().fold(values[0], f));
+                if most - least > MUCH * self.size[column] && !jumps(&values) {
+                    open.push(Open { column, at, left: most - least, size: 0.0 });
+                }
+            }
+        }
+        for found in open {
+            if self.open[found.column].is_none_or(|known| found.left > known.left) {
+                self.open[found.column] = Some(found);
+            }
+        }
+    }
+
     /// Adds the ends of pieces.
     fn finish(self, panels: Vec<Panel>) -> Result<Resolved, C::Error> {
         let (columns, breaks) = (self.size.len(), self.breaks);
@@ -281,7 +315,7 @@ impl<C: Curve> Work<'_, C> {
 }
 
 /// Whether values change in one place only, and not on the way to something without bound.
-fn jumps(values: &[f64; NODES]) -> bool {
+fn jumps(values: &[f64]) -> bool {
     let steps = || values.windows(2).map(|w| (w[1] - w[0]).abs());
     let largest = steps().fold(0.0, f64::max);
     steps().sum::<f64>() - largest <= 0.05 * largest

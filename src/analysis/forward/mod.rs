@@ -78,8 +78,7 @@ where
     let tables = &eras.first().mechanism.tables;
     let scalars = evaluate(model, parameters, tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &[]);
     let expectations = if stopped.is_none() { expectations(model, study, parameters, tables, &found, &[]) } else { Vec::new() };
-    let certificate =
-        Certificate { resolved: Some(resolved.quality()), ..balance::residuals(&mut trajectory, &rows, certificate) };
+    let certificate = Certificate { resolved: Some(resolved.quality()), ..balance::residuals(&mut trajectory, &rows, certificate) };
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let n = rows.places.len();
     let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));

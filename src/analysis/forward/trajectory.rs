@@ -244,6 +244,12 @@ where
         if inside.is_empty() { 0.5 * (from + to) } else { inside[inside.len() / 2].end }
     }
 
+    fn smooth(&self, at: f64, piece: usize) -> f64 {
+        let (low, high) = self.pieces[piece].steps;
+        let steps = &self.steps[low..high];
+        steps.get(steps.partition_point(|s| s.end < at)).map_or(0.0, |s| s.h)
+    }
+
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
         self.go(t, piece)?;
         let n = self.columns;

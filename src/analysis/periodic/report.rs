@@ -124,10 +124,7 @@ impl Regime<'_> {
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
             findings: lap.findings,
-            certificate: Certificate {
-                resolved: Some(resolution),
-                ..balance::residuals(&mut lap.trajectory, &at, lap.certificate)
-            },
+            certificate: Certificate { resolved: Some(resolution), ..balance::residuals(&mut lap.trajectory, &at, lap.certificate) },
             events: lap.events,
             scenes: vec![(scene::MECHANISM.into(), scene)],
             ..Outcome::default()
