@@ -2,6 +2,7 @@
 
 use super::continuous::Curve;
 use super::panel::{NODES, Panel, node};
+use super::resolve::NEXT_TO;
 use std::borrow::Cow;
 
 /// Goal: error of a column's integral relative to the integral of its magnitude.
@@ -51,13 +52,20 @@ pub(super) fn integrals<C: Curve>(curve: &mut C, panels: &[Panel], noise: &[f64]
         let exhausted = quality.evaluations + 2 * NODES > most || panel.width() < NARROWEST * whole;
         if poor && !exhausted {
             let middle = 0.5 * (panel.from + panel.to);
-            for (from, to) in [(middle, panel.to), (panel.from, middle)] {
-                let half = Panel::of(curve, from, to, panel.piece)?;
-                let sums = columns(&half);
-                waiting.push((Cow::Owned(half), sums));
-            }
+            let halves = [(middle, panel.to), (panel.from, middle)].map(|(from, to)| Panel::of(curve, from, to, panel.piece));
             quality.evaluations += 2 * NODES;
-            continue;
+            match halves {
+                [Ok(second), Ok(first)] => {
+                    waiting.extend([second, first].map(|half| {
+                        let sums = columns(&half);
+                        (Cow::Owned(half), sums)
+                    }));
+                    continue;
+                }
+                // next to a dead point places can no longer be reached: the panel counts as it is
+                [Err(_), _] | [_, Err(_)] if panel.width() < NEXT_TO * whole => {}
+                [Err(lost), _] | [_, Err(lost)] => return Err(lost),
+            }
         }
         quality.converged &= !poor;
         for ((out, error), column) in out.iter_mut().zip(&mut error).zip(&sums) {

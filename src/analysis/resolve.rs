@@ -22,6 +22,9 @@ const NARROWEST: f64 = 1e-10;
 /// The same for the edge of what is defined.
 const EDGE: f64 = 1e-7;
 
+/// A part of the range in which places need not be reached.
+pub(super) const NEXT_TO: f64 = 1e-3;
+
 /// A column may leave out this part of its size on a narrow panel, as a square root does at its begin.
 const STEEP: f64 = 1e-3;
 
@@ -213,7 +216,15 @@ impl<C: Curve> Work<'_, C> {
         }
         let middle = self.curve.middle(panel.from, panel.to, panel.piece);
         let half = |curve: &mut C, from, to| Panel::of(curve, from, to, panel.piece);
-        let halves = [half(self.curve, panel.from, middle)?, half(self.curve, middle, panel.to)?];
+        let halves = match (half(self.curve, panel.from, middle), half(self.curve, middle, panel.to)) {
+            (Ok(first), Ok(second)) => [first, second],
+            // next to a dead point places can no longer be reached
+            (Err(_), _) | (_, Err(_)) if panel.width() < NEXT_TO * self.range => {
+                self.leave(&panel, false);
+                return Ok(Err(panel));
+            }
+            (Err(lost), _) | (_, Err(lost)) => return Err(lost),
+        };
         self.evaluations += 2 * NODES;
         halves.iter().for_each(|half| self.sized(half));
         Ok(Ok(halves.map(|panel| Waiting { panel, depth: depth + 1 })))

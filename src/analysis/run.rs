@@ -228,7 +228,7 @@ fn observe<G: Space<S = f64>>(
     };
     let resolved = motion.resolve().map_err(lost)?;
     let breaks = motion.breaks.clone();
-    let extremes = extrema(&mut motion, resolved.samples(), &breaks).map_err(lost)?;
+    let extremes = extrema(&mut motion, resolved.samples(), &breaks);
     let name = independent(model, mechanism, clock);
     contact::passes((model, study, &name), &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
     let rows = motion.rows(range.samples).map_err(lost)?;

@@ -67,7 +67,7 @@ where
     let breaks = trajectory.breaks();
     let stretches = trajectory.stretches();
     let resolved = resolve::on(&mut trajectory, &stretches, &breaks, setup::resolution(plan.settings.control)).map_err(lost)?;
-    let extremes = extrema(&mut trajectory, resolved.samples(), &breaks).map_err(lost)?;
+    let extremes = extrema(&mut trajectory, resolved.samples(), &breaks);
     let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;
     let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(lost(Off { at: 0.0 })) };
     let clock = Clock::of_time(plan.until);

@@ -143,7 +143,7 @@ impl Regime<'_> {
         let breaks = turn.breaks.clone();
         let width = resolution(Control::Tolerance(search.tolerance));
         let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(lost)?;
-        let extremes = extrema(&mut turn, resolved.samples(), &breaks).map_err(lost)?;
+        let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
         let name = if asked.over.is_some() { &search.over } else { "time" };
         let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
