@@ -142,6 +142,12 @@ impl<G: Space<S = f64>> Observer<G> {
         self.program.roots(&self.inputs, modes, &mut self.registers, roots);
     }
 
+    /// Distances to both ends of a table's segment, if switch number `k` is one; after [`Observer::roots`].
+    #[must_use]
+    pub fn segment_ends(&self, k: usize, modes: &[i32]) -> Option<[f64; 2]> {
+        self.program.segment_ends(k, modes, &self.registers)
+    }
+
     /// The mode behind crossing number `k` of the switches; after [`Observer::roots`].
     #[must_use]
     pub fn neighbour(&self, k: usize, modes: &[i32]) -> i32 {

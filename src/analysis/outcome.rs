@@ -156,8 +156,21 @@ pub struct Certificate {
     pub constraint: f64,
     /// Largest |driver power + power of applied forces − dT/dt| over the rows, relative to the largest of its terms.
     pub power_balance: f64,
+    /// How far columns are resolved between their rows.
+    pub resolved: Option<Resolution>,
     /// More of a motion in time.
     pub march: Option<March>,
+}
+
+/// How far the columns of a motion are resolved: what extremes, means and integrals are taken of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Resolution {
+    /// Part of a column's largest magnitude that may be left out between known values.
+    pub width: f64,
+    /// Columns that are not resolved so far somewhere.
+    pub open: usize,
+    /// Evaluations of the motion for it.
+    pub evaluations: usize,
 }
 
 /// Outlines of the mechanism in a few positions, in the plane of the drawing.

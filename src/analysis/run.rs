@@ -2,7 +2,6 @@
 
 use super::assemble::{Assembled, assemble};
 use super::clock::Clock;
-use super::continuous::Samples;
 use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::mobility::drivers_fit;
@@ -10,6 +9,7 @@ use super::motion::{Lost, Motion, Rows};
 use super::observe::Observer;
 use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
+use super::resolve::Resolved;
 use super::{balance, contact, forward, linearize, modes, periodic, scene, statics};
 use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
@@ -74,7 +74,7 @@ fn driven<G: Space<S = f64>>(
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
         let mut motion = trace(&mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
-        let offsets = balance::balance(&mut motion, moved, range.samples).map_err(|message| Failure::Study {
+        let offsets = balance::balance(&mut motion, moved).map_err(|message| Failure::Study {
             code: "balance",
             message,
             place: study.place.clone(),
@@ -180,6 +180,18 @@ pub(super) struct Watched {
 }
 
 impl Watched {
+    /// The scalars or expectations for which a column is watched, in words.
+    fn asked(&self, model: &Model, study: &Study, column: usize) -> String {
+        let functional = |&k: &usize| self.functionals[k] == column;
+        let takes = |id: Id| {
+            let inputs = model.pool.inputs_of(&[id]);
+            inputs.iter().any(|&i| matches!(model.inputs[i as usize], Quantity::Functional(k) if functional(&k)))
+        };
+        let scalars = study.scalars.iter().filter(|s| takes(s.value)).map(|s| format!("`{}`", s.name));
+        let names: Vec<String> = scalars.chain(study.expect.iter().filter(|e| takes(e.value)).map(|e| format!("`{}`", e.text))).collect();
+        if names.is_empty() { "a figure".into() } else { names.join(", ") }
+    }
+
     pub(super) fn of(study: &Study) -> Self {
         let mut ids: Vec<Id> = Vec::new();
         let mut index = |id: Id| {
@@ -227,14 +239,15 @@ fn observe<G: Space<S = f64>>(
         let message = format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at);
         Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range")
     };
-    let rows = motion.sample(range.samples).map_err(lost)?;
-    contact::passes((model, study, &independent(model, mechanism, clock)), &mut motion, &rows, start.size)?;
-    let n = rows.places.len();
-    // column after column, for the search of extremes
-    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+    let resolved = motion.resolve().map_err(lost)?;
     let breaks = motion.breaks.clone();
-    let extremes = extrema(&mut motion, samples, &breaks).map_err(lost)?;
+    let extremes = extrema(&mut motion, resolved.samples(), &breaks);
+    let name = independent(model, mechanism, clock);
+    contact::passes((model, study, &name), &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
+    let rows = motion.rows(range.samples).map_err(lost)?;
+    let n = rows.places.len();
+    let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
+    findings.extend(unresolved(model, study, &watched, &resolved, &motion.lost_switches, &name, clock));
 
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete).then(|| {
@@ -252,8 +265,8 @@ fn observe<G: Space<S = f64>>(
         results.push(if complete { 1.0 } else { 0.0 });
     }
     let ends = motion.ends;
-    let mut functionals = Functionals { clock, ends, curve: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
+    let mut functionals = Functionals { clock, ends, curve: &mut motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let found = functionals.all(model, study, parameters, &watched.functionals, &mut findings).map_err(lost)?;
     let scalars =
         evaluate(model, parameters, &mechanism.tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
     let expectations = expectations(model, study, parameters, &mechanism.tables, &found, &results);
@@ -269,8 +282,8 @@ fn observe<G: Space<S = f64>>(
         scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations,
-        findings: start.findings().chain(findings(mechanism, &motion)).collect(),
-        certificate: certificate(&mut motion, &rows),
+        findings,
+        certificate: Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) },
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
         ..Outcome::default()
@@ -357,6 +370,32 @@ pub(super) fn expectations(
             Checked { text: e.text.clone(), found: x[0], wanted: x[1], tolerance, met, place: e.place.clone() }
         })
         .collect()
+}
+
+/// Columns and switches that are not resolved within the effort that they are worth.
+pub(super) fn unresolved(
+    model: &Model,
+    study: &Study,
+    watched: &Watched,
+    resolved: &Resolved,
+    switches: &[(usize, f64)],
+    name: &str,
+    clock: Clock,
+) -> Vec<Finding> {
+    let finding = |message: String| Finding { code: "unresolved", message, path: study.place.clone() };
+    let columns = resolved.open.iter().filter(|open| open.column < watched.ids.len()).map(|open| {
+        let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
+        let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
+        finding(format!(
+            "{what} varies too fast or without bound near {name} = {:.6}: there its extremes, means and integrals may be wrong",
+            clock.value(open.at)
+        ))
+    });
+    let switches = switches.iter().map(|&(switch, at)| {
+        let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());
+        finding(format!("the switch `{text}` changes too often near {name} = {at:.6} to be followed: some of its changes may be missing"))
+    });
+    columns.chain(switches).collect()
 }
 
 /// What the motion itself shows: change points on the way.

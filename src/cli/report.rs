@@ -131,6 +131,9 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
     let number = |name: &str, x: f64| (name.to_string(), json_number(x));
     let count = |name: &str, n: usize| (name.to_string(), json_number(n as f64));
     let mut all = vec![count("rows", c.evaluations), count("switches", c.switches), number("constraint_residual", c.constraint)];
+    if let Some(r) = &c.resolved {
+        all.extend([number("resolved_to", r.width), count("unresolved", r.open), count("looks", r.evaluations)]);
+    }
     let Some(m) = &c.march else {
         all.push(number("power_balance", c.power_balance));
         return all;

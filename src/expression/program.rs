@@ -247,6 +247,15 @@ impl Program {
         }
     }
 
+    /// Distances from the lower and the upper end of the present segment for switch number `k` of [`Self::switches`], if it is that of
+    /// a table; smooth where the nearer of them, which [`Self::roots`] gives, has a kink.
+    ///
+    /// `registers` are those that [`Self::roots`] left.
+    #[must_use]
+    pub fn segment_ends(&self, k: usize, modes: &[i32], registers: &[f64]) -> Option<[f64; 2]> {
+        self.decisions[k].test.ends(modes[self.switches[k] as usize], |i| registers[i as usize], &self.tables)
+    }
+
     /// The mode behind the switch that is number `k` of [`Self::switches`], across the end of its present mode that is nearest.
     ///
     /// `registers` are those that [`Self::roots`] left at the crossing.

@@ -173,6 +173,14 @@ impl<I: Copy> Test<I> {
         }
     }
 
+    /// Distances of a table's argument from the lower and the upper end of its segment `mode`; none for other tests.
+    pub(super) fn ends(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> Option<[f64; 2]> {
+        let Self::Segment { table, x } = self else { return None };
+        let ends = tables.get(table as usize)?.from_ends(value(x), mode);
+        // as above
+        Some(ends.map(|d| if d.is_nan() { 1.0 } else { d }))
+    }
+
     /// The mode on the other side of the end of `mode` that is nearest.
     ///
     /// From the middle mode 0 of a sign it is the side where the value lies, positive on a tie.

@@ -197,12 +197,15 @@ impl Table {
     /// with two ends the product of the distances from both, by its length.
     #[must_use]
     pub fn inside(&self, x: f64, segment: i32) -> f64 {
+        let [low, high] = self.from_ends(x, segment);
+        if low.is_finite() && high.is_finite() { low * (high / (low + high)) } else { low.min(high) }
+    }
+
+    /// Distances of `x` from the lower and the upper end of `segment`: positive inside.
+    #[must_use]
+    pub fn from_ends(&self, x: f64, segment: i32) -> [f64; 2] {
         let (low, high) = self.ends(segment);
-        match (low.is_finite(), high.is_finite()) {
-            (true, true) => (x - low) * ((high - x) / (high - low)),
-            (true, false) => x - low,
-            _ => high - x,
-        }
+        [x - low, high - x]
     }
 
     /// Bounds of [`Self::inside`] for an interval.

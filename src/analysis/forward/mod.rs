@@ -17,12 +17,13 @@ pub use bare::Bare;
 pub use setup::{is_available, method};
 
 use super::clock::Clock;
-use super::continuous::{Curve, Samples};
+use super::continuous::Curve;
 use super::extremum::extrema;
 use super::functional::Functionals;
 use super::motion::Rows;
-use super::outcome::{Failure, Outcome};
-use super::run::{Watched, evaluate, expectations, in_variable};
+use super::outcome::{Certificate, Failure, Outcome};
+use super::resolve;
+use super::run::{Watched, evaluate, expectations, in_variable, unresolved};
 use super::scene;
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
@@ -53,7 +54,7 @@ where
     let watched = Watched::of(study);
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
-    let Recorded { mut trajectory, stopped, events, certificate, findings } =
+    let Recorded { mut trajectory, stopped, events, certificate, mut findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
@@ -66,19 +67,20 @@ where
         )
     };
     let breaks = trajectory.breaks();
+    let stretches = trajectory.stretches();
+    let resolved = resolve::on(&mut trajectory, &stretches, &breaks, setup::resolution(plan.settings.control)).map_err(lost)?;
+    let extremes = extrema(&mut trajectory, resolved.samples(), &breaks);
     let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;
-    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
-    let extremes = extrema(&mut trajectory, samples, &breaks).map_err(lost)?;
     let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(lost(Off { at: 0.0 })) };
     let clock = Clock::of_time(plan.until);
+    findings.extend(unresolved(model, study, &watched, &resolved, &[], "time", clock));
     let mut functionals =
-        Functionals { clock, ends: [from, to], curve: &mut trajectory, rows: &rows, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
+        Functionals { clock, ends: [from, to], curve: &mut trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let found = functionals.all(model, study, parameters, &watched.functionals, &mut findings).map_err(lost)?;
     let tables = &eras.first().mechanism.tables;
     let scalars = evaluate(model, parameters, tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &[]);
     let expectations = if stopped.is_none() { expectations(model, study, parameters, tables, &found, &[]) } else { Vec::new() };
-    let certificate = balance::residuals(&mut trajectory, &rows, certificate);
+    let certificate = Certificate { resolved: Some(resolved.quality()), ..balance::residuals(&mut trajectory, &rows, certificate) };
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let n = rows.places.len();
     let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
