@@ -101,7 +101,6 @@ impl<G: Space<S = f64>> System<'_, G> {
 
     /// Which of two branches counts.
     fn choose(&self, q: &[f64], branches: &[Vec<f64>; 2]) -> usize {
-        let guessed = self.guessed_rates();
         let rest = self.rest(q);
         let scores = [&self.guessed_rates(), &rest].map(|level| branches.each_ref().map(|v| norm(&level.missing(v))));
         for [first, second] in scores {
