@@ -25,10 +25,12 @@ pub(crate) fn has_picture(comparison: &Comparison) -> bool {
 fn figure(comparison: &Comparison) -> Figure {
     let Comparison { case, points, ours, right, .. } = comparison;
     let column = &case.columns[comparison.worst];
-    let last = points.last().map_or(0.0, |p| p[0]);
+    // a crank may turn backwards
+    let (first, last) = points.iter().fold((f64::MAX, f64::MIN), |(a, b), p| (a.min(p[0]), b.max(p[0])));
+    let shown = |key: f64| key >= first - 1e-9 && key <= last + 1e-9;
     // a quaternion may change its sign between rows, so only the rows that are compared can be drawn
     let mine = ours.index(&column.ours);
-    let dense = ours.rows.iter().filter(|row| row[0] <= last + 1e-9).map(|row| (row[0], row[mine] * column.factor + column.offset));
+    let dense = ours.rows.iter().filter(|row| shown(row[0])).map(|row| (row[0], row[mine] * column.factor + column.offset));
     let found: Vec<(f64, f64)> = if column.name.contains(".Q[") { points.iter().map(|p| (p[0], p[1])).collect() } else { dense.collect() };
     // where the reference is much coarser than the motion, a line through it would be wrong: dots
     let sparse = found.len() > 3 * points.len();
@@ -107,7 +109,6 @@ Mechanisms whose motion, forces or rest were published by others, or computed by
 - **Digits of the reference** are what its source says of it: a tolerance, a step, printed digits, or the digits to which two independent computations agree. A reference by a solver at a tolerance of 1e-6 seldom has more than five digits, and in chaotic motions fewer: what is missing there is missing in the reference.
 - Where a published result is so loose that it could hide a fault, equations written by hand were integrated by extrapolation (`tests/external/hand_equations.py`), and both are compared with that.
 - **Pictures** show the worst column: the program and the reference above; below, their difference in millionths (ppm) of the column's largest value.
-
 - Left out: the slider-crank of the Test Set with its flexible rod, and a skate on a slope, whose constraint is one of velocities alone: there are neither flexible bodies nor such constraints yet. The crank-rocker and the quick return have tests of their own (`tests/assignment.rs`, `tests/quick_return.rs`).
 
 ## What agrees
