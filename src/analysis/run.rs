@@ -1,4 +1,4 @@
-//! One run of a kinematic study: build, assemble, trace, sample, extremes, functionals, scalars, expectations.
+//! One run of a kinematic study: build, assemble, trace, resolve, extremes, functionals, rows, scalars, expectations.
 
 use super::assemble::{Assembled, assemble};
 use super::clock::Clock;
@@ -16,7 +16,7 @@ use crate::expression::Id;
 use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism};
-use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+use crate::model::{Dimensions, Functional, FunctionalKind, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
 use crate::scalar::Dual;
 use std::sync::Arc;
 
@@ -383,7 +383,13 @@ pub(super) fn unresolved(
     clock: Clock,
 ) -> Vec<Finding> {
     let finding = |message: String| Finding { code: "unresolved", message, path: study.place.clone() };
-    let columns = resolved.open.iter().filter(|open| open.column < watched.ids.len()).map(|open| {
+    // a value at a place does not depend on what is between
+    let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
+    let counts = |column: usize| {
+        watched.columns.iter().chain(&watched.shown).any(|&c| c == column)
+            || watched.functionals.iter().zip(&study.functionals).any(|(&c, f)| c == column && !single(f))
+    };
+    let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
         let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
         let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
         finding(format!(
