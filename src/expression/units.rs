@@ -387,6 +387,8 @@ mod tests {
             (s / rad, "s/rad"),
             (rad.sqrt().and_then(Dimension::sqrt).unwrap(), ""),
             (m * rad, "m"),
+            (Dimension::MASS * rad, "kg"),
+            (Dimension::CURRENT / rad, "A"),
             (m / rad, "m"),
             (m * rad / s, "m/s"),
             (m * rad / m, ""),
