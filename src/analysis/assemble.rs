@@ -295,10 +295,11 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         false
     }
 
-    /// A step of at most half a radian or half the size of the mechanism.
+    /// A step of at most half a radian or half the size of the mechanism beside a common shift of bodies, which may be as far as it likes.
     fn bounded(&self, mut delta: Vec<f64>) -> Vec<f64> {
         let unit = units(self.dynamics.mechanism);
-        let largest = delta.iter().zip(&unit).map(|(d, u)| d.abs() / if *u == 0 { 0.5 } else { 0.5 * self.size }).fold(0.0, f64::max);
+        let left = self.dynamics.mechanism.without_shift(&delta);
+        let largest = left.iter().zip(&unit).map(|(d, u)| d.abs() / if *u == 0 { 0.5 } else { 0.5 * self.size }).fold(0.0, f64::max);
         if largest > 1.0 {
             delta.iter_mut().for_each(|d| *d /= largest);
         }
@@ -313,7 +314,8 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     fn wrong_way(&self) -> Option<usize> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         m.joints.iter().position(|j| {
-            j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.poses[j.a.0].r, u), G::rotate(w.poses[j.b.0].r, f)) < 0.0)
+            j.tree.is_none()
+                && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.places[j.a.0].r, u), G::rotate(w.places[j.b.0].r, f)) < 0.0)
         })
     }
 }

@@ -19,6 +19,8 @@ impl<'m, G: Space> Builder<'m, G> {
             mechanism: Mechanism {
                 bodies: vec![],
                 nodes: vec![],
+                groups: vec![],
+                group_of: vec![],
                 steps: vec![],
                 nq: 0,
                 nv: 0,
@@ -106,6 +108,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 self.mechanism.switches += 1;
             }
         }
+        self.mechanism.group();
         Ok(self.mechanism)
     }
 
