@@ -140,6 +140,8 @@ pub struct Integration {
     goal: f64,
     crossed: Vec<usize>,
     row: Vec<f64>,
+    /// Velocities at the start without those in common (nv).
+    relative: Vec<f64>,
     power: Vec<f64>,
     work: Vec<f64>,
     zeno: Zeno,
@@ -203,6 +205,7 @@ impl Integration {
             goal: start.t,
             crossed: Vec::with_capacity(dims.roots),
             row: vec![0.0; dims.v],
+            relative: vec![0.0; dims.v],
             power: vec![0.0; dims.work],
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),

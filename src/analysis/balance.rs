@@ -46,7 +46,7 @@ pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(u
         weights.push(0.5 * panel.width() * node(j).1);
         let work = &motion.driven.dynamics.work;
         let (mass, mut h) = motion.driven.dynamics.first_moment();
-        let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.poses[body].r, u) * m).collect();
+        let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.places[body].r, u) * m).collect();
         for (d, (_, _, _, length)) in directions.iter().zip(&lines) {
             h += *d * -*length;
         }

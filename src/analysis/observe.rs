@@ -220,11 +220,11 @@ impl<G: Space<S = f64>> Source<G> {
             Self::Time => d.t,
             Self::State(state) => w.z[state],
             Self::Point { body, at, axis, order } => {
-                let p = w.poses[body].point(at);
+                let p = if order == 0 { d.point(body, at) } else { d.place(m.group_of[body], body, at) };
                 G::component(trace::<G>(p, w.twists[body], r.accelerations[body], order), axis)
             }
             Self::Angle { body, order } => match order {
-                0 => G::angle(w.poses[body].r),
+                0 => G::angle(w.places[body].r),
                 1 => G::spin_component(w.twists[body].w, 2),
                 _ => G::spin_component(r.accelerations[body].w, 2),
             },
@@ -232,7 +232,7 @@ impl<G: Space<S = f64>> Source<G> {
                 G::spin_component(if order == 1 { w.twists[body].w } else { r.accelerations[body].w }, axis)
             }
             Self::Quaternion { body, component } => {
-                let r = w.poses[body].r;
+                let r = w.places[body].r;
                 let matrix = nalgebra::Matrix3::from_fn(|i, k| G::entry(r, i, k));
                 let unit = nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
                 [unit.w, unit.i, unit.j, unit.k][component]
@@ -241,7 +241,8 @@ impl<G: Space<S = f64>> Source<G> {
             Self::Force { joint, axis } => G::component(r.joints[joint].f, axis),
             Self::Moment { joint, axis } => {
                 let (body, at) = m.joints[joint].b;
-                G::spin_component(r.joints[joint].moment_about(w.poses[body].point(at)), axis)
+                let group = m.group_between(m.joints[joint].a.0, body);
+                G::spin_component(r.joints[joint].moment_about(d.place(group, body, at)), axis)
             }
             Self::DriverEffort(k) => r.drives[k],
             Self::DriverPower(k) => r.drives[k] * w.readings[m.drives[k].gauge].rate,

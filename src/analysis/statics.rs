@@ -337,7 +337,7 @@ where
         const DRAWN: usize = 6;
         let mut bodies = |pose: &Pose| {
             self.rest.show(pose);
-            self.rest.system.dynamics.work.poses.clone()
+            self.rest.system.dynamics.poses()
         };
         let from_start = [bodies(&all[0].pose), bodies(begin)];
         let several: Vec<_> = all.iter().take(DRAWN).map(|f| bodies(&f.pose)).collect();

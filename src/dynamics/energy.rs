@@ -27,7 +27,8 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn gravity_energy(&self) -> G::S {
         let mut sum = G::S::default();
         for node in &self.mechanism.nodes {
-            sum -= G::dot(self.mechanism.gravity, self.work.inertias[node.body].h);
+            let inertia = self.work.inertias[node.body];
+            sum -= G::dot(self.mechanism.gravity, inertia.h + self.reference(node.body) * inertia.m);
         }
         sum
     }
@@ -102,8 +103,9 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn first_moment(&self) -> (G::S, G::Vector) {
         let (mut m, mut h) = (G::S::default(), G::Vector::default());
         for node in &self.mechanism.nodes {
-            m += self.work.inertias[node.body].m;
-            h += self.work.inertias[node.body].h;
+            let inertia = self.work.inertias[node.body];
+            m += inertia.m;
+            h += inertia.h + self.reference(node.body) * inertia.m;
         }
         (m, h)
     }
@@ -113,7 +115,7 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn momentum(&self) -> Force<G> {
         let mut sum = Force::default();
         for node in &self.mechanism.nodes {
-            sum += self.work.inertias[node.body] * self.work.twists[node.body];
+            sum += (self.work.inertias[node.body] * self.work.twists[node.body]).about_origin(self.reference(node.body));
         }
         sum
     }
@@ -121,7 +123,6 @@ impl<G: Space> Dynamics<'_, G> {
     /// Rate of the momentum of one body with acceleration `a`: I A + V ×* I V.
     #[must_use]
     pub fn inertial(&self, body: usize, a: Motion<G>) -> Force<G> {
-        let w = &self.work;
-        w.inertias[body] * a + w.twists[body].cross_force(w.inertias[body] * w.twists[body])
+        self.work.inertias[body].momentum_rate(a, self.work.twists[body])
     }
 }

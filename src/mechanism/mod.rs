@@ -6,15 +6,18 @@
 pub mod build;
 mod force;
 mod gauge;
+mod group;
 mod inertia;
 mod joint;
 mod row;
 mod start;
+mod translation;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
 pub use force::{Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
 pub use gauge::{Along, Gauge, Measured, Reading};
+pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
 pub use start::{Asked, Orientation, Start};
@@ -80,6 +83,10 @@ pub struct Mechanism<G: Space> {
     pub bodies: Vec<Body<G>>,
     /// Moving bodies, parents first.
     pub nodes: Vec<Node<G>>,
+    /// Groups of bodies, each with the reference point that moments are taken about; at least one.
+    pub groups: Vec<Group<G>>,
+    /// Group of each body; 0 for the ground, see [`Mechanism::group_between`].
+    pub group_of: Vec<usize>,
     /// Moving steps of all tree joints.
     pub steps: Vec<Step<G>>,
     /// Number of coordinates.
@@ -194,13 +201,18 @@ impl<G: Space> Mechanism<G> {
         vec![0; self.switches + self.windings]
     }
 
-    /// Characteristic length, m: the farthest named point of any body from its own origin, and of the ground; 1 without any.
+    /// Characteristic length, m: the farthest named point of any body from its own origin, or of two places on the ground where bodies
+    /// of one group are held; 1 without any.
     #[must_use]
     pub fn size(&self) -> f64
     where
         G: Space<S = f64>,
     {
-        let reach = self.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
+        let length = |p: G::Vector| G::dot(p, p).sqrt();
+        let points = self.bodies[1..].iter().flat_map(|b| &b.points).map(|(_, p)| length(*p));
+        let held = self.footings();
+        let apart = held.iter().flat_map(|(g, p)| held.iter().filter(move |(other, _)| other == g).map(move |(_, o)| length(*o - *p)));
+        let reach = points.chain(apart).fold(0.0, f64::max);
         if reach > 0.0 { reach } else { 1.0 }
     }
 
@@ -295,6 +307,8 @@ impl<G: Space> Mechanism<G> {
                     columns: n.columns.clone(),
                 })
                 .collect(),
+            groups: self.groups.iter().map(Group::lift).collect(),
+            group_of: self.group_of.clone(),
             steps: self.steps.iter().map(Step::lift).collect(),
             nq: self.nq,
             nv: self.nv,

@@ -51,7 +51,9 @@ fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[
 fn coordinates<G: Space<S = f64>>(from: &Dynamics<'_, G>, to: &Mechanism<G>, index: usize, node: &Node<G>, q: &mut [f64], v: &mut [f64]) {
     let work = &from.work;
     let mut slots = to.joint_of_node[index].map(|joint| from.mechanism.joints[joint].slots.iter().map(|&slot| work.readings[slot]));
-    let (parent, body) = (work.poses[node.parent], work.poses[node.body]);
+    let (parent, body) = (work.places[node.parent], work.places[node.body]);
+    // from the zero of its coordinates; far from the origin of the world the difference of the references is the small one
+    let beside = body.p + (from.reference(node.body) - node.before.p);
     let origin = work.twists[node.body].at(body.p);
     let steps = to.steps[node.steps.clone()].iter();
     // slots stand in the order of the joint's axes, which a reversed branch runs through backwards
@@ -64,7 +66,7 @@ fn coordinates<G: Space<S = f64>>(from: &Dynamics<'_, G>, to: &Mechanism<G>, ind
                     Some(slots) => slots.next().map_or((0.0, 0.0), |reading| (reading.x, reading.rate)),
                     // a free body: along the axes of the ground, then about its own origin
                     None if turns => (G::angle(body.r), G::spin_component(work.twists[node.body].w, 2)),
-                    None => (G::component(body.p, axis), G::dot(basis::<G>(axis), origin)),
+                    None => (G::component(beside, axis), G::dot(basis::<G>(axis), origin)),
                 };
             }
             Step::Ball { q: i, reversed, .. } => {

@@ -189,9 +189,10 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         8.0 * f64::EPSILON * self.dynamics.mechanism.steps.iter().map(largest).fold(0.0, f64::max)
     }
 
-    /// A step of at most half a radian or half the size of the mechanism.
+    /// A step of at most half a radian or half the size of the mechanism beside a common shift of bodies, which may be as far as it likes.
     pub(super) fn bounded(&self, mut delta: Vec<f64>) -> Vec<f64> {
-        let largest = delta.iter().zip(&self.metric).map(|(d, metric)| 2.0 * d.abs() * metric.sqrt()).fold(0.0, f64::max);
+        let left = self.dynamics.mechanism.without_shift(&delta);
+        let largest = left.iter().zip(&self.metric).map(|(d, metric)| 2.0 * d.abs() * metric.sqrt()).fold(0.0, f64::max);
         if largest > 1.0 {
             delta.iter_mut().for_each(|d| *d /= largest);
         }
@@ -206,7 +207,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     pub(super) fn wrong_way(&self) -> Option<usize> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         m.joints.iter().position(|j| {
-            j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.poses[j.a.0].r, u), G::rotate(w.poses[j.b.0].r, f)) < 0.0)
+            j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.places[j.a.0].r, u), G::rotate(w.places[j.b.0].r, f)) < 0.0)
         })
     }
 }

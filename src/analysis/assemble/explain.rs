@@ -71,7 +71,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         let m = self.dynamics.mechanism;
         let found = |start: &Start| match start.asked {
             Asked::Gauge { gauge, .. } => w.readings[gauge].x,
-            Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.poses[m.orientations[k].body].r).0,
+            Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r).0,
             Asked::Spin { .. } => 0.0,
         };
         let one = starts.len() == 1;

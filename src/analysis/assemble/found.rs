@@ -31,7 +31,7 @@ pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Resul
             Asked::Gauge { gauge, .. } => (w.readings[gauge].rate, None),
             Asked::Spin { body, axis } => (G::spin_component(w.twists[body].w, axis), None),
             Asked::Orientation(k) => {
-                let (angle, tilt) = orientation::<G>(&m.orientations[k], start.value, w.poses[m.orientations[k].body].r);
+                let (angle, tilt) = orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r);
                 (angle, Some(tilt))
             }
         };

@@ -166,7 +166,7 @@ where
 {
     let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
     trajectory.go(t, piece).ok()?;
-    Some(trajectory.system(piece).dynamics.work.poses.clone())
+    Some(trajectory.system(piece).dynamics.poses())
 }
 
 /// Refuses more rows than fit in memory.

@@ -169,6 +169,7 @@ where
             metric: start.metric.clone(),
             size_q,
             size_v: size,
+            common: mechanism.translations(),
             roots_by_reactions: observer.switches_by_forces()
                 || (!events.is_empty() && observer.needs_forces())
                 || mechanism.sides().next().is_some()

@@ -116,7 +116,7 @@ fn pose<G: Space<S = f64>>(mechanism: &Mechanism<G>, at: &Whole) -> super::outco
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.time(0.0, &at.modes);
     dynamics.position(&at.q, &at.modes);
-    of_poses(mechanism, &[dynamics.work.poses.clone()])
+    of_poses(mechanism, &[dynamics.poses()])
 }
 
 /// Names of the coordinates behind all velocities (nv), of their rates, and whether they turn.

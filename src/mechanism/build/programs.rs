@@ -20,6 +20,8 @@ impl<'m, G: Space> Builder<'m, G> {
             mechanism: Mechanism {
                 bodies: vec![],
                 nodes: vec![],
+                groups: vec![],
+                group_of: vec![],
                 steps: vec![],
                 nq: 0,
                 nv: 0,
@@ -108,6 +110,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 self.mechanism.switches += 1;
             }
         }
+        self.mechanism.group();
         Ok(self.mechanism)
     }
 
