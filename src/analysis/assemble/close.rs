@@ -108,7 +108,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                 }
                 (Asked::Orientation(k), Target::Rotation(wanted)) => {
                     let body = m.orientations[k].body;
-                    let found = rotation::matrix::<G>(w.poses[body].r);
+                    let found = rotation::matrix::<G>(w.places[body].r);
                     let theta = rotation::vector(&(wanted.transpose() * found));
                     let slope = rotation::slope(&theta) * found.transpose();
                     r.extend(theta.iter());

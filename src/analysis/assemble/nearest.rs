@@ -50,7 +50,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         for (start, target) in m.starts.iter().zip(&mut self.targets).filter(|(s, _)| s.guess) {
             match start.asked {
                 Asked::Gauge { gauge, order: 0 } => *target = Target::Value(w.readings[gauge].x),
-                Asked::Orientation(k) => *target = Target::Rotation(rotation::matrix::<G>(w.poses[m.orientations[k].body].r)),
+                Asked::Orientation(k) => *target = Target::Rotation(rotation::matrix::<G>(w.places[m.orientations[k].body].r)),
                 _ => {}
             }
         }
@@ -171,7 +171,7 @@ impl<G: Space<S = f64>> System<'_, G> {
             }
             let Some(drawn) = joint.turns else { continue };
             let (a, b) = (joint.a.0, joint.b.0);
-            let [ra, rb, r0] = [w.poses[a].r, w.poses[b].r, drawn].map(rotation::matrix::<G>);
+            let [ra, rb, r0] = [w.places[a].r, w.places[b].r, drawn].map(rotation::matrix::<G>);
             let theta = rotation::vector(&(ra.transpose() * rb * r0.transpose()));
             // turned from the left: J⁻¹(−θ)
             let slope = if rates { nalgebra::Matrix3::identity() } else { rotation::slope(&-theta) } * ra.transpose();
