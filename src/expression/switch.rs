@@ -231,7 +231,8 @@ mod tests {
     #[test]
     fn whole_numbers_are_counted_on_both_sides_of_zero() {
         let test = Test::Whole(0);
-        for (x, mode, root, next) in [(2.25, 2, 0.1875, 1), (2.75, 2, 0.1875, 3), (-0.25, -1, 0.1875, 0), (-0.75, -1, 0.1875, -2), (3.0, 3, 0.0, 2)]
+        for (x, mode, root, next) in
+            [(2.25, 2, 0.1875, 1), (2.75, 2, 0.1875, 3), (-0.25, -1, 0.1875, 0), (-0.75, -1, 0.1875, -2), (3.0, 3, 0.0, 2)]
         {
             assert_eq!((test.mode(|_| x, &[]), test.root(mode, |_| x, &[]), test.neighbour(mode, |_| x, &[])), (mode, root, next), "{x}");
         }

@@ -113,11 +113,12 @@ fn state<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assembled) -> Vec<f64> {
     let mut d = Dynamics::new(m);
     d.terms(0.0, &start.q, &start.v, &start.modes);
     let mut out = vec![d.kinetic_energy()];
-    for (pose, twist) in d.work.poses.iter().zip(&d.work.twists) {
+    for ((body, place), twist) in d.work.places.iter().enumerate().zip(&d.work.twists) {
+        let pose = d.pose(body);
         out.extend(vector::<G>(pose.p));
         (0..G::VECTOR).for_each(|k| out.extend(vector::<G>(G::rotate(pose.r, basis::<G>(k)))));
         out.extend(spin::<G>(twist.w));
-        out.extend(vector::<G>(twist.at(pose.p)));
+        out.extend(vector::<G>(twist.at(place.p)));
     }
     out
 }
@@ -161,10 +162,8 @@ fn looped<G: Space<S = f64>>(mut random: Random, seed: u64) -> Option<Random> {
     let mut d = Dynamics::new(&m);
     d.position(&q, &m.modes());
     let last = m.bodies.len() - 1;
-    let at: Vec<String> = vector::<G>(d.work.poses[last].point(m.bodies[last].points.iter().find(|(n, _)| n == "P")?.1))
-        .iter()
-        .map(ToString::to_string)
-        .collect();
+    let at: Vec<String> =
+        vector::<G>(d.point(last, m.bodies[last].points.iter().find(|(n, _)| n == "P")?.1)).iter().map(ToString::to_string).collect();
     random.head = random.head.replace("ground: {", &format!("ground: {{ Z: [{}],", at.join(", ")));
     let kind = match (G::VECTOR, seed % 2) {
         (_, 0) => "distance: [ground.Z, bN.P], length: 0.7",
@@ -257,7 +256,7 @@ fn an_exact_rotation_is_that_rotation() {
                 let (m, start) = assembled::<Spatial<f64>>(&text, coordinates);
                 let mut d = Dynamics::new(&m);
                 d.position(&start.q, &start.modes);
-                let Pose { r, .. } = d.work.poses[2];
+                let Pose { r, .. } = d.pose(2);
                 let axis = nalgebra::Unit::new_normalize(nalgebra::Vector3::from_column_slice(&axis));
                 let right = nalgebra::Rotation3::from_axis_angle(&axis, angle);
                 for (i, k) in (0..3).flat_map(|i| (0..3).map(move |k| (i, k))) {

@@ -207,7 +207,8 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     pub(super) fn wrong_way(&self) -> Option<usize> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         m.joints.iter().position(|j| {
-            j.tree.is_none() && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.places[j.a.0].r, u), G::rotate(w.places[j.b.0].r, f)) < 0.0)
+            j.tree.is_none()
+                && j.facing.iter().any(|&(u, f)| G::dot(G::rotate(w.places[j.a.0].r, u), G::rotate(w.places[j.b.0].r, f)) < 0.0)
         })
     }
 }
