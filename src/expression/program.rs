@@ -21,7 +21,6 @@ pub(super) enum Op {
     Div(u32, u32),
     Powi(u32, i32),
     Powf(u32, f64),
-    /// e^(b ln a)
     Pow(u32, u32),
     SinCos(u32),
     Tan(u32),
@@ -32,7 +31,8 @@ pub(super) enum Op {
     Sqrt(u32),
     Exp(u32),
     Ln(u32),
-    Compare(Compare, u32),
+    /// Comparison, switch, both sides.
+    Compare(Compare, u32, u32, u32),
     And(u32, u32),
     Or(u32, u32),
     Not(u32),
@@ -40,10 +40,14 @@ pub(super) enum Op {
     If(u32, u32, u32),
     /// Operand times the mode of a switch.
     Signed(u32, u32),
-    /// The mode of a switch.
-    Sign(u32),
-    /// Value in modes but 0, value in mode 0, switch.
+    /// Operand, the mode of its switch.
+    Sign(u32, u32),
+    /// Value in modes but 0, value in mode 0, switch; both are defined.
     Select(u32, u32, u32),
+    /// The same, whether or not the other one is defined.
+    Choose(u32, u32, u32),
+    /// The first where the second is defined.
+    Where(u32, u32),
     /// Table, order, argument, switch.
     Table(u16, u8, u32, u32),
 }
@@ -90,10 +94,12 @@ fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Tabl
         Op::Sub(a, b) => at(a) - at(b),
         Op::Mul(a, b) => at(a) * at(b),
         Op::Scale(a, c) => at(a).scale(c),
-        Op::Div(a, b) => at(a) / at(b),
-        Op::Powi(a, n) => at(a).powi(n),
-        Op::Powf(a, n) => at(a).powf(n),
-        Op::Pow(a, b) => (at(b) * at(a).ln()).exp(),
+        // what is infinite is undefined, also where a function of it would be finite
+        Op::Div(a, b) => (at(a) / at(b)).where_finite(at(b)),
+        Op::Powi(a, n) if n > 0 => at(a).powi(n),
+        Op::Powi(a, n) => at(a).powi(n).where_finite(at(a)),
+        Op::Powf(a, n) => at(a).powf(n).where_finite(at(a)),
+        Op::Pow(a, b) => at(a).pow(at(b)).where_finite(at(a)).where_finite(at(b)),
         Op::SinCos(a) => {
             let (sin, cos) = at(a).sin_cos();
             r[k] = sin;
@@ -103,19 +109,21 @@ fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Tabl
         Op::Tan(a) => at(a).tan(),
         Op::Asin(a) => at(a).asin(),
         Op::Acos(a) => at(a).acos(),
-        Op::Atan(a) => at(a).atan(),
-        Op::Atan2(a, b) => at(a).atan2(at(b)),
+        Op::Atan(a) => at(a).atan().where_finite(at(a)),
+        Op::Atan2(a, b) => (at(a) + S::constant(0.0)).atan2(at(b) + S::constant(0.0)).where_finite(at(a)).where_finite(at(b)),
         Op::Sqrt(a) => at(a).sqrt(),
-        Op::Exp(a) => at(a).exp(),
+        Op::Exp(a) => at(a).exp().where_finite(at(a)),
         Op::Ln(a) => at(a).ln(),
-        Op::Compare(op, switch) => boolean(op.holds(mode(switch))),
-        Op::And(a, b) => boolean(truth(a) && truth(b)),
-        Op::Or(a, b) => boolean(truth(a) || truth(b)),
-        Op::Not(a) => boolean(!truth(a)),
-        Op::If(c, a, b) => at(if truth(c) { a } else { b }),
+        Op::Compare(op, switch, a, b) => boolean(op.holds(mode(switch))).where_finite(at(a)).where_finite(at(b)),
+        Op::And(a, b) => boolean(truth(a) && truth(b)).where_finite(at(a)).where_finite(at(b)),
+        Op::Or(a, b) => boolean(truth(a) || truth(b)).where_finite(at(a)).where_finite(at(b)),
+        Op::Not(a) => boolean(!truth(a)).where_finite(at(a)),
+        Op::If(c, a, b) => at(if truth(c) { a } else { b }).where_finite(at(c)),
         Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
-        Op::Sign(switch) => S::constant(f64::from(mode(switch))),
-        Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
+        Op::Sign(a, switch) => S::constant(f64::from(mode(switch))).where_finite(at(a)),
+        Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }).where_finite(at(a)).where_finite(at(b)),
+        Op::Choose(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
+        Op::Where(a, b) => at(a).where_finite(at(b)),
         Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
             Some(table) => table.eval(at(x), mode(switch), order),
             None => S::constant(f64::NAN),
