@@ -5,7 +5,7 @@
 
 use super::continuous::Curve;
 use super::least_squares::shortest;
-use super::motion::Motion;
+use super::motion::{Lost, Motion};
 use crate::geometry::Space;
 
 /// A balanced mechanism.
@@ -17,31 +17,43 @@ pub(super) struct Balanced {
     pub residual: f64,
 }
 
+/// Why a motion is not balanced.
+pub(super) enum Unbalanced {
+    /// A mass has no line, in words.
+    NoLine(String),
+    /// The motion is lost on its way.
+    Lost(Lost),
+}
+
 /// Balances a motion by moving masses (body, index in its `attached`) along the lines from the bodies' origins through them.
 ///
 /// # Errors
-/// In words, if a mass has no line, or the motion is lost on its way.
-pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(usize, usize)], samples: usize) -> Result<Balanced, String> {
+/// If a mass has no line, or the motion is lost on its way.
+pub(super) fn balance<G: Space<S = f64>>(
+    motion: &mut Motion<'_, G>,
+    moved: &[(usize, usize)],
+    samples: usize,
+) -> Result<Balanced, Unbalanced> {
     let mechanism = motion.driven.dynamics.mechanism;
     let mut lines = Vec::new();
     for &(body, index) in moved {
         let attached = &mechanism.bodies[body].attached[index];
         let length = G::dot(attached.mass.com, attached.mass.com).sqrt();
         if length == 0.0 {
-            return Err(format!(
+            return Err(Unbalanced::NoLine(format!(
                 "`{}` is attached at the origin of `{}`: no line to move along",
                 attached.name, mechanism.bodies[body].name
-            ));
+            )));
         }
         lines.push((body, attached.mass.mass, attached.mass.com * (1.0 / length), length));
     }
-    let rows = motion.sample(samples).map_err(|l| format!("the motion is lost at {}", l.at))?;
+    let rows = motion.sample(samples).map_err(Unbalanced::Lost)?;
     let dimensions = G::VECTOR;
     // per row and direction: the centre of mass without offsets, and what each distance adds
     let (mut fixed, mut gains) = (Vec::new(), Vec::new());
     let mut nothing = vec![0.0; motion.columns()];
     for (s, piece) in rows.places.iter().zip(&rows.pieces) {
-        motion.eval(*s, *piece, &mut nothing).map_err(|l| format!("the motion is lost at {}", l.at))?;
+        motion.eval(*s, *piece, &mut nothing).map_err(Unbalanced::Lost)?;
         let work = &motion.driven.dynamics.work;
         let (mass, mut h) = motion.driven.dynamics.first_moment();
         let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.poses[body].r, u) * m).collect();

@@ -8,6 +8,7 @@ use super::observe::Observer;
 use super::path::{NoPath, Path, SINGULAR};
 use super::root::root;
 use super::switching::{Distance, Switching};
+use super::undefined::Gap;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 
@@ -16,6 +17,8 @@ use crate::mechanism::Mechanism;
 pub struct Lost {
     /// The independent variable there.
     pub at: f64,
+    /// What has no value there, if that is why.
+    pub gap: Option<Gap>,
 }
 
 /// A motion with its columns.
@@ -81,6 +84,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             columns,
         };
         motion.find_ends();
+        if let Some(t) = motion.path.gap.as_ref().and_then(|_| motion.path.last()) {
+            motion.ends[1] = motion.progress_at(t);
+        }
         Ok(motion)
     }
 
@@ -120,7 +126,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
     pub(super) fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
-        let lost = Lost { at: self.clock.value(s) };
+        let mut lost = Lost { at: self.clock.value(s), gap: None };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
         if let Some(piece) = piece {
@@ -138,7 +144,11 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     None => self.driven.follow(t, &mut self.modes),
                 };
                 if reached.is_err() || self.driven.condition() < SINGULAR {
-                    let q = self.smooth(t).ok_or(lost)?;
+                    lost.gap = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+                    if lost.gap.is_some() {
+                        return Err(lost);
+                    }
+                    let Some(q) = self.smooth(t) else { return Err(lost) };
                     self.singular(t, &q);
                 } else {
                     self.driven.rates(&self.modes);
@@ -152,6 +162,10 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             }
         }
         self.driven.forces(&self.modes);
+        lost.gap = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+        if lost.gap.is_some() {
+            return Err(lost);
+        }
         if piece.is_none() {
             self.driven.press(&mut self.modes);
         }
@@ -161,6 +175,35 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.observer.set_modes(&mut self.modes);
         }
         Ok(())
+    }
+
+    /// Lets the motion end where all is defined last before a place (in the independent variable) where something is not; what is
+    /// undefined just behind it, or nothing if that is so from the start on.
+    pub(super) fn end_before(&mut self, at: f64) -> Option<Lost> {
+        let s = self.clock.progress(at);
+        let (mut good, mut bad) = (0.0, s);
+        self.defined(good).ok()?;
+        let mut lost = None;
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            match self.defined(middle) {
+                Ok(()) => good = middle,
+                Err(why) => (bad, lost) = (middle, Some(why)),
+            }
+        }
+        self.ends[usize::from(s > 0.0)] = good;
+        lost.filter(|_| good != 0.0)
+    }
+
+    /// Whether all is defined at progress `s`.
+    fn defined(&mut self, s: f64) -> Result<(), Lost> {
+        let mut out = vec![0.0; self.columns];
+        self.solve(s, None)?;
+        self.observer.columns(&self.modes, &mut out);
+        match self.observer.undefined(&self.modes, &out) {
+            None => Ok(()),
+            Some(gap) => Err(Lost { at: self.clock.value(s), gap: Some(gap) }),
+        }
     }
 
     /// Coordinates of the dead point at an end of the path.
@@ -355,6 +398,9 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
         self.solve(s, Some(piece))?;
         self.observer.columns(&self.modes, out);
-        Ok(())
+        match self.observer.undefined(&self.modes, out) {
+            Some(gap) => Err(Lost { at: self.clock.value(s), gap: Some(gap) }),
+            None => Ok(()),
+        }
     }
 }

@@ -1,24 +1,25 @@
 //! One run of a kinematic study: build, assemble, trace, sample, extremes, functionals, scalars, expectations.
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
+use super::balance::Unbalanced;
 use super::clock::Clock;
 use super::continuous::Samples;
 use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::mobility::drivers_fit;
 use super::motion::{Lost, Motion, Rows};
+use super::numbers::Sources;
 use super::observe::Observer;
-use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
+use super::outcome::{Certificate, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
+use super::undefined::{Gap, assembled, blank};
 use super::{balance, contact, forward, linearize, modes, periodic, scene, statics};
 use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
-use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism, build};
-use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study};
 use crate::scalar::Dual;
-use std::sync::Arc;
 
 /// Runs the study of a model once, at given parameter values (in file order).
 ///
@@ -70,19 +71,23 @@ fn driven<G: Space<S = f64>>(
     coordinates: Coordinates,
 ) -> Result<Outcome, Failure> {
     let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let start = assembled(model, &mut mechanism)?;
     drivers_fit(&mechanism, &start, model, study)?;
     contact::begins(model, &mechanism, &start)?;
     contact::driven(model, &mechanism, study)?;
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
-        let mut motion = trace(&mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
-        let offsets = balance::balance(&mut motion, moved, range.samples).map_err(|message| Failure::Study {
-            code: "balance",
-            message,
-            place: study.place.clone(),
-            help: "name masses that are attached away from the origin of bodies that move".into(),
+        let mut motion =
+            trace((model, study), &mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
+        let refused =
+            |message: String, help: &str| Failure::Study { code: "balance", message, place: study.place.clone(), help: help.into() };
+        let offsets = balance::balance(&mut motion, moved, range.samples).map_err(|why| match why {
+            Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
+            Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
+                Failure::Undefined(gap.told(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
+            }
+            Unbalanced::Lost(lost) => refused(format!("the motion is lost at {}", lost.at), "start elsewhere, or give a shorter range"),
         })?;
         for (&(body, index), offset) in moved.iter().zip(&offsets.distances) {
             let at = mechanism.bodies[body].attached[index].mass.com;
@@ -96,6 +101,7 @@ fn driven<G: Space<S = f64>>(
 }
 
 fn trace<'m, G: Space<S = f64>>(
+    (model, study): (&Model, &Study),
     mechanism: &'m Mechanism<G>,
     start: &Assembled,
     clock: Clock,
@@ -109,6 +115,7 @@ fn trace<'m, G: Space<S = f64>>(
                 "start elsewhere, or change the lengths",
             ),
             NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
+            NoPath::Undefined(gap) => Failure::Undefined(gap.told(model, study, "the start")),
         }
     })
 }
@@ -209,24 +216,34 @@ fn observe<G: Space<S = f64>>(
     let watched = Watched::of(study);
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(model, mechanism, start, range, parameters, study)?;
-    let mut motion = trace(mechanism, start, clock, observer, watched.ids.len())?;
-    let lost = |l: Lost| {
-        let message = format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at);
-        Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range")
+    let mut motion = trace((model, study), mechanism, start, clock, observer, watched.ids.len())?;
+    let name = independent(model, mechanism, clock);
+    let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
+    let mut undefined = motion.path.gap.take().map(|gap| told(&gap, clock.value(motion.ends[1])));
+    let (rows, extremes, found) = loop {
+        match see(&mut motion, model, study, parameters, &watched, range.samples) {
+            Ok(seen) => break seen,
+            Err(Lost { at, gap: None }) => {
+                let message = format!("the position at {name} = {at} could not be reached");
+                return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
+            }
+            Err(Lost { at, gap: Some(gap) }) => {
+                let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
+                undefined = Some(told(&behind.unwrap_or(gap), at));
+            }
+        }
     };
-    let rows = motion.sample(range.samples).map_err(lost)?;
-    contact::passes((model, study, &independent(model, mechanism, clock)), &mut motion, &rows, start.size)?;
+    contact::passes((model, study, &name), &mut motion, &rows, start.size)?;
     let n = rows.places.len();
-    // column after column, for the search of extremes
-    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
-    let breaks = motion.breaks.clone();
-    let extremes = extrema(&mut motion, samples, &breaks).map_err(lost)?;
 
     let complete = motion.path.dead == [None, None];
-    let stopped = (!complete).then(|| {
+    let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
-        let (name, unit) = (independent(model, mechanism, clock), if clock.is_driver() && drives_angle(mechanism) { (180.0 / std::f64::consts::PI, "deg") } else if clock.is_driver() { (1.0, "m") } else { (1.0, "s") });
+        let unit = if clock.is_driver() && drives_angle(mechanism) {
+            (180.0 / std::f64::consts::PI, "deg")
+        } else {
+            (1.0, if clock.is_driver() { "m" } else { "s" })
+        };
         format!(
             "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the driver cannot move them on",
             at.max(clock.value(motion.ends[0])) * unit.0,
@@ -236,32 +253,55 @@ fn observe<G: Space<S = f64>>(
         )
     });
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
-        results.push(if complete { 1.0 } else { 0.0 });
+        results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
     }
-    let ends = motion.ends;
-    let mut functionals = Functionals { clock, ends, curve: &mut motion, rows: &rows, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals).map_err(lost)?;
-    let scalars =
-        evaluate(model, parameters, &mechanism.tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
-    let expectations = expectations(model, study, parameters, &mechanism.tables, &found, &results);
+    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &found, results: &results };
+    let numbers = sources.numbers(undefined.is_none());
+    let undefined = undefined.or(numbers.undefined);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    let places: Vec<f64> = rows.places.iter().map(|s| clock.value(*s)).collect();
+    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    let mut findings = findings(mechanism, &motion);
+    findings.extend(numbers.findings);
+    findings.extend(blank(study, &name, &places, &shown));
     Ok(Outcome {
-        stopped,
+        stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
+        undefined,
         parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
-        independent: independent(model, mechanism, clock),
-        places: rows.places.iter().map(|s| clock.value(*s)).collect(),
+        independent: name,
+        places,
         switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-        rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+        rows: shown,
         results,
-        scalars,
+        scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
-        expectations,
-        findings: findings(mechanism, &motion),
+        expectations: numbers.expectations,
+        findings,
         certificate: certificate(&mut motion, &rows),
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
         ..Outcome::default()
     })
+}
+
+/// Rows, extremes and functionals of a motion.
+fn see<G: Space<S = f64>>(
+    motion: &mut Motion<'_, G>,
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    watched: &Watched,
+    samples: usize,
+) -> Result<(Rows, Vec<Option<Extremes>>, Vec<f64>), Lost> {
+    let rows = motion.sample(samples)?;
+    // column after column, for the search of extremes
+    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
+    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+    let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
+    let extremes = extrema(motion, samples, &breaks)?;
+    let mut functionals = Functionals { clock, ends, curve: motion, rows: &rows, extremes: &extremes, breaks: &breaks };
+    let found = functionals.all(model, study, parameters, &watched.functionals)?;
+    Ok((rows, extremes, found))
 }
 
 /// Extremes by the independent variable instead of progress.
@@ -292,58 +332,6 @@ fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock
     });
     let word = if drives_angle(mechanism) { "angle" } else { "position" };
     measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
-}
-
-/// Values of scalar expressions from functionals and results.
-pub(super) fn evaluate(
-    model: &Model,
-    parameters: &[f64],
-    tables: &Arc<[Table]>,
-    ids: &[Id],
-    functionals: &[f64],
-    results: &[f64],
-) -> Vec<f64> {
-    let program = model.pool.program(ids, parameters, tables);
-    let mut inputs = vec![f64::NAN; model.inputs.len()];
-    for &i in program.inputs() {
-        inputs[i as usize] = match model.inputs[i as usize] {
-            Quantity::Functional(k) => functionals.get(k).copied().unwrap_or(f64::NAN),
-            Quantity::Result(k) => results.get(k).copied().unwrap_or(f64::NAN),
-            _ => f64::NAN,
-        };
-    }
-    let mut modes = vec![0; model.pool.switches().len()];
-    let mut registers = vec![0.0; program.registers()];
-    let mut out = vec![0.0; ids.len()];
-    program.set_modes(&inputs, &mut registers, &mut modes);
-    program.eval(&inputs, &modes, &mut registers, &mut out);
-    out
-}
-
-pub(super) fn expectations(
-    model: &Model,
-    study: &Study,
-    parameters: &[f64],
-    tables: &Arc<[Table]>,
-    functionals: &[f64],
-    results: &[f64],
-) -> Vec<Checked> {
-    study
-        .expect
-        .iter()
-        .map(|e| {
-            let tolerance_id = match e.tolerance {
-                Tolerance::Within(id) | Tolerance::Relative(id) => id,
-            };
-            let x = evaluate(model, parameters, tables, &[e.value, e.is, tolerance_id], functionals, results);
-            let tolerance = match e.tolerance {
-                Tolerance::Within(_) => x[2],
-                Tolerance::Relative(_) => x[2] * x[1].abs(),
-            };
-            let met = (x[0] - x[1]).abs() <= tolerance;
-            Checked { text: e.text.clone(), found: x[0], wanted: x[1], tolerance, met, place: e.place.clone() }
-        })
-        .collect()
 }
 
 /// What the motion itself shows: change points on the way.

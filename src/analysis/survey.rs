@@ -1,8 +1,9 @@
 //! What a mechanism is before anything moves: masses, topology, freedom, start.
 
-use super::assemble::{Found, assemble};
+use super::assemble::Found;
 use super::mobility::{Grashof, Mobility, grashof, mobility};
 use super::outcome::Failure;
+use super::undefined::assembled;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, build, describe_loop};
 use crate::model::{Dimensions, Model};
@@ -40,7 +41,7 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assemble(&mut mechanism)?;
+    let start = assembled(model, &mut mechanism)?;
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };

@@ -1,7 +1,7 @@
 //! Reading the model file and naming the place of its results.
 
 use super::{Common, code, tell};
-use grashof::analysis::outcome::{Failure, Unsolved};
+use grashof::analysis::outcome::{Failure, Undefined, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
 use std::io::{Read, Write};
@@ -154,6 +154,10 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
         Failure::Unsolved(Unsolved { message, place, help }) => {
             let message = format!("study `{study}`: {message}");
             (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
+        }
+        Failure::Undefined(Undefined { message, place, help }) => {
+            let message = format!("study `{study}`: {message}");
+            (vec![document.diagnostic("undefined", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
         Failure::Numerical { message, help } => {
             let message = format!("study `{study}`: {message}");

@@ -13,7 +13,7 @@ mod start;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build, build_beside};
-pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
+pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};

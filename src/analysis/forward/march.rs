@@ -6,11 +6,12 @@ use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
 use super::watch::{swept, watched};
-use crate::analysis::assemble::{Assembled, assemble};
+use crate::analysis::assemble::Assembled;
 use crate::analysis::contact;
 use crate::analysis::observe::Observer;
-use crate::analysis::outcome::{Certificate, Failure, Finding, Happened};
+use crate::analysis::outcome::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::analysis::sweep::parameters_with;
+use crate::analysis::undefined::assembled;
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -18,7 +19,7 @@ use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, RowOwner, build}
 use crate::model::{Model, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
-use grashof_solvers::{Control, Counts, Dense, Dims, Engine, Halt, Integration, Node, Progress, Settings, Stage, State, System};
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 use std::cell::OnceCell;
 
 /// Bytes that the steps of a run may take.
@@ -46,7 +47,7 @@ impl<G: Space<S = f64>> Eras<G> {
     /// If the model has none, or it cannot be assembled.
     pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-        let start = assemble(&mut mechanism)?;
+        let start = assembled(model, &mut mechanism)?;
         contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
@@ -74,27 +75,27 @@ impl<G: Space<S = f64>> Eras<G> {
 }
 
 /// The system that is integrated: with all coordinates, or with independent ones alone.
-enum Charted<'m, G: Space<S = f64>> {
+pub(super) enum Charted<'m, G: Space<S = f64>> {
     Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
     Minimal(Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>),
 }
 
 impl<'m, G: Space<S = f64>> Charted<'m, G> {
-    fn system(&mut self) -> &mut dyn System {
+    pub(super) fn system(&mut self) -> &mut dyn System {
         match self {
             Self::Whole(system) => &mut **system,
             Self::Minimal(system) => &mut **system,
         }
     }
 
-    fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
+    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
         match self {
             Self::Whole(system) => system,
             Self::Minimal(system) => system.inner_mut(),
         }
     }
 
-    fn reduced(&self, state: &State) -> State {
+    pub(super) fn reduced(&self, state: &State) -> State {
         match self {
             Self::Whole(_) => state.clone(),
             Self::Minimal(system) => system.reduced(state),
@@ -102,7 +103,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
     }
 
     /// The node in all coordinates.
-    fn whole(&mut self, node: &Node, out: &mut Node) {
+    pub(super) fn whole(&mut self, node: &Node, out: &mut Node) {
         match self {
             Self::Whole(_) => out.copy_from(node),
             Self::Minimal(system) => {
@@ -117,6 +118,8 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
 pub(in crate::analysis) struct Recorded<'m, G: Space<S = f64>> {
     pub(in crate::analysis) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
     pub(in crate::analysis) stopped: Option<String>,
+    /// What has no value, if that has stopped it.
+    pub(in crate::analysis) undefined: Option<Undefined>,
     pub(in crate::analysis) events: Vec<Happened>,
     pub(in crate::analysis) certificate: Certificate,
     pub(in crate::analysis) findings: Vec<Finding>,
@@ -158,6 +161,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         resting: Vec::new(),
         begins: Begins::Run,
         set_from: ids.len(),
+        undefined: None,
     };
     let mut era = eras;
     let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
@@ -181,75 +185,10 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
             }
         }
     };
-    let Flow { events, balance, .. } = flow;
+    let Flow { events, balance, undefined, .. } = flow;
     let (certificate, findings) = balance.finish(plan);
     trajectory.finish();
-    Ok(Recorded { trajectory, stopped, events, certificate, findings })
-}
-
-/// What an integration alone has come to: nothing is recorded but its end.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bare {
-    /// Time reached, s.
-    pub t: f64,
-    /// Columns of the study there.
-    pub columns: Vec<f64>,
-    /// Largest |E − E(0) − work|, J, of the end alone.
-    pub energy_drift: f64,
-    /// Largest residuals of positions and velocities at the end, in units of size.
-    pub residuals: [f64; 2],
-    /// What was spent.
-    pub counts: Counts,
-    /// Why it has stopped on its way.
-    pub stopped: Option<String>,
-}
-
-/// Integrates a plan to its end, for measurements: `timer` is called with true when the steps begin and with false when they end.
-///
-/// # Errors
-/// If the run did not begin.
-pub(super) fn bare<G: Space<S = f64>>(
-    model: &Model,
-    study: &Study,
-    plan: &Plan,
-    ids: &[Id],
-    eras: &Eras<G>,
-    timer: &mut dyn FnMut(bool),
-) -> Result<Bare, Failure> {
-    let (all, watched) = watched(model, &eras.mechanism, ids);
-    let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
-    let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
-    let dims = system.dims();
-    let state = begin(eras, dims);
-    let mut chart = chart(study, plan, system, eras, &state)?;
-    let mut node = Node::new(dims);
-    let mut balance = Balance::default();
-    let settings = Settings { balance: false, ..plan.settings };
-    let start = chart.reduced(&state);
-    timer(true);
-    let begun = Integration::new(chart.system(), settings, &start);
-    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
-    chart.whole(run.node(), &mut node);
-    balance.begin(chart.mechanical(), &node, Begins::Run);
-    let stopped = loop {
-        match run.advance(chart.system(), plan.until) {
-            Ok(Progress::Step | Progress::Event) => {}
-            Ok(Progress::End | Progress::Stopped) => break None,
-            Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
-        }
-    };
-    timer(false);
-    chart.whole(run.node(), &mut node);
-    balance.end(chart.mechanical(), &node, &run, Counts::default());
-    let mut columns = vec![0.0; all.len()];
-    let mut engine = Engine::new(chart.mechanical(), Control::Tolerance(1e-8));
-    engine.evaluate(chart.mechanical(), node.state.at(), Stage::Velocity);
-    let residuals = [engine.position_residual(), engine.velocity_residual(&node.state.v)];
-    chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
-    chart.mechanical().columns(&node.state.modes, &mut columns);
-    columns.truncate(ids.len());
-    let drift = balance.finish(plan).0.march.map_or(0.0, |m| m.energy_drift);
-    Ok(Bare { t: node.state.t, columns, energy_drift: drift, residuals, counts: run.engine.counts, stopped })
+    Ok(Recorded { trajectory, stopped, undefined, events, certificate, findings })
 }
 
 /// The state at the assembled start.
@@ -264,7 +203,7 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
 
 /// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start` that no driver
 /// moves.
-fn chart<'m, G: Space<S = f64>>(
+pub(super) fn chart<'m, G: Space<S = f64>>(
     study: &Study,
     plan: &Plan,
     system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
@@ -326,6 +265,8 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
+    /// What has no value, if that has stopped the run.
+    undefined: Option<Undefined>,
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
@@ -339,8 +280,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let begun = Integration::new(chart.system(), self.plan.settings, &start);
         let mut run = match begun {
             Ok(run) => run,
-            Err(halt) if first => return Err(explain::no_start(self.study, &era.mechanism, &era.start, &halt)),
-            Err(halt) => return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt))),
+            Err(halt) if first => {
+                let undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, None);
+                return Err(undefined.map_or_else(|| explain::no_start(self.study, &era.mechanism, &era.start, &halt), Failure::Undefined));
+            }
+            Err(halt) => {
+                self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, Some(halt.t));
+                return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)));
+            }
         };
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
         let mut dense = Dense::new(dims);
@@ -362,7 +309,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
             let progress = match run.advance(chart.system(), self.plan.until) {
                 Ok(progress) => progress,
-                Err(halt) => break After::Stopped(self.explain(era, &mut chart, &mut run, &halt)),
+                Err(halt) => {
+                    self.undefined = self.gap(&mut chart, &run, halt.t);
+                    break After::Stopped(self.explain(era, &mut chart, &mut run, &halt));
+                }
             };
             let happened = matches!(progress, Progress::Event | Progress::Stopped);
             std::mem::swap(&mut last, &mut node);
@@ -403,6 +353,18 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             Charted::Minimal(_) => None,
         };
         locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
+    }
+
+    /// What has no value where a run cannot go on.
+    fn gap(&self, chart: &mut Charted<'m, G>, run: &Integration, t: f64) -> Option<Undefined> {
+        let here = explain::undefined(self.model, self.study, chart.mechanical(), &run.node().state.modes, Some(t));
+        if here.is_some() {
+            return here;
+        }
+        let (Charted::Whole(system), Some(beyond)) = (chart, run.beyond()) else { return None };
+        let dims = system.dims();
+        system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
+        explain::undefined(self.model, self.study, system, &beyond.modes, Some(t))
     }
 
     /// Adds the last step to the trajectory.

@@ -2,6 +2,7 @@
 
 use super::system::Mechanical;
 use crate::analysis::continuous::Curve;
+use crate::analysis::undefined::Gap;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
@@ -39,10 +40,12 @@ pub(in crate::analysis) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANE
 }
 
 /// A state of the trajectory could not be evaluated.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::analysis) struct Off {
     /// Time, s.
     pub(in crate::analysis) at: f64,
+    /// What has no value there, if that is why.
+    pub(in crate::analysis) gap: Option<Gap>,
 }
 
 /// A motion in time.
@@ -127,6 +130,38 @@ where
         }
     }
 
+    /// Lets the motion end where all is defined last before a time where something is not; what is undefined just behind it, or
+    /// nothing if that is so from the start on.
+    pub(in crate::analysis) fn end_before(&mut self, t: f64) -> Option<Off> {
+        let from = self.pieces.first()?.from;
+        let mut out = vec![0.0; self.columns];
+        let mut defined = |trajectory: &mut Self, t: f64| {
+            let piece = trajectory.pieces.iter().position(|p| t <= p.to).unwrap_or(0);
+            trajectory.eval(t, piece, &mut out)
+        };
+        let (mut good, mut bad) = (from, t);
+        defined(self, good).ok()?;
+        let mut off = None;
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            match defined(self, middle) {
+                Ok(()) => good = middle,
+                Err(why) => (bad, off) = (middle, Some(why)),
+            }
+        }
+        let last = self.pieces.iter().position(|p| good <= p.to).unwrap_or(0);
+        self.pieces.truncate(last + 1);
+        let piece = &mut self.pieces[last];
+        let (low, high) = piece.steps;
+        let step = (low + self.steps[low..high].partition_point(|s| s.end < good)).min(high.saturating_sub(1));
+        (piece.to, piece.steps.1) = (good, step + 1);
+        self.steps.truncate(step + 1);
+        if let Some(step) = self.steps.last_mut() {
+            (step.end, step.whole) = (good, true);
+        }
+        off.filter(|_| good > from)
+    }
+
     /// Bytes in use by steps.
     pub(in crate::analysis) fn size(&self) -> usize {
         std::mem::size_of_val(&self.coefficients[..]) + std::mem::size_of_val(&self.steps[..])
@@ -153,8 +188,8 @@ where
     /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
     /// the constraints.
     pub(in crate::analysis) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
-        let off = Off { at: t };
-        let p = self.pieces.get(piece).ok_or(off)?;
+        let off = Off { at: t, gap: None };
+        let Some(p) = self.pieces.get(piece) else { return Err(off) };
         let (low, high) = p.steps;
         if low == high {
             return Err(off);
@@ -211,6 +246,10 @@ where
         self.go(t, piece)?;
         let n = self.columns;
         out.copy_from_slice(&self.outputs(piece)[..n]);
-        Ok(())
+        let observer = &self.eras[self.pieces[piece].era].system.observer;
+        match observer.undefined(&self.node.state.modes, &self.out) {
+            Some(gap) => Err(Off { at: t, gap: Some(gap) }),
+            None => Ok(()),
+        }
     }
 }

@@ -13,9 +13,10 @@ use crate::analysis::forward::trajectory::Off;
 use crate::analysis::forward::{balance, pose};
 use crate::analysis::functional::Functionals;
 use crate::analysis::motion::Rows;
+use crate::analysis::numbers::Sources;
 use crate::analysis::outcome::{Failure, List, Outcome};
 use crate::analysis::quadrature::integrals;
-use crate::analysis::run::{Watched, evaluate, expectations, in_variable};
+use crate::analysis::run::{Watched, in_variable};
 use crate::analysis::scene;
 use crate::dynamics::LANES;
 use crate::expression::Id;
@@ -75,7 +76,10 @@ struct Seen {
     functionals: Vec<f64>,
 }
 
-fn lost(off: Off) -> Failure {
+fn lost(search: &Search<'_>, off: Off) -> Failure {
+    if let Some(gap) = &off.gap {
+        return Failure::Undefined(gap.told(&search.model, search.study, &format!("t = {:.6} s", off.at)));
+    }
     Failure::numerical(
         format!("the state at t = {} s could not be evaluated", off.at),
         "look at the columns: one of them may not be defined there",
@@ -90,19 +94,21 @@ impl Regime<'_> {
         check_closed(search, &mut lap, closure[1])?;
         let (model, study, period, times) = (&search.model, search.study, lap.period(), lap.trajectory.breaks());
         let mut mean = [0.0];
-        integrals(&mut Single { trajectory: &mut lap.trajectory, column: columns.of }, &times, &mut mean).map_err(lost)?;
+        integrals(&mut Single { trajectory: &mut lap.trajectory, column: columns.of }, &times, &mut mean)
+            .map_err(|off| lost(search, off))?;
         let Seen { clock, rows, at, extremes, functionals } = self.see(&mut lap)?;
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];
         let tables = &eras.mechanism.tables;
-        let scalars: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results }.numbers(true);
         let trajectory = &mut lap.trajectory;
         let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
         let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
+        lap.findings.extend(numbers.findings);
         lap.findings.push(stability::finding(&multipliers, &study.place));
         Ok(Outcome {
             parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
@@ -110,8 +116,10 @@ impl Regime<'_> {
             places: rows.places.iter().map(|s| clock.value(*s)).collect(),
             switches: (0..rows.places.len() - 1).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
             rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
-            scalars: evaluate(model, parameters, tables, &scalars, &functionals, &results),
-            expectations: expectations(model, study, parameters, tables, &functionals, &results),
+            stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+            undefined: numbers.undefined,
+            scalars: numbers.scalars,
+            expectations: numbers.expectations,
             results,
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
@@ -126,19 +134,19 @@ impl Regime<'_> {
     /// Rows, extremes and functionals of a period.
     fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen, Failure> {
         let Self { search, asked, parameters, watched, columns } = *self;
-        let (clock, advance) = clock(asked, parameters, columns, lap, search).map_err(lost)?;
+        let (clock, advance) = clock(asked, parameters, columns, lap, search).map_err(|off| lost(search, off))?;
         let mut turn = Turn::new(&mut lap.trajectory, advance, clock.length).map_err(|why| match why {
-            NoTurn::Off(off) => lost(off),
+            NoTurn::Off(off) => lost(search, off),
             NoTurn::Back(t) => explain::turns_back(search, t),
         })?;
-        let (rows, at) = rows(&mut turn, asked.samples).map_err(lost)?;
+        let (rows, at) = rows(&mut turn, asked.samples).map_err(|off| lost(search, off))?;
         let breaks = turn.breaks.clone();
         let values: Vec<f64> = (0..turn.columns()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
         let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
-        let extremes = extrema(&mut turn, samples, &breaks).map_err(lost)?;
+        let extremes = extrema(&mut turn, samples, &breaks).map_err(|off| lost(search, off))?;
         let ends = [0.0, clock.length];
         let mut all = Functionals { clock, ends, curve: &mut turn, rows: &rows, extremes: &extremes, breaks: &breaks };
-        let functionals = all.all(&search.model, search.study, parameters, &watched.functionals).map_err(lost)?;
+        let functionals = all.all(&search.model, search.study, parameters, &watched.functionals).map_err(|off| lost(search, off))?;
         Ok(Seen { clock, rows, at, extremes, functionals })
     }
 }

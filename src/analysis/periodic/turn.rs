@@ -40,7 +40,7 @@ pub(super) struct Turn<'t, 'e, G: Space<S = f64>> {
 }
 
 /// Why a period is no curve over what advances.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum NoTurn {
     /// A state cannot be evaluated.
     Off(Off),

@@ -5,6 +5,7 @@ use super::{Task, Trial};
 use crate::analysis::outcome::{Finding, Unsolved};
 use crate::analysis::root::Root;
 use crate::expression::Dimension;
+use crate::model::with_unit;
 
 /// A solution whose residual is above this part of the target and of the change over the first bracket is told to be coarse.
 const COARSE: f64 = 1e-6;
@@ -124,11 +125,4 @@ impl Words<'_> {
         let Some(first) = self.failed().next() else { return String::new() };
         format!("; at {}: {}", self.at(first.x), first.why.as_deref().unwrap_or_default())
     }
-}
-
-/// A number of seven digits with its unit.
-fn with_unit(x: f64, dimension: Dimension) -> String {
-    let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
-    let number = if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") };
-    format!("{number} {}", dimension.si()).trim_end().to_string()
 }
