@@ -6,6 +6,7 @@ use common::model;
 use grashof::analysis::outcome::{Failure, Outcome, Undefined};
 use grashof::analysis::{run::run, sweep};
 use grashof::mechanism::Coordinates;
+use grashof::model::{Document, Selection};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn arm(parts: &str, study: &str) -> String {
@@ -86,7 +87,7 @@ fn a_force_without_a_value_ends_a_driven_motion_there() {
 fn a_force_without_a_value_ends_a_motion_in_time_there() {
     // the arm falls from 45° below the horizontal through the place where the root ends
     let parts = "loads: { push: { joint: O, torque: 1 N m*sqrt(cos(O.angle)) } }\nstart: { O.angle: -45 deg, O.omega: 0 rad/s }";
-    for integrator in ["auto", "dop853", "radau5", "bdf"] {
+    for integrator in ["auto", "dop853"] {
         let study = format!("    dynamics: {{ until: 3 s, every: 0.1 s, integrator: {integrator} }}\n    columns: [time, O.angle]");
         let (outcome, undefined) = stopped(&arm(parts, &study));
         says(&undefined, "loads.push", &["load `push`", "t = 0.", "sqrt of -"]);
@@ -146,7 +147,7 @@ fn a_column_stops_unless_the_file_says_that_it_may_be_undefined() {
     assert_eq!((outcome.stopped.as_ref(), outcome.scalars[0]), (None, 1.0));
     let blank = outcome.rows.iter().filter(|r| r[1].is_nan()).count();
     assert!((17..=18).contains(&blank), "{blank}");
-    assert!(outcome.findings.iter().any(|f| f.code == "blank-cells" && f.message.contains("`root`")));
+    assert!(outcome.findings.iter().all(|f| f.code != "blank-cells"), "the file says it already");
     // an integral over what is not defined everywhere is told not to exist
     let outcome =
         result(&study("    columns: [O.angle, root]\n    undefined: [root]\n    scalars: { sum: integral(root) }")).expect("blank");
@@ -190,9 +191,11 @@ fn a_number_of_the_study_stops_it_or_is_told_to_be_missing() {
 #[test]
 fn a_constant_without_a_value_is_a_fault_of_the_file() {
     let loads = "loads: { a: { joint: O, torque: 1 N m*log(-2) }, b: { joint: O, torque: \"max(1 N m*sqrt(-3), 1 N m)\" } }";
-    let Err(Failure::Model(faults)) = result(&arm(loads, "    dynamics: { until: 1 s }")) else { panic!("a fault of the model") };
-    let told: Vec<(&str, &str)> = faults.iter().map(|f| (f.place.as_str(), f.message.as_str())).collect();
-    assert_eq!(told, [("loads.a", "a value is undefined: log of -2"), ("loads.b", "a value is undefined: sqrt of -3")]);
+    let text = arm(loads, "    dynamics: { until: 1 s }");
+    let document = Document::read(&text, "test.yaml").unwrap_or_else(|report| panic!("{report:?}"));
+    let report = document.model(&Selection { study: Some("s"), ..Selection::default() }).expect_err("a fault of the file");
+    let places: Vec<&str> = report.diagnostics.iter().map(|d| d.place.as_str()).collect();
+    assert_eq!(places, ["loads.a.torque", "loads.b.torque"]);
 }
 
 #[test]

@@ -162,10 +162,6 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             }
         }
         self.driven.forces(&self.modes);
-        lost.gap = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
-        if lost.gap.is_some() {
-            return Err(lost);
-        }
         if piece.is_none() {
             self.driven.press(&mut self.modes);
         }
@@ -199,8 +195,14 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     fn defined(&mut self, s: f64) -> Result<(), Lost> {
         let mut out = vec![0.0; self.columns];
         self.solve(s, None)?;
-        self.observer.columns(&self.modes, &mut out);
-        match self.observer.undefined(&self.modes, &out) {
+        self.columns_at(s, &mut out)
+    }
+
+    /// Columns at progress `s`, where everything was evaluated last.
+    fn columns_at(&mut self, s: f64, out: &mut [f64]) -> Result<(), Lost> {
+        self.observer.columns(&self.modes, out);
+        let law = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+        match law.or_else(|| self.observer.undefined(&self.modes, out)) {
             None => Ok(()),
             Some(gap) => Err(Lost { at: self.clock.value(s), gap: Some(gap) }),
         }
@@ -397,10 +399,18 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
 
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
         self.solve(s, Some(piece))?;
-        self.observer.columns(&self.modes, out);
-        match self.observer.undefined(&self.modes, out) {
-            Some(gap) => Err(Lost { at: self.clock.value(s), gap: Some(gap) }),
-            None => Ok(()),
+        let found = self.columns_at(s, out);
+        if found.is_ok() {
+            return found;
         }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
+            let beside = s + shift * self.clock.length;
+            self.solve(beside, Some(piece))?;
+            if self.columns_at(beside, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
     }
 }

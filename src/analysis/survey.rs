@@ -2,8 +2,9 @@
 
 use super::assemble::Found;
 use super::mobility::{Grashof, Mobility, grashof, mobility};
+use super::modes::held::settled;
 use super::outcome::Failure;
-use super::undefined::assembled;
+use super::undefined::{assembled, in_state};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, build, describe_loop};
 use crate::model::{Dimensions, Model};
@@ -42,6 +43,11 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
     let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
     let start = assembled(model, &mut mechanism)?;
+    let state = [&start.q[..], &start.v, &mechanism.state_starts];
+    let modes = settled(&mechanism, state, &start.modes);
+    if let Some(undefined) = in_state(model, &mechanism, state, &modes, "the start") {
+        return Err(Failure::Undefined(undefined));
+    }
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };

@@ -47,7 +47,7 @@ fn of_law(model: &Model, law: &mechanism::Undefined, at: &str) -> Undefined {
             Cause::Table { .. } => {
                 "give the table points as far as it is used, say how it goes on with `beyond`, or end the study before".into()
             }
-            _ => format!("{GUARD}, or end the study before"),
+            _ => "use a formula that is defined there and a little beyond, or end the study before".into(),
         },
     }
 }
@@ -116,7 +116,8 @@ pub(super) fn assembled<G: Space<S = f64>>(model: &Model, mechanism: &mut Mechan
     })
 }
 
-/// Columns that have no value in some rows although no expression is at fault: what they show is not determined there.
+/// Columns that have no value in some rows although the file does not expect it and no expression is at fault: what they show is not
+/// determined there.
 pub(super) fn blank(study: &Study, independent: &str, places: &[f64], rows: &[Vec<f64>]) -> Vec<Finding> {
     let blank = |c: usize| (0..rows.len()).filter(move |&i| rows[i].get(c).is_some_and(|x| !x.is_finite()));
     let told = |(c, column): (usize, &crate::model::Column)| {
@@ -133,5 +134,5 @@ pub(super) fn blank(study: &Study, independent: &str, places: &[f64], rows: &[Ve
             path: format!("{}.columns", study.place),
         })
     };
-    study.columns.iter().enumerate().filter_map(told).collect()
+    study.columns.iter().enumerate().filter(|(_, c)| !study.undefined.contains(&c.value)).filter_map(told).collect()
 }

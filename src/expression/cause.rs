@@ -22,8 +22,6 @@ pub enum Cause {
         x: f64,
         /// Ends of its points.
         range: [f64; 2],
-        /// Whether that lies above its points; else below.
-        above: bool,
     },
     /// An input that is not defined itself.
     Input(u32),
@@ -53,13 +51,13 @@ impl Program {
             let op = made[register as usize];
             match operands(op, modes, value).into_iter().flatten().find(|operand| !value(*operand).is_finite()) {
                 Some(operand) => register = operand,
-                None => return Some(self.told(op, modes, value)),
+                None => return Some(self.told(op, value)),
             }
         }
     }
 
     /// An operation that is undefined at arguments that are defined.
-    fn told(&self, op: Op, modes: &[i32], value: impl Fn(u32) -> f64) -> Cause {
+    fn told(&self, op: Op, value: impl Fn(u32) -> f64) -> Cause {
         match op {
             Op::Input(i) => Cause::Input(i),
             Op::Tan(a) => Cause::Function("tan", value(a)),
@@ -72,10 +70,10 @@ impl Program {
             Op::Powi(a, n) if value(a) == 0.0 && n < 0 => Cause::Zero,
             Op::Powf(a, n) => Cause::Power(value(a), n),
             Op::Pow(a, b) => Cause::Power(value(a), value(b)),
-            Op::Table(table, _, x, switch) => {
+            Op::Table(table, _, x, _) => {
                 let table = usize::from(table);
                 let range = self.tables.get(table).map_or([f64::NAN; 2], |t| [t.x[0], t.x[t.segments()]]);
-                Cause::Table { table, x: value(x), range, above: modes.get(switch as usize).is_some_and(|mode| *mode > 0) }
+                Cause::Table { table, x: value(x), range }
             }
             _ => Cause::TooLarge,
         }
@@ -135,7 +133,7 @@ mod tests {
         assert_eq!(cause(&p, angle, 0.0), Some(Cause::Zero));
         let table = p.table(0, 0, x, "f(x)");
         let places = [0.5, 2.5].map(|x| cause(&p, table, x));
-        assert_eq!(places, [(0.5, false), (2.5, true)].map(|(x, above)| Some(Cause::Table { table: 0, x, range: [1.0, 2.0], above })));
+        assert_eq!(places, [0.5, 2.5].map(|x| Some(Cause::Table { table: 0, x, range: [1.0, 2.0] })));
         // what is not taken has no part in it
         let positive = p.compare(Compare::Greater, x, one, "");
         let chosen = p.choose(positive, table, root);

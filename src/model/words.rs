@@ -30,14 +30,15 @@ impl Model {
     #[must_use]
     pub fn why_undefined(&self, cause: Cause) -> String {
         match cause {
-            Cause::Table { table, x, range: [from, to], above } => {
+            Cause::Table { table, x, range: [from, to] } => {
                 let (name, unit) = self.tables.get(table).map_or(("?", Dimension::NONE), |t| (t.name.as_str(), t.x));
                 let shown = |x: f64| with_unit(x, unit);
                 let range = format!("its range from {} to {}", shown(from), shown(to));
-                match (x < from || x > to, above) {
-                    (true, false) => format!("table `{name}` at {}, below {range}", shown(x)),
-                    (true, true) => format!("table `{name}` at {}, above {range}", shown(x)),
-                    (false, _) => format!("table `{name}` at {}, where {range} ends", shown(x)),
+                // what lies beyond an end by round-off lies at the end
+                match (x < from && shown(x) != shown(from), x > to && shown(x) != shown(to)) {
+                    (true, _) => format!("table `{name}` at {}, below {range}", shown(x)),
+                    (_, true) => format!("table `{name}` at {}, above {range}", shown(x)),
+                    _ => format!("table `{name}` at {}, where {range} ends", shown(x)),
                 }
             }
             Cause::Input(input) => match self.inputs.get(input as usize) {

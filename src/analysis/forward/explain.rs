@@ -48,20 +48,13 @@ where
     }
 }
 
-/// What has no value in the state that was evaluated last, at a time or at the start.
-pub(super) fn undefined<G, D>(
-    model: &Model,
-    study: &Study,
-    system: &mut Mechanical<'_, G, D>,
-    modes: &[i32],
-    t: Option<f64>,
-) -> Option<Undefined>
+/// What has no value in the state that was evaluated last, at a time.
+pub(super) fn undefined<G, D>(model: &Model, study: &Study, system: &mut Mechanical<'_, G, D>, modes: &[i32], t: f64) -> Option<Undefined>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    let at = t.map_or_else(|| "the start".to_owned(), |t| format!("t = {t:.6} s"));
-    system.dynamics.undefined(modes).map(|law| Gap::Law(law).told(model, study, &at))
+    system.dynamics.undefined(modes).map(|law| Gap::Law(law).told(model, study, &format!("t = {t:.6} s")))
 }
 
 /// Why a run ends at an event that has set parameters to what no mechanism can have.

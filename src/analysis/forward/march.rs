@@ -8,10 +8,11 @@ use super::trajectory::Trajectory;
 use super::watch::{swept, watched};
 use crate::analysis::assemble::Assembled;
 use crate::analysis::contact;
+use crate::analysis::modes::held::settled;
 use crate::analysis::observe::Observer;
 use crate::analysis::outcome::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::analysis::sweep::parameters_with;
-use crate::analysis::undefined::assembled;
+use crate::analysis::undefined::{assembled, in_state};
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -281,11 +282,13 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let mut run = match begun {
             Ok(run) => run,
             Err(halt) if first => {
-                let undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, None);
+                let at = [&state.q[..], &state.v, &state.z];
+                let modes = settled(&era.mechanism, at, &era.start.modes);
+                let undefined = in_state(self.model, &era.mechanism, at, &modes, "the start");
                 return Err(undefined.map_or_else(|| explain::no_start(self.study, &era.mechanism, &era.start, &halt), Failure::Undefined));
             }
             Err(halt) => {
-                self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, Some(halt.t));
+                self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, halt.t);
                 return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)));
             }
         };
@@ -357,14 +360,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
 
     /// What has no value where a run cannot go on.
     fn gap(&self, chart: &mut Charted<'m, G>, run: &Integration, t: f64) -> Option<Undefined> {
-        let here = explain::undefined(self.model, self.study, chart.mechanical(), &run.node().state.modes, Some(t));
+        let here = explain::undefined(self.model, self.study, chart.mechanical(), &run.node().state.modes, t);
         if here.is_some() {
             return here;
         }
         let (Charted::Whole(system), Some(beyond)) = (chart, run.beyond()) else { return None };
         let dims = system.dims();
         system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
-        explain::undefined(self.model, self.study, system, &beyond.modes, Some(t))
+        explain::undefined(self.model, self.study, system, &beyond.modes, t)
     }
 
     /// Adds the last step to the trajectory.

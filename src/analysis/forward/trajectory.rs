@@ -137,7 +137,7 @@ where
         let mut out = vec![0.0; self.columns];
         let mut defined = |trajectory: &mut Self, t: f64| {
             let piece = trajectory.pieces.iter().position(|p| t <= p.to).unwrap_or(0);
-            trajectory.eval(t, piece, &mut out)
+            trajectory.columns_at(t, piece, &mut out)
         };
         let (mut good, mut bad) = (from, t);
         defined(self, good).ok()?;
@@ -231,6 +231,24 @@ where
     }
 }
 
+impl<G, D> Trajectory<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// Columns at `t` on a piece.
+    fn columns_at(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        self.go(t, piece)?;
+        let n = self.columns;
+        out.copy_from_slice(&self.outputs(piece)[..n]);
+        let observer = &self.eras[self.pieces[piece].era].system.observer;
+        match observer.undefined(&self.node.state.modes, &self.out) {
+            Some(gap) => Err(Off { at: t, gap: Some(gap) }),
+            None => Ok(()),
+        }
+    }
+}
+
 impl<G, D> Curve for Trajectory<'_, G, D>
 where
     G: Space<S = f64>,
@@ -243,13 +261,17 @@ where
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        self.go(t, piece)?;
-        let n = self.columns;
-        out.copy_from_slice(&self.outputs(piece)[..n]);
-        let observer = &self.eras[self.pieces[piece].era].system.observer;
-        match observer.undefined(&self.node.state.modes, &self.out) {
-            Some(gap) => Err(Off { at: t, gap: Some(gap) }),
-            None => Ok(()),
+        let found = self.columns_at(t, piece, out);
+        if !matches!(found, Err(Off { gap: Some(_), .. })) {
+            return found;
         }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        let length = self.pieces.last().map_or(0.0, |p| p.to);
+        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
+            if self.columns_at(t + shift * length, piece, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
     }
 }

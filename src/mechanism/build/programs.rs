@@ -214,8 +214,8 @@ impl<'m, G: Space> Builder<'m, G> {
                         "not-a-position",
                         place,
                         format!("the expression uses `{}`", self.model.name_of(quantity)),
-                        "coordinates of bodies and joints alone",
-                        None,
+                        "coordinates of points, planar angles and coordinates of joints alone",
+                        self.instead(quantity),
                     );
                     return None;
                 }
@@ -233,6 +233,17 @@ impl<'m, G: Space> Builder<'m, G> {
         let second = self.rate_of(first)?;
         self.velocity.push(output(second));
         Some(self.function(Function { gauges, value, drift: self.velocity.len() - 1 }))
+    }
+
+    /// What to write where a quantity cannot stand in an expression of positions.
+    fn instead(&self, quantity: Quantity) -> Option<String> {
+        match quantity {
+            Quantity::Time => Some("let a driver move a body without mass as `t` says, and use its position".into()),
+            Quantity::Quaternion { .. } => {
+                Some("write directions by points of the body: the difference of two points at 1 m from each other is a unit vector".into())
+            }
+            _ => None,
+        }
     }
 
     /// The time rate of an expression of positions and velocities.
