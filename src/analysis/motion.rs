@@ -179,16 +179,16 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let s = self.clock.progress(at);
         let (mut good, mut bad) = (0.0, s);
         self.defined(good).ok()?;
-        let mut lost = None;
+        let mut lost = Lost { at, gap: None };
         for _ in 0..60 {
             let middle = 0.5 * (good + bad);
             match self.defined(middle) {
                 Ok(()) => good = middle,
-                Err(why) => (bad, lost) = (middle, Some(why)),
+                Err(why) => (bad, lost) = (middle, why),
             }
         }
         self.ends[usize::from(s > 0.0)] = good;
-        lost.filter(|_| good != 0.0)
+        (good != 0.0).then_some(lost)
     }
 
     /// Whether all is defined at progress `s`.

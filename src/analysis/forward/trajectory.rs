@@ -141,12 +141,12 @@ where
         };
         let (mut good, mut bad) = (from, t);
         defined(self, good).ok()?;
-        let mut off = None;
+        let mut off = Off { at: t, gap: None };
         for _ in 0..60 {
             let middle = 0.5 * (good + bad);
             match defined(self, middle) {
                 Ok(()) => good = middle,
-                Err(why) => (bad, off) = (middle, Some(why)),
+                Err(why) => (bad, off) = (middle, why),
             }
         }
         let last = self.pieces.iter().position(|p| good <= p.to).unwrap_or(0);
@@ -159,7 +159,7 @@ where
         if let Some(step) = self.steps.last_mut() {
             (step.end, step.whole) = (good, true);
         }
-        off.filter(|_| good > from)
+        (good > from).then_some(off)
     }
 
     /// Bytes in use by steps.
