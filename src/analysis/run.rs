@@ -284,6 +284,9 @@ fn observe<G: Space<S = f64>>(
     })
 }
 
+/// What is seen of a motion: rows, extremes of each watched expression, functionals.
+type Seen = (Rows, Vec<Option<Extremes>>, Vec<f64>);
+
 /// Rows, extremes and functionals of a motion.
 fn see<G: Space<S = f64>>(
     motion: &mut Motion<'_, G>,
@@ -292,7 +295,7 @@ fn see<G: Space<S = f64>>(
     parameters: &[f64],
     watched: &Watched,
     samples: usize,
-) -> Result<(Rows, Vec<Option<Extremes>>, Vec<f64>), Lost> {
+) -> Result<Seen, Lost> {
     let rows = motion.sample(samples)?;
     // column after column, for the search of extremes
     let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();

@@ -156,7 +156,7 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
             (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
         Failure::Undefined(Undefined { message, place, help }) => {
-            let message = format!("study `{study}`: {message}");
+            let message = if study.is_empty() { message.clone() } else { format!("study `{study}`: {message}") };
             (vec![document.diagnostic("undefined", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
         Failure::Numerical { message, help } => {
