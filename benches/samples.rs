@@ -15,7 +15,7 @@ use grashof::analysis::driven::Driven;
 use grashof::analysis::sweep;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
-use grashof::mechanism::{Coordinates, Mechanism, build};
+use grashof::mechanism::{Coordinates, Mechanism};
 use grashof::model::{Document, Model, Selection};
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -164,9 +164,7 @@ fn model_of(text: &str) -> Model {
 }
 
 fn assembled<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) -> (Mechanism<G>, Assembled) {
-    let mut mechanism = build::<G>(model, &sweep::parameters(model), coordinates).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let start = assemble(&mut mechanism).unwrap_or_else(|fault| panic!("{fault:?}"));
-    (mechanism, start)
+    assemble(model, &sweep::parameters(model), coordinates).unwrap_or_else(|fault| panic!("{}", fault.reason()))
 }
 
 /// One turn of a driven crank, sample by sample: predicted by v h + ½ a h², corrected, then rates, switches, forces, reactions.

@@ -10,7 +10,7 @@ use grashof::analysis::observe::Observer;
 use grashof::analysis::sweep;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
-use grashof::mechanism::{Coordinates, Mechanism, build};
+use grashof::mechanism::{Coordinates, Mechanism};
 use grashof::model::{Dimensions, Model};
 
 fn terms<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
@@ -48,8 +48,7 @@ fn terms_residuals_reactions_and_energies_allocate_nothing() {
 
 fn sample<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) {
     let parameters = sweep::parameters(model);
-    let mut m = build::<G>(model, &parameters, coordinates).expect("a mechanism");
-    let start = assemble(&mut m).expect("a start");
+    let (m, start) = assemble::<G>(model, &parameters, coordinates).expect("a start");
     let columns: Vec<_> = model.study.as_ref().expect("a study").columns.iter().map(|c| c.value).collect();
     let mut observer = Observer::new(model, &m, &parameters, &columns);
     let mut out = vec![0.0; columns.len()];

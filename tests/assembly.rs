@@ -1,6 +1,14 @@
-//! The branch of a linkage is the one that the guesses lie on.
+//! The branch of a linkage is the one that the guesses lie on; what a start leaves open does not depend on coordinates and cuts.
 
+#[path = "assembly/alike.rs"]
+mod alike;
+#[path = "assembly/change.rs"]
+mod change;
 mod common;
+#[path = "assembly/open.rs"]
+mod open;
+#[path = "assembly/universal.rs"]
+mod universal;
 
 use common::Noise;
 use grashof::mechanism::Coordinates;

@@ -11,6 +11,11 @@ use std::process::{Command, Output, Stdio};
 mod codes;
 #[path = "cli/others.rs"]
 mod others;
+#[cfg(unix)]
+#[path = "cli/signals.rs"]
+mod signals;
+#[path = "cli/streams.rs"]
+mod streams;
 
 /// A small four-bar with two studies and a sweep; `{}` stands for further lines of the study `turn`.
 const MODEL: &str = "\
@@ -97,6 +102,8 @@ impl Place {
     fn files(&self, directory: &str) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.0.join(directory)) else { return Vec::new() };
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        // the record of what was written
+        names.retain(|name| name != ".grashof.json");
         names.sort();
         names
     }
@@ -351,7 +358,9 @@ fn json_on_stdout_is_all_that_is_there() {
     }
     // with an error, too
     let done = place.run(&["run", "model.yaml", "--json", "--study", "turns", "-o", "out"]).ends(2);
-    assert_eq!(done.json(), serde_json::json!([]));
+    let error = &done.json()[0];
+    assert_eq!((error["study"].as_str(), error["status"].as_str()), (Some("turns"), Some("failed")));
+    assert_eq!(error["errors"][0]["help"], "did you mean `turn`?");
     let check = place.run(&["check", "model.yaml", "--json"]).ends(0);
     let report = check.json();
     assert_eq!(report["name"], "four-bar");

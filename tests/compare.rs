@@ -78,6 +78,8 @@ impl Place {
     fn files(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.0.join("out")) else { return Vec::new() };
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        // the record of what was written
+        names.retain(|name| name != ".grashof.json");
         names.sort();
         names
     }

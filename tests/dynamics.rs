@@ -11,6 +11,8 @@ mod events;
 #[path = "dynamics/faults.rs"]
 mod faults;
 mod reference;
+#[path = "dynamics/switches.rs"]
+mod switches;
 
 use reference::program::{Run, Table};
 

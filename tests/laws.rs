@@ -85,7 +85,7 @@ fn momentum_projected_on_the_columns_is_m_v() {
         let bodies = (0..m.bodies.len()).map(|b| d.work.inertias[b] * d.work.twists[b]).collect::<Vec<_>>();
         let rotors = m.rotors.iter().map(|r| r.inertia * d.work.readings[r.gauge].rate).collect::<Vec<_>>();
         close("M v", &product(&d.work.mass, &s.v), &project(&d, &bodies, &rotors), EXACT);
-        let sum = bodies.iter().skip(1).fold(Force::default(), |sum, p| sum + *p);
+        let sum = bodies.iter().enumerate().skip(1).fold(Force::default(), |sum, (b, p)| sum + p.about_origin(d.reference(b)));
         close("momentum", &wrench(d.momentum()), &wrench(sum), EXACT);
     }
     everywhere!(law);
@@ -172,8 +172,7 @@ fn velocities_and_accelerations_of_points_are_rates() {
             let mut out = Vec::new();
             for (b, body) in m.bodies.iter().enumerate() {
                 for at in body.points.iter().map(|p| p.1).chain([G::vector(&[0.3, 0.7, -0.5])]) {
-                    let p = d.point(b, at);
-                    out.extend(vector::<G>(if order == 0 { p } else { d.work.twists[b].at(p) }));
+                    out.extend(vector::<G>(if order == 0 { d.point(b, at) } else { d.work.twists[b].at(d.place(m.group_of[b], b, at)) }));
                 }
                 if order == 1 {
                     out.extend(spin::<G>(d.work.twists[b].w));
@@ -190,7 +189,7 @@ fn velocities_and_accelerations_of_points_are_rates() {
         for (b, body) in m.bodies.iter().enumerate() {
             let (v, a) = (d.work.twists[b], accelerations[b]);
             for at in body.points.iter().map(|p| p.1).chain([G::vector(&[0.3, 0.7, -0.5])]) {
-                let p = d.point(b, at);
+                let p = d.place(m.group_of[b], b, at);
                 rates.extend(vector::<G>(v.at(p)));
                 seconds.extend(vector::<G>(a.at(p) + G::turn(v.w, v.at(p))));
             }
@@ -204,7 +203,7 @@ fn velocities_and_accelerations_of_points_are_rates() {
             let angles = |s: &State| {
                 let mut d = Dynamics::new(m);
                 s.evaluate(&mut d);
-                d.work.poses.iter().map(|x| G::angle(x.r)).collect::<Vec<_>>()
+                d.poses().iter().map(|x| G::angle(x.r)).collect::<Vec<_>>()
             };
             let omega: Vec<f64> = d.work.twists.iter().map(|v| G::spin_component(v.w, 2)).collect();
             close("ω", &slope(H, |e| angles(&s.after(m, e))), &omega, DIFFERENCE);
@@ -389,10 +388,14 @@ fn an_open_mechanism_falls_alike_on_every_tree() {
             let (a, lambda) = accelerate(&e);
             let o = react(&mut e, &a, &lambda);
             for b in 1..tree.bodies.len() {
-                close(&format!("acceleration of {}", tree.bodies[b].name), &twist(r.accelerations[b]), &twist(o.accelerations[b]), 1e-9);
+                let at_origin = |a: Motion<G>, reference: G::Vector| twist(Motion::<G> { w: a.w, v: a.at(-reference) });
+                let (x, y) = (at_origin(r.accelerations[b], d.reference(b)), at_origin(o.accelerations[b], e.reference(b)));
+                close(&format!("acceleration of {}", tree.bodies[b].name), &x, &y, 1e-9);
             }
             for (j, joint) in tree.joints.iter().enumerate() {
-                close(&format!("reaction of {}", joint.name), &wrench(r.joints[j]), &wrench(o.joints[j]), 1e-9);
+                let body = joint.a.0.max(joint.b.0);
+                let (x, y) = (r.joints[j].about_origin(d.reference(body)), o.joints[j].about_origin(e.reference(body)));
+                close(&format!("reaction of {}", joint.name), &wrench(x), &wrench(y), 1e-9);
                 for (x, y) in joint.slots.iter().zip(&star.joints[j].slots) {
                     let (x, y) = (d.work.readings[*x], e.work.readings[*y]);
                     close(&format!("coordinate of {}", joint.name), &[x.x, x.rate], &[y.x, y.rate], 1e-11);

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::{Noise, State, accelerate, close, mechanism, model, slope, study};
-use grashof::analysis::assemble::{Assembled, assemble};
+use common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
+use grashof::analysis::assemble::Assembled;
 use grashof::analysis::linear::{Linear, Reduced};
 use grashof::analysis::outcome::{LinearSystem, Outcome};
 use grashof::analysis::partition::preferred;
@@ -98,8 +98,7 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     fn new(text: &str) -> Self {
-        let mut mechanism = mechanism::<G>(text, Coordinates::Joint);
-        let start = assemble(&mut mechanism).unwrap_or_else(|f| panic!("{f:?}"));
+        let (mechanism, start) = assembled::<G>(text, Coordinates::Joint);
         let z = mechanism.state_starts.clone();
         let (a, lambda) = {
             let mut d = Dynamics::new(&mechanism);

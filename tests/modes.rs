@@ -6,8 +6,7 @@ mod common;
 #[path = "modes/eigensolvers.rs"]
 mod eigensolvers;
 
-use common::{close, mechanism, slope, study};
-use grashof::analysis::assemble::assemble;
+use common::{assembled, close, slope, study};
 use grashof::analysis::modes::damped::{damped, state_matrix};
 use grashof::analysis::modes::eigen::library;
 use grashof::analysis::modes::held::{Held, Pose, settled};
@@ -38,8 +37,7 @@ where
     S: Space<S = f64>,
     S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut m = mechanism::<S>(text, coordinates);
-    let start = assemble(&mut m).unwrap_or_else(|f| panic!("{f:?}"));
+    let (m, start) = assembled::<S>(text, coordinates);
     let modes = settled(&m, [&start.q, &vec![0.0; m.nv], &m.state_starts], &start.modes);
     let lifted = m.lift();
     let pose = Pose { q: &start.q, z: &m.state_starts, modes: &modes };
@@ -174,7 +172,7 @@ fn a_four_bar_in_balance_has_one_frequency_in_all_coordinates() {
     for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
         close("space", &eigenvalues::<Spatial<f64>>(&four_bar(true, rest), coordinates), &right, 1e-9);
         let (.., held) = held::<Spatial<f64>>(&four_bar(true, rest), coordinates);
-        let damping = |h: &Held| damped(&state_matrix(h, true).expect("masses"), 1)[0].value;
+        let damping = |h: &Held| damped(&state_matrix(h, true).expect("masses"), 1).expect("numbers")[0].value;
         close("μ", &[damping(&held).re, damping(&held).im], &[damping(&plain).re, damping(&plain).im], 1e-9);
     }
 }

@@ -316,7 +316,7 @@ include: { urdf: kinds.urdf, base: free, at: [1 m, 20 cm, -3], rpy: [30 deg, -0.
 ";
     let m = mechanism(&document(text), Coordinates::Joint);
     let root = index(&m.bodies, |b| &b.name, "root");
-    let (_, r) = m.orientations.iter().find(|(body, _)| *body == root).unwrap();
+    let r = m.orientations.iter().find(|asked| asked.body == root).unwrap().matrix;
     let base = origin([1.0, 0.2, -3.0], [30f64.to_radians(), -0.4, 2.0]);
     let expected = base.rotation.to_rotation_matrix();
     for i in 0..3 {

@@ -9,8 +9,9 @@
 
 use crate::friction::Friction;
 use crate::kkt::{Kkt, ROUND_OFF};
-use crate::{At, Dims, Stage, State, System, Terms};
+use crate::{At, Common, Dims, Stage, State, System, Terms};
 
+mod norm;
 mod projection;
 
 /// A state with what follows from it.
@@ -62,6 +63,8 @@ pub struct Counts {
     pub bridges: usize,
     /// Switches that a scheme marched across.
     pub stepped_over: usize,
+    /// Root functions that could not be resolved in a part of a step: their signs at its nodes were taken.
+    pub unresolved: usize,
 }
 
 impl std::ops::AddAssign for Counts {
@@ -75,6 +78,7 @@ impl std::ops::AddAssign for Counts {
         self.events += other.events;
         self.bridges += other.bridges;
         self.stepped_over += other.stepped_over;
+        self.unresolved += other.unresolved;
     }
 }
 
@@ -102,6 +106,8 @@ pub enum Why {
     StepSize,
     /// Events pile up; the root that crossed last.
     Zeno(usize),
+    /// A root of time alone whose sign cannot be bounded.
+    Unresolved(usize),
     /// A blow against what drivers or other rows hold: the root of the contact.
     Blocked(usize),
     /// More steps than are allowed.
@@ -145,8 +151,11 @@ pub struct Engine {
     pub control: Control,
     /// Sizes of coordinates, from the pattern: errors of q count absolutely.
     pub size_q: Vec<f64>,
-    /// Sizes of velocities: errors of v count relative to size + |v|.
+    /// Sizes of velocities: errors of v count relative to size + |v|, |v| without what bodies share in a common translation.
     pub size_v: Vec<f64>,
+    /// Common translations, from the pattern, and which velocities share in one (nv).
+    common: Vec<Common>,
+    shares: Vec<bool>,
     /// 1/√(G D⁻¹ Gᵀ) of each row (m): Φ times this is a mass-weighted way.
     pub row_unit: Vec<f64>,
     /// Whether the rows were independent at the start: else σ says nothing of singular positions.
@@ -179,6 +188,8 @@ impl Engine {
             control,
             size_q: pattern.size_q.clone(),
             size_v: pattern.size_v.clone(),
+            shares: (0..dims.v).map(|k| pattern.common.iter().flatten().any(|(shared, _)| *shared == k)).collect(),
+            common: pattern.common.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
             independent: true,
             row_reach: pattern.g_scale.iter().map(|g| (g / inverse).sqrt()).collect(),
@@ -323,24 +334,6 @@ impl Engine {
             largest = f64::max(largest, size);
         }
         largest
-    }
-
-    /// Norm of an error, 1 at the tolerance: root mean square of e_q/(tol·size_q), e_v/(tol·(size_v + |v|)), e_z/(tol·(1 + |z|)).
-    pub fn norm(&self, at: &State, e_q: &[f64], e_v: &[f64], e_z: &[f64]) -> f64 {
-        let q: f64 = e_q.iter().zip(&self.size_q).map(|(e, s)| (e / s).powi(2)).sum();
-        let v: f64 = e_v.iter().zip(&self.size_v).zip(&at.v).map(|((e, s), v)| (e / (s + v.abs())).powi(2)).sum();
-        let z: f64 = e_z.iter().zip(&at.z).map(|(e, z)| (e / (1.0 + z.abs())).powi(2)).sum();
-        let count = e_q.len() + e_v.len() + e_z.len();
-        ((q + v + z) / count.max(1) as f64).sqrt() / self.tolerance()
-    }
-
-    /// Root mean square of a displacement (nv) and a change of velocity (nv) as Newton's method sees them, 1 at the tolerance.
-    pub fn step_norm(&self, at: &State, d: &[f64], e_v: &[f64], e_z: &[f64]) -> f64 {
-        let q: f64 = d.iter().zip(&self.size_v).map(|(e, s)| (e / s).powi(2)).sum();
-        let v: f64 = e_v.iter().zip(&self.size_v).zip(&at.v).map(|((e, s), v)| (e / (s + v.abs())).powi(2)).sum();
-        let z: f64 = e_z.iter().zip(&at.z).map(|(e, z)| (e / (1.0 + z.abs())).powi(2)).sum();
-        let count = d.len() + e_v.len() + e_z.len();
-        ((q + v + z) / count.max(1) as f64).sqrt() / self.tolerance()
     }
 
     /// Time derivative ȧ of the accelerations along the motion at a node, by a central difference over ±`reach` s.

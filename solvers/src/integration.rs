@@ -9,11 +9,15 @@ use crate::engine::{Control, Engine, Node, Why};
 use crate::scheme::{Level, Scheme};
 use crate::schemes::{self, Method};
 use crate::{State, System};
+use foresight::Foresight;
+use resolve::{NODES, Resolver};
 use zeno::Zeno;
 
 mod begin;
 mod bridge;
 mod events;
+mod foresight;
+mod resolve;
 mod zeno;
 
 /// How a run is to be computed.
@@ -73,6 +77,13 @@ pub struct Halt {
 /// Times of bridges that are remembered.
 pub const REMEMBERED: usize = 64;
 
+/// Times between events that are remembered.
+const GAPS: usize = 4;
+
+/// A step is at most so many times as long as the longest of the last times between events, and as the width to which roots had to
+/// be resolved: a force that is constant between its switches would let it grow without end.
+const GROWTH: f64 = 16.0;
+
 /// A run in progress: the last step, and all that is needed for the next. Advancing allocates nothing.
 pub struct Integration {
     /// Tools and counters.
@@ -104,15 +115,33 @@ pub struct Integration {
     /// Where given steps began to be counted: the start, or the last event.
     origin: f64,
     start: f64,
-    /// Roots that are looked for.
+    /// Roots that are looked for on the continuous solution.
     looked: Vec<usize>,
+    /// Those of them that need not be smooth.
+    rough: Vec<usize>,
+    /// Roots at the begin of the part of a step in which one was crossed.
     roots: Vec<f64>,
-    samples: Vec<f64>,
-    /// Roots one look before those of `roots`.
-    older: Vec<f64>,
+    /// Roots at the nodes of a part of a step, and beside them.
+    samples: Vec<Vec<f64>>,
     probe: Vec<f64>,
+    resolver: Resolver,
+    /// Width to which roots had to be resolved last, s; none if a whole step was narrow enough.
+    resolved: Option<f64>,
+    /// Widest gap between looks at roots, s.
+    widest: f64,
+    /// For each root the steps for which it is still taken for noise.
+    noisy: Vec<usize>,
+    unresolved: Option<(usize, f64)>,
+    foresight: Foresight,
+    /// Times between the last events that changed the motion, s, and the time of the last one, s.
+    gaps: [f64; GAPS],
+    changed: f64,
+    /// Where the present step is asked to end, s.
+    goal: f64,
     crossed: Vec<usize>,
     row: Vec<f64>,
+    /// Velocities at the start without those in common (nv).
+    relative: Vec<f64>,
     power: Vec<f64>,
     work: Vec<f64>,
     zeno: Zeno,
@@ -134,6 +163,9 @@ impl Integration {
         let implicit = settings.method.is_implicit() && dims.holonomic > 0;
         let bridge = (implicit && !engine.is_fixed()).then(|| schemes::new(Method::Dop853, settings, system));
         let node = Node { state: start.clone(), ..Node::new(dims) };
+        let timed = |root: &usize| system.pattern().timed.contains(root);
+        let located = |root: &usize| settings.locate || system.pattern().acting.contains(root);
+        let (timed, looked): (Vec<usize>, Vec<usize>) = (0..dims.roots).filter(located).partition(timed);
         let mut run = Self {
             scheme: schemes::new(settings.method, settings, system),
             bridge,
@@ -157,13 +189,23 @@ impl Integration {
             turn: 0,
             origin: start.t,
             start: start.t,
-            looked: (0..dims.roots).filter(|root| settings.locate || system.pattern().acting.contains(root)).collect(),
+            looked,
+            rough: system.pattern().rough.clone(),
             roots: vec![0.0; dims.roots],
-            samples: vec![0.0; dims.roots],
-            older: vec![0.0; dims.roots],
+            samples: vec![vec![0.0; dims.roots]; NODES + 1],
             probe: vec![0.0; dims.roots],
+            resolver: Resolver::new(),
+            resolved: None,
+            widest: 0.0,
+            noisy: vec![0; dims.roots],
+            unresolved: None,
+            foresight: Foresight::new(timed, dims.modes),
+            gaps: [0.0; GAPS],
+            changed: start.t,
+            goal: start.t,
             crossed: Vec::with_capacity(dims.roots),
             row: vec![0.0; dims.v],
+            relative: vec![0.0; dims.v],
             power: vec![0.0; dims.work],
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
@@ -202,6 +244,17 @@ impl Integration {
     /// The step proposed next, s.
     pub fn proposed(&self) -> f64 {
         self.h
+    }
+
+    /// Widest gap between looks at root functions so far, s: one that is negative for a shorter time may be missed, but for those of
+    /// time alone, which are bounded.
+    pub fn widest_gap(&self) -> f64 {
+        self.widest
+    }
+
+    /// The first root that could not be resolved, and when (s): its signs were taken as they were seen.
+    pub fn unresolved(&self) -> Option<(usize, f64)> {
+        self.unresolved
     }
 
     /// Times at which singular positions were bridged, s; the first [`REMEMBERED`] of them.
@@ -262,6 +315,7 @@ impl Integration {
     }
 
     fn step(&mut self, system: &mut dyn System, until: f64) -> Result<Progress, Why> {
+        self.goal = until;
         if self.engine.counts.steps >= self.settings.most_steps {
             return Err(Why::TooManySteps);
         }
@@ -336,18 +390,24 @@ impl Integration {
                 Control::Steps(steps) => steps[self.turn % 2],
                 Control::Tolerance(_) => self.h,
             };
-            let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
-            let itself = scheme.chooses_steps();
+            let itself = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some()).chooses_steps();
             // a last step that is a little longer saves a very short one
-            let ends = itself || h * (1.0 + 1e-9) >= left;
+            let mut ends = itself || h * (1.0 + 1e-9) >= left;
             if ends {
                 h = left;
             } else if !self.engine.is_fixed() && 2.0 * h > left {
                 h = 0.5 * left;
             }
-            if h.is_nan() || h <= 4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3) {
+            // a switch of time alone is known beforehand: the step ends there
+            let ahead =
+                if itself || self.engine.is_fixed() { None } else { self.foresee(system, t, t + h)?.filter(|ahead| *ahead < t + h) };
+            if let Some(ahead) = ahead {
+                (h, ends) = (ahead - t, false);
+            }
+            if h.is_nan() || h <= shortest(t, until) {
                 return Err(self.too_short(t, Why::StepSize));
             }
+            let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
             let tried = scheme.attempt(system, &mut self.engine, &self.node, h, &mut self.trial);
             if itself {
                 // what was offered is the way to the end, not the step
@@ -358,8 +418,13 @@ impl Integration {
                     Ok(true) => {
                         let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
                         let next = scheme.accept(&mut self.engine, &self.node, &self.trial);
-                        // what `until` cut short says nothing about the step that the error allows
-                        self.h = if ends && !itself && !self.engine.is_fixed() { next.max(self.h) } else { next };
+                        // what was cut short says nothing about the step that the error allows
+                        let cut = ahead.is_some() || ends && !itself && !self.engine.is_fixed();
+                        self.h = if cut { next.max(self.h) } else { next };
+                        self.limit_growth(self.resolved.unwrap_or(f64::INFINITY));
+                        if let Some(ahead) = ahead {
+                            self.trial.state.t = ahead;
+                        }
                         self.turn += 1;
                         return Ok(ends && !(itself && self.trial.state.t < until - 4.0 * f64::EPSILON * until.abs()));
                     }
@@ -412,6 +477,11 @@ impl Integration {
         self.largest_sigma = self.largest_sigma.max(sigma);
         Ok(true)
     }
+}
+
+/// A step that is too short to be made at `t` on the way to `until`, s.
+fn shortest(t: f64, until: f64) -> f64 {
+    4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3)
 }
 
 /// The scheme that steps.

@@ -44,6 +44,6 @@ pub use kkt::sparse::SparseLu;
 pub use minimal::Minimal;
 pub use scheme::{Level, Scheme};
 pub use schemes::Method;
-pub use sparsity::{Pattern, Sparsity};
+pub use sparsity::{Common, Pattern, Sparsity};
 pub use state::{At, Dims, State};
-pub use system::{Effect, Stage, System, Tangent, Terms};
+pub use system::{Ahead, Effect, Stage, System, Tangent, Terms};

@@ -14,7 +14,7 @@
 
 use crate::engine::{Node, Why};
 use crate::kkt::row_scale;
-use crate::{At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::{Ahead, At, Common, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 use loops::Loops;
 use std::cell::RefCell;
 
@@ -99,7 +99,12 @@ impl<S: System> Minimal<S> {
         p.r_lambda = Sparsity::empty(n, self.dims.rows());
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
+        let place = |k: usize| loops.independent.iter().position(|i| *i == k);
+        p.common = inner.common.iter().map(|common| restricted(common, place)).collect();
         p.roots_by_reactions = inner.roots_by_reactions;
+        p.timed = inner.timed.clone();
+        p.rough = inner.rough.clone();
+        p.rough.push(self.inner.roots);
         p.acting.clone_from(&inner.acting);
     }
 
@@ -345,6 +350,10 @@ impl<S: System> System for Minimal<S> {
         };
     }
 
+    fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
+        self.loops.get_mut().inner.ahead(At { modes: &at.modes[..self.inner.modes], ..at }, to, roots)
+    }
+
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
         let loops = self.loops.get_mut();
         loops.reach(state.at());
@@ -375,4 +384,16 @@ impl<S: System> System for Minimal<S> {
         let restitution = (1.0 + restitution) * (1.0 + share) - 1.0;
         if matches!(effect, Effect::Bounce { .. }) { Effect::Bounce { restitution, stops } } else { Effect::Impulse { restitution, stops } }
     }
+}
+
+/// What the independent velocities have of a common translation, each direction of unit length again.
+fn restricted(common: &Common, place: impl Fn(usize) -> Option<usize>) -> Common {
+    let mut own: Common = common.iter().filter_map(|(k, along)| Some((place(*k)?, *along))).collect();
+    for axis in 0..3 {
+        let length = own.iter().map(|(_, along)| along[axis] * along[axis]).sum::<f64>().sqrt();
+        if length > 0.0 {
+            own.iter_mut().for_each(|(_, along)| along[axis] /= length);
+        }
+    }
+    own
 }

@@ -221,9 +221,10 @@ impl Newton {
                 self.believed = self.rate;
             }
             // round-off: given steps aim at 1e-12, which a step of this size can no longer better
+            let noise = noise(engine, stage, state) / engine.tolerance();
             let rounded =
                 (iteration > 0 && rate > 0.3 && norm < if engine.is_fixed() { 30.0 } else { (ROUNDED / engine.tolerance()).max(1e-3) })
-                    || (iteration > 1 && rate > 0.5 && norm < f64::max(0.05, noise(stage, state) / engine.tolerance()));
+                    || (iteration > 1 && rate > 0.5 && norm < f64::max(0.05, noise));
             if rounded || (rate < 1.0 && norm * rate / (1.0 - rate) < CLOSE) || norm == 0.0 {
                 place(system, engine, stage, x, state, &mut self.step_q);
                 return Ok(());
@@ -307,10 +308,12 @@ impl Newton {
     }
 }
 
-/// What the rounding of q leaves in v where positions determine velocities: 2ε |q| c_v/c_q.
-fn noise(stage: &Implicit<'_>, state: &State) -> f64 {
+/// What the rounding of q leaves: in q itself, by what it is in units of size, and where positions determine velocities in v,
+/// 2ε |q| c_v/c_q.
+fn noise(engine: &Engine, stage: &Implicit<'_>, state: &State) -> f64 {
     let largest = state.q.iter().fold(0.0, |m, q| f64::max(m, q.abs()));
-    if stage.level == Level::Position { 2.0 * f64::EPSILON * largest * stage.c.v / stage.c.q } else { 0.0 }
+    let of_v = if stage.level == Level::Position { 2.0 * f64::EPSILON * largest * stage.c.v / stage.c.q } else { 0.0 };
+    of_v.max(2.0 * engine.rounding(&state.q))
 }
 
 /// r = M a + Gᵀλ − f − f_λ of the terms evaluated last at `at`.

@@ -62,6 +62,10 @@ impl Sparsity {
     }
 }
 
+/// The velocities that share in a common translation, each with its components along up to three directions that are orthogonal unit
+/// vectors (nv each); the velocities of two common translations differ.
+pub type Common = Vec<(usize, [f64; 3])>;
+
 /// Patterns of all blocks of a system, and the scales of its equations; both taken once, at assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
@@ -90,13 +94,20 @@ pub struct Pattern {
     pub g_scale: Vec<f64>,
     /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
     pub size_q: Vec<f64>,
-    /// The same for displacements and velocities (nv): errors of v count relative to size + |v|.
+    /// The same for displacements and velocities (nv): errors of v count relative to size + |v|, where |v| is what is left without
+    /// the velocity in `common`.
     pub size_v: Vec<f64>,
+    /// Translations of bodies that nothing holds in place: a constant velocity of all of them is no motion that errors are measured by.
+    pub common: Vec<Common>,
     /// Whether root functions read a and λ; else they are functions of t, q, v and z alone, which saves a solution at each look.
     pub roots_by_reactions: bool,
     /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
     /// events, and of contacts whose crossing gives a blow.
     pub acting: Vec<usize>,
+    /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
+    pub timed: Vec<usize>,
+    /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
+    pub rough: Vec<usize>,
 }
 
 impl Pattern {
@@ -117,8 +128,11 @@ impl Pattern {
             g_scale: vec![1.0; m],
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],
+            common: Vec::new(),
             roots_by_reactions: false,
             acting: Vec::new(),
+            timed: Vec::new(),
+            rough: Vec::new(),
         }
     }
 }

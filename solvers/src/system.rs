@@ -115,6 +115,17 @@ pub enum Effect {
     },
 }
 
+/// What is known beforehand of root functions that depend on time alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ahead {
+    /// All stay positive.
+    Clear,
+    /// When the first leaves its positive side (s; just behind it), and its number.
+    Crossing(f64, usize),
+    /// Positive until then (s), and not known beyond: the number of the root that could not be bounded.
+    Unknown(f64, usize),
+}
+
 /// A constrained mechanical system, as an integrator sees it.
 ///
 /// Every evaluation is a pure function of its arguments: calls in any order give the same bits. `&mut self` is for workspace
@@ -161,6 +172,14 @@ pub trait System {
 
     /// Root functions (roots), each positive inside of the present mode.
     fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]);
+
+    /// Which of `roots`, all of them among [`Pattern::timed`], leaves its positive side first in [`at.t`, `to`], in the modes of `at`; one
+    /// that is not positive at the begin counts if it does not become so at once. By bounds, not by looks: no crossing between two is
+    /// missed. Asked only where [`Pattern::timed`] has entries; a system without them has nothing to tell, which is the default.
+    fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
+        let _ = (at, to, roots);
+        Ahead::Clear
+    }
 
     /// Carries the state over a root that has become negative: flips its own mode, changes its own parameters.
     ///

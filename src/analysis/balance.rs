@@ -6,6 +6,7 @@
 use super::continuous::Curve;
 use super::least_squares::shortest;
 use super::motion::{Lost, Motion};
+use super::panel::{NODES, node};
 use crate::geometry::Space;
 
 /// A balanced mechanism.
@@ -29,11 +30,7 @@ pub(super) enum Unbalanced {
 ///
 /// # Errors
 /// If a mass has no line, or the motion is lost on its way.
-pub(super) fn balance<G: Space<S = f64>>(
-    motion: &mut Motion<'_, G>,
-    moved: &[(usize, usize)],
-    samples: usize,
-) -> Result<Balanced, Unbalanced> {
+pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(usize, usize)]) -> Result<Balanced, Unbalanced> {
     let mechanism = motion.driven.dynamics.mechanism;
     let mut lines = Vec::new();
     for &(body, index) in moved {
@@ -47,16 +44,17 @@ pub(super) fn balance<G: Space<S = f64>>(
         }
         lines.push((body, attached.mass.mass, attached.mass.com * (1.0 / length), length));
     }
-    let rows = motion.sample(samples).map_err(Unbalanced::Lost)?;
+    let resolved = motion.resolve().map_err(Unbalanced::Lost)?;
     let dimensions = G::VECTOR;
-    // per row and direction: the centre of mass without offsets, and what each distance adds
-    let (mut fixed, mut gains) = (Vec::new(), Vec::new());
+    // per place and direction: the centre of mass without offsets, and what each distance adds
+    let (mut fixed, mut gains, mut weights) = (Vec::new(), Vec::new(), Vec::new());
     let mut nothing = vec![0.0; motion.columns()];
-    for (s, piece) in rows.places.iter().zip(&rows.pieces) {
-        motion.eval(*s, *piece, &mut nothing).map_err(Unbalanced::Lost)?;
+    for (panel, j) in resolved.panels.iter().flat_map(|p| (0..NODES).map(move |j| (p, j))) {
+        motion.row(panel.place(j), panel.piece, &mut nothing).map_err(Unbalanced::Lost)?;
+        weights.push(0.5 * panel.width() * node(j).1);
         let work = &motion.driven.dynamics.work;
         let (mass, mut h) = motion.driven.dynamics.first_moment();
-        let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.poses[body].r, u) * m).collect();
+        let directions: Vec<G::Vector> = lines.iter().map(|&(body, m, u, _)| G::rotate(work.places[body].r, u) * m).collect();
         for (d, (_, _, _, length)) in directions.iter().zip(&lines) {
             h += *d * -*length;
         }
@@ -66,30 +64,30 @@ pub(super) fn balance<G: Space<S = f64>>(
         }
     }
     let n = lines.len();
-    center(&mut fixed, dimensions, 1);
-    center(&mut gains, dimensions, n);
-    let b: Vec<f64> = fixed.iter().map(|x| -x).collect();
-    let distances = shortest(&gains, &b, &vec![1.0; n], 0.0);
-    let off = |row: usize| -> f64 {
-        (row * dimensions..(row + 1) * dimensions)
+    center(&mut fixed, &weights);
+    center(&mut gains, &weights);
+    // Gauss's sum of squares over the motion: each place counts by its weight in the integral
+    let root = |row: usize| weights[row / dimensions].sqrt();
+    let a: Vec<f64> = gains.iter().enumerate().map(|(i, g)| g * root(i / n.max(1))).collect();
+    let b: Vec<f64> = fixed.iter().enumerate().map(|(row, x)| -x * root(row)).collect();
+    let distances = shortest(&a, &b, &vec![1.0; n], 0.0);
+    let off = |place: usize| -> f64 {
+        (place * dimensions..(place + 1) * dimensions)
             .map(|i| (fixed[i] + gains[i * n..(i + 1) * n].iter().zip(&distances).map(|(g, d)| g * d).sum::<f64>()).powi(2))
             .sum::<f64>()
             .sqrt()
     };
-    let residual = (0..rows.places.len()).map(off).fold(0.0, f64::max);
+    let residual = (0..weights.len()).map(off).fold(0.0, f64::max);
     Ok(Balanced { distances, residual })
 }
 
-/// Takes the mean over the rows from each column; rows come in groups of `dimensions`, `width` numbers each.
-fn center(values: &mut [f64], dimensions: usize, width: usize) {
-    let stride = dimensions * width;
-    if stride == 0 {
-        return;
-    }
-    let rows = values.len() / stride;
+/// Takes the weighted mean over the places from each column.
+fn center(values: &mut [f64], weights: &[f64]) {
+    let stride = values.len() / weights.len().max(1);
+    let whole: f64 = weights.iter().sum();
     for column in 0..stride {
-        let mean = (0..rows).map(|r| values[r * stride + column]).sum::<f64>() / rows as f64;
-        for r in 0..rows {
+        let mean = weights.iter().enumerate().map(|(r, w)| w * values[r * stride + column]).sum::<f64>() / whole;
+        for r in 0..weights.len() {
             values[r * stride + column] -= mean;
         }
     }

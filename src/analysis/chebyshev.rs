@@ -33,7 +33,7 @@ impl Basis {
 }
 
 /// p(s) by Clenshaw's recurrence.
-pub(super) fn value(series: &Series, s: f64) -> f64 {
+pub(super) fn value(series: &[f64], s: f64) -> f64 {
     let (mut b1, mut b2) = (0.0, 0.0);
     for c in series[1..].iter().rev() {
         (b1, b2) = (c + 2.0 * s * b1 - b2, b1);

@@ -2,8 +2,11 @@
 //! without a motion in time.
 
 use super::assemble::Assembled;
-use super::motion::{Motion, Rows};
+use super::continuous::Curve;
+use super::extremum::Extremes;
+use super::motion::Motion;
 use super::outcome::Failure;
+use super::resolve::Resolved;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use crate::model::{Kind, Model, Study};
@@ -22,7 +25,7 @@ pub(super) fn begins<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
     let mut dynamics = crate::dynamics::Dynamics::new(mechanism);
     dynamics.time(0.0, &start.modes);
     dynamics.position(&start.q, &start.modes);
-    for stop in &mechanism.stops {
+    for stop in mechanism.stops.iter().filter(|stop| stop.event.is_none()) {
         let x = dynamics.work.readings[stop.gauge].x;
         if stop.gap(x) < -PASSED * stop.size(start.size) {
             let joint = &model.joints[stop.joint];
@@ -60,38 +63,43 @@ pub(super) fn driven<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
 
 /// Refuses a driven motion that passes a rigid stop or, where forces are asked for, jams by friction.
 ///
+/// `gaps` are the extremes of the gaps of the stops over the motion.
+///
 /// # Errors
 /// With the joint and the place; `name` is the independent variable.
 pub(super) fn passes<G: Space<S = f64>>(
     (model, study, name): (&Model, &Study, &str),
     motion: &mut Motion<'_, G>,
-    rows: &Rows,
+    resolved: &Resolved,
+    gaps: &[Option<Extremes>],
     size: f64,
 ) -> Result<(), Failure> {
     let mechanism = motion.driven.dynamics.mechanism;
-    let forces = matches!(study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty();
-    if mechanism.stops.is_empty() && !forces {
+    let joint = |index: usize| model.joints[index].name.as_str();
+    for (k, (stop, gap)) in mechanism.stops.iter().zip(gaps).enumerate() {
+        let beyond = |gap: f64| gap < -PASSED * stop.size(size);
+        let Some(least) = gap.map(|e| e.min).filter(|least| stop.event.is_none() && beyond(least.value)) else { continue };
+        // the first place that is known to lie beyond says more than the farthest one
+        let known = resolved.samples();
+        let first = known.column(motion.columns() - mechanism.stops.len() + k).iter().position(|gap| beyond(*gap));
+        let (s, piece) = first.map_or((least.at, least.piece), |i| (known.places[i], known.pieces[i]));
+        let reached = motion.solve(s, Some(piece));
+        let x = reached.map_or(f64::NAN, |()| motion.driven.dynamics.work.readings[stop.gauge].x);
+        let message = format!(
+            "at {name} = {:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way",
+            motion.clock.value(s),
+            joint(stop.joint),
+            stop.word(),
+            stop.at
+        );
+        return Err(Failure::numerical(message, "drive it less far, or give the stop a `stiffness`"));
+    }
+    if !matches!(study.kind, Kind::Inverse(_)) || mechanism.pressings.is_empty() {
         return Ok(());
     }
-    let joint = |index: usize| model.joints[index].name.as_str();
-    for (&s, &piece) in rows.places.iter().zip(&rows.pieces) {
-        if motion.solve(s, Some(piece)).is_err() {
-            continue;
-        }
-        let at = motion.clock.value(s);
-        for stop in &mechanism.stops {
-            let x = motion.driven.dynamics.work.readings[stop.gauge].x;
-            if stop.gap(x) < -PASSED * stop.size(size) {
-                let message = format!(
-                    "at {name} = {at:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way",
-                    joint(stop.joint),
-                    stop.word(),
-                    stop.at
-                );
-                return Err(Failure::numerical(message, "drive it less far, or give the stop a `stiffness`"));
-            }
-        }
-        if forces && motion.driven.jams() {
+    for (&s, &piece) in resolved.places.iter().zip(&resolved.pieces) {
+        if motion.solve(s, Some(piece)).is_ok() && motion.driven.jams() {
+            let at = motion.clock.value(s);
             let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", joint(p.joint))).collect();
             let message = format!(
                 "at {name} = {at:.6} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox)",

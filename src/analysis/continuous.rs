@@ -17,6 +17,16 @@ pub trait Curve {
 
     /// Values of all columns at `x` on the piece number `piece`; a value that is not defined there is NaN.
     fn eval(&mut self, x: f64, piece: usize, out: &mut [f64]) -> Result<(), Self::Error>;
+
+    /// Where a stretch of a piece is best cut in two, between its ends.
+    fn middle(&self, from: f64, to: f64, _piece: usize) -> f64 {
+        0.5 * (from + to)
+    }
+
+    /// On what width a piece is known to be smooth at a place, as the steps of an integrator tell; 0 if nothing is known.
+    fn smooth(&self, _at: f64, _piece: usize) -> f64 {
+        0.0
+    }
 }
 
 /// Samples of a [`Curve`].

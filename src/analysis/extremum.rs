@@ -55,8 +55,8 @@ pub struct Extremes {
 /// `samples` must be fine enough to show every peak that matters by at least one raised sample; `breaks` is `from, switches …,
 /// to`. One-sided values at breaks and both ends take part. Equal extremes give the first place, a dwell its first sample, a constant
 /// column its first. NaN samples are skipped. Places are good to about 1e-10 of the range where a column is smooth and its
-/// values carry round-off of 1e-13; values to round-off.
-pub fn extrema<C: Curve>(curve: &mut C, samples: Samples<'_>, breaks: &[f64]) -> Result<Vec<Option<Extremes>>, C::Error> {
+/// values carry round-off of 1e-13; values to round-off. Where the curve cannot be evaluated around a sample, the sample counts.
+pub fn extrema<C: Curve>(curve: &mut C, samples: Samples<'_>, breaks: &[f64]) -> Vec<Option<Extremes>> {
     let columns = curve.columns();
     let mut search = Search {
         curve,
@@ -69,9 +69,9 @@ pub fn extrema<C: Curve>(curve: &mut C, samples: Samples<'_>, breaks: &[f64]) ->
     };
     (0..columns)
         .map(|column| {
-            let max = search.greatest(column, 1.0)?;
-            let min = search.greatest(column, -1.0)?;
-            Ok(min.zip(max).map(|(min, max)| Extremes { min, max }))
+            let max = search.greatest(column, 1.0);
+            let min = search.greatest(column, -1.0);
+            min.zip(max).map(|(min, max)| Extremes { min, max })
         })
         .collect()
 }
@@ -126,13 +126,13 @@ struct Search<'a, C: Curve> {
 
 impl<C: Curve> Search<'_, C> {
     /// The greatest value of sign · column.
-    fn greatest(&mut self, column: usize, sign: f64) -> Result<Option<Extremum>, C::Error> {
+    fn greatest(&mut self, column: usize, sign: f64) -> Option<Extremum> {
         let samples = self.samples;
         let values = samples.column(column);
         let magnitude = hills::magnitude(values);
         let mut best = values.iter().fold(f64::NEG_INFINITY, |m, y| f64::max(m, sign * y));
         if best == f64::NEG_INFINITY {
-            return Ok(None);
+            return None;
         }
         // the best sample takes part whatever becomes of its hill: of noise, only the most promising hills are looked into
         let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
@@ -146,13 +146,15 @@ impl<C: Curve> Search<'_, C> {
             if bound < best - tie(best, magnitude) {
                 break;
             }
-            let candidate = self.refine(column, sign, sample)?;
+            // next to a dead point places can no longer be reached: there the sample counts
+            let itself = Candidate { y: sign * values[sample], at: samples.places[sample], piece: samples.pieces[sample] };
+            let candidate = self.refine(column, sign, sample).unwrap_or(itself);
             best = best.max(candidate.y);
             found.push(candidate);
         }
         let level = best - tie(best, magnitude);
         let first = found.iter().filter(|c| c.y >= level).min_by(|a, b| a.at.total_cmp(&b.at).then(a.piece.cmp(&b.piece)));
-        Ok(first.map(|c| Extremum { value: sign * c.y, at: c.at, piece: c.piece }))
+        first.map(|c| Extremum { value: sign * c.y, at: c.at, piece: c.piece })
     }
 
     /// The best place around a sample, or the sample itself where there is nothing better.

@@ -3,28 +3,51 @@
 use super::clock::Clock;
 use super::continuous::Curve;
 use super::extremum::Extremes;
-use super::motion::Rows;
+use super::outcome::Finding;
 use super::quadrature::integrals;
+use super::resolve::Resolved;
 use crate::model::{FunctionalKind, Model, Study};
 
-/// A sampled motion, for functionals.
+/// Integrals that are known less well than this part of that of the magnitude are named.
+const UNCERTAIN: f64 = 1e-8;
+
+/// A resolved motion, for functionals.
 pub(super) struct Functionals<'a, C: Curve> {
     pub(super) clock: Clock,
     /// Progress at both ends.
     pub(super) ends: [f64; 2],
     pub(super) curve: &'a mut C,
-    pub(super) rows: &'a Rows,
+    pub(super) resolved: &'a Resolved,
     pub(super) extremes: &'a [Option<Extremes>],
     pub(super) breaks: &'a [f64],
 }
 
 impl<C: Curve> Functionals<'_, C> {
     /// The value of each functional of a study; `columns[i]` is the column that functional i is taken of.
-    pub(super) fn all(&mut self, model: &Model, study: &Study, parameters: &[f64], columns: &[usize]) -> Result<Vec<f64>, C::Error> {
+    pub(super) fn all(
+        &mut self,
+        model: &Model,
+        study: &Study,
+        parameters: &[f64],
+        columns: &[usize],
+        findings: &mut Vec<Finding>,
+    ) -> Result<Vec<f64>, C::Error> {
         let integral = |k: FunctionalKind| matches!(k, FunctionalKind::Mean | FunctionalKind::Integral);
+        let asked: Vec<usize> = study.functionals.iter().zip(columns).filter(|(f, _)| integral(f.kind)).map(|(_, c)| *c).collect();
         let mut sums = vec![0.0; self.curve.columns()];
-        if study.functionals.iter().any(|f| integral(f.kind)) {
-            integrals(self.curve, self.breaks, &mut sums)?;
+        if !asked.is_empty() {
+            let noise = self.resolved.noise.iter().enumerate().map(|(c, n)| if asked.contains(&c) { *n } else { f64::INFINITY });
+            let quality = integrals(self.curve, &self.resolved.panels, &noise.collect::<Vec<_>>(), &mut sums)?;
+            if quality.error > UNCERTAIN {
+                findings.push(Finding {
+                    code: "integral",
+                    message: format!(
+                        "a mean or an integral is known to a part {:.0e} of its size only: a quantity varies without end, or has no bound",
+                        quality.error
+                    ),
+                    path: study.place.clone(),
+                });
+            }
         }
         let length = self.ends[1] - self.ends[0];
         study
@@ -37,7 +60,7 @@ impl<C: Curve> Functionals<'_, C> {
                     FunctionalKind::Integral => sums[c] * self.clock.direction,
                     FunctionalKind::Max => self.extremes[c].map_or(f64::NAN, |e| e.max.value),
                     FunctionalKind::Min => self.extremes[c].map_or(f64::NAN, |e| e.min.value),
-                    FunctionalKind::Last => self.rows.values.last().map_or(f64::NAN, |r| r[c]),
+                    FunctionalKind::Last => self.resolved.samples().column(c).last().copied().unwrap_or(f64::NAN),
                     FunctionalKind::Value => {
                         let at = f.at.map_or(f64::NAN, |id| model.pool.value(id, parameters));
                         self.value(self.clock.progress(at), c)?
@@ -62,9 +85,9 @@ impl<C: Curve> Functionals<'_, C> {
         Ok(out[column])
     }
 
-    /// Where a condition first holds: its switches are located, so it is the first row of a piece.
+    /// Where a condition first holds: its switches are located, so it is the begin of a piece.
     fn first(&self, column: usize) -> f64 {
-        let row = self.rows.values.iter().position(|r| r[column] != 0.0 && !r[column].is_nan());
-        row.map_or(f64::NAN, |i| self.clock.value(self.rows.places[i]))
+        let first = self.resolved.samples().column(column).iter().position(|y| *y != 0.0 && !y.is_nan());
+        first.map_or(f64::NAN, |i| self.clock.value(self.resolved.places[i]))
     }
 }

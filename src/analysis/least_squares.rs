@@ -30,6 +30,92 @@ pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f6
     x.iter().zip(&root).map(|(x, r)| x / r).collect()
 }
 
+/// Rows A and right sides b of one level of a least-squares problem; A is rows × metric.len(), row-major.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Level {
+    pub(crate) a: Vec<f64>,
+    pub(crate) b: Vec<f64>,
+    /// Singular values of A D^−½ up to this are round-off.
+    pub(crate) round_off: f64,
+}
+
+impl Level {
+    /// Adds a row times a scale.
+    pub(crate) fn row(&mut self, row: &[f64], b: f64, scale: f64) {
+        self.a.extend(row.iter().map(|x| x * scale));
+        self.b.push(b * scale);
+    }
+
+    /// b − A x.
+    pub(crate) fn missing(&self, x: &[f64]) -> Vec<f64> {
+        self.b.iter().zip(self.a.chunks_exact(x.len().max(1))).map(|(b, row)| b - dot(row, x)).collect()
+    }
+}
+
+/// x + δ with the shortest δ (in the metric) that makes |A x − b|² least for the first level, among those for the second, and so on.
+#[must_use]
+pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64> {
+    let n = metric.len();
+    let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
+    let mut x = x;
+    let levels: Vec<&Level> = levels.iter().filter(|level| !level.b.is_empty()).collect();
+    if n == 0 || levels.iter().all(|level| level.missing(&x).iter().all(|b| *b == 0.0)) {
+        return x;
+    }
+    // motions that the levels so far leave open, in units of the metric
+    let mut basis = DMatrix::identity(n, n);
+    for (index, level) in levels.iter().enumerate() {
+        if basis.ncols() == 0 {
+            break;
+        }
+        let last = index + 1 == levels.len();
+        let rows = DMatrix::from_fn(level.b.len(), n, |i, j| level.a[i * n + j] / root[j]);
+        // what is small beside the rows before they are seen along the basis is round-off
+        let least = f64::max(RANK_TOLERANCE * rows.row_iter().fold(0.0, |m, row| f64::max(m, row.norm())), level.round_off);
+        let svd = if last { Svd::new(&(&rows * &basis)) } else { padded(&rows * &basis, level.b.len()) };
+        let mut right = level.missing(&x);
+        right.resize(svd.u.nrows(), 0.0);
+        let way = svd.solve(&right, |s| if s > least { 1.0 / s } else { 0.0 });
+        for i in 0..n {
+            x[i] += (0..way.len()).map(|k| basis[(i, k)] * way[k]).sum::<f64>() / root[i];
+        }
+        if !last {
+            basis = &basis * left_over(&svd, least);
+        }
+    }
+    x
+}
+
+/// Motions that rows A leave open, as columns that are orthonormal in the metric; A is rows × metric.len(), row-major. Singular
+/// values of A D^−½ up to `round_off` are nothing else.
+#[must_use]
+pub(crate) fn left_open(round_off: f64, a: &[f64], metric: &[f64]) -> DMatrix<f64> {
+    let n = metric.len();
+    let rows = a.len() / n.max(1);
+    let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
+    let svd = padded(DMatrix::from_fn(rows, n, |i, j| a[i * n + j] / root[j]), rows);
+    let least = f64::max(RANK_TOLERANCE * svd.largest(), round_off);
+    let mut basis = left_over(&svd, least);
+    basis.row_iter_mut().zip(&root).for_each(|(mut row, root)| row /= *root);
+    basis
+}
+
+/// The decomposition with as many rows as columns at least, so that V is whole.
+fn padded(a: DMatrix<f64>, rows: usize) -> Svd {
+    let columns = a.ncols();
+    Svd::new(&a.resize_vertically(rows.max(columns), 0.0))
+}
+
+/// Right singular vectors of singular values up to `least`.
+fn left_over(svd: &Svd, least: f64) -> DMatrix<f64> {
+    let open: Vec<usize> = (0..svd.values.len()).filter(|&k| svd.values[k] <= least).collect();
+    DMatrix::from_fn(svd.v.nrows(), open.len(), |i, k| svd.v[(i, open[k])])
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,5 +132,35 @@ mod tests {
         let noise = [3e-17, -1e-17, 2e-17, 5e-18];
         assert!(shortest(&noise, &[1e-16, 1e-16], &[1.0, 4.0], 0.0)[0].abs() > 1.0);
         assert_eq!(shortest_beyond(1e-11, &noise, &[1e-16, 1e-16], &[1.0, 4.0], 0.0), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn levels_are_met_in_turn() {
+        // x + y = 1 holds; x = 3 and x = 5 are as near as can be at 4; then z rests, and w at half its wish
+        let level = |rows: &[([f64; 4], f64)]| {
+            let mut level = Level::default();
+            rows.iter().for_each(|(row, b)| level.row(row, *b, 1.0));
+            level
+        };
+        let levels = [
+            level(&[([1.0, 1.0, 0.0, 0.0], 1.0), ([2.0, 2.0, 0.0, 0.0], 2.0)]),
+            level(&[([1.0, 0.0, 0.0, 0.0], 3.0), ([1.0, 0.0, 0.0, 0.0], 5.0)]),
+            level(&[([1.0, 0.0, 0.0, 0.0], 0.0), ([0.0, 0.0, 1.0, 0.0], 0.0), ([0.0, 0.0, 0.0, 1.0], 2.0), ([0.0, 0.0, 0.0, 1.0], 0.0)]),
+        ];
+        let x = in_turn(&levels, &[1.0, 4.0, 1.0, 1.0], vec![0.3, -0.2, 7.0, 1.0]);
+        let right = [4.0, -3.0, 0.0, 1.0];
+        assert!(x.iter().zip(right).all(|(x, r)| (x - r).abs() < 1e-14), "{x:?}");
+    }
+
+    #[test]
+    fn what_rows_leave_open_is_orthonormal() {
+        let (a, metric) = ([1.0, 1.0, 0.0, 2.0, 2.0, 0.0], [1.0, 4.0, 9.0]);
+        let basis = left_open(0.0, &a, &metric);
+        assert_eq!(basis.ncols(), 2);
+        for way in basis.column_iter() {
+            assert!((way[0] + way[1]).abs() < 1e-14);
+        }
+        let product = basis.transpose() * DMatrix::from_diagonal(&nalgebra::DVector::from_row_slice(&metric)) * &basis;
+        assert!((product - DMatrix::identity(2, 2)).norm() < 1e-14);
     }
 }

@@ -26,16 +26,14 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    let (g, scale) = rows(mechanism, start);
-    let nv = mechanism.nv;
-    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
-    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
-    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
-    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
-    let free = Rank::new(&of_undriven, &start.metric, &scale_of_undriven, RANK_TOLERANCE);
-    let driven = Rank::new(&g, &start.metric, &scale, RANK_TOLERANCE);
+    // in a change point rows lose rank that they have everywhere else
+    let q = start.change.as_ref().map_or(&start.q, |change| &change.beside);
+    let rows = rows(mechanism, q, &start.modes, &start.metric);
+    let free = undriven(mechanism, &rows, &start.metric);
+    let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
+    let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();
     Mobility {
-        grubler: nv as i64 - undriven.len() as i64,
+        grubler: mechanism.nv as i64 - (mechanism.rows.len() - drivers) as i64,
         freedom: free.mobility(),
         left: driven.mobility(),
         rank: driven.rank,
@@ -43,12 +41,27 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     }
 }
 
+/// Degrees of freedom without drivers at a position.
+pub(super) fn freedom<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> usize {
+    undriven(mechanism, &rows(mechanism, q, modes, metric), metric).mobility()
+}
+
+/// Rank of all rows but those of drivers.
+fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): &(Vec<f64>, Vec<f64>), metric: &[f64]) -> Rank {
+    let nv = mechanism.nv;
+    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
+    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
+    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
+    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
+    Rank::new(&of_undriven, metric, &scale_of_undriven, RANK_TOLERANCE)
+}
+
 /// G at the start and the scales of its rows, by an evaluator of its own.
-fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> (Vec<f64>, Vec<f64>) {
+fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut dynamics = Dynamics::new(mechanism);
-    dynamics.time(0.0, &start.modes);
-    dynamics.position(&start.q, &start.modes);
-    let scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
+    dynamics.time(0.0, modes);
+    dynamics.position(q, modes);
+    let scale = dynamics.row_scale(q, modes, metric);
     (dynamics.work.g, scale)
 }
 
@@ -76,6 +89,7 @@ pub(super) fn drivers_fit<G: Space<S = f64>>(
         });
     }
     if m.left > 0 {
+        let loose = loose(mechanism);
         let kind = match study.kind {
             Kind::Kinematics(_) => "kinematics",
             Kind::Balance { .. } => "balance",
@@ -84,17 +98,38 @@ pub(super) fn drivers_fit<G: Space<S = f64>>(
         return Err(Failure::Study {
             code: "under-constrained",
             message: format!(
-                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`",
+                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
                 m.freedom,
                 plural(m.freedom),
                 plural(drivers),
-                if m.left == 1 { "one is".into() } else { format!("{} are", m.left) }
+                if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
+                in_no_joint(&loose)
             ),
             place: if drivers == 0 { study.place.clone() } else { "drivers".into() },
-            help: "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            help: match loose.first() {
+                Some(body) => format!("give `{body}` a joint, or remove it"),
+                None => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            },
         });
     }
     Ok(())
+}
+
+/// Names of the bodies that no joint leads to.
+#[must_use]
+pub fn loose<G: Space>(mechanism: &Mechanism<G>) -> Vec<&str> {
+    let joined = |body: usize| mechanism.joints.iter().any(|j| j.a.0 == body || j.b.0 == body);
+    (1..mechanism.bodies.len()).filter(|&b| !joined(b)).map(|b| mechanism.bodies[b].name.as_str()).collect()
+}
+
+/// `; body `rod` is in no joint`.
+fn in_no_joint(loose: &[&str]) -> String {
+    let names: Vec<String> = loose.iter().take(3).map(|name| format!("`{name}`")).collect();
+    match loose.len() {
+        0 => String::new(),
+        1 => format!("; body {} is in no joint", names[0]),
+        n => format!("; bodies {}{} are in no joint", names.join(", "), if n > 3 { ", ..." } else { "" }),
+    }
 }
 
 fn plural(n: usize) -> &'static str {

@@ -6,7 +6,7 @@ use super::continuous::Curve;
 use super::driven::Driven;
 use super::observe::Observer;
 use super::path::{NoPath, Path, SINGULAR};
-use super::root::root;
+use super::resolve::Resolved;
 use super::switching::{Distance, Switching};
 use super::undefined::Gap;
 use crate::geometry::Space;
@@ -21,7 +21,7 @@ pub struct Lost {
     pub gap: Option<Gap>,
 }
 
-/// A motion with its columns.
+/// A motion with its columns; the gaps of rigid stops follow them.
 pub struct Motion<'m, G: Space<S = f64>> {
     /// The solver, left at the place evaluated last.
     pub driven: Driven<'m, G>,
@@ -35,10 +35,12 @@ pub struct Motion<'m, G: Space<S = f64>> {
     pub ends: [f64; 2],
     /// Progress at the ends and at every switch, rising.
     pub breaks: Vec<f64>,
+    /// Switches that could not be followed, with the independent variable.
+    pub lost_switches: Vec<(usize, f64)>,
     /// Modes of the switches on each piece.
-    pieces: Vec<Vec<i32>>,
+    pub(super) pieces: Vec<Vec<i32>>,
     switching: Switching,
-    modes: Vec<i32>,
+    pub(super) modes: Vec<i32>,
     distances: Vec<Distance>,
     columns: usize,
 }
@@ -77,6 +79,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             path,
             ends: [0.0, clock.length],
             breaks: vec![],
+            lost_switches: vec![],
             pieces: vec![],
             switching,
             modes,
@@ -193,19 +196,36 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Whether all is defined at progress `s`.
     fn defined(&mut self, s: f64) -> Result<(), Lost> {
-        let mut out = vec![0.0; self.columns];
+        let mut out = vec![0.0; self.columns()];
         self.solve(s, None)?;
-        self.columns_at(s, &mut out)
+        self.read(s, &mut out)
     }
 
-    /// Columns at progress `s`, where everything was evaluated last.
-    fn columns_at(&mut self, s: f64, out: &mut [f64]) -> Result<(), Lost> {
-        self.observer.columns(&self.modes, out);
-        let law = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
-        match law.or_else(|| self.observer.undefined(&self.modes, out)) {
-            None => Ok(()),
-            Some(gap) => Err(Lost { at: self.clock.value(s), gap: Some(gap) }),
+    /// As [`Curve::eval`], but where a law or an expression has no value by its own fault that is an error.
+    pub(super) fn row(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
+        self.solve(s, Some(piece))?;
+        let found = self.read(s, out);
+        if found.is_ok() {
+            return found;
         }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
+            let beside = s + shift * self.clock.length;
+            self.solve(beside, Some(piece))?;
+            if self.read(beside, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where a law or an expression has none by its own fault.
+    pub(super) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Lost> {
+        let mut out = vec![0.0; self.columns()];
+        resolved.blanks().try_for_each(|(s, piece)| self.row(s, piece, &mut out))
     }
 
     /// Coordinates of the dead point at an end of the path.
@@ -244,139 +264,32 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         Some(sum)
     }
 
-    /// Rows on the grid of `samples` equal intervals, with both sides of every switch; finds the pieces.
+    /// Notes a switch that could not be followed; the first of them is enough to say so.
+    pub(super) fn leave(&mut self, switch: usize, at: f64) {
+        if self.lost_switches.iter().all(|(known, _)| *known != switch) {
+            self.lost_switches.push((switch, self.clock.value(at)));
+        }
+    }
+
+    /// Columns of the state evaluated last, at progress `s`, then the gaps of rigid stops.
     ///
     /// # Errors
-    /// If a place of the grid cannot be reached.
-    pub fn sample(&mut self, samples: usize) -> Result<Rows, Lost> {
-        let spacing = self.clock.length / samples as f64;
-        let [low, high] = self.ends;
-        let mut grid: Vec<f64> = Vec::with_capacity(samples + 3);
-        grid.push(low);
-        let first = (low / spacing).ceil() as i64;
-        for k in first.. {
-            let s = if k == samples as i64 { self.clock.length } else { k as f64 * spacing };
-            if s >= high {
-                break;
-            }
-            if s > low {
-                grid.push(s);
-            }
+    /// A law or an expression that has no value by its own fault; then no column has one.
+    pub(super) fn read(&mut self, s: f64, out: &mut [f64]) -> Result<(), Lost> {
+        let (columns, gaps) = out.split_at_mut(self.columns);
+        self.observer.columns(&self.modes, columns);
+        let d = &self.driven.dynamics;
+        for (gap, stop) in gaps.iter_mut().zip(&d.mechanism.stops) {
+            *gap = stop.gap(d.work.readings[stop.gauge].x);
         }
-        grid.push(high);
-
-        let switches = self.driven.dynamics.mechanism.switches;
-        let mut rows = Rows::default();
-        // a start on a switch takes its modes from the direction of motion
-        self.solve(low + 1e-6 * spacing, None)?;
-        self.breaks = vec![low];
-        self.pieces = vec![self.modes[..switches].to_vec()];
-        self.push(low, &mut rows)?;
-        for pair in grid.windows(2) {
-            let (mut a, b) = (pair[0], pair[1]);
-            let at_end = b == high;
-            // the last place looks back, not ahead
-            self.solve(if at_end { b - 1e-6 * spacing } else { b }, None)?;
-            let there = self.modes[..switches].to_vec();
-            for _ in 0..64 {
-                let piece = self.pieces.len() - 1;
-                if self.pieces[piece] == there {
-                    break;
-                }
-                let Some((s, next)) = self.crossing(a, b, piece, &there)? else { break };
-                let s = if (b - s).abs() < 1e-9 * spacing && !at_end { b } else { s };
-                a = s;
-                if s <= self.breaks[self.breaks.len() - 1] {
-                    // at the same place as the last one: the piece between them is empty
-                    self.pieces[piece] = next;
-                    if rows.pieces.last() == Some(&piece) {
-                        rows.places.pop();
-                        rows.pieces.pop();
-                        rows.values.pop();
-                        self.push(s, &mut rows)?;
-                    }
-                    continue;
-                }
-                self.push(s, &mut rows)?;
-                self.breaks.push(s);
-                self.pieces.push(next);
-                if s != b {
-                    self.push(s, &mut rows)?;
-                }
-            }
-            if rows.places.last() != Some(&b) || rows.pieces.last() != Some(&(self.pieces.len() - 1)) {
-                self.push(b, &mut rows)?;
-            }
-        }
-        self.breaks.push(high);
-        Ok(rows)
+        let law = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+        let Some(gap) = law.or_else(|| self.observer.undefined(&self.modes, columns)) else { return Ok(()) };
+        out.fill(f64::NAN);
+        Err(Lost { at: self.clock.value(s), gap: Some(gap) })
     }
 
-    /// Adds a row of the present piece.
-    fn push(&mut self, s: f64, rows: &mut Rows) -> Result<(), Lost> {
-        let piece = self.pieces.len() - 1;
-        let mut out = vec![0.0; self.columns];
-        self.eval(s, piece, &mut out)?;
-        rows.places.push(s);
-        rows.pieces.push(piece);
-        rows.values.push(out);
-        Ok(())
-    }
-
-    /// The earliest place in [a, b] where the modes of a piece end, and the modes behind it; b shows the modes `there`.
-    fn crossing(&mut self, a: f64, b: f64, piece: usize, there: &[i32]) -> Result<Option<(f64, Vec<i32>)>, Lost> {
-        let at_a = self.distances(a, piece)?;
-        let at_b = self.distances(b, piece)?;
-        let mut earliest: Option<(f64, usize)> = None;
-        for (from, to) in at_a.iter().zip(&at_b) {
-            let changes = there[from.switch] != self.pieces[piece][from.switch];
-            if !(to.root < 0.0 || (to.root <= 0.0 && changes)) {
-                continue;
-            }
-            let place = if from.root <= 0.0 {
-                a
-            } else {
-                let switch = from.switch;
-                let miss = |s: f64| -> Result<f64, Lost> {
-                    let all = self.distances(s, piece)?;
-                    Ok(all.iter().find(|d| d.switch == switch).map_or(f64::NAN, |d| d.root))
-                };
-                match root(miss, a, b, from.root, to.root, 0.0)? {
-                    Some(found) => found.place(),
-                    None => b,
-                }
-            };
-            if earliest.is_none_or(|(s, _)| place < s) {
-                earliest = Some((place, from.switch));
-            }
-        }
-        let Some((s, switch)) = earliest else { return self.bisect(a, b, piece) };
-        let neighbour = self.distances(s, piece)?.iter().find(|d| d.switch == switch).map(|d| d.neighbour);
-        let mut next = self.pieces[piece].clone();
-        // a table may be left by several segments at once: what is seen there decides
-        next[switch] = if there[switch] != next[switch] { there[switch] } else { neighbour.unwrap_or(there[switch]) };
-        Ok(Some((s, next)))
-    }
-
-    /// Where modes from the state itself first differ from those of a piece: for switches whose distance does not show it.
-    fn bisect(&mut self, a: f64, b: f64, piece: usize) -> Result<Option<(f64, Vec<i32>)>, Lost> {
-        let switches = self.driven.dynamics.mechanism.switches;
-        let (mut low, mut high) = (a, b);
-        let mut next = None;
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            self.solve(middle, None)?;
-            if self.modes[..switches] == self.pieces[piece][..] {
-                low = middle;
-            } else {
-                high = middle;
-                next = Some(self.modes[..switches].to_vec());
-            }
-        }
-        Ok(next.map(|modes| (high, modes)))
-    }
-
-    fn distances(&mut self, s: f64, piece: usize) -> Result<Vec<Distance>, Lost> {
+    /// How far each switch is from the end of its mode on a piece.
+    pub(super) fn distances(&mut self, s: f64, piece: usize) -> Result<Vec<Distance>, Lost> {
         self.solve(s, Some(piece))?;
         let mut out = std::mem::take(&mut self.distances);
         self.switching.distances(&self.driven.dynamics, &mut self.observer, &self.modes, &mut out);
@@ -394,23 +307,16 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
     type Error = Lost;
 
     fn columns(&self) -> usize {
-        self.columns
+        self.columns + self.driven.dynamics.mechanism.stops.len()
     }
 
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
-        self.solve(s, Some(piece))?;
-        let found = self.columns_at(s, out);
-        if found.is_ok() {
-            return found;
-        }
-        // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
-            let beside = s + shift * self.clock.length;
-            self.solve(beside, Some(piece))?;
-            if self.columns_at(beside, out).is_ok() {
-                return Ok(());
+        match self.row(s, piece, out) {
+            Err(Lost { gap: Some(_), .. }) => {
+                out.fill(f64::NAN);
+                Ok(())
             }
+            found => found,
         }
-        found
     }
 }

@@ -4,7 +4,7 @@ use super::undefined::Gap;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
-use crate::mechanism::{EffortLaw, Mechanism, StretchOf};
+use crate::mechanism::{EffortLaw, Mechanism};
 use crate::model::{Model, Quantity};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
@@ -120,6 +120,12 @@ impl<G: Space<S = f64>> Observer<G> {
         !self.program.switches().is_empty() && self.needs_forces()
     }
 
+    /// Inputs of the program that are time.
+    #[must_use]
+    pub fn times(&self) -> Vec<u32> {
+        self.fills.iter().filter(|(_, source)| matches!(source, Source::Time)).map(|(input, _)| *input as u32).collect()
+    }
+
     /// Sets the modes of the columns' switches from the quantities read last.
     pub fn set_modes(&mut self, modes: &mut [i32]) {
         self.program.set_modes(&self.inputs, &mut self.registers, modes);
@@ -152,6 +158,12 @@ impl<G: Space<S = f64>> Observer<G> {
     /// Distances to the switches of the program, in their order.
     pub fn roots(&mut self, modes: &[i32], roots: &mut [f64]) {
         self.program.roots(&self.inputs, modes, &mut self.registers, roots);
+    }
+
+    /// Distances to both ends of a table's segment, if switch number `k` is one; after [`Observer::roots`].
+    #[must_use]
+    pub fn segment_ends(&self, k: usize, modes: &[i32]) -> Option<[f64; 2]> {
+        self.program.segment_ends(k, modes, &self.registers)
     }
 
     /// The mode behind crossing number `k` of the switches; after [`Observer::roots`].
@@ -226,11 +238,11 @@ impl<G: Space<S = f64>> Source<G> {
             Self::Time => d.t,
             Self::State(state) => w.z[state],
             Self::Point { body, at, axis, order } => {
-                let p = w.poses[body].point(at);
+                let p = if order == 0 { d.point(body, at) } else { d.place(m.group_of[body], body, at) };
                 G::component(trace::<G>(p, w.twists[body], r.accelerations[body], order), axis)
             }
             Self::Angle { body, order } => match order {
-                0 => G::angle(w.poses[body].r),
+                0 => G::angle(w.places[body].r),
                 1 => G::spin_component(w.twists[body].w, 2),
                 _ => G::spin_component(r.accelerations[body].w, 2),
             },
@@ -238,7 +250,7 @@ impl<G: Space<S = f64>> Source<G> {
                 G::spin_component(if order == 1 { w.twists[body].w } else { r.accelerations[body].w }, axis)
             }
             Self::Quaternion { body, component } => {
-                let r = w.poses[body].r;
+                let r = w.places[body].r;
                 let matrix = nalgebra::Matrix3::from_fn(|i, k| G::entry(r, i, k));
                 let unit = nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
                 [unit.w, unit.i, unit.j, unit.k][component]
@@ -247,7 +259,8 @@ impl<G: Space<S = f64>> Source<G> {
             Self::Force { joint, axis } => G::component(r.joints[joint].f, axis),
             Self::Moment { joint, axis } => {
                 let (body, at) = m.joints[joint].b;
-                G::spin_component(r.joints[joint].moment_about(w.poses[body].point(at)), axis)
+                let group = m.group_between(m.joints[joint].a.0, body);
+                G::spin_component(r.joints[joint].moment_about(d.place(group, body, at)), axis)
             }
             Self::DriverEffort(k) => r.drives[k],
             Self::DriverPower(k) => r.drives[k] * w.readings[m.drives[k].gauge].rate,
@@ -256,16 +269,7 @@ impl<G: Space<S = f64>> Source<G> {
                 match order {
                     0 => d.extent(stretch.of) - stretch.rest,
                     1 => d.extent_rate(stretch.of),
-                    _ => match stretch.of {
-                        StretchOf::Gauge(g) => gauge_order(d, g, 2, a),
-                        StretchOf::Function(f) => {
-                            let function = &m.functions[f];
-                            let slopes = &w.functions[function.value + 1..];
-                            let along: f64 =
-                                function.gauges.iter().zip(slopes).map(|(&g, s)| s * (gauge_order(d, g, 2, a) - w.readings[g].drift)).sum();
-                            along + w.drifts[function.drift]
-                        }
-                    },
+                    _ => d.extent_acceleration(stretch.of, a),
                 }
             }
             Self::SpringForce(effort) => -w.efforts[effort],
@@ -285,10 +289,7 @@ impl<G: Space<S = f64>> Source<G> {
                 G::component(x, axis) / mass
             }
             Self::Kinetic => d.kinetic_energy(),
-            Self::Potential => {
-                let springs: f64 = (0..m.stretches.len()).map(|s| d.spring_energy(s, modes)).sum();
-                d.gravity_energy() + springs
-            }
+            Self::Potential => d.potential_energy(modes),
             Self::Momentum(axis) => G::component(d.momentum().f, axis),
             Self::Shaking(axis) => G::component(r.shaking.f, axis),
             Self::ShakingMoment(axis) => G::spin_component(r.shaking.n, axis),

@@ -139,6 +139,8 @@ pub struct March {
     pub dampers: f64,
     /// Energy that events have given or taken at once, J.
     pub impacts: f64,
+    /// Widest gap between looks at the conditions that depend on the motion, s; 0 where there are none.
+    pub widest_gap: f64,
     /// Largest residual of the velocity constraints over the rows, in units of size per second.
     pub velocity: f64,
     /// What was spent.
@@ -157,8 +159,21 @@ pub struct Certificate {
     pub constraint: f64,
     /// Largest |driver power + power of applied forces − dT/dt| over the rows, relative to the largest of its terms.
     pub power_balance: f64,
+    /// How far columns are resolved between their rows.
+    pub resolved: Option<Resolution>,
     /// More of a motion in time.
     pub march: Option<March>,
+}
+
+/// How far the columns of a motion are resolved: what extremes, means and integrals are taken of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Resolution {
+    /// Part of a column's largest magnitude that may be left out between known values.
+    pub width: f64,
+    /// Columns that are not resolved so far somewhere.
+    pub open: usize,
+    /// Evaluations of the motion for it.
+    pub evaluations: usize,
 }
 
 /// Outlines of the mechanism in a few positions, in the plane of the drawing.
@@ -277,6 +292,7 @@ struct CountsFields {
     events: usize,
     bridges: usize,
     stepped_over: usize,
+    unresolved: usize,
 }
 
 /// A word that was written once: the same one again, kept as long as the program runs. There are few of them.

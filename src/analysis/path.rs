@@ -61,6 +61,10 @@ const SHORTEST: f64 = 1e-13;
 const TRUSTED: f64 = 0.1;
 /// Largest predicted move of one step, rad or sizes of the mechanism.
 const FARTHEST: f64 = 0.3;
+/// Part of the range, and move in rad or sizes, at which a path begins beside a start in a change point.
+const AROUND: f64 = 4e-3;
+/// See [`AROUND`].
+const AROUND_MOVE: f64 = 0.03;
 /// Pivot ratio below which a position counts as singular: rates would keep fewer than half of their digits.
 pub const SINGULAR: f64 = 1e-7;
 
@@ -70,15 +74,23 @@ impl Path {
     /// # Errors
     /// If the start is a singular position, or the range is endless.
     pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Result<Self, NoPath> {
-        if driven.follow(0.0, modes).is_err() {
-            return Err(driven.dynamics.undefined(modes).map_or(NoPath::SingularStart, |law| NoPath::Undefined(Gap::Law(law))));
+        let (q, v) = (driven.q.clone(), driven.v.clone());
+        let reached = driven.follow(0.0, modes).is_ok();
+        if !reached && let Some(law) = driven.dynamics.undefined(modes) {
+            return Err(NoPath::Undefined(Gap::Law(law)));
         }
-        if driven.condition() < SINGULAR {
-            return Err(NoPath::SingularStart);
+        let ends = if reached && driven.condition() >= SINGULAR {
+            driven.rates(modes);
+            let start = driven.node(0.0, modes);
+            [start.clone(), start]
+        } else {
+            around(driven, modes, [&q, &v], to).ok_or(NoPath::SingularStart)?
+        };
+        let [behind, ahead] = ends;
+        let (mut nodes, end) = march(driven, modes, &ahead, to)?;
+        if behind.t != ahead.t {
+            nodes.insert(0, behind.clone());
         }
-        driven.rates(modes);
-        let start = driven.node(0.0, modes);
-        let (mut nodes, end) = march(driven, modes, &start, to)?;
         let (mut dead, mut gap) = ([None, None], None);
         match end {
             End::Reached => {}
@@ -86,7 +98,7 @@ impl Path {
             End::Undefined(what) => gap = Some(what),
         }
         if dead[1].is_some() {
-            let (back, end) = march(driven, modes, &start, -to)?;
+            let (back, end) = march(driven, modes, &behind, -to)?;
             match end {
                 End::Reached => {}
                 End::Dead(point) => dead[0] = Some(point),
@@ -143,6 +155,30 @@ impl Path {
     }
 }
 
+/// Regular nodes on both sides of a start [q, v] in a change point, on the branch of its velocity; none if there is no motion through it.
+fn around<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], [q, v]: [&[f64]; 2], to: f64) -> Option<[Node; 2]> {
+    let reach = around_reach(driven, v, to);
+    let turns = driven.node(0.0, modes).turns;
+    let mut beside = |t: f64| {
+        driven.q.copy_from_slice(q);
+        driven.dynamics.mechanism.retract(&mut driven.q, &v.iter().map(|v| v * t).collect::<Vec<_>>());
+        driven.wind(modes, &turns);
+        driven.follow(t, modes).ok()?;
+        if driven.condition() < SINGULAR {
+            return None;
+        }
+        driven.rates(modes);
+        let off: Vec<f64> = driven.v.iter().zip(v).map(|(x, v)| x - v).collect();
+        (driven.measure(&off) < 0.2 * driven.measure(v)).then(|| driven.node(t, modes))
+    };
+    Some([beside(-reach)?, beside(reach)?])
+}
+
+/// Time, with the sign of `to`, in which the velocity v leads from a change point to where positions are regular.
+fn around_reach<G: Space<S = f64>>(driven: &Driven<'_, G>, v: &[f64], to: f64) -> f64 {
+    (AROUND * to.abs()).min(AROUND_MOVE / driven.measure(v)) * to.signum()
+}
+
 /// Where a path ends.
 enum End {
     Reached,
@@ -174,6 +210,13 @@ fn march<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], start
                 h = if (1.6 * h).abs() < longest.abs() { 1.6 * h } else { longest };
             }
             Err(NotReached) => {
+                // a range that ends in a change point is followed to beyond it
+                if h == left
+                    && let Ok(node) = step(driven, modes, last, to + around_reach(driven, &last.v, to), &mut delta)
+                {
+                    nodes.push(node);
+                    return Ok((nodes, End::Reached));
+                }
                 h *= 0.6;
                 if h.abs() < SHORTEST * to.abs() {
                     if let Some(law) = driven.dynamics.undefined(modes) {

@@ -1,9 +1,8 @@
-//! One run of a kinematic study: build, assemble, trace, sample, extremes, functionals, scalars, expectations.
+//! One run of a kinematic study: build, assemble, trace, resolve, extremes, functionals, rows, scalars, expectations.
 
 use super::assemble::Assembled;
 use super::balance::Unbalanced;
 use super::clock::Clock;
-use super::continuous::Samples;
 use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::mobility::drivers_fit;
@@ -12,13 +11,14 @@ use super::numbers::Sources;
 use super::observe::Observer;
 use super::outcome::{Certificate, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
+use super::resolve::Resolved;
 use super::undefined::{Gap, assembled, blank};
 use super::{balance, contact, forward, linearize, modes, periodic, scene, statics};
 use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, Mechanism, build};
-use crate::model::{Dimensions, Kind, Model, Over, Quantity, Range, ShownWhat, Study};
+use crate::mechanism::{Coordinates, Mechanism};
+use crate::model::{Dimensions, Functional, FunctionalKind, Kind, Model, Over, Quantity, Range, ShownWhat, Study};
 use crate::scalar::Dual;
 
 /// Runs the study of a model once, at given parameter values (in file order).
@@ -70,11 +70,7 @@ fn driven<G: Space<S = f64>>(
     parameters: &[f64],
     coordinates: Coordinates,
 ) -> Result<Outcome, Failure> {
-    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-    let start = assembled(model, &mut mechanism)?;
-    drivers_fit(&mechanism, &start, model, study)?;
-    contact::begins(model, &mechanism, &start)?;
-    contact::driven(model, &mechanism, study)?;
+    let (mut mechanism, start) = prepared::<G>(model, study, parameters, coordinates)?;
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
@@ -82,7 +78,7 @@ fn driven<G: Space<S = f64>>(
             trace((model, study), &mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
         let refused =
             |message: String, help: &str| Failure::Study { code: "balance", message, place: study.place.clone(), help: help.into() };
-        let offsets = balance::balance(&mut motion, moved, range.samples).map_err(|why| match why {
+        let offsets = balance::balance(&mut motion, moved).map_err(|why| match why {
             Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
             Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
                 Failure::Undefined(gap.told(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
@@ -98,6 +94,23 @@ fn driven<G: Space<S = f64>>(
         results.push(offsets.residual);
     }
     observe(model, study, parameters, &mechanism, &start, range, results)
+}
+
+/// The mechanism at the start of a study whose motion its drivers prescribe.
+///
+/// # Errors
+/// Why the study cannot begin.
+pub(super) fn prepared<G: Space<S = f64>>(
+    model: &Model,
+    study: &Study,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<(Mechanism<G>, Assembled), Failure> {
+    let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
+    drivers_fit(&mechanism, &start, model, study)?;
+    contact::begins(model, &mechanism, &start)?;
+    contact::driven(model, &mechanism, study)?;
+    Ok((mechanism, start))
 }
 
 fn trace<'m, G: Space<S = f64>>(
@@ -121,7 +134,7 @@ fn trace<'m, G: Space<S = f64>>(
 }
 
 /// The independent variable of a range.
-fn clock<G: Space<S = f64>>(
+pub(super) fn clock<G: Space<S = f64>>(
     model: &Model,
     mechanism: &Mechanism<G>,
     start: &Assembled,
@@ -174,6 +187,18 @@ pub(super) struct Watched {
 }
 
 impl Watched {
+    /// The scalars or expectations for which a column is watched, in words.
+    fn asked(&self, model: &Model, study: &Study, column: usize) -> String {
+        let functional = |&k: &usize| self.functionals[k] == column;
+        let takes = |id: Id| {
+            let inputs = model.pool.inputs_of(&[id]);
+            inputs.iter().any(|&i| matches!(model.inputs[i as usize], Quantity::Functional(k) if functional(&k)))
+        };
+        let scalars = study.scalars.iter().filter(|s| takes(s.value)).map(|s| format!("`{}`", s.name));
+        let names: Vec<String> = scalars.chain(study.expect.iter().filter(|e| takes(e.value)).map(|e| format!("`{}`", e.text))).collect();
+        if names.is_empty() { "a figure".into() } else { names.join(", ") }
+    }
+
     pub(super) fn of(study: &Study) -> Self {
         let mut ids: Vec<Id> = Vec::new();
         let mut index = |id: Id| {
@@ -220,8 +245,8 @@ fn observe<G: Space<S = f64>>(
     let name = independent(model, mechanism, clock);
     let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
     let mut undefined = motion.path.gap.take().map(|gap| told(&gap, clock.value(motion.ends[1])));
-    let (rows, extremes, found) = loop {
-        match see(&mut motion, model, study, parameters, &watched, range.samples) {
+    let seen = loop {
+        match see(&mut motion, (model, study, parameters), &watched, range.samples, &name) {
             Ok(seen) => break seen,
             Err(Lost { at, gap: None }) => {
                 let message = format!("the position at {name} = {at} could not be reached");
@@ -233,8 +258,11 @@ fn observe<G: Space<S = f64>>(
             }
         }
     };
-    contact::passes((model, study, &name), &mut motion, &rows, start.size)?;
+    let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
+    contact::passes((model, study, &name), &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
     let n = rows.places.len();
+    let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
+    findings.extend(open);
 
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
@@ -255,13 +283,12 @@ fn observe<G: Space<S = f64>>(
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
         results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
     }
-    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &found, results: &results };
+    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &functionals, results: &results };
     let numbers = sources.numbers(undefined.is_none());
     let undefined = undefined.or(numbers.undefined);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let places: Vec<f64> = rows.places.iter().map(|s| clock.value(*s)).collect();
     let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
-    let mut findings = findings(mechanism, &motion);
     findings.extend(numbers.findings);
     findings.extend(blank(study, &name, &places, &shown));
     Ok(Outcome {
@@ -277,34 +304,39 @@ fn observe<G: Space<S = f64>>(
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations: numbers.expectations,
         findings,
-        certificate: certificate(&mut motion, &rows),
+        certificate: Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) },
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
         ..Outcome::default()
     })
 }
 
-/// What is seen of a motion: rows, extremes of each watched expression, functionals.
-type Seen = (Rows, Vec<Option<Extremes>>, Vec<f64>);
+/// What is seen of a motion.
+struct Seen {
+    resolved: Resolved,
+    extremes: Vec<Option<Extremes>>,
+    rows: Rows,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+}
 
-/// Rows, extremes and functionals of a motion.
+/// Resolves a motion: its extremes, rows and functionals.
 fn see<G: Space<S = f64>>(
     motion: &mut Motion<'_, G>,
-    model: &Model,
-    study: &Study,
-    parameters: &[f64],
+    (model, study, parameters): (&Model, &Study, &[f64]),
     watched: &Watched,
     samples: usize,
+    name: &str,
 ) -> Result<Seen, Lost> {
-    let rows = motion.sample(samples)?;
-    // column after column, for the search of extremes
-    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
+    let resolved = motion.resolve()?;
+    motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
-    let extremes = extrema(motion, samples, &breaks)?;
-    let mut functionals = Functionals { clock, ends, curve: motion, rows: &rows, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals)?;
-    Ok((rows, extremes, found))
+    let extremes = extrema(motion, resolved.samples(), &breaks);
+    let rows = motion.rows(samples)?;
+    let mut findings = unresolved(model, study, watched, &resolved, &motion.lost_switches, name, clock);
+    let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = all.all(model, study, parameters, &watched.functionals, &mut findings)?;
+    Ok(Seen { resolved, extremes, rows, functionals, findings })
 }
 
 /// Extremes by the independent variable instead of progress.
@@ -335,6 +367,38 @@ fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock
     });
     let word = if drives_angle(mechanism) { "angle" } else { "position" };
     measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
+}
+
+/// Columns and switches that are not resolved within the effort that they are worth.
+pub(super) fn unresolved(
+    model: &Model,
+    study: &Study,
+    watched: &Watched,
+    resolved: &Resolved,
+    switches: &[(usize, f64)],
+    name: &str,
+    clock: Clock,
+) -> Vec<Finding> {
+    let finding = |message: String| Finding { code: "unresolved", message, path: study.place.clone() };
+    // a value at a place does not depend on what is between
+    let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
+    let counts = |column: usize| {
+        watched.columns.iter().chain(&watched.shown).any(|&c| c == column)
+            || watched.functionals.iter().zip(&study.functionals).any(|(&c, f)| c == column && !single(f))
+    };
+    let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
+        let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
+        let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
+        finding(format!(
+            "{what} varies too fast or without bound near {name} = {:.6}: there its extremes, means and integrals may be wrong",
+            clock.value(open.at)
+        ))
+    });
+    let switches = switches.iter().map(|&(switch, at)| {
+        let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());
+        finding(format!("the switch `{text}` changes too often near {name} = {at:.6} to be followed: some of its changes may be missing"))
+    });
+    columns.chain(switches).collect()
 }
 
 /// What the motion itself shows: change points on the way.

@@ -27,7 +27,7 @@ pub(super) fn of_motion<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Scene 
     scene(mechanism, ends, whole_turn, &mut |s| {
         let piece = motion.breaks.partition_point(|b| *b <= s).clamp(1, motion.breaks.len() - 1) - 1;
         motion.eval(s, piece, &mut nothing).ok()?;
-        Some(motion.driven.dynamics.work.poses.clone())
+        Some(motion.driven.dynamics.poses())
     })
 }
 

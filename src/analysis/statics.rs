@@ -30,7 +30,7 @@ use super::undefined::{assembled, in_state};
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{FunctionalKind, Model, Study};
 use crate::scalar::Dual;
 use pose::{Pose, Rest};
@@ -85,8 +85,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assembled(model, &mut mechanism)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let watched = Watched::of(study);
     let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);
@@ -356,7 +355,7 @@ where
         const DRAWN: usize = 6;
         let mut bodies = |pose: &Pose| {
             self.rest.show(pose);
-            self.rest.system.dynamics.work.poses.clone()
+            self.rest.system.dynamics.poses()
         };
         let from_start = [bodies(&all[0].pose), bodies(begin)];
         let several: Vec<_> = all.iter().take(DRAWN).map(|f| bodies(&f.pose)).collect();

@@ -1,13 +1,13 @@
 //! What a mechanism is before anything moves: masses, topology, freedom, start.
 
 use super::assemble::Found;
-use super::mobility::{Grashof, Mobility, grashof, mobility};
+use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
 use super::modes::held::settled;
-use super::outcome::Failure;
+use super::outcome::{Failure, Finding};
 use super::undefined::{assembled, in_state};
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, build, describe_loop};
-use crate::model::{Dimensions, Model};
+use crate::mechanism::{Coordinates, describe_loop};
+use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
 use crate::scalar::Scalar;
 
 /// A mechanism looked over at its start.
@@ -27,6 +27,12 @@ pub struct Survey {
     pub grashof: Option<Grashof>,
     /// Start asked and found.
     pub start: Vec<Found>,
+    /// Bodies that no joint leads to and nothing else of the model names.
+    pub forgotten: Vec<String>,
+    /// Distances without a length, by the names of their joints: those at the start, m.
+    pub lengths: Vec<(String, f64)>,
+    /// What the start is, if it is a special one.
+    pub findings: Vec<Finding>,
 }
 
 /// Looks a model over at given parameters.
@@ -41,8 +47,7 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 }
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assembled(model, &mut mechanism)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let state = [&start.q[..], &start.v, &mechanism.state_starts];
     let modes = settled(&mechanism, state, &start.modes);
     if let Some(undefined) = in_state(model, &mechanism, state, &modes, "the start") {
@@ -74,6 +79,26 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         sizes: (m.nq, m.nv, m.rows.len()),
         mobility: mobility(m, &start),
         grashof: grashof(m),
+        lengths: m
+            .joints
+            .iter()
+            .filter_map(|j| Some((j.name.clone(), m.rows[j.rows.clone()].iter().find(|row| row.anchored)?.offset)))
+            .collect(),
+        findings: start.findings().collect(),
         start: start.found,
+        forgotten: loose(m).into_iter().filter(|name| !is_named(model, name)).map(str::to_owned).collect(),
     })
+}
+
+/// Whether a start value, a load or a spring names a body: then it is meant to be free.
+fn is_named(model: &Model, name: &str) -> bool {
+    let is = |body: usize| model.bodies[body].name == name;
+    let start = model.start.iter().any(|s| match s.quantity {
+        Quantity::Point { at, .. } => is(at.body),
+        Quantity::Angle { body, .. } | Quantity::Spin { body, .. } | Quantity::Quaternion { body, .. } => is(body),
+        _ => matches!(s.value, StartValue::Rotation { .. }) && s.name.split('.').next() == Some(name),
+    });
+    let load = model.loads.iter().any(|l| matches!(&l.on, LoadOn::Point { at, .. } if is(at.body)));
+    let spring = model.springs.iter().any(|s| matches!(&s.on, SpringOn::Between(a, b) if is(a.body) || is(b.body)));
+    start || load || spring
 }

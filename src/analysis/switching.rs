@@ -37,7 +37,8 @@ impl Switching {
         }
     }
 
-    /// Every switch with its distance in the present modes, each number once, at the state evaluated last.
+    /// Every switch with its distance in the present modes at the state evaluated last, each number once but for tables, which have
+    /// a distance to either end of their segment; always in the same order.
     pub fn distances<G: Space<S = f64>>(
         &mut self,
         dynamics: &Dynamics<'_, G>,
@@ -54,15 +55,17 @@ impl Switching {
             let switches = program.program.switches();
             program.program.roots(&self.inputs, modes, &mut self.registers, &mut self.roots[..switches.len()]);
             for (k, &switch) in switches.iter().enumerate() {
+                let ends = program.program.segment_ends(k, modes, &self.registers);
                 let neighbour = program.program.neighbour(k, modes, &self.registers);
-                push(out, Distance { switch: switch as usize, root: self.roots[k], neighbour });
+                push(out, Distance { switch: switch as usize, root: self.roots[k], neighbour }, modes, ends);
             }
         }
         let count = observer.program().switches().len();
         observer.roots(modes, &mut self.roots[..count]);
         for k in 0..count {
             let switch = observer.program().switches()[k] as usize;
-            push(out, Distance { switch, root: self.roots[k], neighbour: observer.neighbour(k, modes) });
+            let distance = Distance { switch, root: self.roots[k], neighbour: observer.neighbour(k, modes) };
+            push(out, distance, modes, observer.segment_ends(k, modes));
         }
     }
 
@@ -73,8 +76,12 @@ impl Switching {
     }
 }
 
-fn push(out: &mut Vec<Distance>, distance: Distance) {
-    if out.iter().all(|d| d.switch != distance.switch) {
-        out.push(distance);
+fn push(out: &mut Vec<Distance>, distance: Distance, modes: &[i32], ends: Option<[f64; 2]>) {
+    if out.iter().any(|d| d.switch == distance.switch) {
+        return;
     }
+    let Some([low, high]) = ends else { return out.push(distance) };
+    let mode = modes[distance.switch];
+    out.push(Distance { root: low, neighbour: mode.saturating_sub(1), ..distance });
+    out.push(Distance { root: high, neighbour: mode.saturating_add(1), ..distance });
 }

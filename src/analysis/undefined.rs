@@ -6,7 +6,7 @@ use super::outcome::{Failure, Finding, Undefined};
 use crate::dynamics::Dynamics;
 use crate::expression::{Cause, Id};
 use crate::geometry::Space;
-use crate::mechanism::{self, Mechanism};
+use crate::mechanism::{self, Coordinates, Mechanism, build};
 use crate::model::{Model, Study};
 
 /// Something without a value at a place of a motion.
@@ -107,12 +107,20 @@ pub(super) fn in_state<G: Space<S = f64>>(
 }
 
 /// [`assemble`], where it fails because a law has no value told so.
-pub(super) fn assembled<G: Space<S = f64>>(model: &Model, mechanism: &mut Mechanism<G>) -> Result<Assembled, Failure> {
-    assemble(mechanism).map_err(|fault| {
+///
+/// # Errors
+/// As there, and that law.
+pub(super) fn assembled<G: Space<S = f64>>(
+    model: &Model,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<(Mechanism<G>, Assembled), Failure> {
+    assemble::<G>(model, parameters, coordinates).map_err(|failure| {
+        let Ok(mechanism) = build::<G>(model, parameters, coordinates) else { return failure };
         let (q, v, z) = (mechanism.drawn(), vec![0.0; mechanism.nv], mechanism.state_starts.clone());
-        let modes = settled(mechanism, [&q, &v, &z], &mechanism.modes());
-        let undefined = in_state(model, mechanism, [&q, &v, &z], &modes, "the start");
-        undefined.map_or_else(|| fault.into(), Failure::Undefined)
+        let modes = settled(&mechanism, [&q, &v, &z], &mechanism.modes());
+        let undefined = in_state(model, &mechanism, [&q, &v, &z], &modes, "the start");
+        undefined.map_or(failure, Failure::Undefined)
     })
 }
 

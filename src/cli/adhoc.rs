@@ -1,8 +1,9 @@
 //! One study that the model file does not have: `grashof modes`, `grashof statics`.
 
-use super::progress::{interrupted, watch_interrupts};
+use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::Job;
-use super::{Common, code, files, run, say, tell};
+use super::terminal::{take_errors, with_errors};
+use super::{Common, code, files, run, say};
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -27,18 +28,17 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Comm
         Ok(model) => model,
         Err(code) => return code,
     };
-    let directory = files::directory(&arguments.model, common);
-    let studies = document.study_names();
+    let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let plots = !arguments.no_plots;
-    let job = Job { document: &document, model: &model, study: &name, studies: &studies, directory: &directory, plots, common };
+    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, common };
     let finished = job.run();
     if interrupted() {
-        tell(&format!("interrupted: study `{name}`"));
+        interrupt::tell_end(&format!("interrupted: study `{name}`"));
         return code::INTERRUPTED;
     }
     if let Some(output) = &finished.output {
         if arguments.json {
-            say(output.report.trim_end());
+            say(&with_errors(&output.report, take_errors()));
         } else {
             say(&name);
             say(&output.table);

@@ -1,9 +1,10 @@
 //! `grashof check`: a look at a model before it moves.
 
 use super::{Common, code, files, say};
+use grashof::analysis::rehearsal::rehearse;
 use grashof::analysis::survey::{Survey, survey};
 use grashof::analysis::sweep::parameters;
-use grashof::model::Document;
+use grashof::model::{Document, Kind};
 use grashof::output::{json_number, json_numbers};
 use serde_json::{Value, json};
 
@@ -35,6 +36,7 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     };
     let mut findings: Vec<String> = report.diagnostics.iter().map(|d| d.message.clone()).collect();
     findings.extend(remarks(&survey, model.drivers.len()));
+    findings.extend(document.study_names().iter().filter_map(|study| hindered(&document, study, common)));
     if arguments.json {
         let mut all = as_json(&model.name, &survey, &findings);
         all["notes"] = document.notes().into();
@@ -46,6 +48,26 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
 }
 
+/// What would keep a study from running; none for a study that varies parameters or needs scalars of others.
+fn hindered(document: &Document, study: &str, common: &Common) -> Option<String> {
+    let model = document.model(&files::selection(common, Some(study))?).ok()?;
+    let asked = model.study.as_ref()?;
+    if !asked.sweep.is_empty() || asked.solve.is_some() || !asked.take.is_empty() {
+        return None;
+    }
+    let values = parameters(&model);
+    if let Err(failure) = rehearse(&model, asked, &values) {
+        return Some(format!("study `{study}`: {}", failure.reason()));
+    }
+    let pulls = !(model.loads.is_empty() && model.springs.is_empty() && model.motors.is_empty());
+    if !matches!(asked.kind, Kind::Inverse(_)) || pulls {
+        return None;
+    }
+    let massless =
+        survey(&model, &values).ok()?.bodies.iter().all(|(_, mass, _, inertia)| *mass == 0.0 && inertia.iter().all(|i| *i == 0.0));
+    massless.then(|| format!("study `{study}`: no body has a mass and nothing pulls, so that all forces are zero"))
+}
+
 /// What is worth a remark about freedom and rows.
 fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     let m = &survey.mobility;
@@ -53,9 +75,19 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     if !m.redundant.is_empty() {
         out.push(format!("redundant constraints (harmless; single reactions are those of least size): {}", m.redundant.join("; ")));
     }
+    out.extend(survey.findings.iter().map(|finding| finding.message.clone()));
     if m.freedom < drivers {
         let drivers = counted(drivers, "driver", "drivers");
         out.push(format!("{drivers} for {}", counted(m.freedom, "degree of freedom", "degrees of freedom")));
+    }
+    if let [first, ..] = &survey.forgotten[..] {
+        let names: Vec<String> = survey.forgotten.iter().map(|name| format!("`{name}`")).collect();
+        let them = if names.len() == 1 {
+            format!("body `{first}` is in no joint and moves freely")
+        } else {
+            format!("bodies {} are in no joint and move freely", names.join(", "))
+        };
+        out.push(format!("{them}: give it a joint, or say in `start` where it begins"));
     }
     if m.freedom == 0 {
         out.push("the mechanism has no freedom: it is a structure at its start".into());
@@ -105,6 +137,10 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
             say(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
         }
     }
+    if !survey.lengths.is_empty() {
+        say("\ndistances as at the start");
+        survey.lengths.iter().for_each(|(name, length)| say(&format!("  {name:<22} {:>14} m", short(*length))));
+    }
     if !findings.is_empty() {
         say("\nfindings");
         for finding in findings {
@@ -153,6 +189,7 @@ fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
         "start": survey.start.iter().map(|f| json!({
             "name": f.name, "guess": f.guess, "asked": json_number(f.asked), "found": json_number(f.found),
         })).collect::<Vec<_>>(),
+        "lengths": survey.lengths.iter().map(|(name, length)| json!({ "name": name, "length": json_number(*length) })).collect::<Vec<_>>(),
         "findings": findings,
     })
 }

@@ -4,16 +4,18 @@
 //! large columns, absolute for small ones. The reference x* is a run of another family at a far tighter tolerance, Radau IIA for
 //! explicit integrators and Dormand-Prince for all others; how well these two agree is said, and no error below that means much.
 
-use super::progress::{Progress, interrupted, watch_interrupts};
+use super::interrupt::{self, interrupted, watch_interrupts};
+use super::progress::Progress;
 use super::run::{Scalars, load};
 use super::schemes::{self, Steps, is_explicit, word};
-use super::{Common, code, files, say, tell};
+use super::{Common, code, fail, files, say};
 use grashof::analysis::forward;
 use grashof::analysis::outcome::Failure;
 use grashof::analysis::run::run;
 use grashof::analysis::sweep::parameters;
 use grashof::mechanism::Coordinates;
-use grashof::model::{Document, Forward, Integrator, Kind, Model, Study};
+use grashof::model::{Forward, Integrator, Kind, Model, Study};
+use std::path::Path;
 use std::time::Instant;
 
 mod output;
@@ -117,6 +119,9 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let integrators = if integrators.is_empty() { usual(fixed, forward.integrator) } else { integrators };
     usable(&integrators, fixed)?;
     let explain = |failure: &Failure| files::explain(&document, failure, &study.name, common);
+    let directory = files::directory(&arguments.model, common).ok_or(code::INPUT)?;
+    let ends: &[&str] = if arguments.no_plots { &["csv"] } else { &["csv", "svg", "png"] };
+    files::prepare(&directory, &ends.iter().map(|end| format!("compare.{end}")).collect::<Vec<_>>(), common)?;
 
     let progress = Progress::new(&study.name, integrators.len() * sizes.len() + 2, common.quiet);
     let mut bench = Bench { model: &mut model, study: &study, forward: &forward, values: &values };
@@ -134,24 +139,17 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     }
     drop(progress);
     let compared = Compared { study: &study, fixed, references, rows };
-    finish(&compared, &document, arguments, common)
+    finish(&compared, &directory, arguments, common)
 }
 
 /// Writes and prints.
-fn finish(compared: &Compared<'_>, document: &Document, arguments: &Arguments, common: &Common) -> Result<u8, u8> {
+fn finish(compared: &Compared<'_>, directory: &Path, arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let staging = output::files(compared, !arguments.no_plots);
     stop_if_interrupted()?;
-    let directory = files::directory(&arguments.model, common);
-    let paths = staging.commit(&directory, "compare", &document.study_names()).map_err(|error| {
-        tell(&format!("error: {error}\n  help: choose another directory with `-o DIR`"));
-        code::INPUT
-    })?;
-    if common.verbose {
-        paths.iter().for_each(|path| tell(&format!("wrote {}", path.display())));
-    }
+    files::commit(&staging, directory, "compare", common)?;
     say(&if arguments.json { output::json(compared) } else { output::table(compared) });
     if compared.rows.iter().all(|r| !r.reason.is_empty()) {
-        tell(&format!("error: no integrator got through study `{}`\n  help: the reasons stand in the last column", compared.study.name));
+        fail(&format!("no integrator got through study `{}`", compared.study.name), "the reasons stand in the last column");
         return Ok(code::NUMERICAL);
     }
     Ok(code::DONE)
@@ -161,13 +159,13 @@ fn stop_if_interrupted() -> Result<(), u8> {
     if !interrupted() {
         return Ok(());
     }
-    tell("interrupted: nothing is written");
+    interrupt::tell_end("interrupted: nothing is written");
     Err(code::INTERRUPTED)
 }
 
 /// A usage error with its help.
 fn refuse(message: &str, help: &str) -> u8 {
-    tell(&format!("error: {message}\n  help: {help}"));
+    fail(message, help);
     code::INPUT
 }
 
@@ -278,19 +276,18 @@ impl NoReference {
         match self {
             Self::Failure(failure) => explain(&failure),
             Self::Stopped(why) => {
-                tell(&format!(
-                    "error: there is no reference for study `{study}`: {why}\n  help: run the study itself first, and see why it stops"
-                ));
+                fail(&format!("there is no reference for study `{study}`: {why}"), "run the study itself first, and see why it stops");
                 code::NUMERICAL
             }
             Self::Apart(off) => {
-                tell(&format!(
-                    "error: the references of study `{study}`, by `dop853` and by `radau5`, differ by {off:.1e} at the end\n  help: compare a shorter motion: where small differences grow without bound, no error can be told; `grashof run --verify` tells where they begin, and whether events differ"
-                ));
+                fail(
+                    &format!("the references of study `{study}`, by `dop853` and by `radau5`, differ by {off:.1e} at the end"),
+                    "compare a shorter motion: where small differences grow without bound, no error can be told; `grashof run --verify` tells where they begin, and whether events differ",
+                );
                 code::NUMERICAL
             }
             Self::Interrupted => {
-                tell("interrupted: nothing is written");
+                interrupt::tell_end("interrupted: nothing is written");
                 code::INTERRUPTED
             }
         }

@@ -1,6 +1,5 @@
 //! Figures of a study and the drawing of its mechanism, as data for the renderer.
 
-use super::units::unit;
 use grashof::analysis::outcome::{Outcome, Scene};
 use grashof::analysis::run::extra_curves;
 use grashof::analysis::sweep::Run;
@@ -22,10 +21,6 @@ pub(super) fn figures(model: &Model, study: &Study, runs: &[(Option<String>, &Ou
 }
 
 fn figure(model: &Model, study: &Study, plot: &Plot, runs: &[(Option<String>, &Outcome)]) -> Figure {
-    let shown_unit = |s: &Shown| match s.what {
-        ShownWhat::Column(id) => unit(model, id, s.dimension),
-        _ => s.dimension.si(),
-    };
     let mut curves = Vec::new();
     let several = runs.len() > 1;
     for (label, outcome) in runs {
@@ -41,14 +36,14 @@ fn figure(model: &Model, study: &Study, plot: &Plot, runs: &[(Option<String>, &O
                 _ => shown.name.clone(),
             };
             let points = joined(&x, &y, &outcome.switches, plot.over.is_some());
-            curves.push(Curve { label: name, unit: Some(shown_unit(shown)), points });
+            curves.push(Curve { label: name, unit: Some(shown.dimension.si()), points });
         }
     }
     let (x, factor) = axis(
         plot,
         match (&plot.over, runs.first()) {
-            (Some(over), _) => (over.name.clone(), shown_unit(over)),
-            (None, Some((_, outcome))) => (outcome.independent.clone(), independent_unit(model, outcome)),
+            (Some(over), _) => (over.name.clone(), over.dimension.si()),
+            (None, Some((_, outcome))) => (outcome.independent.clone(), study.independent.map_or_else(String::new, |d| d.si())),
             (None, None) => (String::new(), String::new()),
         },
     );
@@ -62,7 +57,7 @@ fn figure(model: &Model, study: &Study, plot: &Plot, runs: &[(Option<String>, &O
     };
     let same_plane = plot.over.is_some() && plot.show.iter().chain(&plot.over).all(|s| s.dimension == Dimension::LENGTH);
     let y = if several && plot.show.len() == 1 {
-        Axis { label: plot.show[0].name.clone(), unit: shown_unit(&plot.show[0]), ..Axis::default() }
+        Axis { label: plot.show[0].name.clone(), unit: plot.show[0].dimension.si(), ..Axis::default() }
     } else {
         Axis::default()
     };
@@ -148,17 +143,6 @@ fn column(study: &Study, outcome: &Outcome, shown: &Shown) -> Vec<f64> {
         .position(|c| c.value == id)
         .or_else(|| extra_curves(study).iter().position(|e| *e == id).map(|i| study.columns.len() + i));
     index.map_or_else(Vec::new, |i| outcome.rows.iter().map(|r| r[i]).collect())
-}
-
-/// Unit of the independent variable.
-fn independent_unit(model: &Model, outcome: &Outcome) -> String {
-    if outcome.independent == "time" {
-        return "s".into();
-    }
-    match model.drivers.first().map(|d| &model.joints[d.joint].kind) {
-        Some(grashof::model::JointKind::Slider) => "m".into(),
-        _ => "rad".into(),
-    }
 }
 
 /// The drawing of a scene of a study; that of the mechanism itself is titled by the model alone.

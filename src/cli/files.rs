@@ -1,10 +1,13 @@
 //! Reading the model file and naming the place of its results.
 
+use super::interrupt::uncut;
+use super::terminal::{fail, tell_report};
 use super::{Common, code, tell};
 use grashof::analysis::outcome::{Failure, Undefined, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
-use std::io::{Read, Write};
+use grashof::output::{Staging, WriteError};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
@@ -35,26 +38,28 @@ pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
 fn beside(model: &str, included: &str) -> Result<(String, Vec<u8>), String> {
     let path = Path::new(model).parent().unwrap_or(Path::new("")).join(included);
     let name = path.to_string_lossy().into_owned();
-    match std::fs::File::open(&path) {
-        Ok(_) if path.is_dir() => Err("it is a directory".into()),
-        Ok(file) => {
-            let mut bytes = Vec::new();
-            file.take(MOST_INCLUDED).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-            Ok((name, bytes))
+    let read = || {
+        match std::fs::metadata(&path)? {
+            known if known.is_dir() => return Err(std::io::Error::other("it is a directory")),
+            // a pipe may have no writer, and a device no end
+            known if !known.is_file() => return Err(std::io::Error::other("it is no plain file")),
+            _ => {}
         }
-        Err(error) => Err(why(&error)),
-    }
+        let mut bytes = Vec::new();
+        std::fs::File::open(&path)?.take(MOST_INCLUDED).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    read().map(|bytes| (name, bytes)).map_err(|error| why(&error))
 }
 
 /// Says why a file cannot be read, on stderr; `what` it was to be, and the remedy if it does not exist.
 pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing: &str) {
-    tell(&format!("error: cannot read `{file}`: {}", why(error)));
     let help = match error.kind() {
         std::io::ErrorKind::NotFound => missing.to_string(),
         _ if Path::new(file).is_dir() => "name a file in it".to_string(),
         _ => format!("name {what} that can be read, or `-` for stdin"),
     };
-    tell(&format!("  help: {help}"));
+    fail(&format!("cannot read `{file}`: {}", why(error)), &help);
 }
 
 fn why(error: &std::io::Error) -> String {
@@ -71,16 +76,57 @@ pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection
     (!report.failed()).then_some((document, selection, report))
 }
 
-/// Writes a file that must not be there yet; a failure has been told.
-pub(super) fn write_new(file: &Path, text: &str) -> bool {
-    // never over somebody's work
-    let Err(error) = std::fs::File::create_new(file).and_then(|mut f| f.write_all(text.as_bytes())) else { return true };
+/// Writes a file that must not be there yet, unless `--force` says so; a failure has been told.
+pub(super) fn write_new(file: &Path, text: &str, common: &Common) -> bool {
+    let whole = |path: &Path| {
+        // never over somebody's work
+        let mut new = std::fs::File::create_new(path)?;
+        new.write_all(text.as_bytes()).inspect_err(|_| _ = std::fs::remove_file(path))
+    };
+    let replace = || {
+        // a file of the same directory is renamed over the old one, so that this is never half written
+        let mut name = std::ffi::OsString::from(".");
+        name.push(file.file_name().unwrap_or_default());
+        name.push(format!(".new-{}", std::process::id()));
+        let new = file.with_file_name(name);
+        whole(&new)?;
+        std::fs::rename(&new, file).inspect_err(|_| _ = std::fs::remove_file(&new))
+    };
+    let Err(error) = (if common.force { replace() } else { whole(file) }) else { return true };
     let help = match error.kind() {
-        std::io::ErrorKind::AlreadyExists => "name another file, or remove this one",
+        ErrorKind::AlreadyExists => "name another file, remove this one, or replace it with `--force`",
         _ => "name a file in a directory that can be written to",
     };
-    tell(&format!("error: cannot write `{}`: {error}\n  help: {help}", file.display()));
+    fail(&format!("cannot write `{}`: {error}", file.display()), help);
     false
+}
+
+/// Looks whether results of these names can be written, and mends what a killed run has left; what is wrong has been told.
+pub(super) fn prepare(directory: &Path, names: &[String], common: &Common) -> Result<(), u8> {
+    let notes = grashof::output::prepare(directory, names, common.force).map_err(|error| unwritable(&error))?;
+    tell_mended(&notes, common);
+    Ok(())
+}
+
+/// Writes the files of a study; what is wrong has been told.
+pub(super) fn commit(staging: &Staging, directory: &Path, stem: &str, common: &Common) -> Result<(), u8> {
+    let written = uncut(|| staging.commit(directory, stem, common.force)).map_err(|error| unwritable(&error))?;
+    tell_mended(&written.notes, common);
+    if common.verbose {
+        written.paths.iter().for_each(|path| tell(&format!("wrote {}", path.display())));
+    }
+    Ok(())
+}
+
+fn unwritable(error: &WriteError) -> u8 {
+    fail(&error.to_string(), error.help());
+    code::INPUT
+}
+
+fn tell_mended(notes: &[String], common: &Common) {
+    if !common.quiet {
+        notes.iter().for_each(|note| tell(&format!("note: {note}")));
+    }
 }
 
 /// Says in one line that included files hold more than the model uses.
@@ -109,10 +155,7 @@ pub(super) fn bytes(model: &str, most: u64) -> std::io::Result<Vec<u8>> {
 /// Prints diagnostics on stderr; warnings are left out when quiet.
 pub(super) fn print(report: &Report, common: &Common) {
     if report.failed() || !common.quiet {
-        let text = report.render(common.colored());
-        if !text.is_empty() {
-            tell(text.trim_end());
-        }
+        tell_report(report, common.colored());
     }
 }
 
@@ -123,9 +166,7 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
         match text.split_once('=') {
             Some((name, value)) => sets.push((name.trim().to_string(), value.trim().to_string())),
             None => {
-                tell(&format!(
-                    "error: `--set {text}` has no `=`\n  help: write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`"
-                ));
+                fail(&format!("`--set {text}` has no `=`"), "write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`");
                 return None;
             }
         }
@@ -133,12 +174,18 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
     Some(Selection { study, variants: common.variant.clone(), sets, over: Vec::new() })
 }
 
-/// Where results go.
-pub(super) fn directory(model: &str, common: &Common) -> PathBuf {
-    common.output.clone().unwrap_or_else(|| {
-        let stem = if model == "-" { "stdin".into() } else { Path::new(model).file_stem().unwrap_or_default().to_os_string() };
-        Path::new("results").join(stem)
-    })
+/// Where results go; none if the name of the model makes no directory, which has been told.
+pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
+    if let Some(directory) = &common.output {
+        return Some(directory.clone());
+    }
+    let stem = if model == "-" { "stdin".into() } else { Path::new(model).file_stem().unwrap_or_default().to_os_string() };
+    // `...yaml` is `..` without its extension, which leads out of `results`
+    if ["", ".", ".."].iter().any(|name| stem == *name) {
+        fail(&format!("the name of `{model}` without its extension names no directory for results"), "say where they go with `-o DIR`");
+        return None;
+    }
+    Some(Path::new("results").join(stem))
 }
 
 /// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
@@ -164,6 +211,6 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
             (vec![document.diagnostic("numerical", &format!("studies.{study}"), message, "", Some(help.clone()))], code::NUMERICAL)
         }
     };
-    tell(Report::new(diagnostics).render(common.colored()).trim_end());
+    tell_report(&Report::new(diagnostics), common.colored());
     code
 }

@@ -52,7 +52,7 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
             code::DONE
         }
         Some(file) => {
-            if !files::write_new(file, &imported.text) {
+            if !files::write_new(file, &imported.text, common) {
                 return code::INPUT;
             }
             let file = file.display();

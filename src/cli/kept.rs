@@ -4,7 +4,8 @@
 //! `<study>.partial` holds 16 bytes, [`MAGIC`] and the fingerprint of all that decides the results, and behind them one record a
 //! run: its length, its checksum, and the run with its place in the sweep, by the postcard format, in which numbers keep their
 //! bits. A record is appended by one write. So the file can end in a torn record at any time, which is cut off when it is read; a
-//! file with another fingerprint is not used. Runs that never began are not kept: they cost nothing to try again.
+//! file with another fingerprint is not used. Runs that never began are not kept: they cost nothing to try again. A file of this
+//! name that does not begin so, or that is a link, is somebody's own and is left alone; one that another run has locked is its.
 
 use grashof::analysis::outcome::{Failure, Outcome, Unsolved};
 use grashof::analysis::solve::Solved;
@@ -13,9 +14,9 @@ use grashof::expression::Pool;
 use grashof::model::Model;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::hash::{DefaultHasher, Hasher};
-use std::io::Write as _;
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -38,6 +39,8 @@ pub(super) struct Kept {
 enum Place {
     /// Not written yet.
     New,
+    /// Open; what is in it is of another sweep and goes when the first run is kept.
+    Stale(File),
     /// Open at its end.
     Open(File),
     /// It cannot be written; the sweep goes on without it.
@@ -58,18 +61,26 @@ type Read = Record<Result<Outcome, Unsolved>, Option<Solved>>;
 
 impl Kept {
     /// What earlier tries of the same sweep of `count` runs have left, and the file for further runs.
-    pub(super) fn open(directory: &Path, stem: &str, model: &Model, count: usize) -> (Self, Vec<Option<Run>>) {
+    ///
+    /// With `force` a plain file of this name that holds no runs is replaced.
+    pub(super) fn open(directory: &Path, stem: &str, model: &Model, count: usize, force: bool) -> (Self, Vec<Option<Run>>) {
         let path = directory.join(format!("{stem}.partial"));
         let fingerprint = fingerprint(model);
         let mut known: Vec<Option<Run>> = Vec::new();
         known.resize_with(count, || None);
-        let (mut file, mut note) = (Place::New, None);
-        if let Ok(bytes) = fs::read(&path) {
-            match read(&bytes, fingerprint, &mut known) {
-                Some(good) => file = reopened(&path, good as u64).map_or(Place::Closed, Place::Open),
-                None => note = Some(format!("note: {} is of another model, study or version, or broken: it is not used", path.display())),
-            }
-        }
+        let (file, why) = match there(&path) {
+            Ok(None) => (Place::New, None),
+            Ok(Some((file, bytes))) => match read(&bytes, fingerprint, &mut known) {
+                Some(good) if file.set_len(good as u64).is_ok() => (Place::Open(file), None),
+                Some(_) => (Place::Closed, Some("cannot be written: finished runs are not kept")),
+                None if force || is_ours(&bytes) => {
+                    (Place::Stale(file), Some("is of another model, study or version, or broken: it is not used"))
+                }
+                None => (Place::Closed, Some("holds no finished runs: it is left alone, and finished runs are not kept")),
+            },
+            Err(why) => (Place::Closed, Some(why)),
+        };
+        let note = why.map(|why| format!("note: {} {why}", path.display()));
         let there = AtomicUsize::new(known.iter().flatten().count());
         (Self { path, fingerprint, file: Mutex::new(file), count: there, note }, known)
     }
@@ -79,9 +90,10 @@ impl Kept {
         self.note.as_deref()
     }
 
-    /// How many runs are kept.
-    pub(super) fn count(&self) -> usize {
-        self.count.load(Ordering::Relaxed)
+    /// How many runs of all are kept, in a sentence; none if there are none.
+    pub(super) fn told(&self, all: usize) -> Option<String> {
+        let kept = self.count.load(Ordering::Relaxed);
+        (kept > 0).then(|| format!("kept: {kept} of {all} runs, from which the same command goes on"))
     }
 
     /// Keeps a finished run.
@@ -96,9 +108,11 @@ impl Kept {
         record.extend(checksum(self.fingerprint, &bytes).to_le_bytes());
         record.extend(bytes);
         let mut place = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        if matches!(*place, Place::New) {
-            *place = self.begin().map_or(Place::Closed, Place::Open);
-        }
+        *place = match std::mem::replace(&mut *place, Place::Closed) {
+            Place::New => self.created().and_then(|file| self.begun(file)).map_or(Place::Closed, Place::Open),
+            Place::Stale(file) => self.begun(file).map_or(Place::Closed, Place::Open),
+            other => other,
+        };
         if let Place::Open(file) = &mut *place {
             match file.write_all(&record) {
                 Ok(()) => _ = self.count.fetch_add(1, Ordering::Relaxed),
@@ -107,17 +121,26 @@ impl Kept {
         }
     }
 
-    /// A new file with its head.
-    fn begin(&self) -> Option<File> {
+    /// A new file; none if something has come to lie there since.
+    fn created(&self) -> Option<File> {
         fs::create_dir_all(self.path.parent()?).ok()?;
-        let mut file = File::create(&self.path).ok()?;
+        let file = File::options().append(true).create_new(true).open(&self.path).ok()?;
+        locked(&file).then_some(file)
+    }
+
+    /// The file with its head and nothing else.
+    fn begun(&self, mut file: File) -> Option<File> {
+        file.set_len(0).ok()?;
         file.write_all(&[*MAGIC, self.fingerprint.to_le_bytes()].concat()).ok()?;
         Some(file)
     }
 
     /// Removes the file: its runs stand in the results. The directory goes too if nothing else is in it.
     pub(super) fn remove(self) {
-        if fs::remove_file(&self.path).is_ok()
+        let place = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let ours = matches!(place, Place::Open(_) | Place::Stale(_));
+        if ours
+            && fs::remove_file(&self.path).is_ok()
             && let Some(directory) = self.path.parent()
         {
             let _ = fs::remove_dir(directory);
@@ -148,11 +171,34 @@ fn next(bytes: &[u8], fingerprint: u64) -> Option<(Read, &[u8])> {
     Some((postcard::from_bytes(payload).ok()?, &bytes[HEAD + length..]))
 }
 
-/// The file, cut to what is sound, open at its end.
-fn reopened(path: &Path, length: u64) -> Option<File> {
-    let file = File::options().append(true).open(path).ok()?;
-    file.set_len(length).ok()?;
-    Some(file)
+/// The file that is there, open at its end and locked, with its bytes; none if there is none.
+///
+/// # Errors
+/// Why it is not used.
+fn there(path: &Path) -> Result<Option<(File, Vec<u8>)>, &'static str> {
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        // a link may lead out of the directory, and a pipe has no end
+        Ok(known) if !known.is_file() => return Err("is no plain file: it is left alone, and finished runs are not kept"),
+        _ => {}
+    }
+    let mut file = File::options().read(true).append(true).open(path).map_err(|_| "cannot be opened: finished runs are not kept")?;
+    if !locked(&file) {
+        return Err("is in use by another run: finished runs are not kept");
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|_| "cannot be read: finished runs are not kept")?;
+    Ok(Some((file, bytes)))
+}
+
+/// Whether no other run has the file, as far as the file system can tell.
+fn locked(file: &File) -> bool {
+    !matches!(file.try_lock(), Err(TryLockError::WouldBlock))
+}
+
+/// Whether some bytes begin as a file of finished runs does, however short they are.
+fn is_ours(bytes: &[u8]) -> bool {
+    bytes.starts_with(&MAGIC[..bytes.len().min(MAGIC.len())])
 }
 
 fn checksum(fingerprint: u64, bytes: &[u8]) -> u64 {

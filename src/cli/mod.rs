@@ -7,6 +7,7 @@ mod completions;
 mod figures;
 mod files;
 mod import;
+mod interrupt;
 mod kept;
 mod linear;
 mod modes;
@@ -19,13 +20,15 @@ mod schemes;
 mod statics;
 mod study;
 mod sweep;
-mod units;
+mod terminal;
 mod verify;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use terminal::take_errors;
+pub(crate) use terminal::{fail, say, tell};
 
 /// Exit codes; several studies: the highest wins.
 pub(crate) mod code {
@@ -44,7 +47,7 @@ pub(crate) mod code {
 const CODES: &str = "Exit codes:
   0    done (rows of a sweep that failed for a stated reason included)
   1    an `expect:` is not met, `run --verify` finds no digit that stands, or `check --strict` has findings
-  2    usage, file or model: nothing was computed
+  2    usage, file or model: nothing was computed; or results or standard output cannot be written
   3    numerical failure of a study, or of all runs of a sweep; rows up to there are kept
   130  interrupted";
 
@@ -64,6 +67,9 @@ pub(crate) struct Common {
     /// Directory for results [default: results/<model file without extension>]; with `import` the file to write
     #[arg(short, long, global = true, value_name = "PATH")]
     output: Option<PathBuf>,
+    /// Replace files of the names of results that no earlier run is recorded to have written
+    #[arg(long, global = true)]
+    force: bool,
     /// Set a parameter: a number in SI, or a quantity as "60 cm"
     #[arg(long, global = true, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -145,15 +151,20 @@ pub(crate) fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             // help and version go to stdout and are no errors
-            let code = if error.use_stderr() { code::INPUT } else { code::DONE };
-            let _ = error.print();
-            return ExitCode::from(code);
+            let failed = error.use_stderr();
+            let printed = error.print();
+            if failed {
+                let message = error.to_string();
+                return ended(code::INPUT, vec![serde_json::json!({ "message": message.trim_end() })]);
+            }
+            terminal::told_if_failed(printed.and_then(|()| std::io::stdout().flush()));
+            return ended(code::DONE, Vec::new());
         }
     };
     let to_file = matches!(cli.command, Command::Import(_));
     if !to_file && cli.common.output.as_ref().is_some_and(|path| path.as_os_str() == "-") {
-        tell("error: `-o -` names no directory\n  help: write `-o DIR`; `--json` prints results on stdout without it");
-        return ExitCode::from(code::INPUT);
+        fail("`-o -` names no directory", "write `-o DIR`; `--json` prints results on stdout without it");
+        return ended(code::INPUT, take_errors());
     }
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
@@ -162,12 +173,27 @@ pub(crate) fn main() -> ExitCode {
         Command::Modes(arguments) => modes::modes(arguments, &cli.common),
         Command::Statics(arguments) => statics::statics(arguments, &cli.common),
         Command::Check(arguments) => check::check(arguments, &cli.common),
-        Command::New(arguments) => new::new(arguments),
+        Command::New(arguments) => new::new(arguments, &cli.common),
         Command::Import(arguments) => import::import(arguments, &cli.common),
         Command::Schema => schema::print(),
         Command::Completions(arguments) => completions::print(arguments),
     };
-    ExitCode::from(code)
+    ended(code, take_errors())
+}
+
+fn ended(code: u8, errors: Vec<serde_json::Value>) -> ExitCode {
+    ExitCode::from(end(code, errors))
+}
+
+/// The exit code, after errors are printed as JSON where that was asked for and nothing else was printed.
+pub(crate) fn end(code: u8, errors: Vec<serde_json::Value>) -> u8 {
+    // what could not be parsed is asked for all the same
+    let asked = |word: &str| std::env::args_os().any(|argument| argument == word);
+    if code != code::DONE && asked("--json") && !terminal::has_said() {
+        let failure = terminal::failure_json(None, errors);
+        say(&if asked("run") { run::json_list(&[failure]) } else { failure });
+    }
+    if terminal::output_failed() { code.max(code::INPUT) } else { code }
 }
 
 impl Common {
@@ -184,14 +210,14 @@ impl Common {
     pub(crate) fn threads(&self) -> usize {
         self.threads.map_or_else(grashof::par::processors, usize::from)
     }
-}
 
-/// A line on stdout; a closed pipe is no error.
-pub(crate) fn say(text: &str) {
-    let _ = writeln!(std::io::stdout().lock(), "{text}");
-}
-
-/// A line on stderr.
-pub(crate) fn tell(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    /// Words on the command line that change what studies compute.
+    pub(crate) fn changes(&self) -> Option<&'static str> {
+        match (self.set.is_empty(), self.variant.is_empty()) {
+            (true, true) => None,
+            (false, true) => Some("--set"),
+            (true, false) => Some("--variant"),
+            (false, false) => Some("--set` and `--variant"),
+        }
+    }
 }

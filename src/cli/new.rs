@@ -1,6 +1,6 @@
 //! `grashof new`: commented models that run.
 
-use super::{code, files, say, tell};
+use super::{Common, code, fail, files, say, tell};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -22,7 +22,7 @@ const TEMPLATES: [(&str, &str, &str); 2] = [
 ];
 
 /// Writes a model.
-pub(super) fn new(arguments: &Arguments) -> u8 {
+pub(super) fn new(arguments: &Arguments, common: &Common) -> u8 {
     if arguments.list {
         for (kind, about, _) in TEMPLATES {
             say(&format!("{kind:<14} {about}"));
@@ -36,7 +36,7 @@ pub(super) fn new(arguments: &Arguments) -> u8 {
         } else {
             format!("the kinds are {}", known.join(", "))
         };
-        tell(&format!("error: no model of the kind `{}`\n  help: {help}", arguments.kind));
+        fail(&format!("no model of the kind `{}`", arguments.kind), &help);
         return code::INPUT;
     };
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));
@@ -44,7 +44,7 @@ pub(super) fn new(arguments: &Arguments) -> u8 {
         say(text.trim_end());
         return code::DONE;
     }
-    if !files::write_new(&file, text) {
+    if !files::write_new(&file, text, common) {
         return code::INPUT;
     }
     tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));

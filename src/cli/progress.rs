@@ -1,25 +1,10 @@
-//! A progress bar on stderr for what takes over half a second, and Ctrl-C.
+//! A progress bar on stderr for what takes over half a second.
 
+use super::terminal::escaped;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-
-/// From here on Ctrl-C is noted and ends the program between two runs; a second one ends it at once.
-pub(super) fn watch_interrupts() {
-    let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.swap(true, Ordering::SeqCst) {
-            std::process::exit(i32::from(super::code::INTERRUPTED));
-        }
-    });
-}
-
-/// Whether Ctrl-C was pressed.
-pub(super) fn interrupted() -> bool {
-    INTERRUPTED.load(Ordering::SeqCst)
-}
 
 /// A bar that shows itself when the work has taken half a second, on a terminal alone.
 pub(super) struct Progress {
@@ -54,7 +39,7 @@ impl Progress {
 
     /// One step is done, and what came of it.
     pub(super) fn tell(&self, what: &str) {
-        self.bar.set_message(what.to_string());
+        self.bar.set_message(escaped(what).into_owned());
         self.step();
     }
 

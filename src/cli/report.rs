@@ -4,7 +4,6 @@ mod sweep;
 
 pub(super) use sweep::{label, sweep_json, sweep_rows, sweep_summary};
 
-use super::units::unit;
 use super::{linear, modes};
 use grashof::analysis::extremum::Extremum;
 use grashof::analysis::outcome::{self, Outcome};
@@ -14,7 +13,7 @@ use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, T
 use serde_json::Value;
 
 /// The rows of one run, in the columns of the study.
-pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
+pub(super) fn rows(study: &Study, outcome: &Outcome) -> Table {
     if let Kind::Modes(_) = study.kind {
         return modes::rows(outcome);
     }
@@ -23,7 +22,7 @@ pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
     }
     let n = study.columns.len();
     Table {
-        columns: study.columns.iter().map(|c| Header::new(c.name.clone(), unit(model, c.value, c.dimension))).collect(),
+        columns: study.columns.iter().map(|c| Header::new(c.name.clone(), c.dimension.si())).collect(),
         rows: outcome.rows.iter().map(|r| r[..n].to_vec()).collect(),
         switches: outcome.switches.clone(),
         reasons: None,
@@ -31,22 +30,19 @@ pub(super) fn rows(model: &Model, study: &Study, outcome: &Outcome) -> Table {
 }
 
 /// Names, units and values of the results of the kind and of the scalars.
-fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
+fn scalars(study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     // a kind may name results that this mechanism does not have, as the frequency of a mode
     let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
     let results = present.map(|(r, value)| Scalar { name: r.name.clone(), value: *value, unit: r.dimension.si() });
-    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar {
-        name: s.name.clone(),
-        value: *value,
-        unit: unit(model, s.value, s.dimension),
-    });
+    let own =
+        study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| Scalar { name: s.name.clone(), value: *value, unit: s.dimension.si() });
     let taken = study.take.iter().map(|t| Scalar { name: t.name.clone(), value: t.value, unit: t.dimension.si() });
     taken.chain(results).chain(own).collect()
 }
 
 /// The table of scalars for stdout, or the number of rows where there is none.
-pub(super) fn summary(model: &Model, study: &Study, outcome: &Outcome) -> String {
-    let scalars = scalars(model, study, outcome);
+pub(super) fn summary(study: &Study, outcome: &Outcome) -> String {
+    let scalars = scalars(study, outcome);
     match study.kind {
         Kind::Statics => return super::statics::summary(outcome) + &output::summary(&scalars),
         Kind::Linearize(_) => return linear::summary(outcome) + &output::summary(&scalars),
@@ -77,7 +73,7 @@ fn shown(x: Option<&f64>) -> String {
 }
 
 /// The JSON of one run.
-pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome, solved: Option<&Solved>) -> String {
+pub(super) fn json(study: &Study, outcome: &Outcome, solved: Option<&Solved>) -> String {
     let extreme = |e: Extremum| Some(Extreme { value: e.value, at: e.at });
     let extrema = study
         .columns
@@ -97,7 +93,7 @@ pub(super) fn json(model: &Model, study: &Study, outcome: &Outcome, solved: Opti
         study: study.name.clone(),
         status: if outcome.stopped.is_some() { "failed" } else { "done" }.into(),
         parameters: outcome.parameters.clone(),
-        scalars: (scalars(model, study, outcome).into_iter().map(|s| (s.name, json_number(s.value))))
+        scalars: (scalars(study, outcome).into_iter().map(|s| (s.name, json_number(s.value))))
             .chain(outcome.lists.iter().map(|list| (list.name.clone(), json_numbers(&list.values))))
             .chain(modes::shapes(outcome))
             .chain(linear::json(outcome))
@@ -135,6 +131,9 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
     let number = |name: &str, x: f64| (name.to_string(), json_number(x));
     let count = |name: &str, n: usize| (name.to_string(), json_number(n as f64));
     let mut all = vec![count("rows", c.evaluations), count("switches", c.switches), number("constraint_residual", c.constraint)];
+    if let Some(r) = &c.resolved {
+        all.extend([number("resolved_to", r.width), count("unresolved", r.open), count("looks", r.evaluations)]);
+    }
     let Some(m) = &c.march else {
         all.push(number("power_balance", c.power_balance));
         return all;
@@ -150,6 +149,7 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
         number("work_loads", m.loads),
         number("work_dampers", m.dampers),
         number("work_impacts", m.impacts),
+        number("widest_gap", m.widest_gap),
         count("steps", m.counts.steps),
         count("rejected", m.counts.rejected),
         count("evaluations", m.counts.evaluations),
@@ -158,6 +158,7 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
         count("events", m.counts.events),
         count("bridges", m.counts.bridges),
         count("stepped_over", m.counts.stepped_over),
+        count("unresolved", m.counts.unresolved),
     ]);
     all
 }
@@ -176,8 +177,13 @@ fn march(outcome: &Outcome) -> String {
     let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));
     let bridges = if k.bridges > 0 { format!(", {} bridges over singular positions", k.bridges) } else { String::new() };
     let over = if k.stepped_over > 0 { format!(", {} switches stepped over", k.stepped_over) } else { String::new() };
+    let gap = if m.widest_gap > 0.0 {
+        format!("  conditions: resolved, with looks at most {:.1e} s apart\n", m.widest_gap)
+    } else {
+        String::new()
+    };
     format!(
-        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n",
+        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n{gap}",
         m.energy_drift, m.energy_scale, c.constraint, m.velocity, m.schemes, k.steps, k.rejected, k.evaluations, k.factorisations, k.events
     ) + &happened(outcome)
 }

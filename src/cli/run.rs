@@ -1,8 +1,9 @@
 //! `grashof run`: studies one after the other; the highest code wins.
 
-use super::progress::{interrupted, watch_interrupts};
+use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::{Finished, Job};
-use super::{Common, code, files, say, tell, verify};
+use super::terminal::{failure_json, take_errors, with_errors};
+use super::{Common, code, fail, files, say, tell, verify};
 use grashof::analysis::sweep::{Run, at};
 use grashof::model::{Document, Model, Selection};
 use std::collections::{HashMap, HashSet};
@@ -34,6 +35,9 @@ pub(super) struct Wanted {
     /// Write no figures
     #[arg(long)]
     no_plots: bool,
+    /// Judge expectations even if `--set`, `--variant` or `--over` change what is computed
+    #[arg(long)]
+    pub(super) expect: bool,
     /// Compute each motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and tell how many
     /// digits stand
     #[arg(long)]
@@ -43,35 +47,60 @@ pub(super) struct Wanted {
 /// Runs the studies of a model.
 pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     watch_interrupts();
+    let mut reports = Vec::new();
+    let code = studies(arguments, common, &mut reports);
+    if arguments.wanted.json && !reports.is_empty() {
+        say(&json_list(&reports));
+    }
+    code
+}
+
+/// Runs the studies one after the other; for JSON, their reports or why there is none.
+fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) -> u8 {
     let Some((document, ..)) = files::sound(&arguments.model, common) else { return code::INPUT };
     files::tell_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {
-        tell(
-            "error: the model has no studies, so there is nothing to run\n  help: add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`",
+        fail(
+            "the model has no studies, so there is nothing to run",
+            "add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`",
         );
         return code::INPUT;
     }
     let mut studies = if arguments.study.is_empty() { known.clone() } else { arguments.study.clone() };
     let mut seen = HashSet::new();
     studies.retain(|study| seen.insert(study.clone()));
-    let directory = files::directory(&arguments.model, common);
-    let request = Request { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
+    let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
+    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
     let mut worst = code::DONE;
-    let mut reports = Vec::new();
     let mut scalars = Scalars::new();
+    let mut told = false;
     for study in &studies {
-        let model = match load(&document, common, study, &mut scalars) {
+        let mut reported = |report: Option<String>| {
+            let errors = take_errors();
+            match report {
+                Some(report) => reports.push(with_errors(&report, errors)),
+                None if errors.is_empty() => {}
+                None => reports.push(failure_json(Some(study), errors)),
+            }
+        };
+        interrupt::begins(format!("interrupted: study `{study}` is not begun"), false);
+        let mut model = match load(&document, common, study, &mut scalars) {
             Ok(model) => model,
-            Err(_) if interrupted() => return told_of_interrupt(study, "is not begun"),
             Err(code) => {
+                let code = if interrupted() { told_of_interrupt(study, "is not begun") } else { code };
+                reported(None);
                 worst = worst.max(code);
+                if interrupted() {
+                    return code;
+                }
                 continue;
             }
         };
         match conflict(&model) {
             Some(parameter) if !arguments.study.is_empty() => {
                 worst = worst.max(refused(&parameter, study));
+                reported(None);
                 continue;
             }
             Some(parameter) => {
@@ -82,30 +111,29 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
             }
             None => {}
         }
+        request.drop_expectations(&mut model, common.changes(), &mut told);
         let (code, report) = request.study(&model, study, study);
         worst = worst.max(code);
-        reports.extend(report);
+        reported(report);
         if interrupted() {
             return code::INTERRUPTED;
         }
-    }
-    if arguments.wanted.json {
-        say(&json_list(&reports));
     }
     worst
 }
 
 /// Says what became of a study when Ctrl-C was pressed.
 fn told_of_interrupt(study: &str, what: &str) -> u8 {
-    tell(&format!("interrupted: study `{study}` {what}"));
+    interrupt::tell_end(&format!("interrupted: study `{study}` {what}"));
     code::INTERRUPTED
 }
 
 /// Refuses a study that varies a parameter which is set from outside.
 pub(super) fn refused(parameter: &str, study: &str) -> u8 {
-    tell(&format!(
-        "error: `--set {parameter}` sets the parameter that study `{study}` varies\n  help: leave the parameter to the study, or run another one"
-    ));
+    fail(
+        &format!("`--set {parameter}` sets the parameter that study `{study}` varies"),
+        "leave the parameter to the study, or run another one",
+    );
     code::INPUT
 }
 
@@ -114,17 +142,29 @@ pub(super) struct Request<'a> {
     pub(super) document: &'a Document,
     pub(super) common: &'a Common,
     pub(super) wanted: &'a Wanted,
-    /// Names of all studies.
-    pub(super) studies: &'a [String],
     pub(super) directory: &'a Path,
 }
 
 impl Request<'_> {
+    /// Drops what a file expects of its own values if `option` changes these and nobody asks to judge it; `told` becomes true with
+    /// the one line that says so.
+    pub(super) fn drop_expectations(&self, model: &mut Model, option: Option<&str>, told: &mut bool) {
+        let (Some(option), false, Some(study)) = (option, self.wanted.expect, &mut model.study) else { return };
+        let dropped = !study.expect.is_empty();
+        study.expect.clear();
+        if dropped && !self.common.quiet && !std::mem::replace(told, true) {
+            let change = if option.contains(' ') { "change" } else { "changes" };
+            tell(&format!(
+                "note: what the file expects of its own values is not judged, since `{option}` {change} what is computed; `--expect` judges it"
+            ));
+        }
+    }
+
     /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
     /// report. An interrupt has been told.
     pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
-        let Self { document, common, studies, directory, .. } = *self;
-        let job = Job { document, model, study: stem, studies, directory, plots: !self.wanted.no_plots, common };
+        let Self { document, common, directory, .. } = *self;
+        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, common };
         let finished = job.run();
         if interrupted() {
             let what = match (&finished.output, finished.code) {
@@ -132,11 +172,13 @@ impl Request<'_> {
                 (Some(_), code::INTERRUPTED) => "is written up to there",
                 _ => "was the last one",
             };
-            return (told_of_interrupt(study, what), None);
+            let report = finished.output.map(|output| output.report).filter(|_| self.wanted.json);
+            return (told_of_interrupt(study, what), report);
         }
         let mut code = finished.code;
         self.show(&finished, stem, model.study.as_ref().map_or("", |s| s.about.as_str()));
         if self.wanted.verify && finished.output.is_some() {
+            interrupt::begins(format!("interrupted: study `{study}` is written, and not verified"), false);
             code = code.max(self.verified(model, study, &finished.computed));
             if interrupted() {
                 code = told_of_interrupt(study, "is written, and not verified");
@@ -181,7 +223,7 @@ impl Request<'_> {
 }
 
 /// JSON texts as one list, their numbers untouched: reading them back could change a last digit.
-fn json_list(texts: &[String]) -> String {
+pub(super) fn json_list(texts: &[String]) -> String {
     let items: Vec<String> = texts.iter().map(|text| format!("\n  {}", text.trim_end().replace('\n', "\n  "))).collect();
     format!("[{}{}]", items.join(","), if items.is_empty() { "" } else { "\n" })
 }
@@ -222,7 +264,7 @@ pub(super) fn load_selected(document: &Document, common: &Common, selection: &Se
 fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Common) -> Result<Vec<(String, f64)>, u8> {
     let Some(study) = &model.study else { return Err(code::INPUT) };
     let refuse = |what: &str, help: &str, code: u8| {
-        tell(&format!("error: study `{for_study}` takes a scalar of `{}`, {what}\n  help: {help}", study.name));
+        fail(&format!("study `{for_study}` takes a scalar of `{}`, {what}", study.name), help);
         code
     };
     let Run { result, .. } = at(model, study, Vec::new(), common.threads(), &interrupted, &|_, _| {});

@@ -2,11 +2,13 @@
 
 mod sweep;
 
-use super::progress::{Progress, interrupted};
+use super::interrupt::{self, interrupted};
+use super::progress::Progress;
+use super::terminal::{tell_interrupted, tell_report};
 use super::{Common, code, figures, files, linear, report, tell};
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::sweep::{Run, at};
-use grashof::model::{Document, Kind, Model, Report, Study};
+use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
 use grashof::output::{Picture, Staging, write_csv};
 use grashof::par;
 use std::path::Path;
@@ -17,7 +19,6 @@ pub(super) struct Job<'a> {
     pub(super) model: &'a Model,
     /// What the names of its files begin with: its name, but for a sweep from the command line.
     pub(super) study: &'a str,
-    pub(super) studies: &'a [String],
     pub(super) directory: &'a Path,
     pub(super) plots: bool,
     pub(super) common: &'a Common,
@@ -53,7 +54,21 @@ impl Job<'_> {
     /// Runs, writes and reports; faults have been printed.
     pub(super) fn run(&self) -> Finished {
         let Some(study) = &self.model.study else { return Finished::nothing(code::INPUT) };
+        // a motion in time keeps what it has come to
+        let keeps = matches!(study.kind, Kind::Dynamics(_)) && study.sweep.is_empty() && study.solve.is_none();
+        interrupt::begins(format!("interrupted: study `{}` is not written", study.name), keeps);
+        if let Err(code) = files::prepare(self.directory, &self.names(study), self.common) {
+            return Finished::nothing(code);
+        }
         if study.sweep.is_empty() { self.single(study) } else { self.sweep(study) }
+    }
+
+    /// Names of files that are known before anything is computed.
+    fn names(&self, study: &Study) -> Vec<String> {
+        let column = |shown: &Shown| matches!(shown.what, ShownWhat::Column(_));
+        let plots = study.plots.iter().filter(|plot| self.plots && plot.show.iter().chain(&plot.over).all(column));
+        let plots = plots.flat_map(|plot| ["svg", "png"].map(|end| format!("{}-{}.{end}", self.study, plot.name)));
+        ["csv", "json"].map(|end| format!("{}.{end}", self.study)).into_iter().chain(plots).collect()
     }
 
     /// A study of one run, or of those that a `solve` takes to find one.
@@ -78,7 +93,7 @@ impl Job<'_> {
                 _ => "start elsewhere, change the lengths, or give a shorter range",
             };
             if interrupted() {
-                tell(&message);
+                tell_interrupted(&message);
             } else if let Some(undefined) = &outcome.undefined {
                 self.tell_at("undefined", &undefined.place, message, &undefined.help);
             } else {
@@ -88,19 +103,20 @@ impl Job<'_> {
         } else {
             code = code.max(self.expectations(&outcome));
         }
-        let table = report::rows(self.model, study, &outcome);
+        let table = report::rows(study, &outcome);
         let mut staging = Staging::new();
         staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::json(self.model, study, &outcome, solved.as_ref());
+        let report = report::json(study, &outcome, solved.as_ref());
         staging.add(format!("{}.json", self.study), report.clone());
         for (name, bytes) in linear::files(study, &outcome) {
             staging.add(name, bytes);
         }
-        if self.plots {
+        // who interrupts a motion wants its rows, and no waiting for figures
+        if self.plots && !interrupted() {
             self.draw(&mut staging, figures::figures(self.model, study, &[(None, &outcome)]), &outcome);
         }
         let output = Output {
-            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(self.model, study, &outcome),
+            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(study, &outcome),
             report,
             columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
         };
@@ -149,29 +165,21 @@ impl Job<'_> {
         if interrupted() && code != code::INTERRUPTED {
             return Finished::nothing(code::INTERRUPTED);
         }
-        match staging.commit(self.directory, self.study, self.studies) {
-            Ok(paths) => {
-                if self.common.verbose {
-                    for path in paths {
-                        tell(&format!("wrote {}", path.display()));
-                    }
-                }
+        match files::commit(staging, self.directory, self.study, self.common) {
+            Ok(()) => {
+                let what = if code == code::INTERRUPTED { "is written up to there" } else { "was the last one" };
+                interrupt::begins(format!("interrupted: study `{}` {what}", self.study), code == code::INTERRUPTED);
                 Finished { code, output: Some(output), computed: Vec::new() }
             }
-            Err(error) => {
-                tell(&format!("error: {error}\n  help: choose another directory with `-o DIR`"));
-                Finished::nothing(code.max(code::INPUT))
-            }
+            Err(unwritten) => Finished::nothing(code.max(unwritten)),
         }
     }
 
     /// Tells which expectations are not met.
     fn expectations(&self, outcome: &Outcome) -> u8 {
-        let changed = !(self.common.set.is_empty() && self.common.variant.is_empty());
-        let help = if changed {
-            "the file expects this of its own values; `--set` and `--variant` change what is computed"
-        } else {
-            "find out which of the two is right"
+        let help = match self.common.changes() {
+            Some(_) => "the file expects this of its own values; `--set` and `--variant` change what is computed",
+            None => "find out which of the two is right",
         };
         let mut code = code::DONE;
         for e in outcome.expectations.iter().filter(|e| !e.met) {
@@ -184,7 +192,7 @@ impl Job<'_> {
                 "the value that the file expects",
                 Some(help.into()),
             )]);
-            tell(report.render(self.common.colored()).trim_end());
+            tell_report(&report, self.common.colored());
         }
         code
     }
@@ -192,7 +200,7 @@ impl Job<'_> {
     /// Prints an error at a place of the file.
     fn tell_at(&self, code: &'static str, place: &str, message: String, help: &str) {
         let report = Report::new(vec![self.document.diagnostic(code, place, message, "", Some(help.into()))]);
-        tell(report.render(self.common.colored()).trim_end());
+        tell_report(&report, self.common.colored());
     }
 
     /// Prints why a run did not begin, and gives its exit code.

@@ -1,8 +1,9 @@
 //! `grashof sweep`: a study of the file over values of parameters that are named on the command line.
 
-use super::progress::{interrupted, watch_interrupts};
+use super::interrupt::{interrupted, watch_interrupts};
 use super::run::{Request, Scalars, Wanted, conflict, load_selected, refused};
-use super::{Common, code, files, say, tell};
+use super::terminal::{take_errors, with_errors};
+use super::{Common, code, fail, files, say};
 use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
 
 /// The figure of scalars over the swept parameter, where the study has none of its own.
@@ -41,16 +42,15 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
         return refused(&parameter, study);
     }
     if let Some(study) = &mut model.study {
-        // the file expects these of its own values
-        study.expect.clear();
         let figure = figure(study);
         study.plots.extend(figure);
     }
-    let directory = files::directory(&arguments.model, common);
-    let request = Request { document: &document, common, wanted: &arguments.wanted, studies: &known, directory: &directory };
+    let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
+    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
+    request.drop_expectations(&mut model, Some("--over"), &mut false);
     let (code, report) = request.study(&model, study, &stem);
     if let Some(report) = report {
-        say(report.trim_end());
+        say(&with_errors(&report, take_errors()));
     }
     code
 }
@@ -61,17 +61,14 @@ fn chosen<'a>(arguments: &'a Arguments, known: &'a [String]) -> Option<&'a str> 
         (Some(study), _) => Some(study),
         (None, [only]) => Some(only),
         (None, []) => {
-            tell(
-                "error: the model has no studies, so there is nothing to sweep\n  help: add one, as `studies: { turn: { kinematics: { over: 1 turn, samples: 360 } } }`",
+            fail(
+                "the model has no studies, so there is nothing to sweep",
+                "add one, as `studies: { turn: { kinematics: { over: 1 turn, samples: 360 } } }`",
             );
             None
         }
         (None, several) => {
-            tell(&format!(
-                "error: the model has {} studies\n  help: name one of them with `--study`: {}",
-                several.len(),
-                several.join(", ")
-            ));
+            fail(&format!("the model has {} studies", several.len()), &format!("name one of them with `--study`: {}", several.join(", ")));
             None
         }
     }
@@ -82,9 +79,10 @@ fn over(texts: &[String]) -> Option<Vec<(String, String)>> {
     let split = |text: &String| match text.split_once('=') {
         Some((name, values)) => Some((name.trim().to_string(), values.trim().to_string())),
         None => {
-            tell(&format!(
-                "error: `--over {text}` has no `=`\n  help: write `--over NAME=FROM..TO:COUNT` or a list, as `--over l3=0.3..0.8:26` or `--over \"l3=30 cm,40 cm\"`"
-            ));
+            fail(
+                &format!("`--over {text}` has no `=`"),
+                "write `--over NAME=FROM..TO:COUNT` or a list, as `--over l3=0.3..0.8:26` or `--over \"l3=30 cm,40 cm\"`",
+            );
             None
         }
     };

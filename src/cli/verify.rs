@@ -5,9 +5,8 @@
 //! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension, and an energy in
 //! units of the largest energy or work of the run: what is zero but for rounding has no digits to lose.
 
-use super::progress::interrupted;
+use super::interrupt::interrupted;
 use super::schemes::{self, Steps, word};
-use super::units::unit;
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;
 use grashof::expression::Dimension;
@@ -192,7 +191,7 @@ impl Comparison<'_> {
             return Ok(digits);
         }
         let column = &self.study.columns[c];
-        let unit = unit(self.model, column.value, column.dimension);
+        let unit = column.dimension.si();
         let value = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
         let [x, y] = [self.base.rows[i][c], other.rows[k][c]].map(value);
         Err(format!("`{}` is {x} at t = {:.6} s, and {y} with {with}", column.name, self.base.places[i]))

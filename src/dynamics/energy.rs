@@ -27,9 +27,32 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn gravity_energy(&self) -> G::S {
         let mut sum = G::S::default();
         for node in &self.mechanism.nodes {
-            sum -= G::dot(self.mechanism.gravity, self.work.inertias[node.body].h);
+            let inertia = self.work.inertias[node.body];
+            sum -= G::dot(self.mechanism.gravity, inertia.h + self.reference(node.body) * inertia.m);
         }
         sum
+    }
+
+    /// Potential energy of gravity, springs and end stops that give way, J.
+    #[must_use]
+    pub fn potential_energy(&mut self, modes: &mut [i32]) -> G::S {
+        let mut sum = self.gravity_energy();
+        for spring in 0..self.mechanism.stretches.len() {
+            sum += self.spring_energy(spring, modes);
+        }
+        for buffer in &self.mechanism.buffers {
+            sum += buffer.energy(self.work.readings[buffer.gauge].x).0;
+        }
+        sum
+    }
+
+    /// Power of the effort of each end stop that gives way, and the rate of what it stores, W: the rest is that of a damper. After
+    /// [`Dynamics::loads`].
+    pub fn buffer_powers(&self) -> impl Iterator<Item = [G::S; 2]> {
+        self.mechanism.buffers.iter().map(|buffer| {
+            let reading = &self.work.readings[buffer.gauge];
+            [self.work.efforts[buffer.effort] * reading.rate, buffer.energy(reading.x).1 * reading.rate]
+        })
     }
 
     /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫ F ds by Gauss-Legendre on 32 panels for a law.
@@ -80,8 +103,9 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn first_moment(&self) -> (G::S, G::Vector) {
         let (mut m, mut h) = (G::S::default(), G::Vector::default());
         for node in &self.mechanism.nodes {
-            m += self.work.inertias[node.body].m;
-            h += self.work.inertias[node.body].h;
+            let inertia = self.work.inertias[node.body];
+            m += inertia.m;
+            h += inertia.h + self.reference(node.body) * inertia.m;
         }
         (m, h)
     }
@@ -91,7 +115,7 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn momentum(&self) -> Force<G> {
         let mut sum = Force::default();
         for node in &self.mechanism.nodes {
-            sum += self.work.inertias[node.body] * self.work.twists[node.body];
+            sum += (self.work.inertias[node.body] * self.work.twists[node.body]).about_origin(self.reference(node.body));
         }
         sum
     }
@@ -99,7 +123,6 @@ impl<G: Space> Dynamics<'_, G> {
     /// Rate of the momentum of one body with acceleration `a`: I A + V ×* I V.
     #[must_use]
     pub fn inertial(&self, body: usize, a: Motion<G>) -> Force<G> {
-        let w = &self.work;
-        w.inertias[body] * a + w.twists[body].cross_force(w.inertias[body] * w.twists[body])
+        self.work.inertias[body].momentum_rate(a, self.work.twists[body])
     }
 }

@@ -103,19 +103,19 @@ impl<G: Space> Dynamics<'_, G> {
         w.applied[0] = Force::default();
         for node in &m.nodes {
             let b = node.body;
-            let inertia = m.bodies[b].mass.in_world(w.poses[b]);
+            let inertia = m.bodies[b].mass.in_world(w.places[b]);
             w.inertias[b] = inertia;
             w.applied[b] = Force { n: G::moment(inertia.h, m.gravity), f: m.gravity * inertia.m };
         }
         for pull in &m.pulls {
-            let axes = w.poses[pull.frame].r;
+            let axes = w.places[pull.frame].r;
             let mut wrench = Force::default();
             if !pull.force.is_empty() {
                 let mut f = [G::S::default(); 3];
                 for (f, &output) in f.iter_mut().zip(&pull.force) {
                     *f = w.force_outputs[output];
                 }
-                wrench = Force::at(G::rotate(axes, G::from_components(f)), w.poses[pull.body].point(pull.at));
+                wrench = Force::at(G::rotate(axes, G::from_components(f)), w.places[pull.body].point(pull.at));
             }
             for (axis, &output) in pull.torque.iter().enumerate() {
                 let mut e = [0.0; 3];
@@ -194,6 +194,5 @@ impl<G: Space> Dynamics<'_, G> {
 /// I A + V ×* I V of a body.
 #[inline(always)]
 fn inertial<G: Space>(w: &Workspace<G>, body: usize, acceleration: Motion<G>) -> Force<G> {
-    let (i, v) = (w.inertias[body], w.twists[body]);
-    i * acceleration + v.cross_force(i * v)
+    w.inertias[body].momentum_rate(acceleration, w.twists[body])
 }

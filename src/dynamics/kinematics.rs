@@ -5,7 +5,7 @@
 //! (Featherstone 2008, equation 5.7 in world coordinates).
 
 use super::{Dynamics, Workspace};
-use crate::geometry::{Motion, Space};
+use crate::geometry::{Motion, Pose, Space};
 use crate::mechanism::{Leaf, RowKind, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
@@ -33,7 +33,7 @@ impl<G: Space> Dynamics<'_, G> {
 
     /// Poses, columns, gauges, Φ and G at the coordinates `q` (nq); after [`Dynamics::time`].
     pub fn position(&mut self, q: &[G::S], modes: &[i32]) {
-        self.poses(q);
+        self.place_bodies(q);
         self.placed(q, modes);
     }
 
@@ -63,7 +63,7 @@ impl<G: Space> Dynamics<'_, G> {
                 }
             }
             w.moved[node.body] = moved;
-            let x = &mut w.poses[node.body];
+            let x = &mut w.places[node.body];
             x.p = x.p + moved.at(x.p);
             x.r = G::nudge(x.r, moved.w);
         }
@@ -74,18 +74,27 @@ impl<G: Space> Dynamics<'_, G> {
     fn placed(&mut self, q: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
         for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut self.work.readings) {
-            gauge.position(&self.work.poses, q, &self.work.columns, &modes[m.switches..], reading);
+            let reference = &self.work.references[m.group_between(gauge.a, gauge.b)];
+            gauge.position((&self.work.places, reference), q, &self.work.columns, &modes[m.switches..], reading);
         }
         self.functions(modes);
         self.rows();
     }
 
-    /// Poses and columns alone.
-    fn poses(&mut self, q: &[G::S]) {
+    /// Reference points, poses and columns alone.
+    fn place_bodies(&mut self, q: &[G::S]) {
         let m = self.mechanism;
         let w = &mut self.work;
+        for (group, reference) in m.groups.iter().zip(&mut w.references) {
+            *reference = group.reference(q);
+        }
         for node in &m.nodes {
-            let mut x = w.poses[node.parent].shifted(node.before, node.turned);
+            let mut x = if node.parent == 0 {
+                // the earliest place for a difference
+                Pose { r: node.before.r, p: node.before.p - w.references[m.group_of[node.body]] }
+            } else {
+                w.places[node.parent].shifted(node.before, node.turned)
+            };
             for step in &m.steps[node.steps.clone()] {
                 match *step {
                     Step::Axis { u, d, turns, slides, q: i, v } => {
@@ -117,7 +126,7 @@ impl<G: Space> Dynamics<'_, G> {
                     }
                 }
             }
-            w.poses[node.body] = match node.after {
+            w.places[node.body] = match node.after {
                 Some(after) => x * after,
                 None => x,
             };
@@ -187,7 +196,7 @@ impl<G: Space> Dynamics<'_, G> {
             (w.twists[node.body], w.bias[node.body]) = (twist, bias);
         }
         for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut w.readings) {
-            gauge.velocity(&w.poses, &w.twists, &w.bias, v, reading);
+            gauge.velocity(&w.places, &w.twists, &w.bias, v, reading);
         }
         if m.velocity_program.outputs > 0 {
             self.fill(&m.velocity_program);
@@ -253,10 +262,51 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
+    /// ẍ of a gauge or function from the accelerations a (nv): for a function Σ e_i (ẍ_i − c_i) and its drift.
+    #[must_use]
+    pub fn extent_acceleration(&self, of: StretchOf, a: &[G::S]) -> G::S {
+        let of_gauge = |i: usize| self.mechanism.gauges[i].acceleration(&self.work.readings[i], &self.work.columns, a);
+        match of {
+            StretchOf::Gauge(i) => of_gauge(i),
+            StretchOf::Function(f) => {
+                let function = &self.mechanism.functions[f];
+                let mut sum = self.work.drifts[function.drift];
+                for (i, &gauge) in function.gauges.iter().enumerate() {
+                    sum += self.work.functions[function.value + 1 + i] * (of_gauge(gauge) - self.work.readings[gauge].drift);
+                }
+                sum
+            }
+        }
+    }
+
     /// World position of a point of a body, m.
     #[must_use]
     pub fn point(&self, body: usize, at: G::Vector) -> G::Vector {
-        self.work.poses[body].point(at)
+        if body == 0 { at } else { self.work.places[body].point(at) + self.reference(body) }
+    }
+
+    /// Pose of a body in the world.
+    #[must_use]
+    pub fn pose(&self, body: usize) -> Pose<G> {
+        Pose { r: self.work.places[body].r, p: self.point(body, G::Vector::default()) }
+    }
+
+    /// Poses of all bodies in the world.
+    #[must_use]
+    pub fn poses(&self) -> Vec<Pose<G>> {
+        (0..self.mechanism.bodies.len()).map(|body| self.pose(body)).collect()
+    }
+
+    /// The point that twists, wrenches and inertias of a body are about, m.
+    #[must_use]
+    pub fn reference(&self, body: usize) -> G::Vector {
+        self.work.references[self.mechanism.group_of[body]]
+    }
+
+    /// A point of a body from the reference point of a `group`, which is that of the body unless it is the ground, m.
+    #[must_use]
+    pub fn place(&self, group: usize, body: usize, at: G::Vector) -> G::Vector {
+        if body == 0 { at - self.work.references[group] } else { self.work.places[body].point(at) }
     }
 
     /// Reads the gauges that no row or force needs (joint coordinates for output); after the velocity stage.
@@ -264,8 +314,9 @@ impl<G: Space> Dynamics<'_, G> {
         let m = self.mechanism;
         let w = &mut self.work;
         for (gauge, reading) in m.gauges.iter().zip(&mut w.readings).skip(self.active) {
-            gauge.position(&w.poses, q, &w.columns, &modes[m.switches..], reading);
-            gauge.velocity(&w.poses, &w.twists, &w.bias, v, reading);
+            let reference = &w.references[m.group_between(gauge.a, gauge.b)];
+            gauge.position((&w.places, reference), q, &w.columns, &modes[m.switches..], reading);
+            gauge.velocity(&w.places, &w.twists, &w.bias, v, reading);
         }
     }
 }

@@ -14,15 +14,18 @@ use crate::scalar::Scalar;
 pub struct Reactions<G: Space> {
     /// Acceleration of each body: d/dt of its twist.
     pub accelerations: Vec<Motion<G>>,
-    /// Wrench of each joint on its second body by its first, about the world origin.
+    /// Wrench of each joint on its second body by its first, about the reference point of its group.
     pub joints: Vec<Force<G>>,
     /// Σ m a and d/dt of the angular momentum about the world origin.
     pub shaking: Force<G>,
-    /// Wrench of the mechanism on the frame: minus all that the frame does to it through joints, springs and drivers.
+    /// Wrench of the mechanism on the frame, about the world origin: minus all that the frame does to it through joints, springs and
+    /// drivers.
     pub frame: Force<G>,
     /// Torque or force of each driver on the second body.
     pub drives: Vec<G::S>,
     sums: Vec<Force<G>>,
+    /// What belongs to each group, about its reference point.
+    of_group: Vec<Force<G>>,
     along: Vec<G::S>,
 }
 
@@ -38,6 +41,7 @@ impl<G: Space> Dynamics<'_, G> {
             frame: Force::default(),
             drives: vec![G::S::default(); m.drives.len()],
             sums: vec![Force::default(); m.bodies.len()],
+            of_group: vec![Force::default(); m.groups.len()],
             along: vec![G::S::default(); m.gauges.len()],
         }
     }
@@ -56,24 +60,26 @@ impl<G: Space> Dynamics<'_, G> {
         self.pairs(a, lambda, out);
         let (m, w) = (self.mechanism, &self.work);
         // what each body lacks: I A + V ×* I V − applied − pairs on it
-        out.shaking = Force::default();
+        out.of_group.fill(Force::default());
         out.sums[0] = Force::default();
         for node in &m.nodes {
             let lacking = w.unbalanced[node.body];
-            out.shaking += lacking + w.applied[node.body];
+            out.of_group[m.group_of[node.body]] += lacking + w.applied[node.body];
             out.sums[node.body] = lacking;
         }
-        out.frame = Force::default();
+        out.shaking = self.about_origin(&out.of_group);
+        out.of_group.fill(Force::default());
         for (i, (gauge, &size)) in m.gauges[..self.active].iter().zip(&out.along).enumerate() {
             let pair = w.readings[i].wrench * size;
             out.sums[gauge.b] -= pair;
             out.sums[gauge.a] += pair;
             // a pair that ends on the frame
+            let frame = &mut out.of_group[m.group_between(gauge.a, gauge.b)];
             if gauge.a == 0 {
-                out.frame -= pair;
+                *frame -= pair;
             }
             if gauge.b == 0 {
-                out.frame += pair;
+                *frame += pair;
             }
         }
         for (index, node) in m.nodes.iter().enumerate().rev() {
@@ -81,13 +87,20 @@ impl<G: Space> Dynamics<'_, G> {
             if node.parent != 0 {
                 out.sums[node.parent] += sum;
             } else {
-                out.frame -= sum;
+                out.of_group[m.group_of[node.body]] -= sum;
             }
             if let Some(joint) = m.joint_of_node[index] {
                 let reversed = m.joints[joint].tree.is_some_and(|t| t.1);
                 out.joints[joint] = if reversed { -sum } else { sum };
             }
         }
+        out.frame = self.about_origin(&out.of_group);
+    }
+
+    /// The sum of wrenches that are about the reference points of the groups, about the world origin.
+    fn about_origin(&self, of_group: &[Force<G>]) -> Force<G> {
+        let about = of_group.iter().zip(&self.work.references);
+        about.fold(Force::default(), |sum, (wrench, reference)| sum + wrench.about_origin(*reference))
     }
 
     /// A_b = Σ s_k a_k + bias.

@@ -6,11 +6,12 @@
 //! W · s = f · (ω × (p − p_k)) + f · d,      natural size: |f| |ω| (ℓ + ℓ_k) + |f| |d|,
 //! ```
 //!
-//! where the place p is the sum of what lies between it and the ground, of the size ℓ: it can cancel, its round-off does not. A
+//! where the place p, from the reference point, is the sum of what lies between the two, of the size ℓ: it can cancel, its round-off
+//! does not. A
 //! couple n · ω has |n| |ω|. A second hinge on the axis of the first has entries of about 1e-16 in its rows and a natural size of 1.
 
 use super::Dynamics;
-use crate::geometry::{Pose, Space};
+use crate::geometry::Space;
 use crate::mechanism::{Gauge, Measured, RowKind, RowOwner, Step};
 use grashof_solvers::kkt::natural_row_scale;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
@@ -25,7 +26,7 @@ const VANISHING: f64 = 1e-2;
 
 /// Sizes of what the gauges are made of at one position.
 struct Sizes {
-    /// ℓ of each body: the largest distance from the origin on its road from the ground, m.
+    /// ℓ of each body: the largest distance from the reference point on its road from the ground, m.
     reach: Vec<f64>,
     /// |ω|, |d| and ℓ of each column.
     columns: Vec<[f64; 3]>,
@@ -90,7 +91,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let mut out = vec![0.0; m.rows.len() * m.nv];
         for (row, out) in m.rows.iter().zip(out.chunks_exact_mut(m.nv.max(1))) {
             let mut add = |gauge: usize, slope: f64| {
-                sizes.project(&m.gauges[gauge], &self.work.poses, |k, x| out[k] += slope.abs() * x);
+                sizes.project(&m.gauges[gauge], self, |k, x| out[k] += slope.abs() * x);
             };
             match row.kind {
                 RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => add(gauge, 1.0),
@@ -124,7 +125,12 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let mut sizes = Sizes { reach: vec![0.0; m.bodies.len()], columns: vec![[0.0; 3]; m.nv] };
         for node in &m.nodes {
             let after = node.after.map_or(0.0, |x| length::<G>(x.p));
-            let far = [length::<G>(w.poses[node.parent].p) + length::<G>(node.before.p), length::<G>(w.poses[node.body].p) + after];
+            let from = if node.parent == 0 {
+                length::<G>(node.before.p - self.reference(node.body))
+            } else {
+                length::<G>(w.places[node.parent].p) + length::<G>(node.before.p)
+            };
+            let far = [from, length::<G>(w.places[node.body].p) + after];
             let reach = far.into_iter().fold(sizes.reach[node.parent], f64::max);
             sizes.reach[node.body] = reach;
             for step in &m.steps[node.steps.clone()] {
@@ -140,8 +146,12 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
 
 impl Sizes {
     /// Sizes of ∂ẋ/∂v_k for the columns of a gauge, written by `put(k, size)`.
-    fn project<G: Space<S = f64>>(&self, gauge: &Gauge<G>, poses: &[Pose<G>], mut put: impl FnMut(usize, f64)) {
-        let reach = |body: usize, p: G::Vector| f64::max(self.reach[body], length::<G>(poses[body].p) + length::<G>(p));
+    fn project<G: Space<S = f64>>(&self, gauge: &Gauge<G>, d: &Dynamics<'_, G>, mut put: impl FnMut(usize, f64)) {
+        let (places, group) = (&d.work.places, d.mechanism.group_between(gauge.a, gauge.b));
+        let reach = |body: usize, p: G::Vector| match body {
+            0 => length::<G>(d.place(group, 0, p)),
+            _ => f64::max(self.reach[body], length::<G>(places[body].p) + length::<G>(p)),
+        };
         // |n|, |f| and ℓ of the wrench
         let [couple, force, far] = match gauge.measured {
             Measured::Coordinate { along, .. } => return put(along.v, 1.0),
@@ -149,8 +159,8 @@ impl Sizes {
             Measured::Dot { .. } | Measured::Angle => [1.0, 0.0, 0.0],
             Measured::Turn { e1, e2, f, .. } => {
                 // θ̇ is the rate of the part of f in the plane, over its length
-                let f = G::rotate(poses[gauge.b].r, f);
-                let [c, s] = [e1, e2].map(|e| G::dot(f, G::rotate(poses[gauge.a].r, e)));
+                let f = G::rotate(places[gauge.b].r, f);
+                let [c, s] = [e1, e2].map(|e| G::dot(f, G::rotate(places[gauge.a].r, e)));
                 [c.hypot(s).recip(), 0.0, 0.0]
             }
         };

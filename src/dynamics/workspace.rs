@@ -14,8 +14,10 @@ pub struct Workspace<G: Space> {
     pub nu: Vec<G::S>,
 
     // ---- position: written by `Dynamics::position`
-    /// Pose of each body in the world.
-    pub poses: Vec<Pose<G>>,
+    /// Reference point of each group in the world: moments, twists and inertias of its bodies are about it.
+    pub references: Vec<G::Vector>,
+    /// Pose of each body, its place from the reference point of its group; that of the ground is not used.
+    pub places: Vec<Pose<G>>,
     /// Unit twist of each velocity column in the world (nv).
     pub columns: Vec<Motion<G>>,
     /// Small displacement of each body, in [`Dynamics::nudge`](super::Dynamics::nudge).
@@ -40,7 +42,7 @@ pub struct Workspace<G: Space> {
     pub gamma: Vec<G::S>,
 
     // ---- dynamics: written by `Dynamics::forces` and `Dynamics::mass`
-    /// Inertia of each body about the world origin.
+    /// Inertia of each body.
     pub inertias: Vec<Inertia<G>>,
     /// Inertia of each body with all that hangs on it.
     pub composite: Vec<Inertia<G>>,
@@ -84,7 +86,8 @@ impl<G: Space> Workspace<G> {
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         Self {
             motions: zeros(mechanism.time_program.outputs),
-            poses: vec![Pose::identity(); bodies],
+            references: vec![G::Vector::default(); mechanism.groups.len()],
+            places: vec![Pose::identity(); bodies],
             columns: vec![Motion::default(); nv],
             moved: vec![Motion::default(); bodies],
             readings: vec![Reading::default(); mechanism.gauges.len()],

@@ -137,6 +137,10 @@ impl Compiler<'_> {
             Node::Sqrt(a) => Op::Sqrt(self.register(a)),
             Node::Exp(a) => Op::Exp(self.register(a)),
             Node::Ln(a) => Op::Ln(self.register(a)),
+            Node::Log10(a) => Op::Log10(self.register(a)),
+            Node::Sinh(a) => Op::Sinh(self.register(a)),
+            Node::Cosh(a) => Op::Cosh(self.register(a)),
+            Node::Tanh(a) => Op::Tanh(self.register(a)),
             Node::Compare { op, switch } => match self.pool.switches()[switch as usize].test {
                 Test::Compare(_, a, b) => Op::Compare(op, switch, self.register(a), self.register(b)),
                 _ => Op::Const(f64::NAN),
@@ -154,6 +158,7 @@ impl Compiler<'_> {
                 Test::Sign(a) => Op::Sign(self.register(a), switch),
                 _ => Op::Const(f64::NAN),
             },
+            Node::Floor { a, switch } => Op::Floor(self.register(a), switch),
             Node::Min { a, b, switch } => return self.select(id, [a, b], switch),
             Node::Max { a, b, switch } => return self.select(id, [b, a], switch),
             Node::Table { table, order, x, switch } => match u16::try_from(table) {

@@ -104,6 +104,33 @@ impl Pool {
         self.simplify(Node::Ln(a))
     }
 
+    /// Logarithm of a to the base 10.
+    pub fn log10(&mut self, a: Id) -> Id {
+        self.simplify(Node::Log10(a))
+    }
+
+    /// sinh a.
+    pub fn sinh(&mut self, a: Id) -> Id {
+        self.simplify(Node::Sinh(a))
+    }
+
+    /// cosh a.
+    pub fn cosh(&mut self, a: Id) -> Id {
+        self.simplify(Node::Cosh(a))
+    }
+
+    /// tanh a.
+    pub fn tanh(&mut self, a: Id) -> Id {
+        self.simplify(Node::Tanh(a))
+    }
+
+    /// √(a² + b²).
+    pub fn hypot(&mut self, a: Id, b: Id) -> Id {
+        let (aa, bb) = (self.mul(a, a), self.mul(b, b));
+        let square = self.add(aa, bb);
+        self.sqrt(square)
+    }
+
     /// The number x as a condition: x ≠ 0. Conditions stay as they are.
     pub fn condition(&mut self, x: Id, text: &str) -> Id {
         if self.is_condition(x) {
@@ -175,6 +202,39 @@ impl Pool {
                 self.intern(Node::Sign { switch })
             }
         }
+    }
+
+    /// The largest whole number that is not above a.
+    pub fn floor(&mut self, a: Id, text: &str) -> Id {
+        match self.number(a) {
+            Some(x) => self.constant(x.floor()),
+            None => {
+                let switch = self.switch(Test::Whole(a), text);
+                self.intern(Node::Floor { a, switch })
+            }
+        }
+    }
+
+    /// The smallest whole number that is not below a.
+    pub fn ceil(&mut self, a: Id, text: &str) -> Id {
+        let down = self.neg(a);
+        let below = self.floor(down, text);
+        self.neg(below)
+    }
+
+    /// The whole number nearest to a; halves go up.
+    pub fn round(&mut self, a: Id, text: &str) -> Id {
+        let half = self.constant(0.5);
+        let raised = self.add(a, half);
+        self.floor(raised, text)
+    }
+
+    /// What is left of a after whole multiples of b, from 0 to b: a − b floor(a/b).
+    pub fn modulo(&mut self, a: Id, b: Id, text: &str) -> Id {
+        let quotient = self.div(a, b);
+        let count = self.floor(quotient, text);
+        let whole = self.mul(b, count);
+        self.sub(a, whole)
     }
 
     /// The smaller one.

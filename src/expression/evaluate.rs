@@ -62,6 +62,10 @@ impl Pool {
             Node::Sqrt(a) => value(a).sqrt(),
             Node::Exp(a) => value(a).exp(),
             Node::Ln(a) => value(a).ln(),
+            Node::Log10(a) => value(a).log10(),
+            Node::Sinh(a) => value(a).sinh(),
+            Node::Cosh(a) => value(a).cosh(),
+            Node::Tanh(a) => value(a).tanh(),
             Node::Compare { op, switch } => truth(op.holds(mode(switch))),
             Node::And(a, b) => truth(value(a) != 0.0 && value(b) != 0.0),
             Node::Or(a, b) => truth(value(a) != 0.0 || value(b) != 0.0),
@@ -69,6 +73,7 @@ impl Pool {
             Node::If { condition, then, other } => value(if value(condition) != 0.0 { then } else { other }),
             Node::Abs { a, switch } => value(a) * f64::from(mode(switch)),
             Node::Sign { switch } => f64::from(mode(switch)),
+            Node::Floor { a, .. } => value(a).floor(),
             Node::Min { a, b, switch } => value(if mode(switch) != 0 { a } else { b }),
             Node::Max { a, b, switch } => value(if mode(switch) != 0 { b } else { a }),
             Node::Table { table, order, x, switch } => {

@@ -1,5 +1,6 @@
 //! The functions of the format: their names, arguments, dimensions and nodes.
 
+use super::nearest::nearest;
 use super::pool::{Id, Pool};
 use super::units::Dimension;
 
@@ -8,13 +9,15 @@ use super::units::Dimension;
 pub(super) enum Shape {
     /// A number in, a number out.
     Number,
+    /// A number in, an angle out.
+    Inverse,
     /// √: any dimension, halved.
     Root,
     /// The dimension of its argument.
     Same,
     /// Any dimension in, a number out.
     Plain,
-    /// Two arguments of one dimension, a number out.
+    /// Two arguments of one dimension, an angle out.
     Angle,
     /// Arguments of one dimension, which is the result's.
     Alike,
@@ -39,15 +42,24 @@ const fn function(name: &'static str, shape: Shape, count: (usize, usize), usage
     Function { name, shape, count, usage }
 }
 
-const FUNCTIONS: [Function; 17] = [
+const FUNCTIONS: [Function; 26] = [
     function("sin", Shape::Number, (1, 1), "sin(x)"),
     function("cos", Shape::Number, (1, 1), "cos(x)"),
     function("tan", Shape::Number, (1, 1), "tan(x)"),
-    function("asin", Shape::Number, (1, 1), "asin(x)"),
-    function("acos", Shape::Number, (1, 1), "acos(x)"),
-    function("atan", Shape::Number, (1, 1), "atan(x)"),
+    function("asin", Shape::Inverse, (1, 1), "asin(x)"),
+    function("acos", Shape::Inverse, (1, 1), "acos(x)"),
+    function("atan", Shape::Inverse, (1, 1), "atan(x)"),
     function("exp", Shape::Number, (1, 1), "exp(x)"),
     function("log", Shape::Number, (1, 1), "log(x)"),
+    function("log10", Shape::Number, (1, 1), "log10(x)"),
+    function("sinh", Shape::Number, (1, 1), "sinh(x)"),
+    function("cosh", Shape::Number, (1, 1), "cosh(x)"),
+    function("tanh", Shape::Number, (1, 1), "tanh(x)"),
+    function("floor", Shape::Number, (1, 1), "floor(x)"),
+    function("ceil", Shape::Number, (1, 1), "ceil(x)"),
+    function("round", Shape::Number, (1, 1), "round(x)"),
+    function("mod", Shape::Alike, (2, 2), "mod(x, y)"),
+    function("hypot", Shape::Alike, (2, 2), "hypot(x, y)"),
     function("atan2", Shape::Angle, (2, 2), "atan2(y, x)"),
     function("sqrt", Shape::Root, (1, 1), "sqrt(x)"),
     function("abs", Shape::Same, (1, 1), "abs(x)"),
@@ -89,9 +101,11 @@ pub(super) fn functional(name: &str, arguments: usize) -> Option<Functional> {
 
 /// What to write instead of a function that does not exist.
 pub(super) fn remedy(name: &str) -> String {
-    const OTHERS: [(&str, &str); 14] = [
+    const OTHERS: [(&str, &str); 16] = [
         ("ln", "the natural logarithm is `log(x)`"),
-        ("log10", "write `log(x)/log(10)`"),
+        ("log1p", "write `log(1 + x)`"),
+        ("trunc", "write `sign(x)*floor(abs(x))`"),
+        ("fmod", "write `mod(x, y)`, which has the sign of y"),
         ("log2", "write `log(x)/log(2)`"),
         ("pow", "write `a^b`"),
         ("arcsin", "write `asin(x)`"),
@@ -108,12 +122,23 @@ pub(super) fn remedy(name: &str) -> String {
     if let Some((_, text)) = OTHERS.into_iter().find(|(other, _)| *other == name) {
         return (*text).to_owned();
     }
-    let lower = name.to_ascii_lowercase();
-    let known = FUNCTIONS.into_iter().map(|f| f.usage).chain(FUNCTIONALS.into_iter().map(|f| f.usage));
-    match known.into_iter().find(|usage| name != lower && usage.split('(').next() == Some(lower.as_str())) {
-        Some(usage) => format!("did you mean `{usage}`?"),
+    match meant(name) {
+        Some(usage) => format!("did you mean `{usage}`? If a product is meant, write `{name}*(..)`"),
         None => format!("if a product is meant, write `{name}*(..)`"),
     }
+}
+
+/// How the function is called that a misspelt name probably means.
+pub(super) fn meant(name: &str) -> Option<&'static str> {
+    let known = FUNCTIONS.into_iter().map(|f| (f.name, f.usage)).chain(FUNCTIONALS.into_iter().map(|f| (f.name, f.usage)));
+    let near = nearest(name, known.clone().map(|(name, _)| name))?;
+    known.into_iter().find(|(name, _)| *name == near).map(|(_, usage)| usage)
+}
+
+/// Whether expressions have a function or a functional of this name.
+#[must_use]
+pub fn is_function(name: &str) -> bool {
+    named(name).is_some() || FUNCTIONALS.into_iter().any(|f| f.name == name)
 }
 
 impl Function {
@@ -128,6 +153,15 @@ impl Function {
             ("atan", [a]) => pool.atan(*a),
             ("exp", [a]) => pool.exp(*a),
             ("log", [a]) => pool.ln(*a),
+            ("log10", [a]) => pool.log10(*a),
+            ("sinh", [a]) => pool.sinh(*a),
+            ("cosh", [a]) => pool.cosh(*a),
+            ("tanh", [a]) => pool.tanh(*a),
+            ("floor", [a]) => pool.floor(*a, text),
+            ("ceil", [a]) => pool.ceil(*a, text),
+            ("round", [a]) => pool.round(*a, text),
+            ("mod", [a, b]) => pool.modulo(*a, *b, text),
+            ("hypot", [a, b]) => pool.hypot(*a, *b),
             ("sqrt", [a]) => pool.sqrt(*a),
             ("abs", [a]) => pool.abs(*a, text),
             ("sign", [a]) => pool.sign(*a, text),
@@ -146,7 +180,8 @@ impl Function {
     /// Dimension of the result from that of the arguments (of the one that counts).
     pub(super) fn dimension(&self, of: Dimension) -> Option<Dimension> {
         match self.shape {
-            Shape::Number | Shape::Plain | Shape::Angle => Some(Dimension::NONE),
+            Shape::Number | Shape::Plain => Some(Dimension::NONE),
+            Shape::Inverse | Shape::Angle => Some(Dimension::ANGLE),
             Shape::Root => of.sqrt(),
             Shape::Same | Shape::Alike | Shape::If => Some(of),
             Shape::Rate => Some(of.div(Dimension::TIME)),
@@ -178,6 +213,7 @@ mod tests {
     fn remedies() {
         assert!(remedy("k").contains("`k*(..)`"));
         assert!(remedy("Sin").contains("sin(x)"));
+        assert!(remedy("maxx").contains("`max(a, b)`") && remedy("tanhh").contains("`tanh(x)`"));
         assert!(remedy("ln").contains("log(x)"));
     }
 }

@@ -8,7 +8,7 @@ use super::parser::{Expr, Kind};
 use super::pool::{Id, Node, Pool};
 use super::scope::{Fault, Lowered, Scope, Unknown};
 use super::switch::Compare;
-use super::units::{Dimension, unit};
+use super::units::{Dimension, nearest_unit, unit};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -39,7 +39,7 @@ type Operand = (Option<Lowered>, Range<usize>);
 
 impl Lowerer<'_> {
     fn fault(&mut self, at: &Range<usize>, found: String, expected: impl Into<String>, help: Option<String>) {
-        self.faults.push(Fault { at: at.clone(), found, expected: expected.into(), help });
+        self.faults.push(Fault { at: at.clone(), found, expected: expected.into(), help, wanted: None });
     }
 
     fn unknown(&mut self, at: &Range<usize>, unknown: Unknown) {
@@ -64,7 +64,8 @@ impl Lowerer<'_> {
                 let id = self.pool.constant(*x);
                 Some(Lowered { any: *x == 0.0, ..self.made(id, Dimension::NONE, true) })
             }
-            Kind::Quantity(x, dimension) => {
+            Kind::Quantity(x, dimension, starred) => {
+                self.refuse_double(&expr.at, starred)?;
                 let id = self.pool.constant(*x);
                 Some(self.made(id, *dimension, false))
             }
@@ -88,6 +89,21 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Refuses a quantity like `9.81 m/s^2*m` where `m` is a name too: both readings make sense.
+    fn refuse_double(&mut self, at: &Range<usize>, starred: &[Range<usize>]) -> Option<()> {
+        let Some(word_at) = starred.iter().find(|word| self.scope.has_value(self.slice(word))) else { return Some(()) };
+        let (word, behind) = (self.slice(word_at).to_owned(), self.slice(&(word_at.start..at.end)).to_owned());
+        let before = self.slice(&(at.start..word_at.start)).trim_end().trim_end_matches('*').trim_end().to_owned();
+        let help = Some(format!("write `({before})*{behind}` for the name, `{before}*1 {behind}` for the unit"));
+        self.fault(
+            word_at,
+            format!("`*{word}`, where `{word}` is a unit and a name of this file"),
+            format!("`{word}` with one meaning"),
+            help,
+        );
+        None
+    }
+
     fn path(&mut self, path: &str, at: &Range<usize>) -> Option<Lowered> {
         if path == "pi" {
             let id = self.pool.constant(PI);
@@ -103,6 +119,10 @@ impl Lowerer<'_> {
             Err(mut unknown) => {
                 if unknown.help.is_none() && unit(path).is_some() {
                     unknown.help = Some(format!("`{path}` is a unit and stands behind its number: `1 {path}`"));
+                } else if unknown.help.is_none()
+                    && let Some(near) = nearest_unit(path)
+                {
+                    unknown.help = Some(format!("did you mean the unit `{near}`? It stands behind its number: `1 {near}`"));
                 }
                 self.unknown(at, unknown);
                 None
@@ -117,6 +137,8 @@ impl Lowerer<'_> {
         // whoever has a unit or a name decides, so that the bare number is blamed
         let leader = sized().find(|(l, _)| !l.bare).or_else(|| sized().next()).or(known.first());
         let dimension = leader.map_or(Dimension::NONE, |(l, _)| l.dimension);
+        let angular = sized().filter(|(l, _)| l.dimension == dimension).map(|(l, _)| l.dimension);
+        let dimension = angular.fold(dimension, Dimension::or_angle);
         let (any, bare) = (known.iter().all(|(l, _)| l.any), known.iter().all(|(l, _)| l.bare));
         let wrong: Vec<_> = sized().filter(|(l, _)| l.dimension != dimension).map(|(l, at)| (*l, (*at).clone())).collect();
         for (lowered, at) in wrong {
@@ -126,7 +148,8 @@ impl Lowerer<'_> {
                 let with_unit = if literal { dimension.written(text) } else { format!("({text})*{}", dimension.written("1")) };
                 format!("write `{with_unit}`")
             });
-            self.fault(&at, lowered.dimension.name(), dimension.name(), help);
+            let (found, expected) = (lowered.dimension.name(), dimension.name());
+            self.faults.push(Fault { at, found, expected, help, wanted: Some(dimension) });
         }
         (dimension, any, bare)
     }
@@ -177,7 +200,7 @@ impl Lowerer<'_> {
         })?;
         let base = base?;
         let dimension = if base.any || base.dimension == Dimension::NONE {
-            Dimension::NONE
+            self.pool.constant_value(exponent.id).and_then(|n| base.dimension.power(n)).unwrap_or(Dimension::NONE)
         } else {
             let name = base.dimension.name();
             let Some(n) = self.pool.constant_value(exponent.id) else {
@@ -234,8 +257,11 @@ impl Lowerer<'_> {
         if let Some((table, x, y)) = self.scope.table(name) {
             return self.table(name, (table, x, y), arguments, at);
         }
-        for argument in arguments {
-            self.expr(argument);
+        // what may stand in a function is known only of a known one
+        if function::meant(name).is_none() {
+            for argument in arguments {
+                self.expr(argument);
+            }
         }
         self.fault(name_at, format!("`{name}(..)`"), "a function or a table", Some(function::remedy(name)));
         None
@@ -262,7 +288,7 @@ impl Lowerer<'_> {
             return None;
         }
         let (dimension, any, bare) = match function.shape {
-            Shape::Number => {
+            Shape::Number | Shape::Inverse => {
                 if let (Some(x), x_at) = &operands[0]
                     && x.expect(Dimension::NONE).is_err()
                 {

@@ -12,7 +12,9 @@ mod evaluate;
 mod function;
 mod lexer;
 mod lower;
+mod nearest;
 mod parser;
+mod part;
 mod pool;
 mod program;
 mod quantity;
@@ -25,14 +27,17 @@ mod table;
 mod units;
 
 pub use cause::Cause;
+pub use function::is_function;
 pub use lower::lower;
+pub use nearest::{MOST_CANDIDATES, nearest};
 pub use parser::{Expr, Kind, SyntaxError, parse};
+pub use part::{Part, Wanted};
 pub use pool::{Id, Node, Pool};
 pub use program::Program;
 pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
 pub use table::{Between, Beyond, Table, TableError};
-pub use units::{Dimension, parse_unit, unit};
+pub use units::{Dimension, parse_unit};
 
 #[cfg(test)]
 mod undefined_tests;

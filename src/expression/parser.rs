@@ -33,8 +33,8 @@ pub struct Expr {
 pub enum Kind {
     /// A number without a unit.
     Number(f64),
-    /// A number with a unit, in SI.
-    Quantity(f64, Dimension),
+    /// A number with a unit, in SI; bytes of the words of the unit that stand behind a `*`, which a name may claim.
+    Quantity(f64, Dimension, Vec<Range<usize>>),
     /// A name, or names joined by dots.
     Path(String),
     /// A function's name, its bytes, its arguments.

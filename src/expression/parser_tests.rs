@@ -9,7 +9,7 @@ fn tree(e: &Expr) -> String {
     };
     match &e.kind {
         Kind::Number(x) => x.to_string(),
-        Kind::Quantity(x, d) => format!("[{x} {}]", d.si()),
+        Kind::Quantity(x, d, _) => format!("[{x} {}]", d.si()),
         Kind::Path(p) => p.clone(),
         Kind::Call(name, _, arguments) => format!("{name}({})", all(arguments, ", ")),
         Kind::Negate(a) => format!("(-{})", tree(a)),

@@ -70,6 +70,14 @@ pub enum Node {
     Exp(Id),
     /// ln a
     Ln(Id),
+    /// Logarithm to the base 10.
+    Log10(Id),
+    /// sinh a
+    Sinh(Id),
+    /// cosh a
+    Cosh(Id),
+    /// tanh a
+    Tanh(Id),
     /// Whether the comparison holds in the mode of `switch`.
     Compare {
         /// One of `Less`, `LessEqual`, `Equal`, `NotEqual`.
@@ -102,6 +110,13 @@ pub enum Node {
     /// The mode of `switch`.
     Sign {
         /// A [`Test::Sign`].
+        switch: u32,
+    },
+    /// The largest whole number that is not above a: the mode of `switch`, not a number where that is [`super::switch::OUTSIDE`].
+    Floor {
+        /// The operand.
+        a: Id,
+        /// A [`Test::Whole`].
         switch: u32,
     },
     /// a in mode 1, b in mode 0.
@@ -145,6 +160,7 @@ impl Node {
             Self::Compare { switch, .. }
             | Self::Abs { switch, .. }
             | Self::Sign { switch }
+            | Self::Floor { switch, .. }
             | Self::Min { switch, .. }
             | Self::Max { switch, .. }
             | Self::Table { switch, .. } => Some(switch),
@@ -173,12 +189,17 @@ impl Node {
             Self::Sqrt(a) => Self::Sqrt(f(a)),
             Self::Exp(a) => Self::Exp(f(a)),
             Self::Ln(a) => Self::Ln(f(a)),
+            Self::Log10(a) => Self::Log10(f(a)),
+            Self::Sinh(a) => Self::Sinh(f(a)),
+            Self::Cosh(a) => Self::Cosh(f(a)),
+            Self::Tanh(a) => Self::Tanh(f(a)),
             Self::And(a, b) => Self::And(f(a), f(b)),
             Self::Or(a, b) => Self::Or(f(a), f(b)),
             Self::Where(a, b) => Self::Where(f(a), f(b)),
             Self::Not(a) => Self::Not(f(a)),
             Self::If { condition, then, other } => Self::If { condition: f(condition), then: f(then), other: f(other) },
             Self::Abs { a, switch } => Self::Abs { a: f(a), switch },
+            Self::Floor { a, switch } => Self::Floor { a: f(a), switch },
             Self::Min { a, b, switch } => Self::Min { a: f(a), b: f(b), switch },
             Self::Max { a, b, switch } => Self::Max { a: f(a), b: f(b), switch },
             Self::Table { table, order, x, switch } => Self::Table { table, order, x: f(x), switch },

@@ -1,6 +1,6 @@
 //! Straight-line code: the form in which expressions are evaluated, on any scalar.
 
-use super::switch::{Compare, Test};
+use super::switch::{Compare, Test, whole};
 use super::table::Table;
 use crate::scalar::Scalar;
 use std::sync::Arc;
@@ -31,6 +31,10 @@ pub(super) enum Op {
     Sqrt(u32),
     Exp(u32),
     Ln(u32),
+    Log10(u32),
+    Sinh(u32),
+    Cosh(u32),
+    Tanh(u32),
     /// Comparison, switch, both sides.
     Compare(Compare, u32, u32, u32),
     And(u32, u32),
@@ -42,6 +46,8 @@ pub(super) enum Op {
     Signed(u32, u32),
     /// Operand, the mode of its switch.
     Sign(u32, u32),
+    /// Operand, switch: the mode as a number.
+    Floor(u32, u32),
     /// Value in modes but 0, value in mode 0, switch; both are defined.
     Select(u32, u32, u32),
     /// The same, whether or not the other one is defined.
@@ -50,6 +56,50 @@ pub(super) enum Op {
     Where(u32, u32),
     /// Table, order, argument, switch.
     Table(u16, u8, u32, u32),
+}
+
+impl Op {
+    /// The same instruction on other registers.
+    pub(super) fn map(self, mut f: impl FnMut(u32) -> u32) -> Self {
+        match self {
+            Self::Const(_) | Self::Input(_) => self,
+            Self::Neg(a) => Self::Neg(f(a)),
+            Self::Add(a, b) => Self::Add(f(a), f(b)),
+            Self::Shift(a, c) => Self::Shift(f(a), c),
+            Self::Sub(a, b) => Self::Sub(f(a), f(b)),
+            Self::Mul(a, b) => Self::Mul(f(a), f(b)),
+            Self::Scale(a, c) => Self::Scale(f(a), c),
+            Self::Div(a, b) => Self::Div(f(a), f(b)),
+            Self::Powi(a, n) => Self::Powi(f(a), n),
+            Self::Powf(a, n) => Self::Powf(f(a), n),
+            Self::Pow(a, b) => Self::Pow(f(a), f(b)),
+            Self::SinCos(a) => Self::SinCos(f(a)),
+            Self::Tan(a) => Self::Tan(f(a)),
+            Self::Asin(a) => Self::Asin(f(a)),
+            Self::Acos(a) => Self::Acos(f(a)),
+            Self::Atan(a) => Self::Atan(f(a)),
+            Self::Atan2(a, b) => Self::Atan2(f(a), f(b)),
+            Self::Sqrt(a) => Self::Sqrt(f(a)),
+            Self::Exp(a) => Self::Exp(f(a)),
+            Self::Ln(a) => Self::Ln(f(a)),
+            Self::Log10(a) => Self::Log10(f(a)),
+            Self::Sinh(a) => Self::Sinh(f(a)),
+            Self::Cosh(a) => Self::Cosh(f(a)),
+            Self::Tanh(a) => Self::Tanh(f(a)),
+            Self::Compare(op, switch, a, b) => Self::Compare(op, switch, f(a), f(b)),
+            Self::And(a, b) => Self::And(f(a), f(b)),
+            Self::Or(a, b) => Self::Or(f(a), f(b)),
+            Self::Not(a) => Self::Not(f(a)),
+            Self::If(c, a, b) => Self::If(f(c), f(a), f(b)),
+            Self::Signed(a, switch) => Self::Signed(f(a), switch),
+            Self::Sign(a, switch) => Self::Sign(f(a), switch),
+            Self::Floor(a, switch) => Self::Floor(f(a), switch),
+            Self::Select(a, b, switch) => Self::Select(f(a), f(b), switch),
+            Self::Choose(a, b, switch) => Self::Choose(f(a), f(b), switch),
+            Self::Where(a, b) => Self::Where(f(a), f(b)),
+            Self::Table(table, order, x, switch) => Self::Table(table, order, f(x), switch),
+        }
+    }
 }
 
 /// A switch of a program.
@@ -79,7 +129,7 @@ pub struct Program {
 
 /// Runs one instruction whose result belongs into register `k`; returns the next free register.
 #[inline(always)]
-fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
+pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
     let at = |i: u32| r[i as usize];
     // conditions are constants that modes decided, so reading their value is no branch on a scalar
     let truth = |i: u32| r[i as usize].value() != 0.0;
@@ -114,6 +164,10 @@ fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Tabl
         Op::Sqrt(a) => at(a).sqrt(),
         Op::Exp(a) => at(a).exp().where_finite(at(a)),
         Op::Ln(a) => at(a).ln(),
+        Op::Log10(a) => at(a).log10(),
+        Op::Sinh(a) => at(a).sinh(),
+        Op::Cosh(a) => at(a).cosh(),
+        Op::Tanh(a) => at(a).tanh().where_finite(at(a)),
         Op::Compare(op, switch, a, b) => boolean(op.holds(mode(switch))).where_finite(at(a)).where_finite(at(b)),
         Op::And(a, b) => boolean(truth(a) && truth(b)).where_finite(at(a)).where_finite(at(b)),
         Op::Or(a, b) => boolean(truth(a) || truth(b)).where_finite(at(a)).where_finite(at(b)),
@@ -121,6 +175,7 @@ fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Tabl
         Op::If(c, a, b) => at(if truth(c) { a } else { b }).where_finite(at(c)),
         Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
         Op::Sign(a, switch) => S::constant(f64::from(mode(switch))).where_finite(at(a)),
+        Op::Floor(a, switch) => S::constant(whole(mode(switch))).where_finite(at(a)),
         Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }).where_finite(at(a)).where_finite(at(b)),
         Op::Choose(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
         Op::Where(a, b) => at(a).where_finite(at(b)),
@@ -201,6 +256,15 @@ impl Program {
         for ((root, decision), switch) in roots.iter_mut().zip(&self.decisions).zip(&self.switches) {
             *root = decision.test.root(modes[*switch as usize], |i| registers[i as usize], &self.tables);
         }
+    }
+
+    /// Distances from the lower and the upper end of the present segment for switch number `k` of [`Self::switches`], if it is that of
+    /// a table; smooth where the nearer of them, which [`Self::roots`] gives, has a kink.
+    ///
+    /// `registers` are those that [`Self::roots`] left.
+    #[must_use]
+    pub fn segment_ends(&self, k: usize, modes: &[i32], registers: &[f64]) -> Option<[f64; 2]> {
+        self.decisions[k].test.ends(modes[self.switches[k] as usize], |i| registers[i as usize], &self.tables)
     }
 
     /// The mode behind the switch that is number `k` of [`Self::switches`], across the end of its present mode that is nearest.

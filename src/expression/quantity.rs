@@ -2,7 +2,7 @@
 
 use super::lexer::Token;
 use super::parser::{Expr, Kind, Parser, SyntaxError};
-use super::units::{Dimension, unit};
+use super::units::{Dimension, nearest_unit, unit};
 use std::f64::consts::TAU;
 
 /// Largest exponent of a unit.
@@ -10,6 +10,9 @@ const MAX_EXPONENT: f64 = 9.0;
 
 impl Parser<'_> {
     /// `NUMBER [UNIT]`, the number being read already: names side by side, `/` or `*` before a name, `^n` behind one.
+    ///
+    /// No names are known here. Directly behind a number or a unit, and behind `/`, nothing but a unit makes sense; a word behind
+    /// `*` is handed on, since it may be a name of the file.
     pub(super) fn quantity(&mut self, number: f64) -> Result<Expr, SyntaxError> {
         let start = self.last().at.start;
         if self.unit_at(0).is_none() {
@@ -17,7 +20,7 @@ impl Parser<'_> {
             return Ok(Expr { at: start..self.last().at.end, kind: Kind::Number(number) });
         }
         let (mut factors, mut power, mut dimension) = (1.0, 0, Dimension::NONE);
-        let (mut divided, mut below) = (false, false);
+        let (mut divided, mut below, mut starred) = (false, false, Vec::new());
         while let Some((factor, word_dimension)) = self.unit_at(0) {
             self.advance();
             let n = self.exponent()?;
@@ -33,6 +36,9 @@ impl Parser<'_> {
                     self.advance();
                     below = sign == "/";
                     divided |= below;
+                    if !below {
+                        starred.push(self.here());
+                    }
                 }
                 _ if divided && self.unit_at(0).is_some() => {
                     let word = self.found();
@@ -45,15 +51,15 @@ impl Parser<'_> {
         let at = start..self.last().at.end;
         let size = shifted(number, power) * factors;
         if size.is_finite() && (size != 0.0 || number == 0.0) {
-            return Ok(Expr { at, kind: Kind::Quantity(size, dimension) });
+            return Ok(Expr { at, kind: Kind::Quantity(size, dimension, starred) });
         }
         Err(SyntaxError { found: format!("`{}`", self.slice(&at)), at, expected: "a finite number in SI units".to_owned(), help: None })
     }
 
-    /// Size and dimension of the unit word `ahead` tokens ahead. `min(` is the function.
+    /// Size and dimension of the unit word `ahead` tokens ahead. `min(` is the function, `m(` could be a table.
     fn unit_at(&self, ahead: usize) -> Option<(f64, Dimension)> {
         match self.token(ahead) {
-            Token::Word("min") if self.token(ahead + 1) == Token::Sign("(") => None,
+            Token::Word(_) if self.token(ahead + 1) == Token::Sign("(") => None,
             Token::Word(word) => unit(word),
             Token::Sign("%") => unit("%"),
             _ => None,
@@ -114,7 +120,9 @@ impl Parser<'_> {
             return error("a unit or an operator", format!("write `{text} {units}`"));
         }
         let call = if self.token(1) == Token::Sign("(") { "(..)" } else { "" };
-        error("a unit or an operator", format!("a product is written with a star: `{text}*{word}{call}`"))
+        let near = nearest_unit(word).filter(|_| call.is_empty());
+        let near = near.map_or_else(String::new, |near| format!("did you mean `{text} {near}`? "));
+        error("a unit or an operator", format!("{near}a product is written with a star: `{text}*{word}{call}`").replace("? a", "? A"))
     }
 }
 
@@ -134,7 +142,7 @@ fn shifted(number: f64, power: i32) -> f64 {
 
 /// The units that a word probably means: `Nm` is `N m`, `KG` is `kg`, `mm2` is `mm^2`.
 fn meant(word: &str) -> Option<String> {
-    const LONG: [(&str, &str); 18] = [
+    const LONG: [(&str, &str); 24] = [
         ("degree", "deg"),
         ("degrees", "deg"),
         ("radian", "rad"),
@@ -142,6 +150,12 @@ fn meant(word: &str) -> Option<String> {
         ("meter", "m"),
         ("metre", "m"),
         ("meters", "m"),
+        ("metres", "m"),
+        ("lbs", "lb"),
+        ("pound", "lb"),
+        ("pounds", "lb"),
+        ("inches", "in"),
+        ("feet", "ft"),
         ("second", "s"),
         ("seconds", "s"),
         ("sec", "s"),
@@ -185,7 +199,7 @@ mod tests {
 
     fn quantity(text: &str) -> (f64, Dimension) {
         match parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}")).kind {
-            Kind::Quantity(x, dimension) => (x, dimension),
+            Kind::Quantity(x, dimension, _) => (x, dimension),
             other => panic!("{text}: {other:?}"),
         }
     }
@@ -222,6 +236,8 @@ mod tests {
             ("2 KG", "write `2 kg`"),
             ("2 mm2", "write `2 mm^2`"),
             ("30 degrees", "write `30 deg`"),
+            ("5 cms", "did you mean `5 cm`? A product is written with a star: `5*cms`"),
+            ("0.5 lbs", "write `0.5 lb`"),
             ("2 k", "a product is written with a star: `2*k`"),
             ("2 f(a)", "a product is written with a star: `2*f(..)`"),
         ] {

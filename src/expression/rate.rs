@@ -4,6 +4,7 @@
 
 use super::pool::{Id, Node, Pool};
 use std::collections::HashMap;
+use std::f64::consts::LN_10;
 
 impl Pool {
     /// The time derivative of a node; `leaf` gives the node that is the rate of an input.
@@ -31,7 +32,7 @@ impl Pool {
     fn chain_rule(&mut self, id: Id, node: Node, zero: Id, of: impl Fn(Id) -> Id) -> Id {
         match node {
             Node::Const(_) | Node::Parameter(_) | Node::Input(_) => zero,
-            Node::Compare { .. } | Node::And(..) | Node::Or(..) | Node::Not(_) | Node::Sign { .. } => zero,
+            Node::Compare { .. } | Node::And(..) | Node::Or(..) | Node::Not(_) | Node::Sign { .. } | Node::Floor { .. } => zero,
             Node::Neg(a) => self.neg(of(a)),
             Node::Add(a, b) => self.add(of(a), of(b)),
             Node::Sub(a, b) => self.sub(of(a), of(b)),
@@ -86,7 +87,11 @@ impl Pool {
             | Node::Atan(a)
             | Node::Sqrt(a)
             | Node::Exp(a)
-            | Node::Ln(a) => {
+            | Node::Ln(a)
+            | Node::Log10(a)
+            | Node::Sinh(a)
+            | Node::Cosh(a)
+            | Node::Tanh(a) => {
                 if of(a) == zero {
                     zero
                 } else {
@@ -160,6 +165,25 @@ impl Pool {
             }
             Node::Exp(_) => self.mul(id, rate),
             Node::Ln(a) => self.div(rate, a),
+            Node::Log10(a) => {
+                let ten = self.constant(LN_10);
+                let below = self.mul(ten, a);
+                self.div(rate, below)
+            }
+            Node::Sinh(a) => {
+                let slope = self.cosh(a);
+                self.mul(slope, rate)
+            }
+            Node::Cosh(a) => {
+                let slope = self.sinh(a);
+                self.mul(slope, rate)
+            }
+            Node::Tanh(a) => {
+                // 1/cosh²; 1 − tanh² would cancel where the slope is small
+                let cosh = self.cosh(a);
+                let below = self.mul(cosh, cosh);
+                self.div(rate, below)
+            }
             _ => rate,
         }
     }

@@ -35,6 +35,8 @@ pub struct Fault {
     pub expected: String,
     /// One remedy.
     pub help: Option<String>,
+    /// The dimension that was expected, where one was.
+    pub wanted: Option<Dimension>,
 }
 
 /// A lowered expression.
@@ -69,6 +71,9 @@ pub trait Scope {
     /// # Errors
     /// What to say about a name that does not exist, or may not be used here.
     fn name(&mut self, pool: &mut Pool, path: &str) -> Result<Symbol, Unknown>;
+
+    /// Whether a word alone is the name of a value, though it may not be used here.
+    fn has_value(&self, word: &str) -> bool;
 
     /// Number of the table of this name, with the dimensions of x and y.
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)>;

@@ -33,6 +33,7 @@ impl Pool {
             Node::Powi(_, n) => n >= 0,
             Node::Div(..) | Node::Pow(..) | Node::Tan(_) | Node::Asin(_) | Node::Acos(_) => false,
             Node::Sqrt(_) | Node::Exp(_) | Node::Ln(_) | Node::Table { .. } => false,
+            Node::Log10(_) | Node::Sinh(_) | Node::Cosh(_) | Node::Floor { .. } => false,
             _ => true,
         };
         let _ = node.map(|operand| {
@@ -134,6 +135,10 @@ impl Pool {
             },
             Node::Sign { switch } => match self.decided(self.switches[switch as usize].test) {
                 Some(mode) => self.constant(f64::from(mode)),
+                None => self.intern(node),
+            },
+            Node::Floor { a, .. } => match self.number(a) {
+                Some(x) => self.constant(x.floor()),
                 None => self.intern(node),
             },
             Node::Abs { a, switch } => match self.decided(self.switches[switch as usize].test) {

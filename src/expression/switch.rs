@@ -6,10 +6,12 @@
 //! | `a == b`, `a != b` | sign of a − b: −1, 0, 1 |
 //! | `abs(a)`, `sign(a)` | sign of a: −1, 0, 1 |
 //! | `min(a, b)`, `max(a, b)` | 1 if a ≤ b, else 0 |
+//! | `floor(a)`, `ceil(a)`, `round(a)`, `mod(a, b)` | the whole number below a, −a, a + 1/2, a/b; without bound up to ±2³¹ |
 //! | table | number of the segment; −1 below, n above the n segments; periodic tables count on without bound |
 
 use super::pool::Id;
 use super::table::Table;
+use crate::scalar::{Interval, Scalar};
 
 /// A comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,6 +51,8 @@ pub enum Test<I = Id> {
     Sign(I),
     /// Which of two is smaller, for `min` and `max`.
     Order(I, I),
+    /// The largest whole number that is not above an operand.
+    Whole(I),
     /// Segment of a table.
     Segment {
         /// Number of the table.
@@ -72,6 +76,20 @@ fn sign(x: f64) -> i32 {
     if x < 0.0 { -1 } else { i32::from(x != 0.0) }
 }
 
+/// The mode of a whole number that is undefined, or beyond ±2³¹.
+pub(super) const OUTSIDE: i32 = i32::MIN;
+
+/// The whole number that a mode of [`Test::Whole`] stands for.
+#[inline]
+pub(super) fn whole(mode: i32) -> f64 {
+    if mode == OUTSIDE { f64::NAN } else { f64::from(mode) }
+}
+
+fn whole_below(x: f64) -> i32 {
+    let below = x.floor();
+    if below.abs() < f64::from(i32::MAX) { below as i32 } else { OUTSIDE }
+}
+
 impl<I: Copy> Test<I> {
     /// The same test of other operands.
     pub(super) fn map<J>(self, mut f: impl FnMut(I) -> J) -> Test<J> {
@@ -79,6 +97,7 @@ impl<I: Copy> Test<I> {
             Self::Compare(op, a, b) => Test::Compare(op, f(a), f(b)),
             Self::Sign(a) => Test::Sign(f(a)),
             Self::Order(a, b) => Test::Order(f(a), f(b)),
+            Self::Whole(a) => Test::Whole(f(a)),
             Self::Segment { table, x } => Test::Segment { table, x: f(x) },
         }
     }
@@ -92,6 +111,7 @@ impl<I: Copy> Test<I> {
             Self::Compare(Compare::GreaterEqual, a, b) => i32::from(value(a) >= value(b)),
             Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => sign(value(a) - value(b)),
             Self::Sign(a) => sign(value(a)),
+            Self::Whole(a) => whole_below(value(a)),
             Self::Segment { table, x } => tables.get(table as usize).map_or(0, |t| t.segment(value(x))),
         }
     }
@@ -111,9 +131,54 @@ impl<I: Copy> Test<I> {
             Self::Compare(Compare::Greater | Compare::GreaterEqual, a, b) => ordered(value(b), value(a)),
             Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => two_sided(value(a) - value(b)),
             Self::Sign(a) => two_sided(value(a)),
+            // smooth: the product of the distances from both ends; NaN outside
+            Self::Whole(a) => {
+                let above = value(a) - whole(mode);
+                above * (1.0 - above)
+            }
             Self::Segment { table, x } => tables.get(table as usize).map_or(1.0, |t| t.inside(value(x), mode)),
         };
         if root.is_nan() { 1.0 } else { root }
+    }
+
+    /// Bounds of [`Self::root`] for operands in intervals, and the size of what it is the difference of; no interval where an operand
+    /// is undefined throughout.
+    pub(super) fn bounds(self, mode: i32, value: impl Fn(I) -> Interval, tables: &[Table]) -> (Interval, f64) {
+        let two_sided = |x: Interval| match mode {
+            0 if x.holds(0.0) => Interval { low: -x.magnitude(), high: 0.0 },
+            m if m > 0 || m == 0 && x.high < 0.0 => x,
+            _ => -x,
+        };
+        let size = |a: Interval, b: Interval| a.magnitude() + b.magnitude();
+        let ordered = |less: Interval, more: Interval| (if mode != 0 { more - less } else { less - more }, size(less, more));
+        match self {
+            Self::Compare(Compare::Less | Compare::LessEqual, a, b) | Self::Order(a, b) => ordered(value(a), value(b)),
+            Self::Compare(Compare::Greater | Compare::GreaterEqual, a, b) => ordered(value(b), value(a)),
+            Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => {
+                let (a, b) = (value(a), value(b));
+                (two_sided(a - b), size(a, b))
+            }
+            Self::Sign(a) => (two_sided(value(a)), value(a).magnitude()),
+            Self::Whole(a) => {
+                let one = Interval::constant(1.0);
+                let above = value(a) - Interval::constant(whole(mode));
+                (above * (one - above), value(a).magnitude() + 1.0)
+            }
+            Self::Segment { table, x } => {
+                let x = value(x);
+                let table = tables.get(table as usize);
+                let none = (Interval::NONE, 0.0);
+                table.filter(|_| !x.is_none()).map_or(none, |t| (t.inside_of(x, mode), x.magnitude() + t.span()))
+            }
+        }
+    }
+
+    /// Distances of a table's argument from the lower and the upper end of its segment `mode`; none for other tests.
+    pub(super) fn ends(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> Option<[f64; 2]> {
+        let Self::Segment { table, x } = self else { return None };
+        let ends = tables.get(table as usize)?.from_ends(value(x), mode);
+        // as above
+        Some(ends.map(|d| if d.is_nan() { 1.0 } else { d }))
     }
 
     /// The mode on the other side of the end of `mode` that is nearest.
@@ -128,6 +193,9 @@ impl<I: Copy> Test<I> {
             Self::Compare(Compare::Equal | Compare::NotEqual, a, b) => across(value(a) - value(b)),
             Self::Compare(..) | Self::Order(..) => i32::from(mode == 0),
             Self::Sign(a) => across(value(a)),
+            Self::Whole(_) if mode == OUTSIDE => mode,
+            Self::Whole(a) if value(a) - whole(mode) < 0.5 => whole_below(whole(mode) - 1.0),
+            Self::Whole(_) => whole_below(whole(mode) + 1.0),
             Self::Segment { table, x } => tables.get(table as usize).map_or(mode, |t| t.neighbour(value(x), mode)),
         }
     }
@@ -157,6 +225,22 @@ mod tests {
                 assert_ne!(mode, other);
                 assert!(test.root(other, value, &[]) < 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_counted_on_both_sides_of_zero() {
+        let test = Test::Whole(0);
+        for (x, mode, root, next) in
+            [(2.25, 2, 0.1875, 1), (2.75, 2, 0.1875, 3), (-0.25, -1, 0.1875, 0), (-0.75, -1, 0.1875, -2), (3.0, 3, 0.0, 2)]
+        {
+            assert_eq!((test.mode(|_| x, &[]), test.root(mode, |_| x, &[]), test.neighbour(mode, |_| x, &[])), (mode, root, next), "{x}");
+        }
+        // upwards through 3
+        assert_eq!((test.root(2, |_| 3.0, &[]), test.neighbour(2, |_| 3.0, &[])), (0.0, 3));
+        for x in [f64::NAN, f64::INFINITY, 1e10, -1e10] {
+            let mode = test.mode(|_| x, &[]);
+            assert!(whole(mode).is_nan() && test.root(mode, |_| x, &[]) == 1.0 && test.neighbour(mode, |_| x, &[]) == mode, "{x}");
         }
     }
 

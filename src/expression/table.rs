@@ -1,7 +1,7 @@
 //! Functions given by points: straight or cubic pieces, each piece a mode.
 
 use super::spline;
-use crate::scalar::Scalar;
+use crate::scalar::{Interval, Scalar};
 use std::fmt;
 
 /// How a table runs between its points.
@@ -193,11 +193,31 @@ impl Table {
         self.eval(x, self.segment(x), 0)
     }
 
-    /// Distance of `x` from the nearest end of `segment`: positive inside, negative outside.
+    /// How far `x` lies inside of `segment`: positive inside, negative outside, near an end the distance from it. Smooth: of a segment
+    /// with two ends the product of the distances from both, by its length.
     #[must_use]
     pub fn inside(&self, x: f64, segment: i32) -> f64 {
+        let [low, high] = self.from_ends(x, segment);
+        if low.is_finite() && high.is_finite() { low * (high / (low + high)) } else { low.min(high) }
+    }
+
+    /// Distances of `x` from the lower and the upper end of `segment`: positive inside.
+    #[must_use]
+    pub fn from_ends(&self, x: f64, segment: i32) -> [f64; 2] {
         let (low, high) = self.ends(segment);
-        (x - low).min(high - x)
+        [x - low, high - x]
+    }
+
+    /// Bounds of [`Self::inside`] for an interval.
+    #[must_use]
+    pub fn inside_of(&self, x: Interval, segment: i32) -> Interval {
+        let (low, high) = self.ends(segment);
+        let [low, high] = [low, high].map(Interval::constant);
+        match (low.low.is_finite(), high.low.is_finite()) {
+            (true, true) => (x - low) * ((high - x) / (high - low)),
+            (true, false) => x - low,
+            _ => high - x,
+        }
     }
 
     /// The segment beyond the end of `segment` that is nearest to `x`.

@@ -102,9 +102,15 @@ fn segments_and_their_ends() {
             let inside = t.inside(x, k);
             assert!(inside >= 0.0, "{x}");
             let next = t.neighbour(x, k);
-            assert!((t.inside(x, next) + inside).abs() < 1e-12, "{x}");
+            assert!(t.inside(x, next) < 0.0 || inside == 0.0, "{x}");
             assert!((next - k).abs() == 1);
         }
+    }
+    // near an end it is the distance from it
+    let t = table(Between::Linear, Beyond::Constant);
+    for (k, low) in t.x.iter().enumerate() {
+        let inside = t.inside(low + 1e-7, k as i32);
+        assert!((inside - 1e-7).abs() < 1e-13, "{low}: {inside}");
     }
     assert_eq!([-1.5, -1.0, 0.0, 4.5, 4.6].map(|x| table(Between::Linear, Beyond::Constant).segment(x)), [-1, 0, 1, 4, 5]);
 }

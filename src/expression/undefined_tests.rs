@@ -20,6 +20,9 @@ impl Scope for Names {
         };
         Ok(Symbol { id, dimension: Dimension::NONE })
     }
+    fn has_value(&self, word: &str) -> bool {
+        ["x", "y", "p", "q"].contains(&word)
+    }
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         ["f", "g"].iter().position(|n| *n == name).map(|i| (i as u32, Dimension::NONE, Dimension::NONE))
     }
@@ -122,9 +125,13 @@ impl Walker<'_> {
 
     fn call(&mut self, name: &str, a: &[f64]) -> f64 {
         match name {
-            "abs" | "sign" | "sqrt" | "log" | "atan2" => self.close(a[0], 0.0),
+            "abs" | "sign" | "sqrt" | "log" | "log10" | "atan2" => self.close(a[0], 0.0),
             "asin" | "acos" => self.close(a[0].abs(), 1.0),
             "min" | "max" => self.close(a[0], a[1]),
+            "floor" => {
+                self.close(a[0], a[0].round());
+                self.near |= a[0].abs() > 1e9;
+            }
             "f" | "g" => [0.0, 1.0, 2.0].into_iter().for_each(|x| self.close(a[0], x)),
             _ => {}
         }
@@ -140,6 +147,11 @@ impl Walker<'_> {
             "atan" => a[0].atan(),
             "exp" => a[0].exp(),
             "log" => a[0].ln(),
+            "log10" => a[0].log10(),
+            "sinh" => a[0].sinh(),
+            "cosh" => a[0].cosh(),
+            "tanh" => a[0].tanh(),
+            "floor" => a[0].floor(),
             "sqrt" => a[0].sqrt(),
             "abs" => a[0].abs(),
             "sign" => (if a[0] > 0.0 { 1.0 } else { 0.0 }) - (if a[0] < 0.0 { 1.0 } else { 0.0 }),
@@ -180,12 +192,15 @@ impl Random {
         if depth == 0 || self.below(12) == 0 {
             return self.leaf(names);
         }
-        const ONE: [&str; 14] = ["sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "abs", "sign", "f", "g", "log"];
+        const ONE: [&str; 19] = [
+            "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "abs", "sign", "f", "g", "log", "log10", "sinh", "cosh",
+            "tanh", "floor",
+        ];
         const TWO: [&str; 14] = [" + ", " - ", "*", "/", "^", " < ", " <= ", " > ", " >= ", " == ", " != ", " and ", " or ", "/"];
         let mut part = || self.text(depth - 1, names);
         let (a, b, c) = (part(), part(), part());
         match self.below(12) {
-            0..=3 => format!("{}({a})", ONE[self.below(14) as usize]),
+            0..=3 => format!("{}({a})", ONE[self.below(19) as usize]),
             4..=7 => format!("(({a}){}({b}))", TWO[self.below(14) as usize]),
             8 => format!("{}({a}, {b})", ["min", "max", "atan2"][self.below(3) as usize]),
             9 => format!("clamp({a}, {b}, {c})"),

@@ -1,20 +1,42 @@
 //! Dimensions and units. Every number of the program is SI; rad = 1, so an angle is a plain number and N m/rad is N m.
+//!
+//! A dimension remembers how often angle is in it, but only beside plain numbers and time: deg/deg is a number, 2*deg an angle,
+//! deg/s an angular speed, and m*rad is m. It is what numbers are shown in; two dimensions that differ in it alone are equal.
 
+use super::nearest::nearest;
 use super::parser::{Kind, parse};
 use std::f64::consts::{PI, TAU};
+use std::hash::{Hash, Hasher};
 use std::ops::{Div, Mul};
 
 /// The dimension of a quantity: exponents of m, kg, s and A.
 ///
 /// Counted in halves, so that √m has a dimension too. Products saturate at exponents of ±63, which no mechanics reaches.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Dimension {
     /// Twice the exponents of m, kg, s and A.
     halves: [i8; 4],
+    /// Twice the exponent of rad; 0 beside m, kg and A. It does not count where dimensions are compared, since rad = 1.
+    angle: i8,
+}
+
+impl PartialEq for Dimension {
+    fn eq(&self, other: &Self) -> bool {
+        self.halves == other.halves
+    }
+}
+
+impl Eq for Dimension {}
+
+impl Hash for Dimension {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.halves.hash(state);
+    }
 }
 
 /// Dimensions that have a name: dimension, its name, its unit as people write it. The first match counts.
-const NAMED: [(Dimension, &str, &str); 26] = [
+const NAMED: [(Dimension, &str, &str); 27] = [
+    (Dimension::ANGLE, "angle", "rad"),
     (Dimension::LENGTH, "length", "m"),
     (Dimension::MASS, "mass", "kg"),
     (Dimension::TIME, "time", "s"),
@@ -24,7 +46,7 @@ const NAMED: [(Dimension, &str, &str); 26] = [
     (Dimension::TORQUE, "torque", "N m"),
     (Dimension::POWER, "power", "W"),
     (Dimension::INERTIA, "inertia", "kg m^2"),
-    (Dimension::FREQUENCY, "angular speed", "rad/s"),
+    (Dimension::ANGULAR_SPEED, "angular speed", "rad/s"),
     (Dimension::ANGULAR_ACCELERATION, "angular acceleration", "rad/s^2"),
     (Dimension::STIFFNESS, "stiffness", "N/m"),
     (Dimension::DAMPING, "damping", "N s/m"),
@@ -44,8 +66,10 @@ const NAMED: [(Dimension, &str, &str); 26] = [
 ];
 
 impl Dimension {
-    /// A plain number, also an angle.
+    /// A plain number.
     pub const NONE: Self = Self::new(0, 0, 0, 0);
+    /// rad, equal to [`Self::NONE`].
+    pub const ANGLE: Self = Self { angle: 2, ..Self::NONE };
     /// m.
     pub const LENGTH: Self = Self::new(1, 0, 0, 0);
     /// kg.
@@ -68,12 +92,10 @@ impl Dimension {
     pub const POWER: Self = Self::new(2, 1, -3, 0);
     /// kg m².
     pub const INERTIA: Self = Self::new(2, 1, 0, 0);
-    /// 1/s = rad/s.
-    pub const FREQUENCY: Self = Self::new(0, 0, -1, 0);
-    /// rad/s: the same as [`Self::FREQUENCY`].
-    pub const ANGULAR_SPEED: Self = Self::FREQUENCY;
-    /// rad/s².
-    pub const ANGULAR_ACCELERATION: Self = Self::new(0, 0, -2, 0);
+    /// rad/s, equal to 1/s.
+    pub const ANGULAR_SPEED: Self = Self { angle: 2, ..Self::new(0, 0, -1, 0) };
+    /// rad/s², equal to 1/s².
+    pub const ANGULAR_ACCELERATION: Self = Self { angle: 2, ..Self::new(0, 0, -2, 0) };
     /// N/m.
     pub const STIFFNESS: Self = Self::new(0, 1, -2, 0);
     /// N m/rad = N m.
@@ -108,7 +130,7 @@ impl Dimension {
     /// The dimension m^`m` kg^`kg` s^`s` A^`a`.
     #[must_use]
     pub const fn new(m: i8, kg: i8, s: i8, a: i8) -> Self {
-        Self { halves: [m.saturating_mul(2), kg.saturating_mul(2), s.saturating_mul(2), a.saturating_mul(2)] }
+        Self { halves: [m.saturating_mul(2), kg.saturating_mul(2), s.saturating_mul(2), a.saturating_mul(2)], angle: 0 }
     }
 
     /// Dimension of a product; `*` does the same.
@@ -119,7 +141,24 @@ impl Dimension {
         for (a, b) in halves.iter_mut().zip(other.halves) {
             *a = a.saturating_add(b);
         }
-        Self { halves }
+        Self::with_angle(halves, self.angle.saturating_add(other.angle))
+    }
+
+    /// Angle is kept beside time only.
+    fn with_angle(halves: [i8; 4], angle: i8) -> Self {
+        let [m, kg, _, a] = halves;
+        Self { halves, angle: if (m, kg, a) == (0, 0, 0) { angle } else { 0 } }
+    }
+
+    /// Whether this is an angle.
+    #[must_use]
+    pub fn is_angle(&self) -> bool {
+        *self == Self::NONE && self.angle == 2
+    }
+
+    /// The dimension of a sum of both, which are equal: `O.angle + 1` is an angle.
+    pub(super) fn or_angle(self, other: Self) -> Self {
+        if self.angle == 0 { other } else { self }
     }
 
     /// Dimension of a quotient; `/` does the same.
@@ -133,21 +172,19 @@ impl Dimension {
     #[must_use]
     pub fn pow(self, n: i32) -> Self {
         let n = n.clamp(-127, 127);
-        Self { halves: self.halves.map(|h| (i32::from(h) * n).clamp(-127, 127) as i8) }
+        let times = |h: i8| (i32::from(h) * n).clamp(-127, 127) as i8;
+        Self::with_angle(self.halves.map(times), times(self.angle))
     }
 
-    /// Dimension of a real power; `None` if an exponent would not be a whole number of halves.
+    /// Dimension of a real power; `None` if an exponent would not be a whole number of halves (that of angle is dropped then).
     #[must_use]
     pub fn power(self, n: f64) -> Option<Self> {
+        let times = |h: i8| Some(f64::from(h) * n).filter(|h| h.fract() == 0.0 && h.abs() <= 127.0).map(|h| h as i8);
         let mut halves = [0; 4];
         for (to, from) in halves.iter_mut().zip(self.halves) {
-            let h = f64::from(from) * n;
-            if h.fract() != 0.0 || h.abs() > 127.0 {
-                return None;
-            }
-            *to = h as i8;
+            *to = times(from)?;
         }
-        Some(Self { halves })
+        Some(Self::with_angle(halves, times(self.angle).unwrap_or(0)))
     }
 
     /// Dimension of a square root; `None` if an exponent would not be a whole number of halves.
@@ -159,21 +196,27 @@ impl Dimension {
     /// Text for messages: `length (m)`, `torque (N m)`, `a number`; the unit alone where the dimension has no name.
     #[must_use]
     pub fn name(&self) -> String {
-        match NAMED.iter().find(|(dimension, ..)| dimension == self) {
-            _ if *self == Self::NONE => "a number".to_owned(),
-            Some((_, name, unit)) => format!("{name} ({unit})"),
+        match self.named() {
+            Some((name, unit)) => format!("{name} ({unit})"),
+            None if *self == Self::NONE => "a number".to_owned(),
             None => self.si(),
         }
+    }
+
+    /// Its name and unit, if it has a name.
+    fn named(&self) -> Option<(&'static str, &'static str)> {
+        let known = NAMED.iter().find(|(dimension, ..)| dimension == self && dimension.angle == self.angle);
+        known.map(|(_, name, unit)| (*name, *unit))
     }
 
     /// The SI unit, short, for axis labels: `N m`, `m/s^2`; empty for a plain number.
     #[must_use]
     pub fn si(&self) -> String {
-        if let Some((.., unit)) = NAMED.iter().find(|(dimension, ..)| dimension == self) {
-            return (*unit).to_owned();
+        if let Some((_, unit)) = self.named() {
+            return unit.to_owned();
         }
         let [m, kg, s, a] = self.halves;
-        let factors = [("kg", kg), ("m", m), ("s", s), ("A", a)];
+        let factors = [("kg", kg), ("m", m), ("rad", self.angle), ("s", s), ("A", a)];
         let power = |(symbol, halves): (&str, i8)| match halves.unsigned_abs() {
             2 => symbol.to_owned(),
             n => format!("{symbol}^{}", f64::from(n) / 2.0),
@@ -188,7 +231,8 @@ impl Dimension {
     }
 
     /// `number` with this dimension's unit, as a model file accepts it: `0.1 m`, `3 m^-1`.
-    pub(super) fn written(&self, number: &str) -> String {
+    #[must_use]
+    pub fn written(&self, number: &str) -> String {
         let unit = self.si();
         match unit.strip_prefix("1/") {
             _ if unit.is_empty() => number.to_owned(),
@@ -217,48 +261,68 @@ impl Div for Dimension {
     }
 }
 
-/// Size in SI and dimension of one unit word of the format; `None` for any other word (`Hz` among them: a turn or a radian?).
-#[must_use]
-pub fn unit(word: &str) -> Option<(f64, Dimension)> {
-    use Dimension as D;
-    Some(match word {
-        "m" => (1.0, D::LENGTH),
-        "km" => (1e3, D::LENGTH),
-        "cm" => (1e-2, D::LENGTH),
-        "mm" => (1e-3, D::LENGTH),
-        "um" => (1e-6, D::LENGTH),
-        "in" => (0.0254, D::LENGTH),
-        "ft" => (0.3048, D::LENGTH),
-        "kg" => (1.0, D::MASS),
-        "g" => (1e-3, D::MASS),
-        "s" => (1.0, D::TIME),
-        "ms" => (1e-3, D::TIME),
-        "us" => (1e-6, D::TIME),
-        "min" => (60.0, D::TIME),
-        "rad" => (1.0, D::NONE),
-        "mrad" => (1e-3, D::NONE),
-        "deg" => (PI / 180.0, D::NONE),
-        "turn" => (TAU, D::NONE),
-        "rpm" => (TAU / 60.0, D::FREQUENCY),
-        "%" => (1e-2, D::NONE),
-        "N" => (1.0, D::FORCE),
-        "kN" => (1e3, D::FORCE),
-        "MN" => (1e6, D::FORCE),
-        "J" => (1.0, D::ENERGY),
-        "kJ" => (1e3, D::ENERGY),
-        "W" => (1.0, D::POWER),
-        "kW" => (1e3, D::POWER),
-        "Pa" => (1.0, D::PRESSURE),
-        "kPa" => (1e3, D::PRESSURE),
-        "MPa" => (1e6, D::PRESSURE),
-        "GPa" => (1e9, D::PRESSURE),
-        "bar" => (1e5, D::PRESSURE),
-        "V" => (1.0, D::VOLTAGE),
-        "A" => (1.0, D::CURRENT),
-        "ohm" => (1.0, D::RESISTANCE),
-        "H" => (1.0, D::INDUCTANCE),
-        _ => return None,
-    })
+/// m; the inch of 1959.
+const INCH: f64 = 0.0254;
+/// m.
+const FOOT: f64 = 0.3048;
+/// kg; the avoirdupois pound of 1959.
+const POUND: f64 = 0.453_592_37;
+/// m/s²; of the third General Conference on Weights and Measures, 1901.
+const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// The unit words of the format, their size in SI and their dimension. `Hz` is none: a turn or a radian?
+const UNITS: [(&str, f64, Dimension); 41] = [
+    ("m", 1.0, Dimension::LENGTH),
+    ("km", 1e3, Dimension::LENGTH),
+    ("cm", 1e-2, Dimension::LENGTH),
+    ("mm", 1e-3, Dimension::LENGTH),
+    ("um", 1e-6, Dimension::LENGTH),
+    ("in", INCH, Dimension::LENGTH),
+    ("ft", FOOT, Dimension::LENGTH),
+    ("kg", 1.0, Dimension::MASS),
+    ("g", 1e-3, Dimension::MASS),
+    ("lb", POUND, Dimension::MASS),
+    ("s", 1.0, Dimension::TIME),
+    ("ms", 1e-3, Dimension::TIME),
+    ("us", 1e-6, Dimension::TIME),
+    ("min", 60.0, Dimension::TIME),
+    ("rad", 1.0, Dimension::ANGLE),
+    ("mrad", 1e-3, Dimension::ANGLE),
+    ("deg", PI / 180.0, Dimension::ANGLE),
+    ("turn", TAU, Dimension::ANGLE),
+    ("rpm", TAU / 60.0, Dimension::ANGULAR_SPEED),
+    ("mph", 0.44704, Dimension::SPEED),
+    ("%", 1e-2, Dimension::NONE),
+    ("N", 1.0, Dimension::FORCE),
+    ("kN", 1e3, Dimension::FORCE),
+    ("MN", 1e6, Dimension::FORCE),
+    ("lbf", POUND * STANDARD_GRAVITY, Dimension::FORCE),
+    ("kgf", STANDARD_GRAVITY, Dimension::FORCE),
+    ("J", 1.0, Dimension::ENERGY),
+    ("kJ", 1e3, Dimension::ENERGY),
+    ("W", 1.0, Dimension::POWER),
+    ("kW", 1e3, Dimension::POWER),
+    ("hp", 550.0 * FOOT * POUND * STANDARD_GRAVITY, Dimension::POWER),
+    ("Pa", 1.0, Dimension::PRESSURE),
+    ("kPa", 1e3, Dimension::PRESSURE),
+    ("MPa", 1e6, Dimension::PRESSURE),
+    ("GPa", 1e9, Dimension::PRESSURE),
+    ("bar", 1e5, Dimension::PRESSURE),
+    ("psi", POUND * STANDARD_GRAVITY / (INCH * INCH), Dimension::PRESSURE),
+    ("V", 1.0, Dimension::VOLTAGE),
+    ("A", 1.0, Dimension::CURRENT),
+    ("ohm", 1.0, Dimension::RESISTANCE),
+    ("H", 1.0, Dimension::INDUCTANCE),
+];
+
+/// Size in SI and dimension of one unit word of the format; `None` for any other word.
+pub(super) fn unit(word: &str) -> Option<(f64, Dimension)> {
+    UNITS.into_iter().find(|(known, ..)| *known == word).map(|(_, size, dimension)| (size, dimension))
+}
+
+/// The unit that a word of at least three letters probably means: `cms` is `cm`.
+pub(super) fn nearest_unit(word: &str) -> Option<&'static str> {
+    (word.len() > 2).then(|| nearest(word, UNITS.into_iter().map(|(known, ..)| known))).flatten()
 }
 
 /// Size in SI and dimension of a composite unit such as `N m s/rad`, by the rules of the format.
@@ -270,7 +334,7 @@ pub fn parse_unit(text: &str) -> Option<(f64, Dimension)> {
         return None;
     }
     match parse(&format!("1 {first}")).ok()?.kind {
-        Kind::Quantity(size, dimension) => Some((size, dimension)),
+        Kind::Quantity(size, dimension, _) => Some((size, dimension)),
         _ => None,
     }
 }
@@ -283,7 +347,7 @@ mod tests {
     fn named_dimensions_agree_with_their_units() {
         for (dimension, name, text) in NAMED {
             let (size, found) = parse_unit(text.strip_prefix("1/").map_or(text, |_| "m^-1")).expect(name);
-            assert_eq!((size, found), (1.0, dimension), "{name}");
+            assert_eq!((size, found, found.angle), (1.0, dimension, dimension.angle), "{name}");
             assert_eq!(NAMED.iter().filter(|n| n.0 == dimension).count(), 1, "{name}");
         }
     }
@@ -291,9 +355,9 @@ mod tests {
     #[test]
     fn written_quantities_are_read_back() {
         for halves in [[2, 0, 0, 0], [-2, 0, 0, 0], [-4, 0, -6, 0], [4, 2, -2, 0], [2, -2, -4, 2], [10, 0, 0, -2], [0, 0, -6, 0]] {
-            let dimension = Dimension { halves };
+            let dimension = Dimension { halves, angle: 0 };
             let text = dimension.written("2.5");
-            assert_eq!(parse(&text).unwrap().kind, Kind::Quantity(2.5, dimension), "{text}");
+            assert_eq!(parse(&text).unwrap().kind, Kind::Quantity(2.5, dimension, vec![]), "{text}");
         }
     }
 
@@ -303,9 +367,39 @@ mod tests {
         assert_eq!(Dimension::TORQUE.name(), "torque (N m)");
         assert_eq!(Dimension::NONE.name(), "a number");
         assert_eq!(Dimension::NONE.si(), "");
+        assert_eq!(Dimension::TIME.pow(-1).name(), "1/s");
         assert_eq!(Dimension::INERTIA.mul(Dimension::LENGTH).name(), "kg m^3");
         assert_eq!(Dimension::LENGTH.sqrt().unwrap().si(), "m^0.5");
         assert_eq!(Dimension::ANGULAR_DAMPING, Dimension::INERTIA.div(Dimension::TIME));
+    }
+
+    #[test]
+    fn angle_is_kept_beside_numbers_and_time_only() {
+        let (rad, s, m) = (Dimension::ANGLE, Dimension::TIME, Dimension::LENGTH);
+        for (dimension, si) in [
+            (rad / rad, ""),
+            (rad / s, "rad/s"),
+            (rad / s / s, "rad/s^2"),
+            (rad / s * s, "rad"),
+            (rad * s, "rad s"),
+            (Dimension::ANGULAR_SPEED.pow(2), "rad^2/s^2"),
+            (Dimension::ANGULAR_SPEED.pow(2).sqrt().unwrap(), "rad/s"),
+            (s / rad, "s/rad"),
+            (rad.sqrt().and_then(Dimension::sqrt).unwrap(), ""),
+            (m * rad, "m"),
+            (Dimension::MASS * rad, "kg"),
+            (Dimension::CURRENT / rad, "A"),
+            (m / rad, "m"),
+            (m * rad / s, "m/s"),
+            (m * rad / m, ""),
+            (Dimension::STIFFNESS / Dimension::MASS, "1/s^2"),
+        ] {
+            assert_eq!(dimension.si(), si);
+        }
+        // rad = 1
+        assert_eq!((rad, rad / s), (Dimension::NONE, s.pow(-1)));
+        assert_eq!(parse_unit("N m s/rad").unwrap().1.si(), "N m s");
+        assert_eq!(parse_unit("turn/min").unwrap().1.si(), "rad/s");
     }
 
     #[test]
@@ -318,6 +412,21 @@ mod tests {
         for wrong in ["", "N/m s", "Hz", "m + 2 m", "2 m", "(m)", "m^2.5", "/s", "e5 m", "m 3", "k"] {
             assert_eq!(parse_unit(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn customary_units_are_those_of_their_definitions() {
+        let si = |unit: &str| parse_unit(unit).unwrap();
+        for (text, other) in [("lbf", "lb ft/s^2"), ("kgf", "kg m/s^2"), ("psi", "lbf/in^2"), ("hp", "ft lbf/s"), ("mph", "ft/min")] {
+            assert_eq!(si(text).1, si(other).1, "{text}");
+        }
+        // NIST Special Publication 811, appendix B
+        for (text, x) in [("lb", 0.453_592_37), ("lbf", 4.448_222), ("psi", 6894.757), ("hp", 745.6999), ("mph", 0.44704), ("kgf", 9.80665)]
+        {
+            assert!((si(text).0 / x - 1.0).abs() < 1.2e-7, "{text}: {}", si(text).0);
+        }
+        assert!((si("hp").0 / (550.0 * si("ft lbf/s").0) - 1.0).abs() < 1e-15);
+        assert!((si("mph").0 / (5280.0 / 60.0 * si("ft/min").0) - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Rigid-body geometry, once for the plane and for space.
 //!
 //! [`Space`] is SE(2) ([`Planar`]) or SE(3) ([`Spatial`]) together with its scalar; nothing above this module knows a
-//! dimension. Twists and wrenches are Plücker vectors **in world axes at the world origin**: a [`Motion`] is (ω, velocity
-//! of the body-fixed point that passes through the origin), a [`Force`] is (moment about the origin, force); an
-//! [`Inertia`] is about the origin too. Frames are named by monogram: `x_wb` is the pose of b in w, and neighbours match
+//! dimension. Twists and wrenches are Plücker vectors **in world axes at a reference point** that is fixed in the world and near the
+//! bodies (`mechanism/group.rs`), places being measured from there: a [`Motion`] is (ω, velocity of the body-fixed point that passes
+//! through it), a [`Force`] is (moment about it, force); an [`Inertia`] is about it too. Frames are named by monogram: `x_wb` is the pose of b in w, and neighbours match
 //! in `x_wb * x_bc` (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2).
 
 mod planar;

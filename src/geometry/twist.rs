@@ -1,7 +1,7 @@
 //! Poses, twists, wrenches and inertias, written once over [`Space`].
 //!
-//! With V = (ω, v) the twist at the origin, the body-fixed point at r moves with v + ω × r; with F = (n, f) the power is
-//! n·ω + f·v. The momentum of a body is I V = (J ω + h × v, m v + ω × h), h = m c the first moment, J about the origin.
+//! With V = (ω, v) the twist at the reference point, from which places are measured, the body-fixed point at r moves with v + ω × r; with F = (n, f) the power is
+//! n·ω + f·v. The momentum of a body is I V = (J ω + h × v, m v + ω × h), h = m c the first moment, J about that point.
 //! In world coordinates d/dt of a body-fixed twist m is V × m and of a wrench f is V ×* f (Featherstone 2008, section 2.9).
 
 use super::Space;
@@ -61,19 +61,19 @@ impl<G: Space> Mul for Pose<G> {
     }
 }
 
-/// A twist: angular velocity, rad/s, and velocity of the body-fixed point at the origin, m/s (or their rates).
+/// A twist: angular velocity, rad/s, and velocity of the body-fixed point at the reference point, m/s (or their rates).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion<G: Space> {
     /// ω.
     pub w: G::Spin,
-    /// v at the origin.
+    /// v at the reference point.
     pub v: G::Vector,
 }
 
-/// A wrench: moment about the origin, N m, and force, N.
+/// A wrench: moment about the reference point, N m, and force, N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force<G: Space> {
-    /// Moment about the origin.
+    /// Moment about the reference point.
     pub n: G::Spin,
     /// Force.
     pub f: G::Vector,
@@ -172,7 +172,13 @@ impl<G: Space> Force<G> {
     pub fn power(self, m: Motion<G>) -> G::S {
         G::dot_spin(self.n, m.w) + G::dot(self.f, m.v)
     }
-    /// Moment about the point `p` instead of the origin.
+    /// The same wrench about the origin of the world, with the reference point that it is about.
+    #[inline(always)]
+    #[must_use]
+    pub fn about_origin(self, reference: G::Vector) -> Self {
+        Self { n: self.n + G::moment(reference, self.f), f: self.f }
+    }
+    /// Moment about the point `p` instead of the reference point.
     #[must_use]
     pub fn moment_about(self, p: G::Vector) -> G::Spin {
         self.n - G::moment(p, self.f)
@@ -202,7 +208,7 @@ impl<G: Space> MassProperties<G> {
         let inertia = self.inertia + o.inertia + G::steiner(self.mass, self.com - com) + G::steiner(o.mass, o.com - com);
         Self { mass, com, inertia }
     }
-    /// About the world origin, in world axes.
+    /// About the point from which the place of the pose is measured, in world axes.
     #[inline]
     #[must_use]
     pub fn in_world(self, x_wb: Pose<G>) -> Inertia<G> {
@@ -220,14 +226,14 @@ impl<G: Space> MassProperties<G> {
     }
 }
 
-/// An inertia about the world origin in world axes.
+/// An inertia about the reference point in world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inertia<G: Space> {
     /// Mass, kg.
     pub m: G::S,
     /// First moment m c, kg m.
     pub h: G::Vector,
-    /// Second moment about the origin, kg m².
+    /// Second moment about the reference point, kg m².
     pub j: G::Tensor,
 }
 
@@ -237,6 +243,23 @@ impl<G: Space> AddAssign for Inertia<G> {
         self.m += o.m;
         self.h += o.h;
         self.j += o.j;
+    }
+}
+
+impl<G: Space> Inertia<G> {
+    /// d/dt (I V) = I A + V ×* I V of a body with the twist `v` and its rate `a`.
+    ///
+    /// With ẍ = A.v + ω × V.v, the acceleration of the body-fixed point at the reference point, it is
+    /// (J ω̇ + h × ẍ + ω × J ω, m ẍ + ω̇ × h + ω × (ω × h)): without V.v × m V.v, which is 0 but for the rounding of its parts, so
+    /// that a body which travels fast turns as one at rest.
+    #[inline(always)]
+    #[must_use]
+    pub fn momentum_rate(self, a: Motion<G>, v: Motion<G>) -> Force<G> {
+        let point = a.v + G::turn(v.w, v.v);
+        Force {
+            n: G::apply(self.j, a.w) + G::moment(self.h, point) + G::cross_spin(v.w, G::apply(self.j, v.w)),
+            f: point * self.m + G::turn(a.w, self.h) + G::turn(v.w, G::turn(v.w, self.h)),
+        }
     }
 }
 
@@ -294,6 +317,25 @@ mod tests {
         let particle = other.in_world(x);
         let speed = v.at(x.point(other.com));
         assert!(((particle * v).power(v) - 3.0 * speed.norm_squared()).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_rate_of_momentum_is_that_of_the_product() {
+        let body =
+            MassProperties::<E3> { mass: 2.0, com: E3::vector(&[0.1, 0.2, -0.3]), inertia: E3::tensor([0.4, 0.5, 0.3, 0.02, -0.01, 0.03]) };
+        let (i, v, a) = (body.in_world(pose(0.2)), motion(0.6), motion(-1.7));
+        let (rate, product) = (i.momentum_rate(a, v), i * a + v.cross_force(i * v));
+        assert!((rate.n - product.n).norm() + (rate.f - product.f).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_body_that_travels_fast_turns_as_one_at_rest() {
+        let body = MassProperties::<E3> { mass: 2.0, com: E3::vector(&[0.0; 3]), inertia: E3::tensor([0.4, 0.5, 0.3, 0.0, 0.0, 0.0]) };
+        let inertia = body.in_world(Pose { p: E3::vector(&[0.0; 3]), ..pose(0.2) });
+        let still = Motion::<E3> { v: E3::vector(&[0.0; 3]), ..motion(0.6) };
+        let travels = E3::vector(&[1e6, -3e5, 7e5]);
+        let fast = inertia.momentum_rate(Motion { w: still.w, v: -E3::turn(still.w, travels) }, Motion { v: travels, ..still });
+        assert!((fast.n - inertia.momentum_rate(Motion { w: still.w, v: still.v }, still).n).norm() < 1e-14);
     }
 
     #[test]

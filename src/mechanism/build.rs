@@ -78,6 +78,7 @@ pub fn build_beside<G: Space>(model: &Model, parameters: &[f64], coordinates: Co
     builder.constraints();
     builder.forces();
     builder.states();
+    builder.impacts();
     builder.gauges_of_programs();
     builder.mechanism.active_gauges = builder.mechanism.gauges.len();
     builder.remaining_slots();
@@ -85,11 +86,41 @@ pub fn build_beside<G: Space>(model: &Model, parameters: &[f64], coordinates: Co
     builder.finish()
 }
 
+/// The joints, constraints and start values of a model without its forces, on the tree of all joints: one that neither coordinates nor
+/// `cut` change, so that what a start leaves open is completed alike in all of them.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_uncut<G: Space>(model: &Model, parameters: &[f64]) -> Result<Mechanism<G>, Vec<BuildFault>> {
+    let mut builder = Builder::<G>::new(model, parameters);
+    builder.honour_cuts = false;
+    builder.tables();
+    builder.bodies();
+    builder.graph(Coordinates::Joint);
+    if !builder.faults.is_empty() {
+        return Err(builder.faults);
+    }
+    builder.constraints();
+    builder.gauges_of_programs();
+    builder.mechanism.active_gauges = builder.mechanism.gauges.len();
+    builder.remaining_slots();
+    builder.starts();
+    builder.finish()
+}
+
+/// Whether [`build`] in these coordinates has the tree of [`build_uncut`].
+#[must_use]
+pub fn is_uncut(model: &Model, coordinates: Coordinates) -> bool {
+    coordinates == Coordinates::Joint && !model.joints.iter().any(graph::is_cut)
+}
+
 /// Work in progress.
 struct Builder<'m, G: Space> {
     model: &'m Model,
     parameters: &'m [f64],
     planar: bool,
+    /// False if joints that are to be cut stand on the tree like others.
+    honour_cuts: bool,
     mechanism: Mechanism<G>,
     shapes: Vec<Shape>,
     /// Gauge of each slot of each joint, once something needs it.

@@ -189,20 +189,24 @@ pub struct Rotor<G: Space> {
     pub inertia: G::S,
 }
 
-/// A rigid stop: one end of the way of a joint's coordinate.
+/// A rigid stop: one end of the way of a joint's coordinate, or one side of the function of an event with impacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// The joint.
+    /// The joint whose rate is thrown back.
     pub joint: usize,
     /// The gauge of its coordinate.
     pub gauge: usize,
+    /// What ends: that gauge, or the function of an event, if it is one of positions alone; else nothing can rest there.
+    pub along: Option<StretchOf>,
+    /// The event that it belongs to.
+    pub event: Option<usize>,
     /// Whether the coordinate is an angle.
     pub angular: bool,
-    /// The end, rad or m.
+    /// The end, rad or m; 0 for an event.
     pub at: f64,
     /// 1 at the lower end, −1 at the upper: the sense in which the stop pushes.
     pub sense: f64,
-    /// Rate behind a blow by rate before it, 0 to 1.
+    /// Rate behind a blow by rate before it, 0 to 1; an event knows it only when it happens.
     pub restitution: f64,
     /// A rebound below this rate counts as rest, rad/s or m/s.
     pub rest_speed: f64,
@@ -224,7 +228,40 @@ impl Stop {
     /// Its name: "lower stop".
     #[must_use]
     pub fn word(&self) -> &'static str {
-        if self.sense > 0.0 { "lower stop" } else { "upper stop" }
+        match self.event {
+            Some(_) => "impact",
+            None if self.sense > 0.0 => "lower stop",
+            None => "upper stop",
+        }
+    }
+}
+
+/// End stops that give way: ½ k d² where the coordinate is by d beyond an end. Their force is an effort.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buffer {
+    /// The effort.
+    pub effort: usize,
+    /// The gauge of the coordinate.
+    pub gauge: usize,
+    /// Each end, rad or m, with the sense in which it pushes: 1 at the lower end, −1 at the upper.
+    pub ends: Vec<(f64, f64)>,
+    /// k, N m/rad or N/m.
+    pub stiffness: f64,
+}
+
+impl Buffer {
+    /// Energy ½ k d² (J) and its slope by the coordinate, at x.
+    #[must_use]
+    pub fn energy<S: Scalar>(&self, x: S) -> (S, S) {
+        let (mut energy, mut slope) = (S::default(), S::default());
+        for &(at, sense) in &self.ends {
+            let depth = (S::constant(at) - x).scale(sense);
+            if depth.value() > 0.0 {
+                energy += (depth * depth).scale(0.5 * self.stiffness);
+                slope -= depth.scale(sense * self.stiffness);
+            }
+        }
+        (energy, slope)
     }
 }
 

@@ -7,11 +7,12 @@
 //! ẋ = W · (V_b − V_a),      ẍ = W · (A_b − A_a) + c,
 //! ```
 //!
-//! where W is the unit wrench on b (−W acts on a: every gauge's force is a pair in one line) and the drift c collects
+//! where W is the unit wrench on b (−W acts on a: every gauge's force is a pair in one line), all about the reference point of the
+//! group that a and b belong to (`group.rs`), places being measured from there, and the drift c collects
 //! what the velocities alone contribute. With points p, d = p_b − p_a, directions carried by their bodies, ṗ = v + ω×p and
 //! p̈ = v̇ + ω̇×p + ω×ṗ:
 //!
-//! | gauge | x | W on b (moment about the origin, force) | c |
+//! | gauge | x | W on b (moment, force) | c |
 //! |---|---|---|---|
 //! | slide | n·d, n in a | (p_b×n, n) | n·(ω_b×ṗ_b − ω_a×ṗ_a) + 2ṅ·ḋ + (ω_a×ṅ)·d |
 //! | distance | \|d\| | (p_b×n, n), n = d/\|d\| | n·(ω_b×ṗ_b − ω_a×ṗ_a) + (ḋ² − (n·ḋ)²)/\|d\| |
@@ -106,7 +107,7 @@ pub struct Reading<G: Space> {
     pub x: G::S,
     /// Unit wrench on b.
     pub wrench: Force<G>,
-    /// World points of a and b, where the gauge has them.
+    /// Points of a and b from the reference point, where the gauge has them.
     pub points: [G::Vector; 2],
     /// ẋ.
     pub rate: G::S,
@@ -124,10 +125,18 @@ impl<G: Space> Gauge<G> {
         }
     }
 
-    /// x and W from the poses (`poses[body]`), the tree coordinates `q` and columns `s`.
+    /// x and W from the poses (`places[body]`, from the `reference` point of the group), the tree coordinates `q` and columns `s`.
     #[inline(always)]
-    pub fn position(&self, poses: &[Pose<G>], q: &[G::S], s: &[Motion<G>], windings: &[i32], out: &mut Reading<G>) {
-        let (xa, xb) = (poses[self.a], poses[self.b]);
+    pub fn position(
+        &self,
+        (places, reference): (&[Pose<G>], &G::Vector),
+        q: &[G::S],
+        s: &[Motion<G>],
+        windings: &[i32],
+        out: &mut Reading<G>,
+    ) {
+        let place = |body: usize| if body == 0 { Pose::translation(-*reference) } else { places[body] };
+        let (xa, xb) = (place(self.a), place(self.b));
         match self.measured {
             Measured::Coordinate { along, pb } => {
                 out.x = q[along.q];
@@ -175,7 +184,7 @@ impl<G: Space> Gauge<G> {
 
     /// ẋ and c from the twists; after [`Gauge::position`].
     #[inline(always)]
-    pub fn velocity(&self, poses: &[Pose<G>], twists: &[Motion<G>], bias: &[Motion<G>], v: &[G::S], out: &mut Reading<G>) {
+    pub fn velocity(&self, places: &[Pose<G>], twists: &[Motion<G>], bias: &[Motion<G>], v: &[G::S], out: &mut Reading<G>) {
         let (va, vb) = (twists[self.a], twists[self.b]);
         let two = G::S::constant(2.0);
         match self.measured {
@@ -202,11 +211,11 @@ impl<G: Space> Gauge<G> {
                 out.drift = G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + turning;
             }
             Measured::Dot { u, w } => {
-                let (u, w) = (G::rotate(poses[self.a].r, u), G::rotate(poses[self.b].r, w));
+                let (u, w) = (G::rotate(places[self.a].r, u), G::rotate(places[self.b].r, w));
                 out.drift = dot_rates::<G>(va, vb, u, w).1;
             }
             Measured::Turn { e1, e2, f, .. } => {
-                let (r, f) = (poses[self.a].r, G::rotate(poses[self.b].r, f));
+                let (r, f) = (places[self.a].r, G::rotate(places[self.b].r, f));
                 let (e1, e2) = (G::rotate(r, e1), G::rotate(r, e2));
                 let (c, s) = (G::dot(f, e1), G::dot(f, e2));
                 let ((dc, ddc), (ds, dds)) = (dot_rates::<G>(va, vb, e1, f), dot_rates::<G>(va, vb, e2, f));

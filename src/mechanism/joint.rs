@@ -34,6 +34,8 @@ pub struct Joint<G: Space> {
     pub freedom: usize,
     /// Directions of a and b that a cut joint must keep within a right angle: cosine rows alone also allow the opposite.
     pub facing: Vec<(G::Vector, G::Vector)>,
+    /// How the second body stands in the first as drawn, if the joint leaves all rotations: they are no coordinates of their own.
+    pub turns: Option<G::Rotation>,
 }
 
 impl<G: Space> Joint<G> {
@@ -49,6 +51,7 @@ impl<G: Space> Joint<G> {
             rows: self.rows.clone(),
             freedom: self.freedom,
             facing: self.facing.iter().map(|(u, w)| (G::lift_vector::<D>(*u), G::lift_vector::<D>(*w))).collect(),
+            turns: self.turns.map(G::lift_rotation::<D>),
         }
     }
 }
@@ -252,6 +255,11 @@ impl Shape {
             JointKind::Slider | JointKind::Fixed => vec![pair(n), pair(e1)],
             _ => vec![],
         }
+    }
+
+    /// R₀, if all rotations are free.
+    pub(super) fn turns<G: Space>(&self, planar: bool) -> Option<G::Rotation> {
+        self.axes(planar).contains(&Axis::Ball).then(|| G::rotation(&self.align, 0.0))
     }
 
     fn distance<G: Space>(&self, pa: G::Vector, pb: G::Vector) -> Asked<G> {

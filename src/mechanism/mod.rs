@@ -6,18 +6,23 @@
 pub mod build;
 mod force;
 mod gauge;
+mod group;
 mod inertia;
 mod joint;
 mod row;
 mod start;
+mod translation;
 mod tree;
 
-pub use build::{BuildFault, Coordinates, build, build_beside};
-pub use force::{Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined};
+pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
+pub use force::{
+    Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
+};
 pub use gauge::{Along, Gauge, Measured, Reading};
+pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
-pub use start::{Asked, Start};
+pub use start::{Asked, Orientation, Start};
 pub use tree::{Step, describe_loop};
 
 use crate::expression::Table;
@@ -80,6 +85,10 @@ pub struct Mechanism<G: Space> {
     pub bodies: Vec<Body<G>>,
     /// Moving bodies, parents first.
     pub nodes: Vec<Node<G>>,
+    /// Groups of bodies, each with the reference point that moments are taken about; at least one.
+    pub groups: Vec<Group<G>>,
+    /// Group of each body; 0 for the ground, see [`Mechanism::group_between`].
+    pub group_of: Vec<usize>,
     /// Moving steps of all tree joints.
     pub steps: Vec<Step<G>>,
     /// Number of coordinates.
@@ -106,8 +115,8 @@ pub struct Mechanism<G: Space> {
     pub stretches: Vec<Stretch<G>>,
     /// Asked start values.
     pub starts: Vec<Start>,
-    /// Bodies whose start orientation is asked for, as matrices: where the search begins.
-    pub orientations: Vec<(usize, [[f64; 3]; 3])>,
+    /// Orientations of bodies that starts ask for.
+    pub orientations: Vec<Orientation>,
     /// Forces along gauges.
     pub efforts: Vec<Effort<G>>,
     /// Which effort is a spring's elastic and damping force: `spring_efforts[spring]`.
@@ -120,6 +129,8 @@ pub struct Mechanism<G: Space> {
     pub friction_efforts: Vec<Option<usize>>,
     /// First-order state of a joint's bristles: `bristles[joint]`.
     pub bristles: Vec<Option<usize>>,
+    /// End stops that give way.
+    pub buffers: Vec<Buffer>,
     /// Rigid stops.
     pub stops: Vec<Stop>,
     /// Rotors that turn with gauges.
@@ -170,10 +181,15 @@ impl<G: Space> Mechanism<G> {
 
     /// Adds a row that holds a joint on a rigid stop.
     pub fn rest(&mut self, stop: usize) {
-        let Stop { gauge, at, angular, .. } = self.stops[stop];
+        let Stop { along, at, angular, .. } = self.stops[stop];
+        let kind = match along {
+            Some(StretchOf::Gauge(gauge)) => RowKind::Gauge(gauge),
+            Some(StretchOf::Function(function)) => RowKind::Function(function),
+            None => return,
+        };
         let offset = G::S::constant(at);
         let label = String::new();
-        self.rows.push(Row { kind: RowKind::Gauge(gauge), owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
+        self.rows.push(Row { kind, owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
     }
 
     /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].
@@ -187,13 +203,18 @@ impl<G: Space> Mechanism<G> {
         vec![0; self.switches + self.windings]
     }
 
-    /// Characteristic length, m: the farthest named point of any body from its own origin, and of the ground; 1 without any.
+    /// Characteristic length, m: the farthest named point of any body from its own origin, or of two places on the ground where bodies
+    /// of one group are held; 1 without any.
     #[must_use]
     pub fn size(&self) -> f64
     where
         G: Space<S = f64>,
     {
-        let reach = self.bodies.iter().flat_map(|b| &b.points).map(|(_, p)| G::dot(*p, *p).sqrt()).fold(0.0, f64::max);
+        let length = |p: G::Vector| G::dot(p, p).sqrt();
+        let points = self.bodies[1..].iter().flat_map(|b| &b.points).map(|(_, p)| length(*p));
+        let held = self.footings();
+        let apart = held.iter().flat_map(|(g, p)| held.iter().filter(move |(other, _)| other == g).map(move |(_, o)| length(*o - *p)));
+        let reach = points.chain(apart).fold(0.0, f64::max);
         if reach > 0.0 { reach } else { 1.0 }
     }
 
@@ -288,6 +309,8 @@ impl<G: Space> Mechanism<G> {
                     columns: n.columns.clone(),
                 })
                 .collect(),
+            groups: self.groups.iter().map(Group::lift).collect(),
+            group_of: self.group_of.clone(),
             steps: self.steps.iter().map(Step::lift).collect(),
             nq: self.nq,
             nv: self.nv,
@@ -308,6 +331,7 @@ impl<G: Space> Mechanism<G> {
             pressings: self.pressings.clone(),
             friction_efforts: self.friction_efforts.clone(),
             bristles: self.bristles.clone(),
+            buffers: self.buffers.clone(),
             stops: self.stops.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
             pulls: self.pulls.iter().map(Pull::lift).collect(),

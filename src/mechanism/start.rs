@@ -32,4 +32,17 @@ pub enum Asked {
         /// 0 x, 1 y, 2 z.
         axis: usize,
     },
+    /// The orientation of a body; the value of the start is its angle.
+    Orientation(usize),
+}
+
+/// An orientation that a start asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orientation {
+    /// The body.
+    pub body: usize,
+    /// Unit axis in the world.
+    pub axis: [f64; 3],
+    /// Rotation of the body in the world, a 3×3 matrix.
+    pub matrix: [[f64; 3]; 3],
 }

@@ -50,6 +50,22 @@ pub struct Bristle {
     pub deflection: Id,
 }
 
+/// End stops that give way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// Force or torque on the second body along the coordinate, by coordinate and rate; N or N m.
+    ///
+    /// Below `from`: max(0, stiffness · (from − x) − damping · x'); above `to`: min(0, stiffness · (to − x) − damping · x').
+    /// A stop pushes and never pulls.
+    pub force: Id,
+    /// `from`, rad or m.
+    pub from: Option<Id>,
+    /// `to`, rad or m.
+    pub to: Option<Id>,
+    /// `stiffness`, N m/rad or N/m.
+    pub stiffness: Id,
+}
+
 /// Rigid stops of a joint: its coordinate is thrown back from them, and comes to rest on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stops {

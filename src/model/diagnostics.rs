@@ -169,6 +169,15 @@ impl Report {
         Self { diagnostics }
     }
 
+    /// The same without lines of the source: of a file that turns out to be something else than was asked for, nothing is shown.
+    #[must_use]
+    pub(super) fn without_excerpts(mut self) -> Self {
+        for found in &mut self.diagnostics {
+            (found.at, found.other) = (None, None);
+        }
+        self
+    }
+
     /// Number of errors.
     #[must_use]
     pub fn errors(&self) -> usize {

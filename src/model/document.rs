@@ -148,10 +148,14 @@ impl Document {
         let mut faults = inquiry.form();
         let meaning = inquiry.meaning();
         // what follows from a fault of form is not said again; a misspelt key says nothing against its value
+        let headless = faults.iter().any(|fault| fault.code == "unknown-key" && !fault.place.contains('.'));
         let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();
-        faults.extend(
-            meaning.into_iter().filter(|fault| fault.spot == Spot::Key || !form.contains(&fault.cause()) && !form.contains(&fault.place)),
-        );
+        let consequence = |fault: &Fault| {
+            // the names of a section whose own name is misspelt are unknown
+            headless && fault.code.starts_with("unknown-")
+                || fault.spot != Spot::Key && (form.contains(&fault.cause()) || form.contains(&fault.place))
+        };
+        faults.extend(meaning.into_iter().filter(|fault| !consequence(fault)));
         self.report(&faults)
     }
 

@@ -3,7 +3,7 @@
 //! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
-use super::contacts::{Friction, Stops};
+use super::contacts::{Friction, Limit, Stops};
 use super::rules::Check;
 use super::{study::Study, vocabulary::Quantity};
 use crate::expression::{Dimension, Id, Pool};
@@ -214,11 +214,8 @@ pub struct Joint {
     pub zero: Option<Id>,
     /// `damping`, N m s/rad or N s/m.
     pub damping: Option<Id>,
-    /// Force or torque of the end stops (`limits`) on the second body along the coordinate, by coordinate and rate; N or N m.
-    ///
-    /// Below `from`: max(0, stiffness · (from − x) − damping · x'); above `to`: min(0, stiffness · (to − x) − damping · x').
-    /// A stop pushes and never pulls.
-    pub limit_force: Option<Id>,
+    /// `limits` with a `stiffness`.
+    pub limit: Option<Limit>,
     /// `friction`.
     pub friction: Option<Friction>,
     /// `limits` with a `restitution`.

@@ -18,6 +18,11 @@ pub(crate) enum Want {
 }
 
 impl Want {
+    /// A value for something that has this dimension.
+    pub(crate) fn of(dimension: Dimension) -> Self {
+        if dimension.is_angle() { Self::Angle } else { Self::Of(dimension) }
+    }
+
     /// For messages and the schema: `length (m)`.
     pub(crate) fn name(self) -> String {
         match self {

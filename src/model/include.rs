@@ -139,13 +139,14 @@ fn robot(entry: &Value, at: &At<'_, '_>, files: &Files<'_>) -> Result<Included, 
         let fault = Fault::new("no-file", place("urdf"), format!("cannot read `{name}`: {why}"), "a URDF file, by its path from this file");
         Trouble::Here(Box::new(fault.help("check the path")))
     })?;
-    let text = document::text_of(&bytes, &file, bytes.len()).map_err(Trouble::There)?;
+    let secret = |report: Report| if urdf::is_robot(&bytes) { report } else { report.without_excerpts() };
+    let text = document::text_of(&bytes, &file, bytes.len()).map_err(secret).map_err(Trouble::There)?;
     let base = if word("base") == "free" { Base::Free } else { Base::Fixed };
     let stops = entry.get("stops").and_then(Value::as_bool) == Some(true);
     let options = Options { prefix, at: entry.get("at"), rpy: entry.get("rpy"), base, stops };
     match urdf::read(text, &options) {
         Ok(robot) => Ok(Included { text: text.to_owned(), file, robot, place: merge::path(&at.steps()) }),
-        Err(faults) => Err(Trouble::There(document::report(&file, text, &faults, &[]))),
+        Err(faults) => Err(Trouble::There(secret(document::report(&file, text, &faults, &[])))),
     }
 }
 

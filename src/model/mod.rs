@@ -31,6 +31,7 @@ mod words;
 mod yaml;
 
 pub use contacts::*;
+pub(crate) use decode::REST_SPEED;
 pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
 pub use document::{Document, Selection};
 pub use entities::*;
@@ -41,7 +42,7 @@ pub use schema::schema;
 pub use study::*;
 pub use urdf::{Import, Imported, import, roll_pitch_yaw};
 pub use vocabulary::{Known, Quantity};
-pub use words::with_unit;
+pub use words::{in_unit, with_unit};
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use super::fault::{At, Fault, Spot};
 use super::merge::{Layers, Node};
-use crate::expression::unit;
+use crate::expression::is_function;
 use std::collections::HashMap;
 
 /// Names that mean something everywhere.
@@ -22,12 +22,6 @@ const RESERVED: [&str; 15] = [
     "and",
     "or",
     "not",
-];
-
-/// The functions and functionals of expressions.
-const FUNCTIONS: [&str; 22] = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "exp", "log", "abs", "sign", "min", "max", "clamp", "if", "rate", "mean",
-    "integral", "last", "value", "first",
 ];
 
 /// What a name stands for: index in the model's list of its kind.
@@ -100,26 +94,14 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<
             let entity = entity(i);
             let place = || layers.source(&at.key(name).steps());
             let article = entity.what();
-            if let Some(why) = taken(name) {
+            // what stands in expressions; a load or a body may be called `floor`
+            let in_expressions = matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::State(_) | Entity::Measure(_));
+            if let Some(why) = taken(name).filter(|_| in_expressions || RESERVED.contains(&name)) {
                 let help = format!("for example `{name}1`");
                 faults.push(
                     Fault::new("reserved-name", place(), format!("`{name}` is {why}"), format!("another name for {article}"))
                         .at(Spot::Key)
                         .help(help),
-                );
-            } else if matches!(entity, Entity::Parameter(_) | Entity::Table(_) | Entity::State(_) | Entity::Measure(_))
-                && unit(name).is_some()
-            {
-                let message = format!("`{name}` is a unit");
-                faults.push(
-                    Fault::new(
-                        "reserved-name",
-                        place(),
-                        message,
-                        format!("another name for {article}: `2*{name}` and `2 {name}` would differ"),
-                    )
-                    .at(Spot::Key)
-                    .help(format!("for example {}", instead(name))),
                 );
             }
             if let Some((first, where_)) = names.get(name) {
@@ -142,30 +124,11 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<
 pub(crate) fn taken(name: &str) -> Option<&'static str> {
     if RESERVED.contains(&name) {
         Some("a reserved word")
-    } else if FUNCTIONS.contains(&name) {
+    } else if is_function(name) {
         Some("a function")
     } else {
         None
     }
-}
-
-/// Names to take instead of a unit word.
-fn instead(unit: &str) -> String {
-    let word = match unit {
-        "m" => "mass",
-        "g" => "gravity",
-        "s" => "stroke",
-        "min" => "least",
-        "in" => "inner",
-        "N" => "force",
-        "W" => "power",
-        "V" => "voltage",
-        "A" => "area",
-        "H" => "height",
-        "J" => "inertia",
-        _ => return format!("`{unit}1`"),
-    };
-    format!("`{unit}1` or `{word}`")
 }
 
 /// `[A-Za-z][A-Za-z0-9_]*`

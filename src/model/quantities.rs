@@ -49,7 +49,7 @@ pub(crate) fn coordinates(kind: &JointKind) -> &'static [Coordinate] {
 impl Coordinate {
     /// Dimension of its rate of this order.
     pub(crate) fn dimension(&self, order: usize) -> Dimension {
-        let base = if self.angle { Dimension::NONE } else { Dimension::LENGTH };
+        let base = if self.angle { Dimension::ANGLE } else { Dimension::LENGTH };
         base.div(Dimension::TIME.pow(order as i32))
     }
 
@@ -369,7 +369,7 @@ impl<'a> World<'a> {
         }
         if !planar {
             if let Some(axis) = rest.strip_prefix('w').and_then(|axis| self.axis(axis)) {
-                return Ok(Found::Leaf(Quantity::Spin { body, axis, order: 1 }, Dimension::FREQUENCY));
+                return Ok(Found::Leaf(Quantity::Spin { body, axis, order: 1 }, Dimension::ANGULAR_SPEED));
             }
             if let Some(component) = ["qw", "qx", "qy", "qz"].iter().position(|name| *name == rest) {
                 return Ok(Found::Leaf(Quantity::Quaternion { body, component }, Dimension::NONE));
@@ -462,8 +462,8 @@ impl<'a> World<'a> {
         let joint = self.model.motors[motor].joint;
         let coordinate = |order| Quantity::Joint { joint, slot: 0, order };
         match rest {
-            "angle" => Ok(Found::Leaf(coordinate(0), Dimension::NONE)),
-            "omega" => Ok(Found::Leaf(coordinate(1), Dimension::FREQUENCY)),
+            "angle" => Ok(Found::Leaf(coordinate(0), Dimension::ANGLE)),
+            "omega" => Ok(Found::Leaf(coordinate(1), Dimension::ANGULAR_SPEED)),
             "torque" => Ok(Found::Leaf(Quantity::MotorTorque { motor }, Dimension::TORQUE)),
             "power" => {
                 let (torque, omega) = (self.input(pool, Quantity::MotorTorque { motor }), self.input(pool, coordinate(1)));

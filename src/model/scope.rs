@@ -242,6 +242,11 @@ impl Scope for View<'_, '_, '_> {
         }
     }
 
+    fn has_value(&self, word: &str) -> bool {
+        matches!(self.world.names.get(word), Some(Entity::Parameter(_) | Entity::State(_) | Entity::Measure(_)))
+            || self.local.symbols.iter().any(|(name, _)| *name == word)
+    }
+
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         let Some(Entity::Table(i)) = self.world.names.get(name).copied() else { return None };
         if !self.allow.tables {
@@ -310,10 +315,7 @@ impl Scope for View<'_, '_, '_> {
         };
         if let Some(at) = at {
             if let Err(found) = at.expect(independent) {
-                let expected = format!(
-                    "a place of the independent variable: {}",
-                    if independent == Dimension::NONE { "angle (rad)".to_owned() } else { independent.name() }
-                );
+                let expected = format!("a place of the independent variable: {}", independent.name());
                 return Err(self.refuse("wrong-dimension", unknown(format!("found {found} as a place"), expected, None)));
             }
             if !pool.inputs_of(&[at.id]).is_empty() {

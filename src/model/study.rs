@@ -19,6 +19,8 @@ pub struct Study {
     pub solve: Option<Solve>,
     /// `take`: local name, study, scalar.
     pub take: Vec<Take>,
+    /// Dimension of the independent variable; `None` if the study has none.
+    pub independent: Option<Dimension>,
     /// Columns in the order of the CSV; the first is the independent variable if `columns` was silent.
     pub columns: Vec<Column>,
     /// Columns and curves that may be undefined: their cells are blank there.
@@ -290,6 +292,8 @@ pub struct Solve {
     pub between: [Id; 2],
     /// Scalar name and target.
     pub target: (String, Id),
+    /// Units in which the file writes the bounds and the target, with their sizes in SI; `None` where it writes none.
+    pub units: [Option<(String, f64)>; 2],
 }
 
 /// `take`: a scalar of another study.

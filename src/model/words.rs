@@ -8,9 +8,14 @@ use crate::expression::{Cause, Dimension};
 /// A number of seven digits with its unit.
 #[must_use]
 pub fn with_unit(x: f64, dimension: Dimension) -> String {
+    in_unit(x, &dimension.si())
+}
+
+/// A number of seven digits and a unit.
+pub fn in_unit(x: f64, unit: &str) -> String {
     let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
     let number = if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") };
-    format!("{number} {}", dimension.si()).trim_end().to_string()
+    format!("{number} {unit}").trim_end().to_string()
 }
 
 /// Why a value of parameters alone is undefined.

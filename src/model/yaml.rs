@@ -178,6 +178,9 @@ fn syntax(text: &str, info: &str, at: usize) -> Fault {
         }
         return fault.help("indent with spaces");
     }
+    if let Some(fault) = glued(text, line_start) {
+        return fault;
+    }
     if info.contains("mapping values are not allowed") {
         return fault("one `key: value` in a line, or a map in braces `{ key: value, key: value }`")
             .help("a colon followed by a space begins a value; put text with a colon in quotes");
@@ -193,6 +196,24 @@ fn syntax(text: &str, info: &str, at: usize) -> Fault {
         return fault("keys of one map in one column").help("line the key up with its neighbours");
     }
     fault("YAML: `key: value` in lines, deeper levels indented")
+}
+
+/// A key without a space behind its colon in the line of an error or in the last one above it that has words: the reader of
+/// YAML takes it for text, and stumbles over what follows.
+fn glued(text: &str, line_start: usize) -> Option<Fault> {
+    let above = text[..line_start].trim_end().rfind('\n').map_or(0, |i| i + 1);
+    [line_start, above].into_iter().find_map(|start| {
+        let line = text[start..].lines().next().unwrap_or("");
+        let (indent, inner) = (line.len() - line.trim_start().len(), line.trim_start());
+        let (key, value) = inner.split_once(':')?;
+        let glued = super::names::is_title(key) && value.starts_with(|c: char| c.is_ascii_alphanumeric() || "[{-.\"'~".contains(c));
+        let at = start + indent;
+        glued.then(|| {
+            Fault::new("yaml-syntax", String::new(), format!("no space behind the colon of `{key}:`"), "`key: value`, with a space")
+                .at(Spot::Bytes(at..at + key.len() + 1))
+                .help(format!("write `{key}: {}`", super::shape::clip(value.split(" #").next().unwrap_or(value).trim_end())))
+        })
+    })
 }
 
 /// What serde_yaml refuses although the guard let it pass.
@@ -256,8 +277,23 @@ mod tests {
             ("a: [1, 2\nb: 3\n", "yaml-syntax"),
             ("a: \0\n", "yaml-syntax"),
             ("a: b\n", "read"),
+            ("p:\n  a:1 m\n  b: 2\n", "yaml-syntax"),
         ] {
             assert_eq!(code(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_missing_space_is_shown_where_it_is_missing() {
+        for (text, glued) in [
+            ("p:\n  a:1 m\n  b: 2\n", "a:"),
+            ("p:\n  a: 1 m\n\n  bb:[1, 2]\n\nq: 3\n", "bb:"),
+            ("p:\n  a: 1 m\n  b:2 m # two\n\nq:\n  c: 3\n", "b:"),
+        ] {
+            let fault = &read(text).unwrap_err()[0];
+            let Spot::Bytes(at) = &fault.spot else { panic!("{fault:?}") };
+            assert_eq!(&text[at.clone()], glued, "{fault:?}");
+            assert!(fault.help.as_ref().is_some_and(|help| help.starts_with(&format!("write `{glued} "))), "{fault:?}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
 //!
 //! This room knows names, numbers and pictures, nothing of mechanics; its data types are plain, and every function here is
-//! pure but [`Staging::commit`], the only one that touches a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
+//! pure but [`Staging::commit`] and [`prepare`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 mod csv;
@@ -11,6 +11,7 @@ mod font;
 mod json;
 mod legend;
 mod lettering;
+mod manifest;
 mod mat;
 mod panel;
 mod raster;
@@ -30,7 +31,7 @@ pub use figure::{Axis, Curve, Figure, Mark, Scale, render_figure};
 pub use json::{Extrema, Extreme, Finding, Report, json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
 pub use raster::RenderError;
-pub use staging::{Staging, WriteError};
+pub use staging::{Staging, WriteError, Written, prepare};
 pub use summary::{Scalar, summary};
 pub use table::{Header, Table};
 

@@ -1,11 +1,17 @@
-//! Files of a study, whole or not at all.
+//! Files of a study, written as one set.
 //!
-//! Everything is made in memory first. Then each file is written under a temporary name in the target directory, and only when
-//! all of them lie there are they renamed, which within one directory is atomic for each. A failure undoes what was done.
+//! Everything is made in memory first. Then each file is written under a temporary name in the target directory, and when all of
+//! them lie there, each is renamed over the one before, so that under its name stands at every instant the old file or the new
+//! one. The record of the directory ([`super::manifest`]) names the set before its first byte is written: a run that is killed on
+//! the way leaves an old set and temporary files, or all that is needed to finish the new set, and the next run in the directory
+//! clears the one or does the other. A lock on the directory lets only one run write there at a time; the system drops it when a
+//! run dies. Where a file system has no locks, runs at the same time need directories of their own.
 
+use super::manifest::{Entry, Manifest, Mark, Writing, is_plain, put, set_of};
+use std::collections::BTreeMap;
 use std::fmt;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// The files of one study, not yet on the disc.
@@ -14,13 +20,33 @@ pub struct Staging {
     files: Vec<(String, Vec<u8>)>,
 }
 
+/// What has been written.
+#[derive(Clone, Debug, Default)]
+pub struct Written {
+    /// All files, in order.
+    pub paths: Vec<PathBuf>,
+    /// What was mended of earlier runs, in sentences.
+    pub notes: Vec<String>,
+}
+
 /// A file or directory that could not be written, and why.
 #[derive(Debug)]
 pub struct WriteError {
     /// What could not be written.
     pub path: PathBuf,
-    /// The system's reason.
+    /// The system's reason; [`ErrorKind::AlreadyExists`] for a file that no run is recorded to have written.
     pub cause: io::Error,
+}
+
+impl WriteError {
+    /// What can be done about it.
+    #[must_use]
+    pub fn help(&self) -> &'static str {
+        match self.cause.kind() {
+            ErrorKind::AlreadyExists => "move it away, choose another directory with `-o DIR`, or replace it with `--force`",
+            _ => "choose another directory with `-o DIR`",
+        }
+    }
 }
 
 impl fmt::Display for WriteError {
@@ -48,95 +74,184 @@ impl Staging {
         self.files.push((name, bytes.into()));
     }
 
-    /// The names so far, in order.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.files.iter().map(|(name, _)| name.as_str())
-    }
-
-    /// Writes all files into `directory` (made if missing) and removes what an earlier run of `study` left and this one did not
-    /// make; `studies` are the names of all studies of the model, whose files are never touched.
+    /// Writes all files into `directory` (made if missing) and removes what an earlier run of `study` is recorded to have left and
+    /// this one did not make. With `force` a file that no run is recorded to have written is replaced, too.
     ///
     /// # Errors
-    /// The path and the system's reason. The directory is then as it was before.
-    pub fn commit(&self, directory: &Path, study: &str, studies: &[String]) -> Result<Vec<PathBuf>, WriteError> {
-        if let Some(name) = self.names().find(|name| !is_plain(name)) {
-            let cause = io::Error::new(io::ErrorKind::InvalidInput, "not a plain file name");
-            return Err(WriteError { path: directory.join(name), cause });
+    /// The path and the system's reason. The directory is then as it was before; only if a rename fails halfway, which the checks
+    /// before it leave to a failing disc, the record names what is missing, and the next run brings it.
+    pub fn commit(&self, directory: &Path, study: &str, force: bool) -> Result<Written, WriteError> {
+        if let Some((name, _)) = self.files.iter().find(|(name, _)| !is_plain(name)) {
+            return Err(failed(&directory.join(name), io::Error::new(ErrorKind::InvalidInput, "not a plain file name")));
         }
-        let mut undo = Undo::default();
-        match self.write(directory, &mut undo) {
-            Ok(paths) => {
-                undo.backups.iter().for_each(|(backup, _)| discard(backup));
-                remove_stale(directory, study, studies, |name| self.names().any(|made| made == name));
-                Ok(paths)
-            }
-            Err(error) => {
-                undo.roll_back();
-                Err(error)
-            }
-        }
-    }
-
-    fn write(&self, directory: &Path, undo: &mut Undo) -> Result<Vec<PathBuf>, WriteError> {
-        let failed = |path: &Path| {
-            let path = path.to_owned();
-            move |cause| WriteError { path, cause }
-        };
         let missing = directory.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
-        undo.directories = missing.map(Path::to_owned).collect();
-        if let Some(file) = directory.ancestors().find(|path| path.is_file()) {
-            return Err(failed(file)(io::Error::new(io::ErrorKind::NotADirectory, "a file is in the way of the directory")));
+        let made: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        let written = self.write(directory, study, force);
+        if written.is_err() {
+            // the innermost first; one that is not empty stays
+            made.iter().for_each(|path| _ = fs::remove_dir(path));
         }
-        fs::create_dir_all(directory).map_err(failed(directory))?;
+        written
+    }
 
-        // The process number keeps two runs in one directory apart.
-        let temporary = |name: &str, purpose: &str| directory.join(format!(".{name}.{purpose}-{}", std::process::id()));
-        for (name, bytes) in &self.files {
-            let path = directory.join(name);
-            if path.is_dir() {
-                return Err(failed(&path)(io::Error::new(io::ErrorKind::IsADirectory, "a directory of this name is in the way")));
-            }
-            let new = temporary(name, "new");
-            undo.temporaries.push(new.clone());
-            fs::write(&new, bytes).map_err(failed(&path))?;
+    fn write(&self, directory: &Path, study: &str, force: bool) -> Result<Written, WriteError> {
+        if let Some(file) = directory.ancestors().find(|path| path.is_file()) {
+            return Err(failed(file, io::Error::new(ErrorKind::NotADirectory, "a file is in the way of the directory")));
         }
-        let mut paths = Vec::with_capacity(self.files.len());
+        fs::create_dir_all(directory).map_err(|cause| failed(directory, cause))?;
+        let lock = lock(directory);
+        let (mut manifest, notes) = recovered(directory)?;
+        let marks: BTreeMap<String, Mark> = self.files.iter().map(|(name, bytes)| (name.clone(), Mark::of(bytes))).collect();
         for (name, _) in &self.files {
-            let path = directory.join(name);
-            if path.exists() {
-                let old = temporary(name, "old");
-                fs::rename(&path, &old).map_err(failed(&path))?;
-                undo.backups.push((old, path.clone()));
-            }
-            fs::rename(temporary(name, "new"), &path).map_err(failed(&path))?;
-            undo.written.push(path.clone());
-            paths.push(path);
+            may_replace(directory, name, marks.get(name), &manifest, force)?;
         }
-        Ok(paths)
+        let before = manifest.clone();
+        let set = set_of(&marks);
+        let writing = Writing { study: study.into(), set, suffix: free_suffix(directory, marks.keys()), files: marks };
+        manifest.writing = Some(writing.clone());
+        manifest.store(directory)?;
+        for (name, bytes) in &self.files {
+            if let Err(cause) = put(&writing.temporary(directory, name), bytes) {
+                writing.clear(directory);
+                // the first error is the one the user needs
+                before.put_back(directory);
+                return Err(failed(&directory.join(name), cause));
+            }
+        }
+        manifest.finish(directory, &writing)?;
+        if let Some(lock) = lock {
+            let _ = lock.sync_all();
+        }
+        Ok(Written { paths: self.files.iter().map(|(name, _)| directory.join(name)).collect(), notes })
     }
 }
 
-/// What has been done so far, to be undone if the rest fails.
-#[derive(Default)]
-struct Undo {
-    /// Directories that did not exist, the innermost first.
-    directories: Vec<PathBuf>,
-    temporaries: Vec<PathBuf>,
-    written: Vec<PathBuf>,
-    /// (where the earlier file lies now, where it belongs)
-    backups: Vec<(PathBuf, PathBuf)>,
+/// Looks before a study is computed whether its files could be written, as far as their names are known, and mends what a run that
+/// was killed has left in the directory: what was mended, in sentences.
+///
+/// # Errors
+/// The first file that no run is recorded to have written and that `force` does not permit to replace.
+pub fn prepare(directory: &Path, names: &[String], force: bool) -> Result<Vec<String>, WriteError> {
+    if !directory.is_dir() {
+        return Ok(Vec::new());
+    }
+    let _lock = lock(directory);
+    let (manifest, notes) = recovered(directory)?;
+    for name in names {
+        may_replace(directory, name, None, &manifest, force)?;
+    }
+    Ok(notes)
 }
 
-impl Undo {
-    fn roll_back(&self) {
-        // The first error is the one the user needs; a second one while undoing could not be helped anyway.
-        self.written.iter().chain(&self.temporaries).for_each(|path| discard(path));
-        for (backup, path) in &self.backups {
-            let _ = fs::rename(backup, path);
+fn failed(path: &Path, cause: io::Error) -> WriteError {
+    WriteError { path: path.to_owned(), cause }
+}
+
+/// The directory, locked against other runs until this is dropped; none where there are no locks.
+fn lock(directory: &Path) -> Option<File> {
+    let file = File::open(directory).ok()?;
+    file.lock().ok()?;
+    Some(file)
+}
+
+/// Refuses to replace what no run has written: `new` is what would stand there.
+fn may_replace(directory: &Path, name: &str, new: Option<&Mark>, manifest: &Manifest, force: bool) -> Result<(), WriteError> {
+    let path = directory.join(name);
+    let refused = |kind, why| Err(failed(&path, io::Error::new(kind, why)));
+    match fs::symlink_metadata(&path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(failed(&path, error)),
+        Ok(there) if there.is_dir() => refused(ErrorKind::IsADirectory, "a directory of this name is in the way"),
+        Ok(_) if force || manifest.knows(directory, name) || new.is_some_and(|new| new.fits(&path)) => Ok(()),
+        Ok(_) if manifest.files.contains_key(name) => {
+            refused(ErrorKind::AlreadyExists, "the file there is not as an earlier run has written it")
         }
-        for directory in &self.directories {
-            let _ = fs::remove_dir(directory);
+        Ok(_) => refused(ErrorKind::AlreadyExists, "there is a file that no earlier run is recorded to have written"),
+    }
+}
+
+/// An end of temporary names that nothing in the directory has.
+fn free_suffix<'a>(directory: &Path, names: impl Iterator<Item = &'a String> + Clone) -> String {
+    let taken = |suffix: &String| names.clone().any(|name| fs::symlink_metadata(directory.join(format!(".{name}{suffix}"))).is_ok());
+    let mut suffixes = (0..).map(|n| format!(".new-{}.{n}", std::process::id()));
+    suffixes.find(|suffix| !taken(suffix)).unwrap_or_default()
+}
+
+/// The record of a directory, after what a killed run has left there is finished or cleared; the lock must be held.
+fn recovered(directory: &Path) -> Result<(Manifest, Vec<String>), WriteError> {
+    let mut manifest = Manifest::read(directory);
+    let Some(writing) = manifest.writing.clone() else { return Ok((manifest, Vec::new())) };
+    let study = &writing.study;
+    let stands = |name: &String, mark: &Mark| mark.fits(&directory.join(name));
+    let ready = |name: &String, mark: &Mark| {
+        mark.fits(&writing.temporary(directory, name)) && may_replace(directory, name, Some(mark), &manifest, false).is_ok()
+    };
+    if writing.files.iter().all(|(name, mark)| stands(name, mark) || ready(name, mark)) {
+        // a torn one beside a file that has not changed from the set before
+        let torn =
+            writing.files.iter().map(|(name, mark)| (writing.temporary(directory, name), mark)).filter(|(path, mark)| !mark.fits(path));
+        torn.for_each(|(path, _)| discard(&path));
+        manifest.finish(directory, &writing)?;
+        return Ok((
+            manifest,
+            vec![format!("a run of `{study}` was killed while it wrote into {}: its files are complete now", directory.display())],
+        ));
+    }
+    // before the first rename, or with temporary files that somebody has taken away
+    for (name, mark) in writing.files.iter().filter(|(name, mark)| stands(name, mark)) {
+        manifest.files.insert(name.clone(), Entry { study: study.clone(), set: writing.set.clone(), mark: mark.clone() });
+    }
+    writing.clear(directory);
+    manifest.writing = None;
+    manifest.store(directory)?;
+    let state = if manifest.is_mixed(study) { "its files are of two runs: run it again" } else { "its files are those of the run before" };
+    Ok((manifest, vec![format!("a run of `{study}` was killed while it wrote into {}: {state}", directory.display())]))
+}
+
+impl Writing {
+    /// Where a file lies until it is renamed.
+    fn temporary(&self, directory: &Path, name: &str) -> PathBuf {
+        directory.join(format!(".{name}{}", self.suffix))
+    }
+
+    /// Removes the temporary files.
+    fn clear(&self, directory: &Path) {
+        self.files.keys().for_each(|name| discard(&self.temporary(directory, name)));
+    }
+}
+
+impl Manifest {
+    /// Renames the temporary files that are still there, removes what the set before had and this one has not, and records it.
+    fn finish(&mut self, directory: &Path, writing: &Writing) -> Result<(), WriteError> {
+        for name in writing.files.keys() {
+            let (from, to) = (writing.temporary(directory, name), directory.join(name));
+            match fs::rename(&from, &to) {
+                // renamed by the run that was killed
+                Err(error) if error.kind() == ErrorKind::NotFound && writing.files[name].fits(&to) => {}
+                Err(error) => return Err(failed(&to, error)),
+                Ok(()) => {}
+            }
         }
+        let stale = self.files.iter().filter(|(name, entry)| entry.study == writing.study && !writing.files.contains_key(*name));
+        for name in stale.map(|(name, _)| name.clone()).collect::<Vec<_>>() {
+            // what somebody has put there since is not ours
+            if self.knows(directory, &name) {
+                discard(&directory.join(&name));
+            }
+            self.files.remove(&name);
+        }
+        for (name, mark) in &writing.files {
+            let entry = Entry { study: writing.study.clone(), set: writing.set.clone(), mark: mark.clone() };
+            self.files.insert(name.clone(), entry);
+        }
+        self.writing = None;
+        self.store(directory)
+    }
+
+    /// Whether files of a study are of different runs.
+    fn is_mixed(&self, study: &str) -> bool {
+        let mut sets = self.files.values().filter(|entry| entry.study == study).map(|entry| &entry.set);
+        sets.next().is_some_and(|first| sets.any(|set| set != first))
     }
 }
 
@@ -144,148 +259,6 @@ fn discard(path: &Path) {
     let _ = fs::remove_file(path);
 }
 
-/// A name with no way out of its directory: study and plot names come from the user's file.
-fn is_plain(name: &str) -> bool {
-    !name.is_empty() && !name.contains(['/', '\\', '\0']) && name != "." && name != ".."
-}
-
-/// Removes files of `study` from an earlier run that were not `made` now. Failing to is no failure of the run: the new files are
-/// all there.
-fn remove_stale(directory: &Path, study: &str, studies: &[String], made: impl Fn(&str) -> bool) {
-    for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let Some(name) = name.to_str() else { continue };
-        if is_of(name, study, studies) && !made(name) && entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            discard(&entry.path());
-        }
-    }
-}
-
-/// Whether the file `name` is one that `study` makes, and none that another of `studies` could have made.
-///
-/// Names may nest: `one-turn-unloaded.csv` belongs to the study `one-turn-unloaded`, not to `one-turn`. So a file is left alone
-/// as soon as any longer study name fits its beginning.
-fn is_of(name: &str, study: &str, studies: &[String]) -> bool {
-    let rest_after = |study: &str| name.strip_prefix(study).filter(|rest| rest.starts_with(['.', '-']));
-    let Some(rest) = rest_after(study) else { return false };
-    if studies.iter().any(|other| other.len() > study.len() && rest_after(other).is_some()) {
-        return false;
-    }
-    let Some(part) = rest.strip_prefix('-') else { return matches!(rest, ".csv" | ".json" | ".mat") };
-    // of a sweep from the command line, which has a name of its own
-    if part.starts_with("over-") {
-        return false;
-    }
-    let run = |number: &str| number.len() >= 3 && number.bytes().all(|byte| byte.is_ascii_digit());
-    let plot = |name: &str| !name.is_empty();
-    let matrix = |name: &str| matches!(name, "A" | "B" | "C" | "D" | "mass" | "damping" | "stiffness");
-    let of_run = |name: &str| name.split_once('-').is_some_and(|(number, name)| run(number) && matrix(name));
-    part.strip_suffix(".csv").is_some_and(|name| run(name) || matrix(name) || of_run(name))
-        || part.strip_suffix(".mat").is_some_and(run)
-        || [".svg", ".png"].iter().any(|end| part.strip_suffix(end).is_some_and(plot))
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A fresh directory below the system's temporary one, removed at the end.
-    struct Scratch(PathBuf);
-
-    impl Scratch {
-        fn new(name: &str) -> Self {
-            let path = std::env::temp_dir().join(format!("grashof-{name}-{}", std::process::id()));
-            let _ = fs::remove_dir_all(&path);
-            fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        fn names(&self) -> Vec<String> {
-            let mut names: Vec<_> = fs::read_dir(&self.0).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-            names.sort();
-            names
-        }
-    }
-
-    impl Drop for Scratch {
-        fn drop(&mut self) {
-            let _ = fs::remove_dir_all(&self.0);
-        }
-    }
-
-    fn staged(names: &[&str]) -> Staging {
-        let mut staging = Staging::new();
-        names.iter().for_each(|name| staging.add(*name, "new"));
-        staging
-    }
-
-    #[test]
-    fn a_failed_write_leaves_everything_as_it_was() {
-        let scratch = Scratch::new("atomic");
-        fs::write(scratch.0.join("a.csv"), "old").unwrap();
-        fs::create_dir(scratch.0.join("a.json")).unwrap();
-        let error = staged(&["a.csv", "a-x.svg", "a.json"]).commit(&scratch.0, "a", &["a".into()]).unwrap_err();
-        assert_eq!(error.path, scratch.0.join("a.json"));
-        assert!(error.to_string().contains("in the way"));
-        assert_eq!(scratch.names(), ["a.csv", "a.json"]);
-        assert_eq!(fs::read_to_string(scratch.0.join("a.csv")).unwrap(), "old");
-    }
-
-    #[test]
-    fn a_roll_back_restores_files_and_removes_new_directories() {
-        let scratch = Scratch::new("rollback");
-        let (inner, old, path) = (scratch.0.join("out"), scratch.0.join(".old"), scratch.0.join("a.csv"));
-        fs::create_dir(&inner).unwrap();
-        fs::write(&old, "old").unwrap();
-        fs::write(&path, "new").unwrap();
-        let undo = Undo { directories: vec![inner], temporaries: vec![], written: vec![path.clone()], backups: vec![(old, path.clone())] };
-        undo.roll_back();
-        assert_eq!(scratch.names(), ["a.csv"]);
-        assert_eq!(fs::read_to_string(path).unwrap(), "old");
-    }
-
-    #[test]
-    fn a_path_through_a_file_is_an_error_and_makes_nothing() {
-        let scratch = Scratch::new("through");
-        fs::write(scratch.0.join("file"), "").unwrap();
-        assert!(staged(&["a.csv"]).commit(&scratch.0.join("file/below"), "a", &[]).is_err());
-        assert!(staged(&["../a.csv"]).commit(&scratch.0.join("out"), "a", &[]).is_err());
-        assert_eq!(scratch.names(), ["file"]);
-    }
-
-    #[test]
-    fn stale_files_of_this_study_go_and_no_others() {
-        let scratch = Scratch::new("stale");
-        let out = scratch.0.join("out/deep");
-        let kept = [
-            "one-turn-unloaded.csv",
-            "one-turn-unloaded-001.csv",
-            "one-turn-unloaded-angles.svg",
-            "one-turn-notes.txt",
-            "one-turn.yaml",
-            "one-turn-over-l3.csv",
-            "one-turn-over-l3-007.csv",
-            "one-turn-over-l3-swing.svg",
-        ];
-        let stale =
-            ["one-turn.csv", "one-turn-007.csv", "one-turn-007-A.csv", "one-turn-007.mat", "one-turn-oldplot.svg", "one-turn-oldplot.png"];
-        fs::create_dir_all(&out).unwrap();
-        kept.iter().chain(&stale).for_each(|name| fs::write(out.join(name), "old").unwrap());
-        let studies = ["one-turn".to_owned(), "one-turn-unloaded".to_owned()];
-        staged(&["one-turn.json", "one-turn-angles.svg"]).commit(&out, "one-turn", &studies).unwrap();
-        let mut names: Vec<_> = fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        let mut expected = [kept.as_slice(), &["one-turn.json", "one-turn-angles.svg"]].concat();
-        expected.sort();
-        assert_eq!(names, expected);
-    }
-
-    #[test]
-    fn a_second_run_replaces_the_first() {
-        let scratch = Scratch::new("again");
-        fs::write(scratch.0.join("a.csv"), "old").unwrap();
-        let paths = staged(&["a.csv"]).commit(&scratch.0, "a", &["a".into()]).unwrap();
-        assert_eq!(fs::read_to_string(&paths[0]).unwrap(), "new");
-        assert_eq!(scratch.names(), ["a.csv"]);
-    }
-}
+#[path = "staging_tests.rs"]
+mod tests;

@@ -175,6 +175,20 @@ impl<const N: usize> Scalar for Dual<N> {
     fn ln(self) -> Self {
         self.chain(self.x.ln(), 1.0 / self.x)
     }
+    fn log10(self) -> Self {
+        self.chain(self.x.log10(), 1.0 / (self.x * std::f64::consts::LN_10))
+    }
+    fn sinh(self) -> Self {
+        self.chain(self.x.sinh(), self.x.cosh())
+    }
+    fn cosh(self) -> Self {
+        self.chain(self.x.cosh(), self.x.sinh())
+    }
+    fn tanh(self) -> Self {
+        // 1 − tanh² would cancel where the slope is small
+        let c = self.x.cosh();
+        self.chain(self.x.tanh(), 1.0 / (c * c))
+    }
     fn powf(self, n: f64) -> Self {
         self.chain(self.x.powf(n), n * self.x.powf(n - 1.0))
     }
@@ -204,7 +218,7 @@ mod tests {
     /// Every function's derivative against a central difference of its value.
     #[test]
     fn derivatives_are_those_of_the_values() {
-        let functions: [fn(Dual<1>) -> Dual<1>; 13] = [
+        let functions: [fn(Dual<1>) -> Dual<1>; 17] = [
             |x| x.sqrt(),
             |x| x.sin_cos().0,
             |x| x.sin_cos().1,
@@ -217,6 +231,10 @@ mod tests {
             |x| x.ln() - x.powi(3) * x,
             |x| x.powf(1.7),
             |x| x.pow(x + Dual::constant(0.4)),
+            |x| x.log10(),
+            |x| x.sinh(),
+            |x| x.cosh(),
+            |x| x.tanh(),
             |x| (-x).scale(2.5) + x * x,
         ];
         let (x, h) = (0.37, 1e-6);

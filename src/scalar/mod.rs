@@ -1,15 +1,18 @@
-//! The number type that kinematics, dynamics and expressions are written in: `f64`, or [`Dual`] numbers that carry derivatives.
+//! The number type that kinematics, dynamics and expressions are written in: `f64`, [`Dual`] numbers that carry derivatives, or an
+//! [`Interval`] that holds all values.
 //!
 //! The trait is as small as the mechanics allows. No comparison is in it: a kernel that branched on a value would lose the
 //! derivative's meaning at the switch, so switches are decided outside by modes.
 
 mod dual;
+mod interval;
 
 pub use dual::Dual;
+pub use interval::Interval;
 use std::fmt::Debug;
 use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
 
-/// A real number or something that behaves like one (dual numbers now; lanes and tracing are possible).
+/// A real number or something that behaves like one (dual numbers and intervals now; lanes and tracing are possible).
 ///
 /// The supertraits are what nalgebra's matrix arithmetic asks for (`Num` brings zero, one and the four operations).
 pub trait Scalar:
@@ -37,6 +40,14 @@ pub trait Scalar:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
+    /// Logarithm to the base 10.
+    fn log10(self) -> Self;
+    /// sinh x.
+    fn sinh(self) -> Self;
+    /// cosh x.
+    fn cosh(self) -> Self;
+    /// tanh x.
+    fn tanh(self) -> Self;
     /// x to a constant power.
     fn powf(self, n: f64) -> Self;
     /// x to an integer power.
@@ -88,6 +99,18 @@ impl Scalar for f64 {
     }
     fn ln(self) -> Self {
         f64::ln(self)
+    }
+    fn log10(self) -> Self {
+        f64::log10(self)
+    }
+    fn sinh(self) -> Self {
+        f64::sinh(self)
+    }
+    fn cosh(self) -> Self {
+        f64::cosh(self)
+    }
+    fn tanh(self) -> Self {
+        f64::tanh(self)
     }
     fn powf(self, n: f64) -> Self {
         f64::powf(self, n)

@@ -22,6 +22,35 @@ fn an_expectation_that_is_not_met_ends_with_1() {
     assert!(place.0.join("results/not/lengths.csv").is_file(), "the other studies ran");
 }
 
+/// What a file expects of its own values is no matter of other ones, unless that is asked for.
+#[test]
+fn expectations_are_those_of_the_file_s_own_values() {
+    let place = Place::new("own-values");
+    let lines = "    expect: { swing: { is: 1, within: 1e-3 } }\n    set: { speed: 100 rpm }\n";
+    place.put("model.yaml", &with(lines));
+    let turn = ["run", "model.yaml", "--study", "turn", "--no-plots"];
+    let note = |options: &str| {
+        format!("note: what the file expects of its own values is not judged, since `{options} what is computed; `--expect` judges it\n")
+    };
+    for (change, told) in [
+        (&["--set", "l1=14 cm"][..], "--set` changes"),
+        (&["--variant", "slow"], "--variant` changes"),
+        (&["--set", "l1=14 cm", "--variant", "slow"], "--set` and `--variant` change"),
+    ] {
+        assert_eq!(place.run(&[&turn[..], change].concat()).ends(0).stderr, note(told));
+        assert!(place.json("results/model/turn.json")["findings"].as_array().unwrap().is_empty());
+        assert!(place.run(&[&turn[..], change, &["-q"]].concat()).ends(0).stderr.is_empty());
+        let judged = place.run(&[&turn[..], change, &["--expect"]].concat()).ends(1).stderr;
+        assert!(judged.contains("not 1 within 1e-3"), "{judged}");
+    }
+    let sweep = ["sweep", "model.yaml", "--study", "turn", "--over", "l1=14 cm,15 cm", "--no-plots"];
+    assert_eq!(place.run(&sweep).ends(0).stderr, note("--over` changes"));
+    place.run(&[&sweep[..], &["--expect"]].concat()).ends(1);
+    // what the study sets itself is its own
+    let judged = place.run(&turn).ends(1).stderr;
+    assert!(judged.contains("not 1 within 1e-3") && !judged.contains("note:"), "{judged}");
+}
+
 #[test]
 fn a_study_that_stops_on_its_way_keeps_its_rows() {
     let place = Place::with_model("stops");
@@ -45,8 +74,9 @@ fn the_highest_code_of_several_studies_wins() {
         "{ over: 0.1 rad, samples: 12 }\n    expect: { max(phi3): { is: 9, within: 1 } }\n  lengths",
     );
     place.put("model.yaml", &text);
-    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn-again", "--no-plots"]).ends(1);
-    place.run(&["run", "model.yaml", "--set", "l3=10 cm", "--study", "turn", "--study", "turn-again", "--no-plots"]).ends(3);
+    let changed = ["run", "model.yaml", "--set", "l3=10 cm", "--expect", "--no-plots", "--study", "turn-again"];
+    place.run(&changed).ends(1);
+    place.run(&[&changed[..], &["--study", "turn"]].concat()).ends(3);
     assert!(place.0.join("results/model/turn-again.json").is_file());
 }
 
@@ -96,19 +126,39 @@ fn what_is_set_beats_the_file_and_not_the_sweep() {
 }
 
 #[test]
-fn files_of_the_same_study_are_replaced_and_no_others() {
+fn files_of_an_earlier_run_are_replaced_and_no_others() {
     let place = Place::with_model("stale");
-    let kept = ["notes.txt", "turn.yaml", "turn-again-old.svg", "other.csv", "turnover.csv"];
-    let stale = ["turn-oldplot.svg", "turn-oldplot.png", "turn-007.csv"];
+    // names of the user's that results of the study might have, too
+    let own = ["notes.txt", "turn.yaml", "turn-photo.png", "turn-sketch.svg", "turn-001.csv", "turn-2024.csv", "turn-A.csv", "turn.mat"];
     fs::create_dir_all(place.0.join("out/inner")).unwrap();
-    kept.iter().chain(&stale).for_each(|name| place.put(&format!("out/{name}"), "old"));
-    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out"]).ends(0);
-    for name in kept {
-        assert_eq!(place.text(&format!("out/{name}")), "old");
+    own.iter().for_each(|name| place.put(&format!("out/{name}"), "own"));
+    let kept = || own.iter().for_each(|name| assert_eq!(place.text(&format!("out/{name}")), "own"));
+    for plots in [&["--force"][..], &["--no-plots"]] {
+        place.run(&[&["run", "model.yaml", "--study", "turn", "-o", "out"], plots].concat()).ends(0);
+        kept();
     }
-    for name in stale {
-        assert!(!place.0.join("out").join(name).exists(), "{name}");
-    }
+    // one of the name of a result is refused before anything is computed, and after it
+    place.put("out/turn-angles.png", "own");
+    let before = place.contents_of_files("out");
+    let refused = place.run(&["run", "model.yaml", "--study", "turn", "-o", "out"]).ends(2).stderr;
+    assert!(refused.contains("out/turn-angles.png: there is a file that no earlier run is recorded to have written"), "{refused}");
+    assert!(refused.contains("help: move it away, choose another directory with `-o DIR`, or replace it with `--force`"), "{refused}");
+    fs::rename(place.0.join("out/turn-angles.png"), place.0.join("out/turn-mechanism.png")).unwrap();
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out"]).ends(2);
+    fs::rename(place.0.join("out/turn-mechanism.png"), place.0.join("out/turn-angles.png")).unwrap();
+    assert_eq!(place.contents_of_files("out"), before);
+    // so is a result that somebody has edited since
+    let table = place.text("out/turn.csv") + "# a remark\n";
+    place.put("out/turn.csv", &table);
+    let refused = place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--no-plots"]).ends(2).stderr;
+    assert!(refused.contains("out/turn.csv: the file there is not as an earlier run has written it"), "{refused}");
+    assert_eq!(place.text("out/turn.csv"), table);
+    place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--force"]).ends(0);
+    assert!(
+        place.text("out/turn.csv") != table && fs::read(place.0.join("out/turn-angles.png")).unwrap() != b"own",
+        "replaced because it was asked for"
+    );
+    kept();
     assert!(place.0.join("out/inner").is_dir() && place.0.join("out/turn-angles.svg").is_file());
     // figures of an earlier run do not stay beside newer numbers
     place.run(&["run", "model.yaml", "--study", "turn", "-o", "out", "--no-plots"]).ends(0);

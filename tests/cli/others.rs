@@ -181,3 +181,88 @@ fn check_tells_what_a_model_is() {
     // what cannot be assembled is an error of the model
     assert!(place.run(&["check", "model.yaml", "--set", "l3=5"]).ends(2).stderr.contains("cannot be assembled"));
 }
+
+/// A finding for whatever would keep a study from its first row, and none where it would run.
+#[test]
+fn check_begins_the_studies() {
+    let place = Place::new("begins");
+    let pendulum = "\
+grashof: 1
+name: double pendulum
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies:
+  upper: { bar: { length: 1 m, mass: 1 kg } }
+  lower: { bar: { length: 1 m, mass: 1 kg } }
+joints:
+  P: { revolute: [ground, upper.start] }
+  Q: { revolute: [upper.end, lower.start] }
+start: { P.angle: 0 deg, Q.angle: 20 deg }
+studies:
+  swing: { dynamics: { until: 0.1 s, every: 10 ms } }
+";
+    let four_bar = model();
+    for (name, text, finding, runs) in [
+        ("sound", pendulum.to_owned(), "", true),
+        ("massless", pendulum.replace("lower: { bar: { length: 1 m, mass: 1 kg } }", "lower: { bar: { length: 1 m } }"), "`lower`", false),
+        (
+            "forgotten",
+            pendulum.replace("  Q: { revolute: [upper.end, lower.start] }\n", "").replace(", Q.angle: 20 deg", ""),
+            "`lower`",
+            true,
+        ),
+        ("free", pendulum.replace("  Q: { revolute: [upper.end, lower.start] }\n", "").replace("Q.angle", "lower.angle"), "", true),
+        ("loose", four_bar.replace("joints:\n", "  rod: { bar: { length: 1 m } }\njoints:\n"), "`rod`", false),
+        ("weightless", four_bar.replace(", mass: 3 kg", "").replace(", mass: 6 kg", ""), "no body has a mass", true),
+    ] {
+        let file = format!("{name}.yaml");
+        place.put(&file, &text);
+        let checked = place.run(&["check", &file, "--strict"]);
+        let ran = place.run(&["run", &file, "--no-plots"]);
+        assert_eq!(ran.code == 0, runs, "{name}: {}", ran.stderr);
+        let found = checked.stdout.split("findings").nth(1).unwrap_or_default().to_owned();
+        assert_eq!(checked.code, i32::from(!finding.is_empty()), "{name}: {}\n{}", checked.stdout, checked.stderr);
+        assert!(found.contains(finding), "{name}: {found}");
+    }
+}
+
+/// What numbers are shown in follows from the expression, not from the value.
+#[test]
+fn units_follow_from_expressions() {
+    let place = Place::new("units");
+    place.put(
+        "arm.yaml",
+        "\
+grashof: 1
+name: arm
+space: planar
+gravity: [0, -9.81 m/s^2]
+parameters: { m: 2 kg, g: 9.81 m/s^2, J: m*1 m^2 }
+bodies: { arm: { bar: { length: 1 m, mass: m } } }
+joints: { O: { revolute: [ground, arm.start] } }
+drivers: { drive: { joint: O, speed: 30 rpm } }
+measures: { degrees: O.angle/1 deg, arc: 1 m*O.angle, spin: rate(O.angle), weight: m*g }
+studies:
+  turn:
+    inverse: { over: 1 turn, samples: 36 }
+    columns: [O.angle, degrees, arc, spin, weight]
+    scalars:
+      in_degrees: max(O.angle)/1 deg
+      half: max(O.angle)/2
+      rate_squared: max(O.omega)^2
+      power_over_torque: max(drive.power)/max(drive.torque)
+",
+    );
+    let done = place.run(&["run", "arm.yaml", "--units", "--no-plots"]).ends(0);
+    for line in ["O.angle [rad]", "degrees [1]", "arc [m]", "spin [rad/s]", "weight [N]"] {
+        assert!(done.stdout.contains(line), "{line}\n{}", done.stdout);
+    }
+    let words = |name: &str| -> Vec<String> {
+        let line = done.stdout.lines().find(|line| line.split_whitespace().next() == Some(name)).unwrap_or_default();
+        line.split_whitespace().skip(1).map(str::to_owned).collect()
+    };
+    assert_eq!(words("in_degrees"), ["360"]);
+    assert_eq!(words("half"), ["3.141592654", "rad"]);
+    assert_eq!(words("rate_squared"), ["9.869604401", "rad^2/s^2"]);
+    assert_eq!(words("power_over_torque"), ["3.141592654", "1/s"]);
+}

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+use grashof::analysis::assemble::{Assembled, assemble};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::{run::run, sweep};
 use grashof::dynamics::{Dynamics, Reactions};
@@ -34,6 +35,12 @@ pub(crate) fn model(text: &str, study: Option<&str>) -> Model {
 pub(crate) fn mechanism<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> Mechanism<G> {
     let model = model(text, None);
     build::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+/// The mechanism of a text in the given coordinates with its start.
+pub(crate) fn assembled<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> (Mechanism<G>, Assembled) {
+    let model = model(text, None);
+    assemble::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|f| panic!("{}", f.reason()))
 }
 
 /// A study of a text, run to its end.
@@ -164,13 +171,13 @@ pub(crate) fn react<G: Space<S = f64>>(d: &mut Dynamics<'_, G>, a: &[f64], lambd
 pub(crate) fn star_state<G: Space<S = f64>>(star: &Mechanism<G>, at: &Dynamics<'_, G>) -> (Vec<f64>, Vec<f64>) {
     let (mut q, mut v) = (star.drawn(), vec![0.0; star.nv]);
     for node in &star.nodes {
-        let (pose, twist): (Pose<G>, _) = (at.work.poses[node.body], at.work.twists[node.body]);
+        let (pose, twist): (Pose<G>, _) = (at.pose(node.body), at.work.twists[node.body]);
         let mut axis = 0;
         for step in &star.steps[node.steps.clone()] {
             match *step {
                 Step::Axis { turns: false, q: i, v: k, .. } => {
-                    q[i] = G::component(pose.p, axis);
-                    v[k] = G::component(twist.at(pose.p), axis);
+                    q[i] = G::component(pose.p - node.before.p, axis);
+                    v[k] = G::component(twist.at(at.place(at.mechanism.group_of[node.body], node.body, G::Vector::default())), axis);
                     axis += 1;
                 }
                 Step::Axis { q: i, v: k, .. } => {

@@ -344,3 +344,49 @@ fn a_fall_in_a_quarter_of_a_turn() {
         verdict.give("fall");
     }
 }
+
+/// A ball that falls on a floor, comes to rest, and is lifted: an event with a restitution is a rigid stop, in every scheme.
+#[test]
+fn impacts_of_an_event_come_to_rest_as_on_a_rigid_stop() {
+    let mut verdict = Verdict::default();
+    let schemes = [
+        "integrator: dop853",
+        "integrator: radau5",
+        "integrator: bdf, tolerance: 1e-10",
+        "integrator: rk4, step: 0.3 s",
+        "integrator: generalized-alpha, tolerance: 1e-6",
+        "coordinates: cartesian",
+        "coordinates: minimal",
+    ];
+    let stop = ", limits: { from: 0 m, restitution: 0.2 }";
+    let event = "events: { floor: { when: \"2*fall.position\", crossing: falling, restitution: { joint: fall, e: 0.2 } } }";
+    for (name, stop, event) in [("event", "", event), ("stop", stop, "")] {
+        for scheme in schemes {
+            let text = format!(
+                "grashof: 1
+name: ball
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: {{ ball: {{ mass: 0.5 kg, inertia: 1e-3 kg m^2 }} }}
+joints: {{ fall: {{ slider: [ground, ball.origin], axis: [0, 1]{stop} }} }}
+loads: {{ lift: {{ joint: fall, force: \"if(t > 1.5 s, 10 N, 0 N)\" }} }}
+start: {{ fall.position: 0.5 m, fall.velocity: 0 m/s }}
+{event}
+studies: {{ run: {{ dynamics: {{ until: 2 s, every: 0.1 s, {scheme} }}, columns: [time, fall.position], scalars: {{ low: min(fall.position), rest: \"value(fall.position, 1.4 s)\", end: last(fall.position) }} }} }}
+"
+            );
+            let run = run_text(&text, &["--no-plots"]).succeeded();
+            // half a second of (10 N − 0.5 kg g)/0.5 kg
+            let end = 0.5 * (10.0 / 0.5 - 9.81) * 0.25;
+            verdict.close("end", &format!("{name}, {scheme}"), scalar(&run, "run", "end"), end, 1e-9);
+            verdict.close("low", &format!("{name}, {scheme}"), scalar(&run, "run", "low"), 0.0, 1e-10);
+            verdict.close("rest", &format!("{name}, {scheme}"), scalar(&run, "run", "rest"), 0.0, 1e-10);
+            if name == "event" {
+                let happened = run.json("run")["certificate"]["happened"].as_array().map_or(0, Vec::len);
+                // √(2·9.81·0.5) m/s by 0.2 five times is below the speed of rest
+                assert_eq!(happened, 6, "{scheme}");
+            }
+        }
+    }
+    verdict.give("ball");
+}

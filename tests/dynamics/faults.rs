@@ -248,3 +248,38 @@ studies:
     assert_eq!(json["findings"][0]["code"], "stopped");
     let _ = std::fs::remove_dir_all(&directory);
 }
+
+/// A pendulum of 1e-12 m swings with a period of 2π√(l/g) = 2.006 µs; ten thousand seconds of that are of no use to anybody.
+#[test]
+fn a_run_that_would_not_end_says_what_is_so_fast() {
+    let begun = std::time::Instant::now();
+    let tiny = run("gravity: [0, -9.81 m/s^2]
+bodies: { rod: { bar: { length: 1e-12 m }, attached: { weight: { at: end, mass: 1 kg } } } }
+joints: { P: { revolute: [ground, rod.start] } }
+start: { P.angle: -80 deg }
+studies:
+  run: { dynamics: { until: 1e4 s, every: 1 ms }, columns: [time, P.angle] }
+");
+    told(&tiny, 3, &["200000 steps were taken", "more than 1e7", "`P.angle` moves there with a period of 2.", "e-6 s", "`until: "]);
+    assert_eq!(tiny.json("run")["status"], "failed");
+    // what only holds an explicit scheme back settles in m/c = 1 ns
+    let stiff = |integrator: &str| car("-1e9 N s/m*S.velocity", "S.velocity: 1 m/s", &format!("until: 10 s, every: 1 s{integrator}"));
+    told(&stiff(", integrator: dop853"), 3, &["`S.position` moves there, which settles within 1.0e-9 s", "take `integrator: radau5`"]);
+    assert_eq!(stiff(", integrator: radau5").code, 0);
+    assert!(begun.elapsed() < std::time::Duration::from_secs(120), "{:?}", begun.elapsed());
+}
+
+/// With forces beyond the squares of numbers neither balancing nor the QR algorithm would end.
+#[test]
+fn eigenvalues_that_cannot_be_found_are_told() {
+    for (kind, word) in [("modes: { at: start, damped: true }", "eigenvalues"), ("linearize: { at: start }", "poles")] {
+        let run = run(&format!(
+            "gravity: none
+bodies: {{ car: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, car.origin], axis: [1, 0], damping: -1e308 N s/m }} }}
+studies: {{ run: {{ {kind} }} }}
+"
+        ));
+        told(&run, 3, &[word, "cannot be found"]);
+    }
+}

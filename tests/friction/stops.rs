@@ -233,3 +233,23 @@ studies: { s: { dynamics: { until: 1.2 s, every: 0.1 s }, columns: [time, S.posi
     close("time", end[0], 1.0, 1e-9);
     close("place", end[1], 0.1, 1e-10);
 }
+
+/// What stops with a stiffness store is potential energy; what their dampers take is work of dampers, none of loads.
+#[test]
+fn stops_that_give_way_store_energy() {
+    for (damping, keeps) in [("0 N s/m", true), ("20 N s/m", false)] {
+        let limits = format!("from: 0 m, to: 0.3 m, stiffness: 5 kN/m, damping: {damping}");
+        let text = ball(&limits, "0 N", "W.position: 0.2 m, W.velocity: 2 m/s", "dynamics: { until: 1 s, every: 20 ms, tolerance: 1e-10 }")
+            .replace("W.acceleration]", "W.acceleration, energy.potential, energy.total]");
+        let outcome = done(&text, "fall");
+        let start = &outcome.rows[0];
+        for row in &outcome.rows {
+            let depth = (row[1] - 0.3).max(-row[1]).max(0.0);
+            close("potential", row[4], 0.5 * G * row[1] + 0.5 * 5000.0 * depth * depth, 1e-12);
+            assert!(row[5] <= start[5] + 1e-8 && (!keeps || row[5] >= start[5] - 1e-8), "{row:?}");
+        }
+        let march = march(&outcome);
+        assert!(march.loads.abs() < 1e-10 && march.energy_drift < 1e-7, "{march:?}");
+        assert_eq!(march.dampers < -0.1, !keeps, "{march:?}");
+    }
+}

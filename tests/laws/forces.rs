@@ -140,13 +140,15 @@ fn wrenches_on_every_body_balance() {
         let w = &d.work;
         let mut on = vec![Force::<G>::default(); m.bodies.len()];
         for (joint, f) in m.joints.iter().zip(&r.joints) {
-            on[joint.b.0] += *f;
-            on[joint.a.0] -= *f;
+            let f = f.about_origin(d.reference(joint.a.0.max(joint.b.0)));
+            on[joint.b.0] += f;
+            on[joint.a.0] -= f;
         }
         let mut pair = |gauge: usize, size: f64| {
             let g = &m.gauges[gauge];
-            on[g.b] += w.readings[gauge].wrench * size;
-            on[g.a] -= w.readings[gauge].wrench * size;
+            let f = (w.readings[gauge].wrench * size).about_origin(d.reference(g.a.max(g.b)));
+            on[g.b] += f;
+            on[g.a] -= f;
         };
         for (drive, size) in m.drives.iter().zip(&r.drives) {
             pair(drive.gauge, *size);
@@ -162,13 +164,14 @@ fn wrenches_on_every_body_balance() {
         for b in 1..m.bodies.len() {
             let momentum = w.inertias[b] * w.twists[b];
             let inertial = w.inertias[b] * r.accelerations[b] + w.twists[b].cross_force(momentum);
+            let [inertial, applied] = [inertial, w.applied[b]].map(|f| f.about_origin(d.reference(b)));
             total += inertial;
-            close(&format!("forces on {}", m.bodies[b].name), &wrench(on[b] + w.applied[b]), &wrench(inertial), 1e-10);
+            close(&format!("forces on {}", m.bodies[b].name), &wrench(on[b] + applied), &wrench(inertial), 1e-10);
         }
         close("shaking", &wrench(r.shaking), &wrench(total), EXACT);
         close("forces on the frame", &wrench(r.frame), &wrench(on[0]), 1e-10);
         // the whole: weight and loads less the rate of momentum are what the frame carries
-        let applied = (1..m.bodies.len()).fold(Force::default(), |sum, b| sum + w.applied[b]);
+        let applied = (1..m.bodies.len()).fold(Force::default(), |sum, b| sum + w.applied[b].about_origin(d.reference(b)));
         close("frame = loads − shaking", &wrench(r.frame), &wrench(applied - total), 1e-10);
     }
     everywhere!(law);

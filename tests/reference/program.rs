@@ -75,6 +75,8 @@ impl Run {
     pub(crate) fn files(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(&self.directory) else { return Vec::new() };
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        // the record of what was written
+        names.retain(|name| name != ".grashof.json");
         names.sort();
         names
     }

@@ -11,9 +11,6 @@ const PROJECTIONS: usize = 12;
 const REPEATED: usize = 10;
 const CLOSED: f64 = 4e-15;
 
-/// Round-off of Φ in parts of the largest coordinate: far from zero, positions cannot be closed any better.
-const FAR: f64 = f64::EPSILON;
-
 /// A correction below this (in units of size) leaves a residual of its square.
 const SQUARE_ENOUGH: f64 = 1e-7;
 
@@ -57,7 +54,8 @@ impl Engine {
         // a correction of v is to be expected unless it may be neglected
         let exact = rows && slack == 0.0;
         let stage = if exact { Stage::Velocity } else { Stage::Dynamics };
-        let rounded = FAR * state.q.iter().zip(&self.size_q).fold(0.0, |m, (q, s)| f64::max(m, q.abs() / s - 1.0));
+        // far from zero, positions cannot be closed any better
+        let rounded = self.rounding(&state.q);
         if self.dims.holonomic > 0 {
             self.evaluate(system, state.at(), Stage::Position);
             if self.position_residual() > 1e-15 {

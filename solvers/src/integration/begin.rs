@@ -8,6 +8,8 @@ impl Integration {
     /// The first node, its modes, the first step.
     pub(super) fn begin(&mut self, system: &mut dyn System) -> Result<(), Why> {
         self.engine.settle(system, &mut self.node)?;
+        self.relative.copy_from_slice(&self.node.state.v);
+        self.engine.shared(&self.node.state.v, |k, speed| self.relative[k] = speed);
         self.choose_modes(system)?;
         // the first vector is arbitrary
         self.sigma = (0..6).fold(1.0, |_, _| self.engine.kkt.smallest_singular_value(&mut self.sigma_row));
@@ -55,7 +57,7 @@ impl Integration {
     /// A time in which the motion changes by something like its size, s.
     fn moment(&self) -> f64 {
         let e = &self.engine;
-        let v = self.node.state.v.iter().zip(&e.size_v).fold(0.0, |m, (v, s)| f64::max(m, v.abs() / s));
+        let v = self.relative.iter().zip(&e.size_v).fold(0.0, |m, (v, s)| f64::max(m, v.abs() / s));
         let a = self.node.a.iter().zip(&e.size_v).fold(0.0, |m, (a, s)| f64::max(m, a.abs() / s));
         let shortest = v.max(a.sqrt());
         if shortest > 0.0 { shortest.recip().min(1.0) } else { 1.0 }
@@ -78,7 +80,7 @@ impl Integration {
             }
         }
         let (s, e) = (&self.node.state, &self.engine);
-        let first = e.step_norm(s, &s.v, &self.node.a, &self.node.zdot);
+        let first = e.step_norm(s, &self.relative, &self.node.a, &self.node.zdot);
         let difference = |x: &[f64], y: &[f64], out: &mut [f64]| out.iter_mut().zip(x.iter().zip(y)).for_each(|(o, (x, y))| *o = x - y);
         difference(&self.trial.a, &self.node.a, &mut self.row);
         self.trial.state.v.iter_mut().zip(&s.v).for_each(|(x, v)| *x -= v);

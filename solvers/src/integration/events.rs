@@ -1,11 +1,19 @@
 //! Events of a run: roots located on the continuous solution, crossings, impacts, and the work between.
 
-use super::{Integration, Progress};
+use super::resolve::{BESIDE, GAP, NODES, Resolver, Verdict};
+use super::zeno::PILE;
+use super::{GROWTH, Integration, Progress};
 use crate::engine::{Node, Why};
 use crate::{Effect, System};
 
-/// Places inside of a step at which roots are looked at, with its end.
-const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// A part of a step that is narrower than this part of it is not made narrower still: what is not resolved there is taken as it is seen.
+const NARROWEST: f64 = 1e-6;
+
+/// Looks in one step after which no part is made narrower.
+const MOST_LOOKS: usize = 4000;
+
+/// Steps for which a root that could not be resolved is only seen: it is noise.
+const NOISY: usize = 32;
 
 /// Halvings of a part of a step in the search for a short time on the positive side of a root.
 const MOST_HALVINGS: usize = 30;
@@ -13,66 +21,127 @@ const MOST_HALVINGS: usize = 30;
 /// A root is located to this part of the step.
 const LOCATED: f64 = 1e-11;
 
-/// Where a function that is positive at −1, 0 and 1 may be negative between: the lowest point of the parabola through the three
-/// values, if that is far below them.
-fn dip([a, b, c]: [f64; 3]) -> Option<f64> {
-    let bend = a - 2.0 * b + c;
-    let x = 0.5 * (a - c) / bend;
-    let lowest = b - 0.125 * (a - c) * (a - c) / bend;
-    (bend > 0.0 && x.abs() < 1.0 && lowest < 0.3 * a.min(b).min(c)).then_some(x)
+/// What is known of all roots in a part of a step.
+enum Part {
+    /// All are positive.
+    Clear,
+    /// θ just behind the first that is not, and its number.
+    Across(f64, usize),
+    /// One is not resolved.
+    Open,
 }
 
 impl Integration {
     /// The first root that leaves its positive side within the last step: θ just behind it, and its number.
     pub(super) fn crossing(&mut self, system: &mut dyn System) -> Result<Option<(f64, usize)>, Why> {
+        let timed = self.timed_crossing(system)?;
         if self.looked.is_empty() {
-            return Ok(None);
+            return Ok(timed);
         }
         self.interpolate(system)?;
         self.trial.state.modes.copy_from_slice(&self.last.state.modes);
         self.trial.state.live.copy_from_slice(&self.last.state.live);
-        system.roots(self.last.state.at(), &self.last.a, &self.last.lambda, &mut self.roots);
-        let mut from = 0.0;
-        for look in LOOKS {
-            self.look(system, look)?;
-            self.samples.copy_from_slice(&self.probe);
-            let mut first: Option<(f64, usize)> = None;
-            for k in 0..self.looked.len() {
-                let root = self.looked[k];
-                let (g0, g1) = (self.roots[root], self.samples[root]);
-                if g1 < 0.0 {
-                    let place = if g0 > 0.0 {
-                        self.locate(system, root, [from, look], [g0, g1])?
-                    } else {
-                        self.again(system, root, [from, look], g1)?
-                    };
-                    if first.is_none_or(|(x, _)| place < x) {
-                        first = Some((place, root));
+        system.roots(self.last.state.at(), &self.last.a, &self.last.lambda, &mut self.samples[0]);
+        let h = self.node.state.t - self.last.state.t;
+        let end = timed.map_or(1.0, |(theta, _)| theta);
+        let (mut from, mut width) = (0.0, self.resolved.map_or(1.0, |width| width / h));
+        let mut looks = 0;
+        while from < end {
+            // a rest that is a little longer saves a short one
+            let to = if from + 1.3 * width >= end { end } else { from + width };
+            width = to - from;
+            self.sample(system, from, to)?;
+            looks += NODES;
+            let last = width <= NARROWEST || looks > MOST_LOOKS;
+            match self.first_in(system, [from, to], last)? {
+                Part::Open => width *= 0.25,
+                Part::Across(theta, root) => {
+                    self.remember(width, h);
+                    return Ok(Some((theta, root)));
+                }
+                Part::Clear => {
+                    self.widest = self.widest.max(GAP * width * h);
+                    self.samples.swap(0, NODES - 1);
+                    from = to;
+                    width *= 2.0;
+                }
+            }
+        }
+        self.remember(width, h);
+        Ok(timed)
+    }
+
+    /// Keeps the width to which roots were resolved in a step of the length `h`, as the first to be tried in the next one.
+    fn remember(&mut self, width: f64, h: f64) {
+        self.resolved = (width < 1.0).then_some(width * h);
+        self.noisy.iter_mut().for_each(|left| *left = left.saturating_sub(1));
+    }
+
+    /// Roots at the nodes of a part of the step, and beside them; those of the begin are known.
+    fn sample(&mut self, system: &mut dyn System, from: f64, to: f64) -> Result<(), Why> {
+        for j in 1..=NODES {
+            let s = if j < NODES { Resolver::node(j) } else { BESIDE };
+            let theta = if j == NODES - 1 { to } else { from + 0.5 * (1.0 + s) * (to - from) };
+            self.look(system, theta)?;
+            self.samples[j].copy_from_slice(&self.probe);
+        }
+        Ok(())
+    }
+
+    /// The first root that leaves its positive side in a part of the step; `last`: the part is not made narrower.
+    fn first_in(&mut self, system: &mut dyn System, [from, to]: [f64; 2], last: bool) -> Result<Part, Why> {
+        let mut first: Option<(f64, usize)> = None;
+        for k in 0..self.looked.len() {
+            let root = self.looked[k];
+            let g: [f64; NODES] = std::array::from_fn(|j| self.samples[j][root]);
+            let rough = self.noisy[root] > 0 || self.rough.contains(&root);
+            let verdict = if rough { Verdict::Open } else { self.resolver.judge(&g, self.samples[NODES][root]) };
+            let place = |s: f64| if s == 1.0 { to } else { from + 0.5 * (1.0 + s) * (to - from) };
+            let found = match verdict {
+                Verdict::Clear => continue,
+                Verdict::Across { before, .. } if first.is_some_and(|(x, _)| x <= place(before)) => continue,
+                Verdict::Across { before, after } if before == after => Some(from),
+                Verdict::Across { before, after } => {
+                    self.look(system, place(before))?;
+                    let f_before = self.probe[root];
+                    self.look(system, place(after))?;
+                    let f_after = self.probe[root];
+                    let changes = f_before > 0.0 && f_after < 0.0;
+                    if changes { Some(self.locate(system, root, [place(before), place(after)], [f_before, f_after])?) } else { None }
+                }
+                Verdict::Open => None,
+            };
+            match found {
+                Some(theta) if first.is_none_or(|(x, _)| theta < x) => first = Some((theta, root)),
+                Some(_) => {}
+                None if !(rough || last) => return Ok(Part::Open),
+                None => {
+                    if !rough {
+                        self.engine.counts.unresolved += 1;
+                        self.unresolved.get_or_insert((root, self.last.state.t));
+                        self.noisy[root] = NOISY;
                     }
-                } else if from > 0.0
-                    && let Some(dip) = dip([self.older[root], g0, g1])
-                {
-                    // positive at three looks, but perhaps not between them
-                    let x = from + dip * (look - from);
-                    self.look(system, x)?;
-                    if self.probe[root] < 0.0 {
-                        let (a, fa) = if dip < 0.0 { (2.0 * from - look, self.older[root]) } else { (from, g0) };
-                        let value = self.probe[root];
-                        let place = if fa > 0.0 { self.locate(system, root, [a, x], [fa, value])? } else { a };
-                        if first.is_none_or(|(x, _)| place < x) {
-                            first = Some((place, root));
-                        }
+                    if let Some(theta) = self.seen(system, root, &g, [from, to])?
+                        && first.is_none_or(|(x, _)| theta < x)
+                    {
+                        first = Some((theta, root));
                     }
                 }
             }
-            if first.is_some() {
-                return Ok(first);
-            }
-            std::mem::swap(&mut self.older, &mut self.roots);
-            self.roots.copy_from_slice(&self.samples);
-            from = look;
         }
-        Ok(None)
+        if first.is_some() {
+            self.roots.copy_from_slice(&self.samples[0]);
+        }
+        Ok(first.map_or(Part::Clear, |(theta, root)| Part::Across(theta, root)))
+    }
+
+    /// Where a root is seen to leave its positive side, by the signs at the nodes of a part alone.
+    fn seen(&mut self, system: &mut dyn System, root: usize, g: &[f64; NODES], [from, to]: [f64; 2]) -> Result<Option<f64>, Why> {
+        let place = |j: usize| if j == NODES - 1 { to } else { from + 0.5 * (1.0 + Resolver::node(j)) * (to - from) };
+        let Some(j) = (1..NODES).find(|j| g[*j] < 0.0) else { return Ok(None) };
+        let between = [place(j - 1), place(j)];
+        if g[j - 1] > 0.0 { self.locate(system, root, between, [g[j - 1], g[j]]) } else { self.again(system, root, between, g[j]) }
+            .map(Some)
     }
 
     /// The place where a root that is not positive at the begin and negative at the end of a part of the step changes its sign: behind
@@ -138,9 +207,12 @@ impl Integration {
     pub(super) fn event(&mut self, system: &mut dyn System, theta: f64, root: usize, ends: bool) -> Result<Progress, Why> {
         let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
         self.ahead.copy_from(&self.node);
-        self.dense.evaluate(t + theta * h, &mut self.node.state);
-        self.node.state.modes.copy_from_slice(&self.last.state.modes);
-        self.engine.settle(system, &mut self.node)?;
+        if theta < 1.0 {
+            self.interpolate(system)?;
+            self.dense.evaluate(t + theta * h, &mut self.node.state);
+            self.node.state.modes.copy_from_slice(&self.last.state.modes);
+            self.engine.settle(system, &mut self.node)?;
+        }
         self.balance(system)?;
         self.before.copy_from(&self.node);
         self.crossed.clear();
@@ -169,7 +241,7 @@ impl Integration {
             if let Err(why) = self.engine.settle(system, &mut self.node) {
                 return self.ends_before(why);
             }
-            next = self.also_crossed(system);
+            next = self.also_crossed(system).or_else(|| self.also_timed(system));
         }
         if let Some(&root) = self.crossed.first()
             && !bounces
@@ -185,6 +257,8 @@ impl Integration {
             return Ok(Progress::Event);
         }
         self.bridging = None;
+        let longest = self.longest_gap();
+        self.limit_growth(longest);
         if let Err(why) = self.scheme.restart(system, &mut self.engine, &self.node, self.h) {
             return self.ends_before(why);
         }
@@ -206,6 +280,23 @@ impl Integration {
         system.roots(state.at(), a, lambda, &mut self.probe);
         let near = |root: &usize| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root);
         self.looked.iter().copied().find(near)
+    }
+
+    /// The longest of the times between the last events that changed the motion, of which one is now, s.
+    fn longest_gap(&mut self) -> f64 {
+        let t = self.node.state.t;
+        self.gaps.rotate_right(1);
+        (self.gaps[0], self.changed) = (t - self.changed, t);
+        self.gaps.iter().fold(0.0, |m, gap| f64::max(m, *gap))
+    }
+
+    /// Keeps a step that is chosen by its error to a multiple of `time` (s).
+    pub(super) fn limit_growth(&mut self, time: f64) {
+        // events that pile up are told as such, not as steps that are too short
+        let least = PILE * (self.node.state.t - self.start);
+        if !self.engine.is_fixed() && time.max(least) > 0.0 {
+            self.h = self.h.min(GROWTH * time.max(least));
+        }
     }
 
     /// Modes of the node from its values, where switches are not located.

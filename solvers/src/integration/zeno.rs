@@ -6,6 +6,9 @@ const MANY: usize = 100;
 /// Shrinking intervals in a row that count as a pile.
 const SHRINKING: usize = 12;
 
+/// Part of the time since the start in which many events are a pile.
+pub(super) const PILE: f64 = 1e-6;
+
 /// The last events of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Zeno {
@@ -25,7 +28,7 @@ impl Zeno {
     /// in a row have shrunk in a ratio, to less than a millionth of that time.
     pub(super) fn pile_up(&mut self, t: f64, start: f64) -> bool {
         let back = |k: usize| self.times[(self.count + MANY - k) % MANY];
-        let window = 1e-6 * (t - start).max(1e-9);
+        let window = PILE * (t - start).max(1e-9);
         let many = self.count >= MANY && t - back(MANY) < window;
         if self.count >= 2 {
             let (now, before) = (t - back(1), back(1) - back(2));

@@ -31,6 +31,7 @@ pub(super) struct Balance {
     next: f64,
     counts: Counts,
     bridged: Vec<f64>,
+    widest_gap: f64,
     schemes: Vec<&'static str>,
 }
 
@@ -45,8 +46,7 @@ where
     let kinetic = d.kinetic_energy();
     let mut modes = node.state.modes.clone();
     modes.truncate(d.mechanism.switches + d.mechanism.windings);
-    let springs: f64 = (0..d.mechanism.stretches.len()).map(|s| d.spring_energy(s, &mut modes)).sum();
-    [kinetic, kinetic + d.gravity_energy() + springs]
+    [kinetic, kinetic + d.potential_energy(&mut modes)]
 }
 
 impl Balance {
@@ -127,6 +127,7 @@ impl Balance {
             self.counts += counts;
         }
         self.bridged.extend(run.bridged());
+        self.widest_gap = self.widest_gap.max(run.widest_gap());
         for name in run.schemes() {
             if !self.schemes.contains(name) {
                 self.schemes.push(name);
@@ -148,6 +149,7 @@ impl Balance {
             loads: self.work[1],
             dampers: self.work[2],
             impacts: self.impacts,
+            widest_gap: self.widest_gap,
             velocity: 0.0,
             counts: self.counts,
         };

@@ -42,7 +42,7 @@ pub(super) fn bare<G: Space<S = f64>>(
     eras: &Eras<G>,
     timer: &mut dyn FnMut(bool),
 ) -> Result<Bare, Failure> {
-    let (all, watched) = watched(model, &eras.mechanism, ids);
+    let (all, watched) = watched(model, ids);
     let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
     let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
     let dims = system.dims();

@@ -3,7 +3,7 @@
 use super::setup::Plan;
 use super::system::{Mechanical, Root};
 use crate::analysis::assemble::{Assembled, units};
-use crate::analysis::outcome::{Failure, Happened, Undefined};
+use crate::analysis::outcome::{Failure, Finding, Happened, Undefined};
 use crate::analysis::undefined::Gap;
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
@@ -11,7 +11,7 @@ use crate::mechanism::{BuildFault, Mechanism};
 use crate::model::{Model, Parameter, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
-use grashof_solvers::{Control, Halt, Why};
+use grashof_solvers::{Control, Halt, State, Why};
 
 /// Why a run has stopped on its way.
 pub(super) fn halt<G, D>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G, D>, plan: &Plan, halt: &Halt) -> String
@@ -27,6 +27,10 @@ where
         }
         Why::Zeno(root) => format!(
             "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
+            root_name(model, system, root)
+        ),
+        Why::Unresolved(root) => format!(
+            "at t = {t:.6} s it cannot be told where {} changes next: it oscillates, or stays at its edge, within the rounding of the time; use another unit of time, or give a shorter `until`",
             root_name(model, system, root)
         ),
         Why::Blocked(root) => format!(
@@ -79,7 +83,7 @@ pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, ro
     if *sigma >= 0.05
         || sigma.is_nan()
         || rows.is_empty()
-        || matches!(halt.why, Why::Zeno(_) | Why::Blocked(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
+        || matches!(halt.why, Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
     {
         return None;
     }
@@ -113,7 +117,7 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
             mechanism.name_of_row(row)
         ),
         Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
-        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Blocked(_) | Why::Unavailable => "the state cannot be continued".into(),
+        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::Unavailable => "the state cannot be continued".into(),
     }
 }
 
@@ -140,6 +144,9 @@ where
         Some(&Root::Force { program, k }) => m.programs()[program].program.switches().get(k).copied(),
         Some(&Root::Column { k }) => system.observer.program().switches().get(k).copied(),
         Some(&(Root::Stop(stop) | Root::Clear(stop) | Root::Rest { stop, .. })) => {
+            if let Some(event) = m.stops[stop].event {
+                return format!("the event `{}`", model.events[event].name);
+            }
             return format!("the {} of joint `{}`", m.stops[stop].word(), m.joints[m.stops[stop].joint].name);
         }
         Some(&Root::Event(event)) => return format!("the event `{}`", model.events[event].name),
@@ -148,6 +155,30 @@ where
     match switch.and_then(|s| model.pool.switches().get(s as usize)) {
         Some(switch) => format!("the switch `{}`", switch.text),
         None => "a switch".into(),
+    }
+}
+
+/// That the impacts of an event would have to come to rest where nothing can hold the joint.
+pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
+    let name = &model.events[event].name;
+    format!(
+        "at t = {t:.6} s the blows of the event `{name}` have become so weak that its joint would rest there, but its `when` holds more than positions, so that nothing is known of how it rests: write `when` with positions alone, or give the joint `limits` with a `restitution`"
+    )
+}
+
+/// That a condition changed faster than it could be resolved, first at time `t` (s).
+pub(super) fn unresolved<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize, t: f64) -> Finding
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let name = root_name(model, system, root);
+    Finding {
+        code: "unresolved-condition",
+        message: format!(
+            "{name} changes faster than a millionth of a step from t = {t:.6} s on, or is noise: it was followed as seen, and changes back and forth may be missing"
+        ),
+        path: name,
     }
 }
 
@@ -219,4 +250,20 @@ pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
         place: format!("{}.coordinates", study.place),
         help: help.into(),
     }
+}
+
+/// Refuses minimal coordinates in a change point at t = 0, where independent ones do not determine the others.
+///
+/// # Errors
+/// If it is one.
+pub(super) fn charted(study: &Study, start: &Assembled, state: &State) -> Result<(), Failure> {
+    if start.change.is_none() || state.t != 0.0 {
+        return Ok(());
+    }
+    Err(Failure::Study {
+        code: "change-point",
+        message: "the start is a change point, where independent coordinates do not determine the others".into(),
+        place: format!("{}.coordinates", study.place),
+        help: "write `coordinates: joint`, or start beside it".into(),
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::explain;
+use super::pace::Pace;
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
@@ -22,9 +23,6 @@ use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 use std::cell::OnceCell;
-
-/// Bytes that the steps of a run may take.
-const MOST_BYTES: usize = 3 << 30;
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
@@ -47,8 +45,7 @@ impl<G: Space<S = f64>> Eras<G> {
     /// # Errors
     /// If the model has none, or it cannot be assembled.
     pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
-        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-        let start = assembled(model, &mut mechanism)?;
+        let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
         contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
@@ -141,7 +138,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
     from: Option<&State>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Recorded<'m, G>, Failure> {
-    let (all, watched) = watched(model, &eras.mechanism, ids);
+    let (all, watched) = watched(model, ids);
     let follow = !plan.settings.locate;
     let machine = |era: &'m Eras<G>| {
         let observer = Observer::new(model, &era.mechanism, &era.parameters, &all);
@@ -158,6 +155,8 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         trajectory: &mut trajectory,
         events: Vec::new(),
         balance: Balance::default(),
+        findings: Vec::new(),
+        pace: Pace::default(),
         changed: Vec::new(),
         resting: Vec::new(),
         begins: Begins::Run,
@@ -186,8 +185,10 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
             }
         }
     };
-    let Flow { events, balance, undefined, .. } = flow;
-    let (certificate, findings) = balance.finish(plan);
+    let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
+    let (certificate, mut findings) = balance.finish(plan);
+    unresolved.dedup_by(|a, b| a.path == b.path);
+    findings.append(&mut unresolved);
     trajectory.finish();
     Ok(Recorded { trajectory, stopped, undefined, events, certificate, findings })
 }
@@ -214,6 +215,7 @@ pub(super) fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
+    explain::charted(study, &era.start, state)?;
     // a joint that rests on a stop may be the one that was asked for: then others are
     let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
@@ -259,6 +261,8 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
     events: Vec<Happened>,
     balance: Balance,
+    findings: Vec<Finding>,
+    pace: Pace,
     /// Parameters that events have set.
     changed: Vec<(usize, f64)>,
     /// Stops on which joints rest.
@@ -337,14 +341,17 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 }
                 self.trajectory.piece(&node);
             }
-            if self.trajectory.size() > MOST_BYTES {
-                break After::Stopped(format!("the steps no longer fit into memory at t = {} s", node.state.t));
+            if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
+                break After::Stopped(slow.told(self.model, era, self.plan, &node));
             }
             if progress == Progress::End {
                 break After::Done;
             }
         };
         self.balance.end(chart.mechanical(), &node, &run, inner.counts);
+        if let Some((root, t)) = run.unresolved() {
+            self.findings.push(explain::unresolved(self.model, chart.mechanical(), root, t));
+        }
         state.copy_from(&node.state);
         Ok(ended)
     }
@@ -417,6 +424,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
         let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
         let t = state.t;
+        system.forget_struck();
         self.note(&counted, t);
         counted
     }
@@ -432,6 +440,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
 
     /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
     fn stopped_by(&mut self, chart: &mut Charted<'m, G>, before: &Node, counted: &[usize]) -> After {
+        if let Some(event) = chart.mechanical().restless() {
+            return After::Stopped(explain::restless(self.model, event, before.state.t));
+        }
         if counted.iter().any(|&e| self.model.events[e].stop) {
             return After::Done;
         }

@@ -7,6 +7,7 @@ pub(in crate::analysis) mod balance;
 mod bare;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
+mod pace;
 pub(in crate::analysis) mod setup;
 pub(in crate::analysis) mod system;
 pub(in crate::analysis) mod trajectory;
@@ -16,13 +17,14 @@ pub use bare::Bare;
 pub use setup::{is_available, method};
 
 use super::clock::Clock;
-use super::continuous::{Curve, Samples};
+use super::continuous::Curve;
 use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::motion::Rows;
 use super::numbers::Sources;
-use super::outcome::{Failure, Outcome};
-use super::run::{Watched, in_variable};
+use super::outcome::{Certificate, Failure, Finding, Outcome, Resolution};
+use super::resolve;
+use super::run::{Watched, in_variable, unresolved};
 use super::scene;
 use super::undefined::{Gap, blank};
 use crate::dynamics::LANES;
@@ -54,7 +56,7 @@ where
     let watched = Watched::of(study);
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
-    let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, findings } =
+    let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
@@ -64,7 +66,7 @@ where
         });
     }
     let clock = Clock::of_time(plan.until);
-    let Seen { breaks, rows, extremes, functionals } = loop {
+    let seen = loop {
         match see(&mut trajectory, (model, study, parameters), &watched, &plan) {
             Ok(seen) => break seen,
             Err(Off { at, gap: None }) => {
@@ -80,6 +82,8 @@ where
             }
         }
     };
+    let Seen { breaks, rows, extremes, functionals, resolution, findings: open } = seen;
+    findings.extend(open);
     let (from, to) = (breaks[0], breaks[breaks.len() - 1]);
     events.retain(|e| e.at <= to);
     let stopped = undefined.as_ref().map(|u| u.message.clone()).or(stopped);
@@ -87,11 +91,10 @@ where
     let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &[] }.numbers(stopped.is_none());
     let undefined = undefined.or(numbers.undefined);
     let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
-    let certificate = balance::residuals(&mut trajectory, &rows, certificate);
+    let certificate = Certificate { resolved: Some(resolution), ..balance::residuals(&mut trajectory, &rows, certificate) };
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let n = rows.places.len();
     let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
-    let mut findings = findings;
     findings.extend(numbers.findings);
     findings.extend(blank(study, "t", &rows.places, &shown));
     let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
@@ -107,7 +110,7 @@ where
         scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations: numbers.expectations,
-        findings,
+        findings: eras.start.findings().chain(findings).collect(),
         certificate,
         events,
         scenes: vec![(scene::MECHANISM.into(), scene)],
@@ -148,6 +151,8 @@ struct Seen {
     rows: Rows,
     extremes: Vec<Option<Extremes>>,
     functionals: Vec<f64>,
+    findings: Vec<Finding>,
+    resolution: Resolution,
 }
 
 /// Rows, extremes and functionals of a motion.
@@ -163,14 +168,17 @@ where
 {
     let breaks = trajectory.breaks();
     let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(Off { at: 0.0, gap: None }) };
+    let stretches = trajectory.stretches();
+    let resolved = resolve::on(trajectory, &stretches, &breaks, setup::resolution(plan.settings.control))?;
+    trajectory.all_defined(&resolved)?;
+    let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let rows = rows(trajectory, &breaks, plan.every)?;
-    let values: Vec<f64> = (0..watched.ids.len()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-    let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
-    let extremes = extrema(trajectory, samples, &breaks)?;
     let clock = Clock::of_time(plan.until);
-    let mut functionals = Functionals { clock, ends: [from, to], curve: trajectory, rows: &rows, extremes: &extremes, breaks: &breaks };
-    let functionals = functionals.all(model, study, parameters, &watched.functionals)?;
-    Ok(Seen { breaks, rows, extremes, functionals })
+    let mut findings = unresolved(model, study, watched, &resolved, &[], "time", clock);
+    let mut functionals =
+        Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = functionals.all(model, study, parameters, &watched.functionals, &mut findings)?;
+    Ok(Seen { breaks, rows, extremes, functionals, findings, resolution: resolved.quality() })
 }
 
 /// Rows on the grid of the study, or at every step, with both sides of every switch.
@@ -192,7 +200,7 @@ where
         };
         for t in places {
             let mut out = vec![0.0; trajectory.columns()];
-            trajectory.eval(t, piece, &mut out)?;
+            trajectory.row(t, piece, &mut out)?;
             rows.places.push(t);
             rows.pieces.push(piece);
             rows.values.push(out);
@@ -209,7 +217,7 @@ where
 {
     let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
     trajectory.go(t, piece).ok()?;
-    Some(trajectory.system(piece).dynamics.work.poses.clone())
+    Some(trajectory.system(piece).dynamics.poses())
 }
 
 /// Refuses more rows than fit in memory.

@@ -1,6 +1,7 @@
 //! What a dynamic study asks for, as numbers and as settings of the integrators.
 
 use crate::analysis::outcome::Failure;
+use crate::analysis::pieces::WIDTH;
 use crate::mechanism::Coordinates;
 use crate::model::{self, Chart, Forward, Integrator, Model, Study};
 use grashof_solvers::{Control, Level, Method, Settings, schemes};
@@ -22,6 +23,18 @@ impl Plan {
             Control::Steps([h, _]) => Some(h),
             Control::Tolerance(_) => None,
         }
+    }
+}
+
+/// Columns are resolved to so many times the tolerance, at worst to [`COARSEST`], to which those of a fixed step are.
+const RESOLVED: f64 = 10.0;
+const COARSEST: f64 = 1e-5;
+
+/// Part of their size to which columns are worth being resolved: what the integration leaves uncertain needs no following.
+pub(in crate::analysis) fn resolution(control: Control) -> f64 {
+    match control {
+        Control::Tolerance(tolerance) => (RESOLVED * tolerance).clamp(WIDTH, COARSEST),
+        Control::Steps(_) => COARSEST,
     }
 }
 

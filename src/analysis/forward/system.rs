@@ -9,12 +9,14 @@
 //! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the era |
 //! | stop just left | beyond its neighbourhood | it is watched exactly again |
 //! | stop on which a joint rests | the stop pushes | it is left, which ends the era |
-//! | event of the model | on its present side of zero | the other side; what the event does |
+//! | event of the model | on its present side of zero | the other side; what the event does; an impact is a blow, as of a stop |
 //!
 //! `modes` hold the switches of all expressions, then the windings, the side of each event, and for each rigid stop whether it was
 //! left just now (1): then the motion may go beyond it by as much as rounding asks, until it is clear of it.
 
+mod ahead;
 mod contact;
+mod events;
 mod patterns;
 
 use crate::analysis::contact::PASSED;
@@ -22,23 +24,11 @@ use crate::analysis::observe::Observer;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
 use crate::geometry::Space;
 use crate::mechanism::{EffortLaw, Measured, Mechanism, Row, RowOwner};
-use crate::model::Crossing;
 use crate::scalar::Dual;
-use grashof_solvers::{At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use ahead::Timed;
+pub(in crate::analysis) use events::Watched;
+use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 use patterns::known_by_rows;
-
-/// What an event of the model does where its function crosses zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::analysis) struct Watched {
-    /// Output of the observer's program that crosses.
-    pub(super) output: usize,
-    /// Direction that counts.
-    pub(super) crossing: Crossing,
-    /// Whether the run stops there, or pauses for its parameters to change.
-    pub(super) stops: bool,
-    /// Gauge of an impact, and output of the observer's program that is its restitution.
-    pub(super) impact: Option<(usize, usize)>,
-}
 
 /// Where a root comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +61,8 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     dims: Dims,
     pattern: Pattern,
     events: Vec<Watched>,
+    /// Roots that depend on time alone.
+    timed: Vec<Timed>,
     kkt: Kkt,
     friction: Option<Friction>,
     /// Terms of the own solution where friction depends on reactions.
@@ -79,6 +71,9 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     near: Vec<f64>,
     /// Stops on which joints have come to rest (true) or which they have left, in the event crossed last.
     rests: Vec<(usize, bool)>,
+    /// Events with impacts that were met in the event crossed last, and the one that cannot rest.
+    struck: Vec<usize>,
+    restless: Option<usize>,
     a: Vec<f64>,
     lambda: Vec<f64>,
     inputs: Vec<f64>,
@@ -131,6 +126,7 @@ where
         for stop in 0..mechanism.stops.len() {
             match held.iter().find(|(_, s)| *s == stop) {
                 Some(&(row, _)) => roots.push(Root::Rest { row, stop }),
+                None if mechanism.stops[stop].event.is_some() => roots.push(Root::Clear(stop)),
                 None => roots.extend([Root::Stop(stop), Root::Clear(stop)]),
             }
         }
@@ -149,6 +145,8 @@ where
         let mut dynamics = Dynamics::new(mechanism);
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
+        let outputs: Vec<usize> = events.iter().map(|event| event.output).collect();
+        let timed = ahead::timed(mechanism, &observer, &roots, &outputs, mechanism.switches + mechanism.windings);
         let block = pattern(mechanism);
         let size: Vec<f64> = super::super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
         let mut size_q = vec![1.0; mechanism.nq];
@@ -171,11 +169,14 @@ where
             metric: start.metric.clone(),
             size_q,
             size_v: size,
+            common: mechanism.translations(),
             roots_by_reactions: observer.switches_by_forces()
                 || (!events.is_empty() && observer.needs_forces())
                 || mechanism.sides().next().is_some()
                 || !held.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
+            timed: timed.iter().map(Timed::root).collect(),
+            rough: Vec::new(),
         };
         let mut kkt = Kkt::new(nv, rows);
         kkt.set_scale(&pattern.metric, &pattern.g_scale);
@@ -194,12 +195,15 @@ where
             lambda: vec![0.0; rows],
             near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
             rests: Vec::with_capacity(2 * mechanism.stops.len()),
+            struck: Vec::with_capacity(mechanism.stops.len()),
+            restless: None,
             dynamics,
             observer,
             roots,
             dims,
             pattern,
             events,
+            timed,
             kkt,
         }
     }
@@ -256,29 +260,6 @@ where
             self.inputs[input] = self.dynamics.leaf(leaf);
         }
         run(&staged.program, &self.inputs, &mut self.registers, &mut self.scratch);
-    }
-
-    /// The direction that counts for an event that has left `side`.
-    fn counts(&self, event: usize, side: i32) -> bool {
-        match self.events[event].crossing {
-            Crossing::Both => true,
-            Crossing::Rising => side < 0,
-            Crossing::Falling => side > 0,
-        }
-    }
-
-    /// The model's event behind a root that was crossed, if it counts in the direction in which it went; `state` is behind it.
-    pub(super) fn event_of(&self, root: usize, state: &State) -> Option<usize> {
-        let Root::Event(event) = self.roots[root] else { return None };
-        let m = self.dynamics.mechanism;
-        let before = -state.modes[m.switches + m.windings + event];
-        self.counts(event, before).then_some(event)
-    }
-
-    /// Events whose side differs between two lists of modes, and which count in that direction: they have happened between them.
-    pub(super) fn flipped(&self, before: &[i32], after: &[i32]) -> Vec<usize> {
-        let first = self.dynamics.mechanism.switches + self.dynamics.mechanism.windings;
-        (0..self.events.len()).filter(|e| before[first + e] != after[first + e] && self.counts(*e, before[first + e])).collect()
     }
 }
 
@@ -376,6 +357,9 @@ where
                 EffortLaw::Friction { .. } => w[2] += size * rate,
             }
         }
+        for [done, stored] in self.dynamics.buffer_powers() {
+            (w[1], w[2]) = (w[1] - done, w[2] + done + stored);
+        }
     }
 
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
@@ -393,12 +377,7 @@ where
         self.look(&At { modes, ..at }, None);
         self.observer.set_modes(modes);
         self.observer.columns(modes, &mut self.outputs);
-        for (event, watched) in self.events.iter().enumerate() {
-            let x = self.outputs[watched.output];
-            if x != 0.0 {
-                modes[m.switches + m.windings + event] = if x < 0.0 { -1 } else { 1 };
-            }
-        }
+        self.sides_of_events(modes);
         for root in &self.roots {
             if let Root::Winding { gauge, winding } = *root {
                 let half = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, modes[m.switches + winding]);
@@ -437,12 +416,18 @@ where
                 }
                 Root::Winding { gauge, winding } => {
                     let off = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, at.modes[m.switches + winding]);
-                    0.75 * std::f64::consts::PI - off.abs()
+                    // smooth at the middle, the distance near both ends
+                    let end = 0.75 * std::f64::consts::PI;
+                    (end * end - off * off) / (2.0 * end)
                 }
                 Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
-                Root::Event(event) => f64::from(at.modes[m.switches + m.windings + event]) * self.outputs[self.events[event].output],
+                Root::Event(event) => self.way(event, self.outputs[self.events[event].output], at.modes),
             };
         }
+    }
+
+    fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
+        self.first_ahead(at, to, roots)
     }
 
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
@@ -470,22 +455,7 @@ where
                 Effect::Record
             }
             root @ (Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. }) => self.part(root, state, row),
-            Root::Event(event) => {
-                self.observer.columns(&state.modes, &mut self.outputs);
-                let side = &mut state.modes[m.switches + m.windings + event];
-                let before = *side;
-                *side = -before;
-                if !self.counts(event, before) {
-                    return Effect::Record;
-                }
-                let watched = self.events[event];
-                let Some((gauge, restitution)) = watched.impact else {
-                    return if watched.stops { Effect::Stop } else { Effect::Record };
-                };
-                row.fill(0.0);
-                m.gauges[gauge].project(&self.dynamics.work.readings[gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
-                Effect::Impulse { restitution: self.outputs[restitution], stops: watched.stops }
-            }
+            Root::Event(event) => self.cross_event(event, state, row),
         }
     }
 }

@@ -2,11 +2,15 @@
 
 use super::system::Mechanical;
 use crate::analysis::continuous::Curve;
+use crate::analysis::resolve::{FIRST_PANELS, Resolved};
 use crate::analysis::undefined::Gap;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
 use grashof_solvers::{Control, Dense, Engine, Node, Stage, System};
+
+/// Steps to a first stretch where columns are resolved.
+const STEPS_TO_A_STRETCH: usize = 16;
 
 /// One step: polynomials in θ = (t − begin)/h on [begin, end], end ≤ begin + h.
 #[derive(Clone, Copy, Debug)]
@@ -179,6 +183,30 @@ where
         std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().filter(|s| s.whole).map(|s| s.end)).collect()
     }
 
+    /// Stretches of each piece to begin with where columns are resolved: some steps each, but no wider than the first panels of any
+    /// curve.
+    pub(in crate::analysis) fn stretches(&self) -> Vec<(f64, f64, usize)> {
+        let range = self.pieces.last().zip(self.pieces.first()).map_or(0.0, |(last, first)| last.to - first.from);
+        let widest = range / FIRST_PANELS as f64;
+        let mut all = Vec::new();
+        for (piece, p) in self.pieces.iter().enumerate() {
+            let (mut from, mut count) = (p.from, 0);
+            for (k, step) in self.steps[p.steps.0..p.steps.1].iter().enumerate() {
+                count += 1;
+                let last = p.steps.0 + k + 1 == p.steps.1;
+                let to = if last { p.to } else { step.end };
+                if to <= from || !(last || count == STEPS_TO_A_STRETCH || to - from >= widest) {
+                    continue;
+                }
+                let parts = ((to - from) / widest).ceil().clamp(1.0, FIRST_PANELS as f64) as usize;
+                let at = |i: usize| if i == parts { to } else { from + (to - from) * i as f64 / parts as f64 };
+                all.extend((0..parts).map(|i| (at(i), at(i + 1), piece)));
+                (from, count) = (to, 0);
+            }
+        }
+        all
+    }
+
     /// The mechanism of the piece that was evaluated last.
     pub(in crate::analysis) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
         let era = self.pieces.get(piece).map_or(0, |p| p.era);
@@ -247,6 +275,31 @@ where
             None => Ok(()),
         }
     }
+
+    /// As [`Curve::eval`], but where an expression has no value by its own fault that is an error.
+    pub(in crate::analysis) fn row(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        let found = self.columns_at(t, piece, out);
+        if !matches!(found, Err(Off { gap: Some(_), .. })) {
+            return found;
+        }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        let length = self.pieces.last().map_or(0.0, |p| p.to);
+        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
+            if self.columns_at(t + shift * length, piece, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where an expression has none by its own fault.
+    pub(in crate::analysis) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Off> {
+        let mut out = vec![0.0; self.columns];
+        resolved.blanks().try_for_each(|(t, piece)| self.row(t, piece, &mut out))
+    }
 }
 
 impl<G, D> Curve for Trajectory<'_, G, D>
@@ -260,18 +313,28 @@ where
         self.columns
     }
 
+    fn middle(&self, from: f64, to: f64, piece: usize) -> f64 {
+        // steps meet in small kinks, which no polynomial follows
+        let (low, high) = self.pieces[piece].steps;
+        let steps = &self.steps[low..high];
+        let first = steps.partition_point(|s| s.end <= from);
+        let inside = &steps[first..first + steps[first..].partition_point(|s| s.end < to)];
+        if inside.is_empty() { 0.5 * (from + to) } else { inside[inside.len() / 2].end }
+    }
+
+    fn smooth(&self, at: f64, piece: usize) -> f64 {
+        let (low, high) = self.pieces[piece].steps;
+        let steps = &self.steps[low..high];
+        steps.get(steps.partition_point(|s| s.end < at)).map_or(0.0, |s| s.h)
+    }
+
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        let found = self.columns_at(t, piece, out);
-        if !matches!(found, Err(Off { gap: Some(_), .. })) {
-            return found;
-        }
-        // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        let length = self.pieces.last().map_or(0.0, |p| p.to);
-        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
-            if self.columns_at(t + shift * length, piece, out).is_ok() {
-                return Ok(());
+        match self.row(t, piece, out) {
+            Err(Off { gap: Some(_), .. }) => {
+                out.fill(f64::NAN);
+                Ok(())
             }
+            found => found,
         }
-        found
     }
 }

@@ -2,8 +2,6 @@
 
 use super::system::Watched;
 use crate::expression::Id;
-use crate::geometry::Space;
-use crate::mechanism::Mechanism;
 use crate::model::{Model, Study};
 
 /// Parameters that the study itself varies, with their present values.
@@ -13,15 +11,15 @@ pub(super) fn swept(study: &Study, parameters: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// Columns, then event functions, restitutions and new values of parameters as one list; and the events that watch them.
-pub(super) fn watched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, ids: &[Id]) -> (Vec<Id>, Vec<Watched>) {
+pub(super) fn watched(model: &Model, ids: &[Id]) -> (Vec<Id>, Vec<Watched>) {
     let mut all = ids.to_vec();
     let mut watched = Vec::new();
     for event in &model.events {
         let output = all.len();
         all.push(event.when);
-        let impact = event.restitution.as_ref().and_then(|r| {
+        let impact = event.restitution.as_ref().map(|r| {
             all.push(r.e);
-            Some((*mechanism.joints[r.joint].slots.first()?, all.len() - 1))
+            all.len() - 1
         });
         watched.push(Watched { output, crossing: event.crossing, stops: event.stop || !event.set.is_empty(), impact });
     }

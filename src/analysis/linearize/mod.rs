@@ -14,6 +14,7 @@ mod probe;
 
 use super::assemble::Assembled;
 use super::coordinates::coordinates;
+use super::eigenvalues::eigenvalues;
 use super::forward::explain::massless;
 use super::linear::{Linear, Reduced};
 use super::modes::held::settled;
@@ -27,7 +28,7 @@ use super::undefined::assembled;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Leaf, Mechanism, build, build_beside};
+use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Model, Study};
 use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
@@ -51,8 +52,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assembled(model, &mut mechanism)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     without_friction(&mechanism, study)?;
     let lifted = mechanism.lift();
     let mut findings = Vec::new();
@@ -72,10 +72,13 @@ where
     let (base, reduced) = bench.linear(&lifted, &mut at, &names)?;
     let system = bench.system(&at, &base, &reduced, &names)?;
     findings.extend(bench.findings(&at, &base, &names, &reduced.partition));
-    let mut poles: Vec<(f64, f64)> = match reduced.a.nrows() {
-        0 => Vec::new(),
-        _ => reduced.a.clone().complex_eigenvalues().iter().map(|p| (p.re, p.im)).collect(),
-    };
+    let poles = eigenvalues(&reduced.a).ok_or_else(|| {
+        Failure::numerical(
+            "the poles cannot be found: a stiffness or damping is too large for the masses that it acts on",
+            "look for a value of the wrong unit or sign among springs, dampers and masses",
+        )
+    })?;
+    let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values };
     let numbers = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &[], results: &[] }.numbers(true);
@@ -117,7 +120,7 @@ fn pose<G: Space<S = f64>>(mechanism: &Mechanism<G>, at: &Whole) -> super::outco
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.time(0.0, &at.modes);
     dynamics.position(&at.q, &at.modes);
-    of_poses(mechanism, &[dynamics.work.poses.clone()])
+    of_poses(mechanism, &[dynamics.poses()])
 }
 
 /// Names of the coordinates behind all velocities (nv), of their rates, and whether they turn.

@@ -7,6 +7,7 @@
 //! A pair μ = −ζω ± iω√(1 − ζ²) is an oscillation with the damping ratio ζ = −Re μ/|μ|, which is negative where it grows.
 
 use super::held::Held;
+use crate::analysis::eigenvalues::{eigenvalues, measurable};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// One of each pair of complex eigenvalues, and every real one.
@@ -48,17 +49,22 @@ pub fn state_matrix(held: &Held, with_damping: bool) -> Option<DMatrix<f64>> {
 ///
 /// The matrix is balanced by powers of two (Parlett & Reinsch, Numer. Math. 13 (1969) 293-304) before the QR algorithm, since
 /// coordinates and rates differ by the size of the frequencies. Vectors come from inverse iteration.
+///
+/// None if the matrix is beyond what they can be found of, as [`eigenvalues`] says.
 #[must_use]
-pub fn damped(a: &DMatrix<f64>, n: usize) -> Vec<Damped> {
+pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
     if a.is_empty() {
-        return Vec::new();
+        return Some(Vec::new());
+    }
+    if !measurable(a) {
+        return None;
     }
     let mut balanced = a.clone();
     nalgebra::linalg::balancing::balance_parlett_reinsch(&mut balanced);
-    let mut values: Vec<Complex<f64>> = balanced.complex_eigenvalues().iter().copied().filter(|mu| mu.im >= 0.0).collect();
+    let mut values: Vec<Complex<f64>> = eigenvalues(&balanced)?.into_iter().filter(|mu| mu.im >= 0.0).collect();
     values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
     let size = a.norm();
-    values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(a, value, n, size, i), value }).collect()
+    Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(a, value, n, size, i), value }).collect())
 }
 
 /// The coordinates of an eigenvector: three steps of inverse iteration next to its eigenvalue.

@@ -19,7 +19,7 @@ use super::statics::{Still, equilibrium};
 use super::undefined::{assembled, in_state};
 use crate::dynamics::{LANES, Linearizer};
 use crate::geometry::Space;
-use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Eigensolver, Model, Modes, Study};
 use crate::scalar::Dual;
 use damped::{Damped, damped, state_matrix};
@@ -60,8 +60,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let mut mechanism = build::<G>(model, parameters, Coordinates::Joint).map_err(Failure::Model)?;
-    let start = assembled(model, &mut mechanism)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let rest = if asked.at_equilibrium {
         equilibrium::<G>(model, study, &mechanism, &lifted, &start, parameters, stop)?
@@ -93,7 +92,7 @@ where
     }
     if !potential || asked.damped {
         let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
-        let found = damped(&a, names.len());
+        let found = damped(&a, names.len()).ok_or_else(beyond)?;
         if !potential {
             report.circulates(&held);
         }
@@ -297,6 +296,14 @@ fn parts(names: &[String], sizes: &DVector<f64>) -> String {
 fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     format!("{rounded}")
+}
+
+/// Forces and masses give no eigenvalues in numbers of a computer.
+fn beyond() -> Failure {
+    Failure::numerical(
+        "the eigenvalues cannot be found: a stiffness or damping is too large for the masses that it acts on",
+        "look for a value of the wrong unit or sign among springs, dampers and masses",
+    )
 }
 
 /// The masses leave no digits for the lightest motion.

@@ -65,7 +65,7 @@ fn displaced<G: Space<S = f64>>(
         dynamics.position(&q, pose.modes);
         let phi = DMatrix::from_column_slice(mechanism.rows.len(), 1, &dynamics.work.phi);
         if phi.iter().all(|x| x.abs() <= CLOSED) {
-            return Some(dynamics.work.poses.clone());
+            return Some(dynamics.poses());
         }
         mechanism.retract(&mut q, held.partition.follow(&phi).as_slice());
     }

@@ -6,24 +6,26 @@ use super::states::largest;
 use super::turn::{Advance, NoTurn, Single, Turn};
 use super::{explain, stability};
 use crate::analysis::clock::Clock;
-use crate::analysis::continuous::{Curve, Samples};
+use crate::analysis::continuous::Curve;
 use crate::analysis::extremum::{Extremes, extrema};
 use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::setup::resolution;
 use crate::analysis::forward::trajectory::Off;
 use crate::analysis::forward::{balance, pose};
 use crate::analysis::functional::Functionals;
 use crate::analysis::motion::Rows;
 use crate::analysis::numbers::Sources;
-use crate::analysis::outcome::{Failure, List, Outcome};
+use crate::analysis::outcome::{Certificate, Failure, Finding, List, Outcome, Resolution};
 use crate::analysis::quadrature::integrals;
-use crate::analysis::run::{Watched, in_variable};
+use crate::analysis::resolve;
+use crate::analysis::run::{Watched, in_variable, unresolved};
 use crate::analysis::scene;
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{PeriodEnd, Periodic};
 use crate::scalar::Dual;
-use grashof_solvers::Node;
+use grashof_solvers::{Control, Node};
 
 /// Part of the largest acceleration by which those at the two ends may differ.
 const SAME: f64 = 1e-5;
@@ -74,6 +76,8 @@ struct Seen {
     at: Rows,
     extremes: Vec<Option<Extremes>>,
     functionals: Vec<f64>,
+    findings: Vec<Finding>,
+    resolution: Resolution,
 }
 
 fn lost(search: &Search<'_>, off: Off) -> Failure {
@@ -94,9 +98,12 @@ impl Regime<'_> {
         check_closed(search, &mut lap, closure[1])?;
         let (model, study, period, times) = (&search.model, search.study, lap.period(), lap.trajectory.breaks());
         let mut mean = [0.0];
-        integrals(&mut Single { trajectory: &mut lap.trajectory, column: columns.of }, &times, &mut mean)
-            .map_err(|off| lost(search, off))?;
-        let Seen { clock, rows, at, extremes, functionals } = self.see(&mut lap)?;
+        let (stretches, width) = (lap.trajectory.stretches(), resolution(Control::Tolerance(search.tolerance)));
+        let mut single = Single { trajectory: &mut lap.trajectory, column: columns.of };
+        let resolved = resolve::on(&mut single, &stretches, &times, width).map_err(|off| lost(search, off))?;
+        integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(|off| lost(search, off))?;
+        let Seen { clock, rows, at, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
+        lap.findings.extend(findings);
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];
@@ -124,7 +131,7 @@ impl Regime<'_> {
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
             findings: lap.findings,
-            certificate: balance::residuals(&mut lap.trajectory, &at, lap.certificate),
+            certificate: Certificate { resolved: Some(resolution), ..balance::residuals(&mut lap.trajectory, &at, lap.certificate) },
             events: lap.events,
             scenes: vec![(scene::MECHANISM.into(), scene)],
             ..Outcome::default()
@@ -141,13 +148,17 @@ impl Regime<'_> {
         })?;
         let (rows, at) = rows(&mut turn, asked.samples).map_err(|off| lost(search, off))?;
         let breaks = turn.breaks.clone();
-        let values: Vec<f64> = (0..turn.columns()).flat_map(|c| rows.values.iter().map(move |r| r[c])).collect();
-        let samples = Samples { places: &rows.places, pieces: &rows.pieces, values: &values };
-        let extremes = extrema(&mut turn, samples, &breaks).map_err(|off| lost(search, off))?;
+        let width = resolution(Control::Tolerance(search.tolerance));
+        let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(|off| lost(search, off))?;
+        turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
+        let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
-        let mut all = Functionals { clock, ends, curve: &mut turn, rows: &rows, extremes: &extremes, breaks: &breaks };
-        let functionals = all.all(&search.model, search.study, parameters, &watched.functionals).map_err(|off| lost(search, off))?;
-        Ok(Seen { clock, rows, at, extremes, functionals })
+        let name = if asked.over.is_some() { &search.over } else { "time" };
+        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
+        let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+        let functionals =
+            all.all(&search.model, search.study, parameters, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
+        Ok(Seen { clock, rows, at, extremes, functionals, findings, resolution: resolved.quality() })
     }
 }
 
@@ -187,7 +198,7 @@ fn clock<G: Space<S = f64>>(
     };
     let by = search.model.pool.value(by, parameters);
     let mut out = vec![0.0; lap.trajectory.columns()];
-    lap.trajectory.eval(lap.start.state.t, 0, &mut out)?;
+    lap.trajectory.row(lap.start.state.t, 0, &mut out)?;
     let mut clock = Clock::of_time(by.abs());
     (clock.from, clock.direction) = (out[value], by.signum());
     Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
@@ -206,7 +217,7 @@ where
         let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
         for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
             let mut out = vec![0.0; turn.columns()];
-            turn.eval(s, piece, &mut out)?;
+            turn.row(s, piece, &mut out)?;
             at.places.push(turn.time(s, piece)?);
             at.pieces.push(piece);
             rows.places.push(s);

@@ -155,8 +155,8 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         }
     }
 
-    /// Roots that were crossed between two nodes at one time, as the modes tell, and the rigid stop that was struck: a rebound leaves
-    /// its mode. What is only counted or recorded leaves the motion as it is, and reactions change their side without a jump.
+    /// Roots that were crossed between two nodes at one time, as the modes tell, and the rigid stop or event that was struck: a rebound
+    /// leaves its mode. What is only counted or recorded leaves the motion as it is, and reactions change their side without a jump.
     fn between(&mut self, before: &mut Node, after: &Node) -> Vec<usize> {
         let m = self.system.dynamics.mechanism;
         let differs = |mode: usize| before.state.modes[mode] != after.state.modes[mode];
@@ -166,11 +166,10 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
             _ => false,
         };
         let mut roots: Vec<usize> = (0..self.system.roots.len()).filter(|i| crossed(&self.system.roots[*i])).collect();
-        let by_event = roots.iter().any(|i| matches!(self.system.roots[*i], Root::Event(_)));
         let sizes = self.engine.size_v.iter().zip(&before.state.v).map(|(s, v)| s + v.abs());
         let mut changes = before.state.v.iter().zip(&after.state.v).zip(sizes);
-        if changes.any(|((a, b), size)| (a - b).abs() > STRUCK * size) && !by_event {
-            let stops: Vec<usize> = (0..self.system.roots.len()).filter(|i| matches!(self.system.roots[*i], Root::Stop(_))).collect();
+        if changes.any(|((a, b), size)| (a - b).abs() > STRUCK * size) {
+            let stops: Vec<usize> = (0..self.system.roots.len()).filter(|i| self.system.strikes(*i)).collect();
             let gap = |i: usize, side: &mut Self, node: &mut Node| side.root(i, node).map_or(f64::INFINITY, |g| g[0].abs());
             let gaps: Vec<f64> = stops.iter().map(|&i| gap(i, self, before)).collect();
             let nearest = stops.iter().zip(&gaps).min_by(|a, b| a.1.total_cmp(b.1));

@@ -15,6 +15,7 @@ use super::lap::{Broken, Lap, Search, tools};
 use super::monodromy::{Map, Rough, Surface};
 use super::saltation::rate;
 use super::states::{Scale, between, largest};
+use crate::analysis::eigenvalues::eigenvalues;
 use crate::analysis::forward::march::Eras;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
@@ -160,7 +161,7 @@ fn step(map: &Map, missed: &[f64], sizes: &[f64]) -> Option<(DVector<f64>, Vec<C
     if k == 0 {
         return Some((DVector::zeros(m), Vec::new()));
     }
-    let mut multipliers: Vec<Complex<f64>> = along.complex_eigenvalues().iter().copied().collect();
+    let mut multipliers: Vec<Complex<f64>> = eigenvalues(&along)?;
     multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
     let svd = Svd::new(&(along - DMatrix::identity(k, k)));
     let least = NEUTRAL * svd.largest();

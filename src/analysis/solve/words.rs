@@ -5,7 +5,7 @@ use super::{Task, Trial};
 use crate::analysis::outcome::{Finding, Unsolved};
 use crate::analysis::root::Root;
 use crate::expression::Dimension;
-use crate::model::with_unit;
+use crate::model::{in_unit, with_unit};
 
 /// A solution whose residual is above this part of the target and of the change over the first bracket is told to be coarse.
 const COARSE: f64 = 1e-6;
@@ -90,7 +90,7 @@ impl Words<'_> {
 
     /// The target, of the first run that has one.
     fn target(&self) -> String {
-        self.log.iter().map(|run| run.target).find(|x| !x.is_nan()).map_or_else(String::new, |x| with_unit(x, self.dimension()))
+        self.log.iter().map(|run| run.target).find(|x| !x.is_nan()).map_or_else(String::new, |x| self.with_unit(x))
     }
 
     fn dimension(&self) -> Dimension {
@@ -99,20 +99,25 @@ impl Words<'_> {
         own.or_else(|| study.results.iter().find(|r| r.name == *name).map(|r| r.dimension)).unwrap_or(Dimension::NONE)
     }
 
+    /// The scalar with its unit.
+    fn with_unit(&self, x: f64) -> String {
+        in_own_unit(x, self.dimension(), &self.task.solve.units[1])
+    }
+
     /// The parameter at a place, with its unit.
     fn at(&self, x: f64) -> String {
-        with_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension)
+        in_own_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension, &self.task.solve.units[0])
     }
 
     /// The scalar of the run at a place.
     fn scalar(&self, x: f64) -> String {
         let scalar = self.log.iter().find(|run| run.x == x).map_or(f64::NAN, |run| run.scalar);
-        with_unit(scalar, self.dimension())
+        self.with_unit(scalar)
     }
 
     /// `0.3 at 1 kg m^2`.
     fn told(&self, run: &Trial) -> String {
-        let scalar = if run.why.is_some() { "unknown".into() } else { with_unit(run.scalar, self.dimension()) };
+        let scalar = if run.why.is_some() { "unknown".into() } else { self.with_unit(run.scalar) };
         format!("{scalar} at {}", self.at(run.x))
     }
 
@@ -125,4 +130,9 @@ impl Words<'_> {
         let Some(first) = self.failed().next() else { return String::new() };
         format!("; at {}: {}", self.at(first.x), first.why.as_deref().unwrap_or_default())
     }
+}
+
+/// A number with its unit, that of the file if it has one.
+fn in_own_unit(x: f64, dimension: Dimension, own: &Option<(String, f64)>) -> String {
+    own.as_ref().map_or_else(|| with_unit(x, dimension), |(unit, size)| in_unit(x / size, unit))
 }

@@ -145,7 +145,7 @@ where
         self.show(pose);
         let d = &self.system.dynamics;
         let mut out = Vec::new();
-        for p in &d.work.poses {
+        for p in d.poses() {
             out.extend((0..9).map(|i| G::entry(p.r, i / 3, i % 3)));
             out.extend((0..G::VECTOR).map(|i| G::component(p.p, i) / self.size));
         }
@@ -300,10 +300,15 @@ where
     /// Sizes of the forces and of the stiffnesses that act, each before anything cancels, in the metric; `root` is D^½.
     fn scales(&self, root: &[f64]) -> (f64, f64) {
         let (m, w) = (self.system.dynamics.mechanism, &self.system.dynamics.work);
-        // a moment is the difference of larger ones, about as large as the force at the body's own distance and size
+        // a moment is the difference of larger ones, about as large as the force at the body's own distance and size; places that
+        // coordinates give are rounded by these
+        let far = m.steps.iter().fold(self.size, |far, step| match *step {
+            Step::Axis { turns: false, q, .. } => far.max(self.state.q[q].abs()),
+            _ => far,
+        });
         let length = |(body, f): (usize, &Force<G>)| {
-            let (p, size) = (w.poses[body].p, G::dot(f.f, f.f).sqrt());
-            [G::dot_spin(f.n, f.n).sqrt() + size * (G::dot(p, p).sqrt() + self.size), size]
+            let (p, size) = (w.places[body].p, G::dot(f.f, f.f).sqrt());
+            [G::dot_spin(f.n, f.n).sqrt() + size * (G::dot(p, p).sqrt() + far), size]
         };
         let mut pulls: Vec<[f64; 2]> = w.applied.iter().enumerate().map(length).collect();
         let mut grains = vec![0.0; root.len()];

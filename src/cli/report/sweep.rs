@@ -1,7 +1,6 @@
 //! Sweeps as tables, JSON and summaries.
 
 use super::{certified, finding, significant};
-use crate::cli::units::unit;
 use crate::cli::{linear, modes};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::sweep::{Run, parameters};
@@ -15,7 +14,7 @@ pub(in crate::cli) fn sweep_rows(model: &Model, study: &Study, runs: &[Run]) -> 
     let mut columns: Vec<Header> = varied.map(|p| &model.parameters[p]).map(|p| Header::new(p.name.clone(), p.dimension.si())).collect();
     let present = present(study, runs);
     columns.extend(present.iter().map(|&i| &study.results[i]).map(|r| Header::new(r.name.clone(), r.dimension.si())));
-    columns.extend(study.scalars.iter().map(|s| Header::new(s.name.clone(), unit(model, s.value, s.dimension))));
+    columns.extend(study.scalars.iter().map(|s| Header::new(s.name.clone(), s.dimension.si())));
     let mut rows = Vec::new();
     let mut reasons = Vec::new();
     for run in runs {

@@ -1,8 +1,9 @@
 //! A study of many runs: a sweep, kept while it goes on.
 
+use super::super::interrupt::{self, interrupted};
 use super::super::kept::Kept;
-use super::super::progress::{Progress, interrupted};
-use super::super::{code, figures, linear, report, tell};
+use super::super::progress::Progress;
+use super::super::{code, fail, figures, linear, report, tell};
 use super::{Finished, Job, Output, values};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::sweep::{self, Run};
@@ -13,7 +14,7 @@ impl Job<'_> {
     /// Runs what is not known yet, and writes all.
     pub(super) fn sweep(&self, study: &Study) -> Finished {
         let count = sweep::grid(self.model, study).len();
-        let (kept, known) = Kept::open(self.directory, self.study, self.model, count);
+        let (kept, known) = Kept::open(self.directory, self.study, self.model, count, self.common.force);
         let there = known.iter().flatten().count();
         if !self.common.quiet {
             if let Some(note) = kept.note() {
@@ -30,14 +31,15 @@ impl Job<'_> {
             if !interrupted() || run.result.as_ref().is_ok_and(|o| o.stopped.is_none()) {
                 kept.add(i, run);
             }
+            if let Some(told) = kept.told(count) {
+                interrupt::begins(format!("{told}\ninterrupted: study `{}` is not written", study.name), false);
+            }
             progress.step();
         };
         let runs = sweep::sweep(self.model, study, self.common.threads(), known, &interrupted, &done);
         drop(progress);
         if interrupted() {
-            if let Some(finished) = kept.count().checked_sub(1) {
-                tell(&format!("kept: {} of {count} runs, from which the same command goes on", finished + 1));
-            }
+            kept.told(count).iter().for_each(|told| tell(told));
             return Finished::nothing(code::INTERRUPTED);
         }
         self.finish_sweep(study, &runs, kept)
@@ -55,14 +57,14 @@ impl Job<'_> {
                 1 => (format!("the one run of study `{name}` did not begin"), "the reason stands above"),
                 _ => (format!("none of the {count} runs of study `{name}` began"), "the first reason stands above"),
             };
-            tell(&format!("error: {what}\n  help: {help}"));
+            fail(&what, help);
             kept.remove();
             return Finished::nothing(code::NUMERICAL);
         }
         let mut code = code::DONE;
         if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
             let name = &study.name;
-            tell(&format!("error: no run of study `{name}` got through its range\n  help: the reasons stand in its last column"));
+            fail(&format!("no run of study `{name}` got through its range"), "the reasons stand in its last column");
             code = code::NUMERICAL;
         }
         for outcome in runs.iter().filter_map(|r| r.result.as_ref().ok()) {
@@ -86,7 +88,7 @@ impl Job<'_> {
         for (i, run) in runs.iter().enumerate() {
             if let Ok(outcome) = &run.result {
                 let stem = format!("{}-{:03}", self.study, i + 1);
-                staging.add(format!("{stem}.csv"), write_csv(&report::rows(self.model, study, outcome)));
+                staging.add(format!("{stem}.csv"), write_csv(&report::rows(study, outcome)));
                 for (name, bytes) in linear::files(study, outcome) {
                     staging.add(format!("{stem}{}", name.strip_prefix(&study.name).unwrap_or(&name)), bytes);
                 }

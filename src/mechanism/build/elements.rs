@@ -2,11 +2,11 @@
 
 use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
-use super::super::{Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
+use super::super::{Buffer, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, SpringLaw, SpringOn};
+use crate::model::{CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, REST_SPEED, SpringLaw, SpringOn};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -187,10 +187,16 @@ impl<G: Space> Builder<'_, G> {
     /// End stops and dry friction.
     fn joint_contact(&mut self, index: usize) {
         let joint = &self.model.joints[index];
-        if let Some(force) = joint.limit_force
+        if let Some(limit) = &joint.limit
             && let Some(gauge) = self.coordinate(index, &joint.place)
         {
-            self.drive_effort(gauge, force, &format!("{}.limits", joint.place));
+            let place = format!("{}.limits", joint.place);
+            let effort = self.drive_effort(gauge, limit.force, &place);
+            let ends =
+                [(limit.from, 1.0), (limit.to, -1.0)].into_iter().filter_map(|(end, sense)| Some((self.number(end?, &place), sense)));
+            let ends = ends.collect();
+            let stiffness = self.number(limit.stiffness, &place);
+            self.mechanism.buffers.push(Buffer { effort, gauge, ends, stiffness });
         }
         if let Some(stops) = joint.stops
             && let Some(gauge) = self.coordinate(index, &joint.place)
@@ -201,7 +207,18 @@ impl<G: Space> Builder<'_, G> {
             for (end, sense) in [(stops.from, 1.0), (stops.to, -1.0)] {
                 if let Some(end) = end {
                     let at = self.number(end, &place);
-                    self.mechanism.stops.push(Stop { joint: index, gauge, angular, at, sense, restitution, rest_speed });
+                    let along = Some(StretchOf::Gauge(gauge));
+                    self.mechanism.stops.push(Stop {
+                        joint: index,
+                        gauge,
+                        along,
+                        event: None,
+                        angular,
+                        at,
+                        sense,
+                        restitution,
+                        rest_speed,
+                    });
                 }
             }
         }
@@ -216,6 +233,34 @@ impl<G: Space> Builder<'_, G> {
             self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
         }
         self.mechanism.friction_efforts.push(effort);
+    }
+
+    /// Places of impacts: what happens at the zero of an event with a restitution happens as at a rigid stop.
+    pub(super) fn impacts(&mut self) {
+        for (index, event) in self.model.events.iter().enumerate() {
+            let Some(restitution) = &event.restitution else { continue };
+            let Some(gauge) = self.coordinate(restitution.joint, &event.place) else { continue };
+            let positions = self.pool.inputs_of(&[event.when]).iter().all(|input| {
+                let quantity = self.inputs[*input as usize];
+                matches!(self.gauge_of(quantity), Some((_, 0)))
+            });
+            let along = if positions { self.function_of(event.when, &event.place).map(StretchOf::Function) } else { None };
+            let angular = !matches!(self.model.joints[restitution.joint].kind, JointKind::Slider);
+            for sense in [1.0, -1.0] {
+                let stop = Stop {
+                    joint: restitution.joint,
+                    gauge,
+                    along,
+                    event: Some(index),
+                    angular,
+                    at: 0.0,
+                    sense,
+                    restitution: f64::NAN,
+                    rest_speed: REST_SPEED,
+                };
+                self.mechanism.stops.push(stop);
+            }
+        }
     }
 
     fn load(&mut self, index: usize) {

@@ -7,7 +7,7 @@ use super::super::{Joint, Node, Row, RowKind, RowOwner};
 use super::{Builder, Coordinates, along};
 use crate::expression::Id;
 use crate::geometry::{Pose, Space};
-use crate::model::{JointKind, Quantity, roll_pitch_yaw};
+use crate::model::{self, JointKind, Quantity, roll_pitch_yaw};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -21,12 +21,11 @@ impl<G: Space> Builder<'_, G> {
             return;
         }
         let bodies = self.model.bodies.len();
-        let branches = match coordinates {
-            Coordinates::Cartesian => tree::star(bodies),
-            Coordinates::Joint => {
-                let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j)).collect();
-                tree::span(bodies, &edges)
-            }
+        let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j)).collect();
+        let spanned = tree::span(bodies, &edges);
+        let (branches, footings) = match coordinates {
+            Coordinates::Cartesian => (tree::star(bodies), self.footings(&spanned)),
+            Coordinates::Joint => (spanned, vec![[0.0; 3]; bodies]),
         };
         for (index, joint) in self.model.joints.iter().enumerate() {
             let shape = &self.shapes[index];
@@ -41,10 +40,11 @@ impl<G: Space> Builder<'_, G> {
                 rows: 0..0,
                 freedom: shape.freedom(self.planar),
                 facing: shape.facing::<G>(self.planar),
+                turns: shape.turns::<G>(self.planar),
             });
         }
         for branch in branches {
-            self.node(branch);
+            self.node(branch, footings[branch.body]);
         }
         self.mechanism.joint_of_node =
             (0..self.mechanism.nodes.len()).map(|n| self.mechanism.joints.iter().position(|j| j.tree.is_some_and(|t| t.0 == n))).collect();
@@ -53,6 +53,26 @@ impl<G: Space> Builder<'_, G> {
             self.slot_measures.push(vec![]);
             self.measures_of_slots(index);
         }
+    }
+
+    /// For each body the first place on the ground to which joints lead from it, m, the same for all bodies that joints connect:
+    /// coordinates of its own are counted from there, so that they are small wherever the mechanism stands. The origin for bodies
+    /// without a road.
+    fn footings(&self, spanned: &[Branch]) -> Vec<[f64; 3]> {
+        let mut group: Vec<usize> = (0..self.model.bodies.len()).collect();
+        for j in self.model.joints.iter().filter(|j| j.a.body != 0 && j.b.body != 0) {
+            let (one, other) = (group[j.a.body], group[j.b.body]);
+            group.iter_mut().filter(|g| **g == other).for_each(|g| *g = one);
+        }
+        let mut footings = vec![[0.0; 3]; group.len()];
+        let grounded = spanned.iter().filter(|b| b.parent == 0).filter_map(|b| Some((b.body, b.joint?)));
+        let mut first: Vec<(usize, (usize, bool))> = grounded.collect();
+        first.sort_by_key(|(_, joint)| std::cmp::Reverse(*joint));
+        for (body, (j, reversed)) in first {
+            let place = if reversed { self.shapes[j].pb } else { self.shapes[j].pa };
+            footings.iter_mut().zip(&group).filter(|(_, g)| **g == group[body]).for_each(|(p, _)| *p = place);
+        }
+        footings
     }
 
     /// A joint as an edge of the graph. Preferred on the tree: what carries drivers, motors and exact start values, for their
@@ -64,8 +84,7 @@ impl<G: Space> Builder<'_, G> {
             || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
         let freedom = self.shapes[joint].freedom(self.planar);
         let rank = if driven { 0 } else { 1 + freedom };
-        // with rows of its own the reaction that presses is a function of their multipliers alone
-        let cut = j.cut || j.friction.as_ref().is_some_and(|f| f.pressed.is_some());
+        let cut = self.honour_cuts && is_cut(j);
         Edge { a: j.a.body, b: j.b.body, rank: (!cut && self.shapes[joint].spans()).then_some(rank) }
     }
 
@@ -88,7 +107,7 @@ impl<G: Space> Builder<'_, G> {
             let first = self.direction(Some(first), axis, place);
             second = self.direction(Some(other), axis, place);
             triad = joint::triad(first);
-            if joint::dot(first, second).abs() > 1e-9 {
+            if joint::dot(first, joint::apply(&align, second)).abs() > 1e-9 {
                 self.fault(
                     "axes-not-crossed",
                     place,
@@ -133,14 +152,14 @@ impl<G: Space> Builder<'_, G> {
         joint::unit(d)
     }
 
-    /// Adds a body to the tree.
-    fn node(&mut self, branch: Branch) {
+    /// Adds a body to the tree; a free joint of its own is at `footing` on the ground, m.
+    fn node(&mut self, branch: Branch, footing: [f64; 3]) {
         let planar = self.planar;
         let free;
         let (shape, reversed) = match branch.joint {
             Some((j, reversed)) => (&self.shapes[j], reversed),
             None => {
-                free = free_shape();
+                free = free_shape(footing);
                 (&free, false)
             }
         };
@@ -250,12 +269,18 @@ impl<G: Space> Builder<'_, G> {
     }
 }
 
-/// The free joint of a body's own, from the ground.
-fn free_shape() -> Shape {
+/// Whether a joint is kept off the tree: by wish, or because with rows of its own the reaction that presses is a function of their
+/// multipliers alone.
+pub(super) fn is_cut(joint: &model::Joint) -> bool {
+    joint.cut || joint.friction.as_ref().is_some_and(|f| f.pressed.is_some())
+}
+
+/// The free joint of a body's own, from a place on the ground.
+fn free_shape(pa: [f64; 3]) -> Shape {
     let z = [0.0, 0.0, 1.0];
     Shape {
         kind: JointKind::Free,
-        pa: [0.0; 3],
+        pa,
         pb: [0.0; 3],
         triad: joint::triad(z),
         align: joint::axis_rotation(z, z),

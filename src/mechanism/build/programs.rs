@@ -22,9 +22,12 @@ impl<'m, G: Space> Builder<'m, G> {
             model,
             parameters,
             planar: model.space == Dimensions::Planar,
+            honour_cuts: true,
             mechanism: Mechanism {
                 bodies: vec![],
                 nodes: vec![],
+                groups: vec![],
+                group_of: vec![],
                 steps: vec![],
                 nq: 0,
                 nv: 0,
@@ -45,6 +48,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 pressings: vec![],
                 friction_efforts: vec![],
                 bristles: vec![],
+                buffers: vec![],
                 stops: vec![],
                 rotors: vec![],
                 pulls: vec![],
@@ -112,6 +116,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 self.mechanism.switches += 1;
             }
         }
+        self.mechanism.group();
         Ok(self.mechanism)
     }
 

@@ -1,8 +1,7 @@
 //! Start values as gauges.
 
-use super::super::gauge::Measured;
 use super::super::joint::{apply, axis_rotation, dot, transpose, unit};
-use super::super::{Asked, Start};
+use super::super::{Asked, Orientation, Start};
 use super::Builder;
 use crate::geometry::Space;
 use crate::model::{Quantity, StartValue};
@@ -42,7 +41,7 @@ impl<G: Space> Builder<'_, G> {
         }
     }
 
-    /// An orientation as three cosines that vanish: each axis of the body is normal to the next one of the wanted triad.
+    /// An orientation as a matrix.
     fn rotation(&mut self, index: usize, axis: &[crate::expression::Id], angle: crate::expression::Id, name: &str) {
         let start = &self.model.start[index];
         let (place, guess) = (start.place.clone(), start.guess);
@@ -62,13 +61,10 @@ impl<G: Space> Builder<'_, G> {
             let [x, y, z] = apply(&transpose(&t), e);
             apply(&t, [c * x - s * y, s * x + c * y, z])
         };
-        for (k, next) in [(0, 1), (1, 2), (2, 0)] {
-            let mut w = [0.0; 3];
-            w[next] = 1.0;
-            let gauge = self.gauge(0, body, Measured::Dot { u: G::vector(&column(k)), w: G::vector(&w) }, 0.0);
-            let asked = Asked::Gauge { gauge, order: 0 };
-            self.mechanism.starts.push(Start { name: name.to_string(), asked, value: 0.0, guess, place: place.clone() });
-        }
-        self.mechanism.orientations.push((body, std::array::from_fn(|i| std::array::from_fn(|k| column(k)[i]))));
+        let columns = [0, 1, 2].map(column);
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]));
+        let asked = Asked::Orientation(self.mechanism.orientations.len());
+        self.mechanism.orientations.push(Orientation { body, axis: unit(axis), matrix });
+        self.mechanism.starts.push(Start { name: name.to_string(), asked, value: angle, guess, place });
     }
 }

@@ -180,7 +180,7 @@ impl<'n> Decoder<'n> {
         }
         let torque = curve.and_then(|table| {
             let (x, y) = self.world.tables.get(table).copied().flatten()?;
-            if (x, y) != (Dimension::FREQUENCY, Dimension::TORQUE) {
+            if (x, y) != (Dimension::ANGULAR_SPEED, Dimension::TORQUE) {
                 let message = format!("a table of {} over {}", y.name(), x.name());
                 self.fault("wrong-dimension", &at.key("curve"), message, "torque (N m) over angular speed (rad/s)").help =
                     Some("give its points units: `[[0 rpm, 200 N m], [1500 rpm, 0 N m]]`".to_owned());

@@ -56,17 +56,17 @@ impl<'n> Decoder<'n> {
         let axis = self.direction(node.get("axis"), &at.key("axis"));
         let to = self.direction(node.get("to"), &at.key("to"));
         let effort = single.map_or(Dimension::TORQUE, Coordinate::effort);
-        let rate = single.map_or(Dimension::FREQUENCY, |c| c.dimension(1));
+        let rate = single.map_or(Dimension::ANGULAR_SPEED, |c| c.dimension(1));
         let rpy = self.roll_pitch_yaw(node, at);
         let zero = self.coordinate(node, "zero", at, single);
         let damping = self.of(node, "damping", at, effort.div(rate));
         let friction = node.get("friction").and_then(|inner| self.friction((name, &kind), inner, &at.key("friction"), single));
         let limits = node.get("limits").map(|inner| self.limits(name, inner, &at.key("limits"), single));
-        let (limit_force, stops) = limits.unwrap_or_default();
+        let (limit, stops) = limits.unwrap_or_default();
         let cut = matches!(node.get("cut"), Some(Node::Plain(serde_yaml::Value::Bool(true))));
         let (a, b) = ends?;
         let (name, place) = (name.to_owned(), self.place(at));
-        Some(Joint { name, kind, a, b, axis, to, rpy, zero, damping, limit_force, friction, stops, cut, place })
+        Some(Joint { name, kind, a, b, axis, to, rpy, zero, damping, limit, friction, stops, cut, place })
     }
 
     /// `rpy`: three angles, instead of `to`.

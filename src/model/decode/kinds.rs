@@ -61,7 +61,7 @@ impl<'n> Decoder<'n> {
             }
             _ => {
                 self.no_columns(node, at);
-                let results = (1..=NAMED_MODES).map(|i| (format!("frequency_{i}"), Dimension::NONE.div(Dimension::TIME))).collect();
+                let results = (1..=NAMED_MODES).map(|i| (format!("frequency_{i}"), Dimension::ANGULAR_SPEED)).collect();
                 let offer = Offer { word, independent: None, first: None, reactions: true, states: true, results };
                 Some((Kind::Modes(modes(inner)), offer))
             }

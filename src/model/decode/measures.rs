@@ -209,8 +209,8 @@ impl<'n> Decoder<'n> {
                 self.world.model.states[state].rate = lowered.id;
                 return;
             }
-            let expected = match dimension {
-                Dimension::NONE => "the rate of a plain number, in 1/s".to_owned(),
+            let expected = match dimension.si() {
+                si if si.is_empty() => "the rate of a plain number, in 1/s".to_owned(),
                 _ => format!("the rate of {}, in {}", dimension.name(), wanted.si()),
             };
             let fault = self.fault("wrong-dimension", &at, format!("found {}", lowered.dimension.name()), expected);

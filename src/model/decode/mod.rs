@@ -25,13 +25,14 @@ pub(crate) use checks::Check;
 pub(crate) use dynamics::newmark_fault;
 pub(crate) use order::{order, tell};
 pub(crate) use outside::Outside;
+pub(crate) use stops::REST_SPEED;
 pub(crate) use studies::{Scalars, Taken};
 
 use super::entities::{Dimensions, Model};
 use super::fault::{At, Fault, Spot};
 use super::fields::Want;
 use super::merge::{Layers, Node};
-use super::names;
+use super::names::{self, Entity};
 use super::quantities::{Sound, World};
 use super::rules::Rule;
 use super::scope::{Allow, Local, Reach, View};
@@ -234,7 +235,9 @@ impl<'n> Decoder<'n> {
                         let form =
                             ["`", "a function", "a quantity whose", "a constant"].iter().any(|start| fault.expected.starts_with(start));
                         let code = code.unwrap_or(if form { "expression" } else { "wrong-dimension" });
-                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(fault.help)
+                        let slice = text.get(fault.at.clone()).unwrap_or_default();
+                        let help = fault.help.or_else(|| fault.wanted.and_then(|wanted| self.unit_missing(slice, wanted)));
+                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(help)
                     };
                     self.faults.push(made.at(origin.spot(fault.at)));
                 }
@@ -268,8 +271,12 @@ impl<'n> Decoder<'n> {
             let place = self.place(at);
             let text = node.text().unwrap_or_default();
             let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
-            if lowered.dimension == Dimension::NONE {
+            if let Some(help) = self.unit_missing(text, dimension) {
+                fault.help = Some(help);
+            } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
+            } else {
+                fault.help = self.unit_or_name(text);
             }
             if let Some(origin) = origin {
                 fault.spot = origin.spot(0..text.len());
@@ -294,6 +301,27 @@ impl<'n> Decoder<'n> {
             );
         }
         true
+    }
+
+    /// What to write for a name that became a unit, since it stands directly behind a number.
+    fn unit_or_name(&self, text: &str) -> Option<String> {
+        let (number, word) = text.trim().split_once(' ')?;
+        let named = matches!(self.world.names.get(word), Some(Entity::Parameter(_)));
+        let unit = named && number.parse::<f64>().is_ok() && expression::parse_unit(word).is_some();
+        unit.then(|| format!("`{word}` directly behind a number is the unit; for the parameter write `{number}*{word}`"))
+    }
+
+    /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
+    fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
+        let Some(Entity::Parameter(i)) = self.world.names.get(text.trim()).copied() else { return None };
+        let value = match self.section("parameters").get(i)?.1 {
+            Node::Plain(Value::Number(n)) => n.to_string(),
+            Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => text.trim().to_owned(),
+            _ => return None,
+        };
+        let written = wanted.written(&value);
+        (written != value)
+            .then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
     }
 
     /// A value of a wanted dimension that may use what `allow` says.

@@ -243,7 +243,7 @@ pub(super) fn retarget(plots: &mut Vec<Plot>, own: &[Sweep], over: &[Sweep]) {
 
 fn unit_words(dimension: Dimension) -> String {
     match dimension.si() {
-        si if si.is_empty() => "plain numbers or angles".to_owned(),
+        si if si.is_empty() => "plain numbers".to_owned(),
         si => format!("{si}; a bare number counts as {si}"),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Decoder;
 use crate::expression::{Compare, Dimension, Id};
-use crate::model::contacts::Stops;
+use crate::model::contacts::{Limit, Stops};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::quantities::Coordinate;
@@ -13,7 +13,7 @@ use crate::model::vocabulary::Quantity;
 pub(super) const STICK_SPEED: f64 = 1e-3;
 
 /// A rebound below this rate counts as rest, rad/s or m/s, if the limits do not say another.
-const REST_SPEED: f64 = 1e-3;
+pub(crate) const REST_SPEED: f64 = 1e-3;
 
 impl<'n> Decoder<'n> {
     /// The coordinate (order 0) or rate (order 1) of the joint that is being read.
@@ -29,7 +29,7 @@ impl<'n> Decoder<'n> {
         node: Node<'n>,
         at: &At<'_, 'n>,
         coordinate: Option<&Coordinate>,
-    ) -> (Option<Id>, Option<Stops>) {
+    ) -> (Option<Limit>, Option<Stops>) {
         let from = self.coordinate(node, "from", at, coordinate);
         let to = self.coordinate(node, "to", at, coordinate);
         if node.get("from").is_none() && node.get("to").is_none() {
@@ -76,7 +76,14 @@ impl<'n> Decoder<'n> {
     /// `stiffness`, `damping`. A stop pushes and never pulls:
     ///
     /// x < from: max(0, k (from − x) − c x'); x > to: min(0, k (to − x) − c x'); else 0.
-    fn buffer(&mut self, name: &str, [from, to]: [Option<Id>; 2], node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Id> {
+    fn buffer(
+        &mut self,
+        name: &str,
+        [from, to]: [Option<Id>; 2],
+        node: Node<'n>,
+        at: &At<'_, 'n>,
+        coordinate: &Coordinate,
+    ) -> Option<Limit> {
         let stiffness = coordinate.effort().div(coordinate.dimension(0));
         let stiffness = self.of(node, "stiffness", at, stiffness);
         self.check_key(Rule::Positive("the stiffness"), stiffness, at, "stiffness");
@@ -102,6 +109,6 @@ impl<'n> Decoder<'n> {
             let beyond = p.compare(if upper { Compare::Greater } else { Compare::Less }, x, end, &text);
             force = p.choose(beyond, push, force);
         }
-        (force != zero).then_some(force)
+        (force != zero).then_some(Limit { force, from, to, stiffness })
     }
 }

@@ -151,6 +151,7 @@ impl<'n> Decoder<'n> {
             columns,
             undefined,
             columns_given,
+            independent: frame.offer.independent,
             scalars,
             results,
             functionals,
@@ -215,7 +216,6 @@ impl<'n> Decoder<'n> {
             }
             _ => crate::model::names::taken(name).map(str::to_owned),
         };
-        let why = why.or_else(|| crate::expression::unit(name).map(|_| "a unit".to_owned()));
         if let Some(why) = why {
             let fault = self.fault("reserved-name", at, format!("`{name}` is {why}"), format!("another name for {what}"));
             fault.spot = Spot::Key;
@@ -239,7 +239,7 @@ impl<'n> Decoder<'n> {
             let Some(dimension) = self.world.parameters.get(i).copied().flatten() else { continue };
             let allow = Allow { tables: false, what: "`set`", ..Allow::PARAMETER };
             let Some((lowered, _)) = self.any(value, &here, allow, local) else { continue };
-            if !self.fits(&lowered, Want::Of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
+            if !self.fits(&lowered, Want::of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
                 continue;
             }
             if !self.pool.inputs_of(&[lowered.id]).is_empty() {
@@ -258,7 +258,7 @@ impl<'n> Decoder<'n> {
             let here = section.key(name);
             let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
             let Some(dimension) = self.world.parameters.get(parameter).copied().flatten() else { continue };
-            let want = Want::Of(dimension);
+            let want = Want::of(dimension);
             let values = if value.is_list() {
                 let mut ids = Vec::new();
                 for (i, item) in value.items().iter().enumerate() {
@@ -315,9 +315,9 @@ impl<'n> Decoder<'n> {
         }
         let dimension = self.world.parameters.get(parameter).copied().flatten()?;
         let between_at = here.key("between");
-        let [from, to] = inner.get("between")?.items() else { return None };
-        let from = self.before(Node::Plain(from), &between_at.index(0), Want::Of(dimension), frame);
-        let to = self.before(Node::Plain(to), &between_at.index(1), Want::Of(dimension), frame);
+        let [from_node, to] = inner.get("between")?.items() else { return None };
+        let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::of(dimension), frame);
+        let to = self.before(Node::Plain(to), &between_at.index(1), Want::of(dimension), frame);
         if let (Some(from), Some(to)) = (from, to)
             && self.pool.inputs_of(&[from, to]).is_empty()
         {
@@ -325,7 +325,7 @@ impl<'n> Decoder<'n> {
         }
         let target_at = here.key("target");
         let targets = inner.get("target")?.entries();
-        let [(scalar, value)] = targets[..] else {
+        let [(scalar, value_node)] = targets[..] else {
             let message = format!("{} targets", targets.len());
             self.fault("wrong-size", &target_at, message, "one scalar and its value, `{ delta: 0.01 }`").spot = Spot::Key;
             return None;
@@ -338,8 +338,9 @@ impl<'n> Decoder<'n> {
                 return None;
             }
         };
-        let value = self.before(value, &scalar_at, Want::Of(of?), frame);
-        Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?) })
+        let value = self.before(value_node, &scalar_at, Want::of(of?), frame);
+        let units = [unit_of(Node::Plain(from_node), dimension), unit_of(value_node, of?)];
+        Some(Solve { parameter, between: [from?, to?], target: (scalar.to_owned(), value?), units })
     }
 
     /// A bound or target of `solve`, which is known before a run.
@@ -373,6 +374,13 @@ impl<'n> Decoder<'n> {
             kind: frame.offer.word,
         });
     }
+}
+
+/// The unit in which a plain quantity of the file is written, with its size in SI.
+fn unit_of(node: Node<'_>, dimension: Dimension) -> Option<(String, f64)> {
+    let unit = node.text()?.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-. ".contains(c));
+    let (size, of) = crate::expression::parse_unit(unit)?;
+    (of == dimension).then(|| (unit.to_owned(), size))
 }
 
 impl Frame<'_> {

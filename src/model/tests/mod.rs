@@ -72,7 +72,7 @@ fn numbers_are_si_and_names_are_indices() {
     assert_eq!(model.joints[2].b, PointRef { body: 3, point: 4 });
     assert_eq!(model.bodies[3].attached[0].at, 5);
     let table = &model.tables[0];
-    assert_eq!((table.points.len(), table.x, table.y), (7, Dimension::FREQUENCY, Dimension::TORQUE));
+    assert_eq!((table.points.len(), table.x, table.y), (7, Dimension::ANGULAR_SPEED, Dimension::TORQUE));
     let start: Vec<(&str, bool)> = model.start.iter().map(|s| (s.name.as_str(), s.guess)).collect();
     assert_eq!(start, [("O.angle", false), ("coupler.angle", true), ("rocker.angle", true)]);
 }

@@ -157,7 +157,6 @@ fn faults_of_states() {
         ("(share - warmth)/1 s", "mean(warmth)", "wrong-level"),
         ("{ rate: (share - warmth)/1 s }", "{ start: O.angle, rate: 0 }", "wrong-level"),
         ("{ rate: (share - warmth)/1 s }", "{ start: 1 }", "missing-key"),
-        ("warmth: { rate: (share - warmth)/1 s }", "A: { rate: share/1 s }", "reserved-name"),
         ("warmth: { rate: (share - warmth)/1 s }", "power: { rate: share/1 s }", "duplicate-name"),
         ("reach: 10 cm", "reach: current*1 m/1 A", "wrong-level"),
         ("axis: [1, 0]", "axis: [1, current/1 A]", "wrong-level"),
@@ -271,7 +270,7 @@ fn faults_of_events() {
 #[test]
 fn a_stop_pushes_and_never_pulls() {
     let model = read(&with("axis: [1, 0]", "axis: [1, 0], limits: { from: -reach, to: reach, stiffness: 1000 N/m, damping: 50 N s/m }"));
-    let force = model.joints[1].limit_force.unwrap();
+    let force = model.joints[1].limit.unwrap().force;
     let at = |x: f64, v: f64| at(&model, force, &[(coordinate(1, 0), x), (coordinate(1, 1), v)]);
     for (x, v, expected) in [
         (0.0, 3.0, 0.0),
@@ -286,7 +285,7 @@ fn a_stop_pushes_and_never_pulls() {
         assert!((at(x, v) - expected).abs() < 1e-12, "{x} {v}: {}", at(x, v));
     }
     let model = read(&with("origin] }\n  S", "origin], limits: { to: 30 deg, stiffness: 2 N m/rad } }\n  S"));
-    let force = model.joints[0].limit_force.unwrap();
+    let force = model.joints[0].limit.unwrap().force;
     assert!((self::at(&model, force, &[(coordinate(0, 0), 1.0)]) - 2.0 * (30_f64.to_radians() - 1.0)).abs() < 1e-15);
     assert_eq!(self::at(&model, force, &[(coordinate(0, 0), -9.0)]), 0.0);
 }

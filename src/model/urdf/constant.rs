@@ -43,6 +43,9 @@ impl Scope for Nothing {
     fn name(&mut self, _: &mut Pool, path: &str) -> Result<Symbol, Unknown> {
         Err(Self::refused(path))
     }
+    fn has_value(&self, _: &str) -> bool {
+        false
+    }
     fn table(&mut self, _: &str) -> Option<(u32, Dimension, Dimension)> {
         None
     }

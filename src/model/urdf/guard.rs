@@ -31,6 +31,17 @@ pub(super) fn tree(text: &str) -> Result<Document<'_>, Box<Fault>> {
     })
 }
 
+/// Whether a file begins as a URDF does; if not, a model may name it by mistake or malice, and nothing of it is to be shown.
+pub(crate) fn is_robot(bytes: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(bytes);
+    let mut rest = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+    while let Some((open, close)) = [("<?", "?>"), ("<!--", "-->")].into_iter().find(|(open, _)| rest.starts_with(open)) {
+        let Some(end) = rest[open.len()..].find(close) else { return false };
+        rest = rest[open.len() + end + close.len()..].trim_start();
+    }
+    rest.strip_prefix("<robot").is_some_and(|rest| rest.starts_with(|c: char| c.is_whitespace() || c == '>' || c == '/'))
+}
+
 /// The byte of a line and column, both counted from 1.
 fn offset(text: &str, at: roxmltree::TextPos) -> usize {
     let line_start: usize = text.split_inclusive('\n').take(at.row.saturating_sub(1) as usize).map(str::len).sum();
@@ -95,6 +106,14 @@ pub(super) fn opening(node: roxmltree::Node<'_, '_>) -> Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_robot_is_known_by_its_root() {
+        assert!(is_robot(b"\xef\xbb\xbf<?xml version='1.0'?>\n<!-- <a> -->\n<robot name='r'>") && is_robot(b"<robot>"));
+        for text in ["root:x:0:0:<robot>", "<secret/><robot/>", "<robots>", "", "<?xml", "<!-- <robot>"] {
+            assert!(!is_robot(text.as_bytes()), "{text}");
+        }
+    }
 
     #[test]
     fn depth_is_counted_past_quotes_and_comments() {

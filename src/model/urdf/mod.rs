@@ -5,6 +5,7 @@
 //! those of a model that includes the file, and are written as text by [`import`].
 
 mod constant;
+mod finite;
 mod grammar;
 mod guard;
 mod inertia;
@@ -15,6 +16,7 @@ mod rotation;
 mod translate;
 mod write;
 
+pub(crate) use guard::is_robot;
 pub(crate) use notes::Notes;
 pub use rotation::roll_pitch_yaw;
 pub use write::{Import, Imported, import};

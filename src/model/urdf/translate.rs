@@ -4,6 +4,7 @@
 //! its axis u in the child, the child stands in the parent at T(p) · exp(R u, q) · R, which is `rpy` and `axis: R u` here.
 
 use super::constant::Constant;
+use super::finite;
 use super::guard::opening;
 use super::inertia::figures;
 use super::names::Names;
@@ -63,6 +64,7 @@ pub(super) fn translate(robot: &Robot<'_, '_>, options: &Options<'_>, notes: &mu
             work.out.sections.insert(key.into(), section.into());
         }
     }
+    work.faults.extend(finite::check(&work.out));
     if work.faults.is_empty() { Ok(work.out) } else { Err(work.faults) }
 }
 

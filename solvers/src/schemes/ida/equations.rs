@@ -307,6 +307,8 @@ impl Equations for Lent<'_> {
         for ((w, size), v) in w_v.iter_mut().zip(&self.engine.size_v).zip(v) {
             *w = whole / (size + v.abs());
         }
+        let engine = &self.engine;
+        engine.shared(v, |k, speed| w_v[k] = whole / (engine.size_v[k] + speed.abs()));
         w_z.iter_mut().zip(z).for_each(|(w, z)| *w = whole / (1.0 + z.abs()));
         w_lambda.fill(1e-30);
         w_mu.fill(1e-30);

@@ -237,7 +237,8 @@ impl Stages {
             }
             let rate = rates[0].max(rates[1]);
             let floor = if engine.is_fixed() { 30.0 } else { f64::max(1e-3, ROUND_OFF / engine.tolerance()) };
-            let rounded = iteration > 0 && rates[1] > 0.3 && norm < floor;
+            let noise = 2.0 * engine.rounding(&from.state.q) / engine.tolerance();
+            let rounded = iteration > 0 && rates[1] > 0.3 && norm < floor || iteration > 1 && rates[1] > 0.5 && norm < noise;
             if rounded || (rate < 1.0 && norm * rate / (1.0 - rate) < CLOSE) || norm == 0.0 {
                 if rounded {
                     self.rate = self.rate.min(FAST);

@@ -61,26 +61,26 @@ where
     }
 
     /// A joint reaches a rigid stop: it rebounds, rests or, pulled away, has only touched it; at the state looked at last.
-    fn strike(&mut self, index: usize, state: &mut State, row: &mut [f64]) -> Effect {
+    fn strike(&mut self, index: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
         let m = self.dynamics.mechanism;
         let stop = m.stops[index];
         let mode = self.mode_of_stop(index);
         row.fill(0.0);
         m.gauges[stop.gauge].project(&self.dynamics.work.readings[stop.gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
-        let speed = -stop.sense * self.dynamics.work.readings[stop.gauge].rate;
+        let Some(along) = stop.along else { return self.strike_without_rest(index, restitution) };
+        let speed = -stop.sense * self.dynamics.extent_rate(along);
         if speed < -stop.rest_speed {
             // another blow at the same instant has thrown it back already
             state.modes[mode] = 1;
             return Effect::Record;
         }
-        let rebound = Effect::Bounce { restitution: stop.restitution, stops: false };
-        if stop.restitution * speed >= stop.rest_speed {
+        let rebound = Effect::Bounce { restitution, stops: false };
+        if restitution * speed >= stop.rest_speed {
             state.modes[mode] = 0;
             return rebound;
         }
         self.accelerate(&state.at());
-        let reading = &self.dynamics.work.readings[stop.gauge];
-        let pressed = stop.sense * m.gauges[stop.gauge].acceleration(reading, &self.dynamics.work.columns, &self.a) < 0.0;
+        let pressed = stop.sense * self.dynamics.extent_acceleration(along, &self.a) < 0.0;
         if pressed || speed > stop.rest_speed {
             self.rests.push((index, true));
             return Effect::Bounce { restitution: 0.0, stops: true };
@@ -89,18 +89,72 @@ where
         if speed > 0.0 { rebound } else { Effect::Record }
     }
 
+    /// A blow at the zero of a function that holds more than positions: nothing can rest there, and where it would the run ends.
+    fn strike_without_rest(&mut self, index: usize, restitution: f64) -> Effect {
+        let stop = self.dynamics.mechanism.stops[index];
+        let rebound = restitution * self.dynamics.work.readings[stop.gauge].rate.abs();
+        if rebound >= stop.rest_speed {
+            return Effect::Impulse { restitution, stops: false };
+        }
+        self.restless = stop.event;
+        Effect::Stop
+    }
+
+    /// An event with impacts is met from the side that counts: a blow, as at a rigid stop.
+    pub(super) fn impact(&mut self, event: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
+        let m = self.dynamics.mechanism;
+        let side = f64::from(state.modes[m.switches + m.windings + event]);
+        let Some(stop) = m.stops.iter().position(|s| s.event == Some(event) && s.sense == side) else { return Effect::Record };
+        self.struck.push(event);
+        let also = self.events[event].stops;
+        match self.strike(stop, restitution, state, row) {
+            Effect::Bounce { restitution, stops } => Effect::Bounce { restitution, stops: stops || also },
+            Effect::Impulse { restitution, stops } => Effect::Impulse { restitution, stops: stops || also },
+            Effect::Record if also => Effect::Stop,
+            effect => effect,
+        }
+    }
+
+    /// The event whose impacts would have to come to rest where nothing can hold, if the last crossing met one.
+    pub(in crate::analysis::forward) fn restless(&self) -> Option<usize> {
+        self.restless
+    }
+
+    /// Way that is left to a stop at the state looked at last, rad or m, or in the unit of its event's function.
+    fn gap(&self, stop: usize) -> f64 {
+        let s = self.dynamics.mechanism.stops[stop];
+        s.along.map_or(1.0, |along| s.gap(self.dynamics.extent(along)))
+    }
+
+    /// Whether a joint has left a stop just now, and may still pass it by rounding.
+    fn left(&self, stop: usize, modes: &[i32]) -> bool {
+        modes[self.mode_of_stop(stop)] == 1
+    }
+
+    /// The value of the root of an event with impacts whose function is `x`: its way to the side that counts.
+    pub(super) fn way(&self, event: usize, x: f64, modes: &[i32]) -> f64 {
+        let m = self.dynamics.mechanism;
+        let side = f64::from(modes[m.switches + m.windings + event]);
+        let stop = m.stops.iter().position(|s| s.event == Some(event) && s.sense == side);
+        let held = |stop: usize| self.roots.iter().any(|root| matches!(root, Root::Rest { stop: s, .. } if *s == stop));
+        match stop {
+            Some(stop) if held(stop) => 1.0,
+            Some(stop) if self.left(stop, modes) => side * x + self.near[stop],
+            _ => side * x,
+        }
+    }
+
     /// The value of a root of a contact; after the look at the state.
     pub(super) fn touch(&self, root: Root, at: &At<'_>, a: &[f64], lambda: &[f64]) -> f64 {
         let m = self.dynamics.mechanism;
-        let gap = |stop: usize| m.stops[stop].gap(self.dynamics.work.readings[m.stops[stop].gauge].x);
-        let left = |stop: usize| at.modes[self.mode_of_stop(stop)] == 1;
+        let left = |stop: usize| self.left(stop, at.modes);
         match root {
             Root::Side { place, .. } => {
                 let pressed = self.dynamics.pressed(lambda).nth(place);
                 pressed.map_or(1.0, |(n, _)| n + slack(&self.pattern.metric, a, lambda))
             }
-            Root::Stop(stop) => gap(stop) + if left(stop) { self.near[stop] } else { 0.0 },
-            Root::Clear(stop) if left(stop) => 2.0 * self.near[stop] - gap(stop),
+            Root::Stop(stop) => self.gap(stop) + if left(stop) { self.near[stop] } else { 0.0 },
+            Root::Clear(stop) if left(stop) => 2.0 * self.near[stop] - self.gap(stop),
             Root::Rest { row, stop } => -m.stops[stop].sense * lambda[row],
             _ => 1.0,
         }
@@ -113,7 +167,7 @@ where
                 state.modes[mode] = if state.modes[mode] < 0 { 1 } else { -1 };
                 Effect::Restart
             }
-            Root::Stop(stop) => self.strike(stop, state, row),
+            Root::Stop(stop) => self.strike(stop, self.dynamics.mechanism.stops[stop].restitution, state, row),
             Root::Clear(stop) => {
                 state.modes[self.mode_of_stop(stop)] = 0;
                 Effect::Record

@@ -1,0 +1,123 @@
+//! Switches that come many in a step: conditions of time and of the motion against closed forms, in every scheme.
+
+use super::reference::Verdict;
+use super::reference::program::run_text;
+use super::scalar;
+use std::f64::consts::{PI, TAU};
+
+/// Schemes that control their error, and one with a step that is long beside the switches.
+const SCHEMES: [&str; 6] = [
+    "integrator: dop853",
+    "integrator: auto, tolerance: 1e-4",
+    "integrator: radau5",
+    "integrator: bdf, tolerance: 1e-6",
+    "integrator: generalized-alpha, tolerance: 1e-5",
+    "integrator: rk4, step: 0.1 s",
+];
+
+/// A wheel of 20 kg m² that turns at 50 rad/s, with what else is given.
+fn wheel(rest: &str) -> String {
+    format!(
+        "grashof: 1
+name: wheel
+space: planar
+gravity: none
+bodies: {{ wheel: {{ mass: 30 kg, inertia: 20 kg m^2 }} }}
+joints: {{ O: {{ revolute: [ground, wheel.origin] }} }}
+start: {{ O.angle: 0 deg, O.omega: 50 rad/s }}
+{rest}
+"
+    )
+}
+
+/// A brake of 6 N m in the first half of each turn: parabolas and straight lines, one after the other.
+fn braked(until: f64) -> f64 {
+    let (mut t, mut omega, slowing) = (0.0, 50.0, 6.0 / 20.0);
+    loop {
+        let after = f64::sqrt(omega * omega - 2.0 * slowing * PI);
+        let braking = (omega - after) / slowing;
+        if t + braking >= until {
+            return omega - slowing * (until - t);
+        }
+        t += braking + PI / after;
+        omega = after;
+        if t >= until {
+            return omega;
+        }
+    }
+}
+
+#[test]
+fn a_brake_that_acts_in_half_of_each_turn() {
+    let mut verdict = Verdict::default();
+    for scheme in SCHEMES {
+        let rest = format!(
+            "loads: {{ brake: {{ joint: O, torque: \"if(sin(O.angle) > 0, -6 N m, 0 N m)\" }} }}
+studies: {{ run: {{ dynamics: {{ until: 10 s, {scheme} }}, columns: [time, O.omega] }} }}"
+        );
+        let table = run_text(&wheel(&rest), &["--no-plots"]).succeeded().table("run");
+        let found = table.rows.last().map_or(f64::NAN, |row| row[1]);
+        verdict.close("O.omega", scheme, found, braked(10.0), 1e-7);
+    }
+    verdict.give("brake");
+}
+
+#[test]
+fn short_pulses_in_each_turn_are_all_met() {
+    let mut verdict = Verdict::default();
+    for scheme in SCHEMES {
+        // 0.0283 and 0.09 rad of each turn; 7 and 40 switches a turn; a narrow lobe of a cam
+        let rest = format!(
+            "tables: {{ cam: {{ points: [[0 deg, 0], [10 deg, 0], [12 deg, 1], [15 deg, 0], [360 deg, 0]], beyond: periodic }} }}
+studies:
+  run:
+    dynamics: {{ until: {} s, every: 1 s, {scheme} }}
+    columns: [time, O.angle]
+    scalars: {{ narrow: \"mean(cos(O.angle - 1) > 0.9999)\", fast: \"mean(sin(20*O.angle) > 0.3)\", lobe: mean(cam(O.angle)), area: \"mean(abs(sin(3.5*O.angle)))\" }}",
+            4.0 * TAU / 5.0 * 0.5
+        );
+        // 20 turns
+        let found = run_text(&wheel(&rest), &["--no-plots"]).succeeded();
+        let expected = [
+            ("narrow", 2.0 * f64::acos(0.9999) / TAU),
+            ("fast", (PI - 2.0 * f64::asin(0.3)) / TAU),
+            ("lobe", 2.5 / 360.0),
+            ("area", 2.0 / PI),
+        ];
+        for (name, expected) in expected {
+            verdict.close(name, scheme, scalar(&found, "run", name), expected, 1e-8);
+        }
+    }
+    verdict.give("pulses");
+}
+
+/// A force of 1 N while sin(ω t + φ) > c acts for a known time, however many switches lie in a step.
+#[test]
+fn square_waves_of_time_are_bounded() {
+    let mut verdict = Verdict::default();
+    for (omega, phase, level) in [(50.0, 0.3, 0.0), (0.0, 0.3, 0.0), (1000.0, 1.0, 0.9), (333.3, 2.0, -0.999), (5.0, 0.0, 0.999_999)] {
+        // from asin c to π − asin c in each turn, which begins before the turn where c < 0
+        let (on, off) = (f64::asin(level), PI - f64::asin(level));
+        let part = |x: f64| x.clamp(on.max(0.0), off) - on.max(0.0) + (x - TAU - on).max(0.0);
+        let held = |x: f64| (x / TAU).floor() * (off - on) + part(x.rem_euclid(TAU));
+        let expected = if omega == 0.0 { 1.0 } else { (held(phase + omega) - held(phase)) / omega };
+        for scheme in SCHEMES {
+            let text = format!(
+                "grashof: 1
+name: square wave
+space: planar
+gravity: none
+bodies: {{ mass: {{ mass: 1 kg, inertia: 1 kg m^2 }} }}
+joints: {{ P: {{ slider: [ground, mass.origin], axis: [1, 0] }} }}
+loads: {{ f: {{ joint: P, force: \"if(sin({omega} rad/s*t + {phase}) > {level}, 1 N, 0 N)\" }} }}
+start: {{ P.velocity: 0 m/s }}
+studies: {{ run: {{ dynamics: {{ until: 1 s, {scheme} }}, columns: [time, P.velocity] }} }}
+"
+            );
+            let table = run_text(&text, &["--no-plots"]).succeeded().table("run");
+            let found = table.rows.last().map_or(f64::NAN, |row| row[1]);
+            verdict.close(&format!("{omega} rad/s"), scheme, found, expected, 1e-9);
+        }
+    }
+    verdict.give("square waves");
+}

@@ -1,0 +1,230 @@
+//! What a study says of its motion does not depend on where it writes rows: extremes, integrals, means, first places and switches
+//! against closed forms, for any number of samples.
+
+mod common;
+
+use common::{model, study};
+use grashof::analysis::outcome::Outcome;
+use grashof::analysis::{run::run, sweep};
+use grashof::mechanism::Coordinates;
+use std::f64::consts::{PI, TAU};
+
+const SAMPLES: [usize; 6] = [1, 2, 3, 10, 100, 3600];
+
+/// A crank of 5 cm at 300 rpm with a link of 15 cm.
+fn slider_crank(turns: usize, samples: usize) -> Outcome {
+    let text = format!(
+        "\
+grashof: 1
+name: slider-crank
+space: planar
+gravity: none
+ground: {{ O: [0, 0] }}
+bodies:
+  crank: {{ bar: {{ length: 5 cm }} }}
+  link: {{ bar: {{ length: 15 cm, mass: 0.6 kg }} }}
+  piston: {{ mass: 0.5 kg }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, link.start] }}
+  B: {{ revolute: [link.end, piston.origin] }}
+  W: {{ slider: [ground.O, piston.origin], axis: [1, 0] }}
+drivers: {{ drive: {{ joint: O, speed: 300 rpm }} }}
+start: {{ O.angle: 0 deg, link.angle: ~0 deg }}
+studies:
+  turn:
+    inverse: {{ over: {turns} turn, samples: {samples} }}
+    columns: [O.angle, W.position, drive.torque]
+    scalars:
+      highest: max(W.position)
+      lowest: min(W.position)
+      fastest: max(W.velocity)
+      way: integral(abs(W.velocity))
+      forward: mean(W.velocity > 0)
+      torque: max(drive.torque)
+      work: mean(abs(drive.torque))
+      beyond: first(W.position < 12 cm)
+      end: last(O.angle)
+"
+    );
+    study(&text, "turn", Coordinates::Joint)
+}
+
+#[test]
+fn a_slider_crank_is_the_same_on_any_grid() {
+    let (r, l, omega) = (0.05, 0.15, 10.0 * PI);
+    let velocity = |a: f64| -omega * r * a.sin() * (1.0 + r * a.cos() / (l * l - (r * a.sin()).powi(2)).sqrt());
+    let fastest = (0..4_000_000).map(|i| velocity(TAU * f64::from(i) / 4e6)).fold(0.0, f64::max);
+    // 12 cm: r cos a + √(l² − r² sin² a) = x
+    let first = (f64::midpoint(0.12 * 0.12 + r * r, -l * l) / (r * 0.12)).acos();
+    for turns in [1, 3, 10] {
+        let fine = slider_crank(turns, 360);
+        for samples in SAMPLES {
+            let found = slider_crank(turns, samples);
+            assert_eq!(found.scalars, fine.scalars, "{turns} turns, {samples} samples");
+            assert_eq!(found.certificate.switches, fine.certificate.switches);
+            let places = |o: &Outcome| o.extremes.iter().flatten().flat_map(|e| [e.min.at, e.max.at]).collect::<Vec<_>>();
+            assert_eq!(places(&found), places(&fine));
+            assert!(found.rows.len() > samples && found.rows.len() <= samples + 1 + 2 * found.certificate.switches);
+        }
+        let turns = turns as f64;
+        let right = [0.2, 0.1, fastest, 4.0 * r * omega * turns, 0.5];
+        for (k, (found, right)) in fine.scalars.iter().zip(right).enumerate() {
+            assert!((found / right - 1.0).abs() < 1e-9, "scalar {k}: {found} for {right}");
+        }
+        assert!((fine.scalars[7] - first).abs() < 1e-10, "{} for {first}", fine.scalars[7]);
+        assert!((fine.scalars[8] / (TAU * turns) - 1.0).abs() < 1e-14);
+        assert!(fine.findings.is_empty(), "{:?}", fine.findings);
+    }
+}
+
+/// A crank at 1 turn/s with a load, and one scalar over 1 s.
+fn timed(load: &str, scalar: &str, samples: usize) -> Outcome {
+    let text = format!(
+        "\
+grashof: 1
+name: crank with a load
+space: planar
+gravity: none
+ground: {{ O: [0, 0] }}
+tables:
+  cam: {{ points: [[0, 0], [1, 0], [2, 1], [3, 1], [4, 0], [{TAU}, 0]], beyond: periodic }}
+bodies: {{ crank: {{ bar: {{ length: 5 cm, mass: 1 kg }} }} }}
+joints: {{ O: {{ revolute: [ground.O, crank.start] }} }}
+loads: {{ load: {{ joint: O, torque: \"{load}\" }} }}
+drivers: {{ drive: {{ joint: O, speed: 1 turn/s }} }}
+start: {{ O.angle: 0 deg }}
+studies:
+  s:
+    inverse: {{ over: 1 s, samples: {samples} }}
+    columns: [time, drive.torque]
+    scalars: {{ found: \"{scalar}\" }}
+"
+    );
+    study(&text, "s", Coordinates::Joint)
+}
+
+/// ∫₀ˣ |sin|.
+fn arches(x: f64) -> f64 {
+    let whole = (x / PI).floor();
+    2.0 * whole + 1.0 - (x - PI * whole).cos()
+}
+
+/// Measure of sin > 0 in [0, x].
+fn raised(x: f64) -> f64 {
+    (x / TAU).floor() * PI + (x % TAU).min(PI)
+}
+
+#[test]
+fn loads_that_change_between_rows_are_seen() {
+    let square = (raised(700.3) - raised(0.3)) / 700.0;
+    let none = "0 N m";
+    // a load, what is asked, the closed form, the number of switches
+    let cases = [
+        ("2 N m*sin(5000 rad/s*t)", "max(drive.torque)/1 N m", 2.0, 0),
+        ("1 N m*sin(11309.733552923256 rad/s*t)", "max(abs(drive.torque))/1 N m", 1.0, 3599),
+        (none, "integral(sin(5000 rad/s*t)^2)/1 s", 0.5 - 10000_f64.sin() / 20000.0, 0),
+        (none, "integral(abs(sin(50 rad/s*t)))/1 s", arches(50.0) / 50.0, 15),
+        ("if(sin(700 rad/s*t + 0.3) > 0, 1 N m, 0 N m)", "-integral(drive.torque)/(1 N m s)", square, 222),
+        ("if(t > 0.4321 s and t < 0.432100001 s, 7 N m, 0 N m)", "-min(drive.torque)/1 N m", 7.0, 2),
+        ("if(t > 0.4321 s and t < 0.4322 s, 7 N m, 0 N m)", "-integral(drive.torque)/(1 N m s)", 7e-4, 2),
+        (none, "mean(cam(3*O.angle) == 0)", 1.0 - 3.0 / TAU, 14),
+        (none, "max(cam(3*O.angle))", 1.0, 14),
+        (none, "integral(cam(O.angle))/1 s", 2.0 / TAU, 4),
+        (none, "first(sin(O.angle) < -0.5)/1 s", 7.0 / 12.0, 2),
+    ];
+    for (load, scalar, right, switches) in cases {
+        for samples in [1, 7, 360] {
+            let o = timed(load, scalar, samples);
+            assert!((o.scalars[0] - right).abs() < 1e-9, "{load} / {scalar}, {samples} samples: {} for {right}", o.scalars[0]);
+            assert_eq!(o.certificate.switches, switches, "{load} / {scalar}, {samples} samples");
+            assert!(o.findings.is_empty(), "{load} / {scalar}: {:?}", o.findings);
+        }
+    }
+}
+
+#[test]
+fn what_is_too_fast_to_be_followed_is_said() {
+    for scalar in ["max(sin(1e10 rad/s*t))", "mean(1/(O.angle - 2))"] {
+        let o = timed("0 N m", scalar, 10);
+        assert!(o.findings.iter().any(|f| f.code == "unresolved" && f.message.contains("`found`")), "{scalar}: {:?}", o.findings);
+    }
+    // a switch at every place is given up, too
+    let o = timed("0 N m", "mean(sin(1e8 rad/s*t) > 0)", 10);
+    assert!(o.findings.iter().any(|f| f.code == "unresolved" && f.message.contains("the switch")), "{:?}", o.findings);
+}
+
+#[test]
+fn a_motion_in_time_is_the_same_for_any_rows_and_long_steps() {
+    let run = |every: &str| {
+        let text = format!(
+            "\
+grashof: 1
+name: free mass
+space: planar
+gravity: none
+bodies: {{ mass: {{ mass: 1 kg, inertia: 1 kg m^2 }} }}
+joints: {{ P: {{ slider: [ground, mass.origin], axis: [1, 0] }} }}
+start: {{ P.velocity: 1 m/s }}
+studies:
+  k:
+    dynamics: {{ until: 1 s{every} }}
+    columns: [time, P.position]
+    scalars: {{ most: max(sin(50 rad/s*t)), least: min(sin(50 rad/s*P.position/(1 m/s))), fast: max(sin(5000 rad/s*t)), area: integral(sin(50 rad/s*t)^2)/1 s }}
+"
+        );
+        study(&text, "k", Coordinates::Joint)
+    };
+    let right = [1.0, -1.0, 1.0, 0.5 - 100_f64.sin() / 200.0];
+    let any = run("");
+    for every in ["", ", every: 1 s", ", every: 0.3 s", ", every: 1 ms"] {
+        let o = run(every);
+        assert_eq!(o.scalars, any.scalars, "{every}");
+        for (found, right) in o.scalars.iter().zip(right) {
+            assert!((found - right).abs() < 1e-9, "{every}: {found} for {right}");
+        }
+        assert!(o.findings.is_empty(), "{:?}", o.findings);
+    }
+}
+
+#[test]
+fn rates_without_bound_at_a_dead_point_are_said_and_stop_nothing() {
+    let swing = |samples: usize| {
+        let text = format!(
+            "\
+grashof: 1
+name: double rocker
+space: planar
+gravity: none
+ground: {{ O: [0, 0], C: [1 m, 0] }}
+bodies:
+  crank: {{ bar: {{ length: 15 cm }} }}
+  coupler: {{ bar: {{ length: 1 m }} }}
+  rocker: {{ bar: {{ length: 10 cm }} }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, coupler.start] }}
+  B: {{ revolute: [coupler.end, rocker.end] }}
+  C: {{ revolute: [ground.C, rocker.start] }}
+drivers: {{ drive: {{ joint: O, speed: 60 rpm }} }}
+start: {{ O.angle: 90 deg, coupler.angle: ~0 deg, rocker.angle: ~90 deg }}
+studies:
+  swing:
+    kinematics: {{ over: 1 turn, samples: {samples} }}
+    columns: [crank.angle, rocker.angle, rocker.omega]
+    scalars: {{ from: min(crank.angle), to: max(crank.angle), swing: max(rocker.angle) - min(rocker.angle) }}
+"
+        );
+        let model = model(&text, Some("swing"));
+        let asked = model.study.clone().expect("the study");
+        run(&model, &asked, &sweep::parameters(&model), Coordinates::Joint, &|| false).unwrap_or_else(|f| panic!("{}", f.reason()))
+    };
+    // coupler and rocker in line
+    let end = |reach: f64| ((0.15_f64.powi(2) + 1.0 - reach * reach) / 0.3).acos();
+    let any = swing(36);
+    assert!((any.scalars[0] - end(0.9)).abs() < 1e-9 && (any.scalars[1] - end(1.1)).abs() < 1e-9, "{:?}", any.scalars);
+    for samples in SAMPLES {
+        assert_eq!(swing(samples).scalars, any.scalars, "{samples} samples");
+    }
+    assert!(any.findings.iter().any(|f| f.code == "unresolved" && f.message.contains("`rocker.omega`")), "{:?}", any.findings);
+}
