@@ -98,7 +98,7 @@ impl Pool {
 /// The operands that the value of an instruction depends on.
 fn operands(op: Op, modes: &[i32], value: impl Fn(u32) -> f64) -> [Option<u32>; 2] {
     match op {
-        Op::Const(_) | Op::Input(_) => [None; 2],
+        Op::Const(_) | Op::Input(_) | Op::Holds(..) | Op::Mode(_) => [None; 2],
         Op::Neg(a) | Op::Shift(a, _) | Op::Scale(a, _) | Op::Powi(a, _) | Op::Powf(a, _) => [Some(a), None],
         Op::SinCos(a) | Op::Tan(a) | Op::Asin(a) | Op::Acos(a) | Op::Atan(a) | Op::Sqrt(a) | Op::Exp(a) | Op::Ln(a) => [Some(a), None],
         Op::Log10(a) | Op::Sinh(a) | Op::Cosh(a) | Op::Tanh(a) => [Some(a), None],

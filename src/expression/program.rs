@@ -54,6 +54,10 @@ pub(super) enum Op {
     Choose(u32, u32, u32),
     /// The first where the second is defined.
     Where(u32, u32),
+    /// Whether a comparison holds in the mode of a switch.
+    Holds(Compare, u32),
+    /// The mode of a switch.
+    Mode(u32),
     /// Table, order, argument, switch.
     Table(u16, u8, u32, u32),
 }
@@ -62,7 +66,7 @@ impl Op {
     /// The same instruction on other registers.
     pub(super) fn map(self, mut f: impl FnMut(u32) -> u32) -> Self {
         match self {
-            Self::Const(_) | Self::Input(_) => self,
+            Self::Const(_) | Self::Input(_) | Self::Holds(..) | Self::Mode(_) => self,
             Self::Neg(a) => Self::Neg(f(a)),
             Self::Add(a, b) => Self::Add(f(a), f(b)),
             Self::Shift(a, c) => Self::Shift(f(a), c),
@@ -179,6 +183,8 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }).where_finite(at(a)).where_finite(at(b)),
         Op::Choose(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
         Op::Where(a, b) => at(a).where_finite(at(b)),
+        Op::Holds(op, switch) => boolean(op.holds(mode(switch))),
+        Op::Mode(switch) => S::constant(f64::from(mode(switch))),
         Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
             Some(table) => table.eval(at(x), mode(switch), order),
             None => S::constant(f64::NAN),
