@@ -80,9 +80,12 @@ pub const REMEMBERED: usize = 64;
 /// Times between events that are remembered.
 const GAPS: usize = 4;
 
-/// A step is at most so many times as long as the longest of the last times between events, and as the width to which roots had to
-/// be resolved: a force that is constant between its switches would let it grow without end.
-const GROWTH: f64 = 16.0;
+/// A step is at most so many times as long as the width to which roots had to be resolved.
+const PARTS: f64 = 400.0;
+
+/// A step is at most so many times as long as the longest of the last times between events: a force that is constant between its
+/// switches would let it grow without end, and its events are located to a part of it.
+const GROWTH: f64 = 1e4;
 
 /// A run in progress: the last step, and all that is needed for the next. Advancing allocates nothing.
 pub struct Integration {
@@ -421,7 +424,7 @@ impl Integration {
                         // what was cut short says nothing about the step that the error allows
                         let cut = ahead.is_some() || ends && !itself && !self.engine.is_fixed();
                         self.h = if cut { next.max(self.h) } else { next };
-                        self.limit_growth(self.resolved.unwrap_or(f64::INFINITY));
+                        self.limit_growth(self.resolved.map_or(f64::INFINITY, |width| PARTS * width));
                         if let Some(ahead) = ahead {
                             self.trial.state.t = ahead;
                         }

@@ -27,6 +27,11 @@ pub trait Curve {
     fn smooth(&self, _at: f64, _piece: usize) -> f64 {
         0.0
     }
+
+    /// Whether a place is so near to a singular position that what depends on constraints multiplies the errors of the state.
+    fn singular(&mut self, _at: f64, _piece: usize) -> bool {
+        false
+    }
 }
 
 /// Samples of a [`Curve`].

@@ -54,6 +54,8 @@ pub struct Open {
     pub left: f64,
     /// Largest magnitude of the column.
     pub size: f64,
+    /// Whether it is next to a singular position, where a straight line was taken between what is known on either side.
+    pub singular: bool,
 }
 
 /// A resolved curve.
@@ -121,7 +123,16 @@ struct Waiting {
 /// # Errors
 /// As there.
 pub(super) fn on<C: Curve>(curve: &mut C, stretches: &[(f64, f64, usize)], breaks: &[f64], width: f64) -> Result<Resolved, C::Error> {
-    let panels = stretches.iter().map(|&(from, to, piece)| Panel::of(curve, from, to, piece)).collect::<Result<_, _>>()?;
+    let range = breaks.last().zip(breaks.first()).map_or(0.0, |(to, from)| to - from);
+    let mut panels = Vec::with_capacity(stretches.len());
+    for &(from, to, piece) in stretches {
+        match Panel::of(curve, from, to, piece) {
+            Ok(panel) => panels.push(panel),
+            // next to a dead point, where steps have become short, places can no longer be reached
+            Err(_) if to - from < NEXT_TO * range => {}
+            Err(lost) => return Err(lost),
+        }
+    }
     resolve(curve, panels, breaks, width)
 }
 
@@ -165,7 +176,7 @@ pub(super) fn resolve<C: Curve>(curve: &mut C, panels: Vec<Panel>, breaks: &[f64
         level = next;
     }
     done.sort_by(|a, b| (a.piece, a.from).partial_cmp(&(b.piece, b.from)).unwrap_or(std::cmp::Ordering::Equal));
-    work.doubt(&done);
+    work.doubt(&mut done);
     work.finish(done)
 }
 
@@ -266,27 +277,37 @@ impl<C: Curve> Work<'_, C> {
             let Some(left) = self.left(panel, column) else { continue };
             let harmless = narrow && (left <= STEEP * self.size[column] || jumps(&panel.column(column)));
             if !harmless && self.open[column].is_none_or(|open| left > open.left) {
-                self.open[column] = Some(Open { column, at: 0.5 * (panel.from + panel.to), left, size: 0.0 });
+                self.open[column] = Some(Open { column, at: 0.5 * (panel.from + panel.to), left, size: 0.0, singular: false });
             }
         }
     }
 
     /// Leaves columns open that change by much within a small part of a step of an integrator, and not beside: the step does not
     /// know of it. So do reactions next to a singular position, which they multiply the errors of the state by.
-    fn doubt(&mut self, panels: &[Panel]) {
-        let narrow = |p: &Panel| p.width() < FINE * self.curve.smooth(0.5 * (p.from + p.to), p.piece);
+    fn doubt(&mut self, panels: &mut [Panel]) {
+        let narrow = |p: &Panel, curve: &C| p.width() < FINE * curve.smooth(0.5 * (p.from + p.to), p.piece);
         let mut open: Vec<Open> = Vec::new();
-        for run in panels.chunk_by(|a, b| a.piece == b.piece && narrow(a) && narrow(b)) {
-            let (first, last) = (&run[0], &run[run.len() - 1]);
-            let at = 0.5 * (first.from + last.to);
-            if !narrow(first) || last.to - first.from > LOCAL * self.curve.smooth(at, first.piece) {
+        let mut begin = 0;
+        while begin < panels.len() {
+            let piece = panels[begin].piece;
+            let rest = &panels[begin..];
+            let end = begin + rest.iter().take_while(|p| p.piece == piece && narrow(p, self.curve)).count().max(1);
+            let run = begin..end;
+            begin = end;
+            let [from, to] = [panels[run.start].from, panels[end - 1].to];
+            let at = 0.5 * (from + to);
+            if !narrow(&panels[run.start], self.curve) || to - from > LOCAL * self.curve.smooth(at, piece) {
                 continue;
             }
             for column in 0..self.size.len() {
-                let values: Vec<f64> = run.iter().flat_map(|p| p.column(column)).collect();
+                let values: Vec<f64> = panels[run.clone()].iter().flat_map(|p| p.column(column)).collect();
                 let [least, most] = [f64::min, f64::max].map(|f| values.iter().copied().fold(values[0], f));
                 if most - least > MUCH * self.size[column] && !jumps(&values) {
-                    open.push(Open { column, at, left: most - least, size: 0.0 });
+                    let singular = self.curve.singular(at, piece);
+                    open.push(Open { column, at, left: most - least, size: 0.0, singular });
+                    if singular {
+                        straighten(panels, run.clone(), column);
+                    }
                 }
             }
         }
@@ -329,6 +350,24 @@ impl<C: Curve> Work<'_, C> {
         found.noise.iter_mut().for_each(|noise| *noise *= ROUND_OFF);
         found.panels = panels;
         Ok(found)
+    }
+}
+
+/// Puts a straight line in the place of a column on panels of a run, between its neighbours of the same piece.
+fn straighten(panels: &mut [Panel], run: std::ops::Range<usize>, column: usize) {
+    let piece = panels[run.start].piece;
+    let beside = |k: Option<usize>, j: usize| {
+        let panel = panels.get(k?).filter(|p| p.piece == piece)?;
+        Some((panel.place(j), panel.column(column)[j]))
+    };
+    let (before, after) = (beside(run.start.checked_sub(1), NODES - 1), beside(Some(run.end), 0));
+    let Some(((x0, y0), (x1, y1))) = before.or(after).zip(after.or(before)) else { return };
+    for panel in &mut panels[run] {
+        let columns = panel.values.len() / NODES;
+        for j in 0..NODES {
+            let along = if x1 > x0 { (panel.place(j) - x0) / (x1 - x0) } else { 0.0 };
+            panel.values[j * columns + column] = y0 + along * (y1 - y0);
+        }
     }
 }
 

@@ -389,10 +389,13 @@ pub(super) fn unresolved(
     let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
         let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
         let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
-        finding(format!(
-            "{what} varies too fast or without bound near {name} = {:.6}: there its extremes, means and integrals may be wrong",
-            clock.value(open.at)
-        ))
+        let at = clock.value(open.at);
+        finding(match open.singular {
+            true => format!(
+                "{what} cannot be computed next to the singular position at {name} = {at:.6}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
+            ),
+            false => format!("{what} varies too fast or without bound near {name} = {at:.6}: there its extremes, means and integrals may be wrong"),
+        })
     });
     let switches = switches.iter().map(|&(switch, at)| {
         let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());

@@ -83,7 +83,7 @@ pub(super) fn json(study: &Study, outcome: &Outcome, solved: Option<&Solved>) ->
         .collect();
     let mut findings: Vec<Finding> = outcome.findings.iter().chain(solved.iter().flat_map(|s| &s.findings)).map(finding).collect();
     if let Some(reason) = &outcome.stopped {
-        findings.push(Finding { code: "stopped".into(), message: reason.clone(), path: study.place.clone() });
+        findings.insert(0, Finding { code: "stopped".into(), message: reason.clone(), path: study.place.clone() });
     }
     for e in outcome.expectations.iter().filter(|e| !e.met) {
         let message = format!("{} is {}, not {} within {}", e.text, e.found, e.wanted, e.tolerance);

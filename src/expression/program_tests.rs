@@ -150,7 +150,7 @@ fn roots_are_positive_in_the_mode_that_was_set() {
             let (before, other) = (modes[switch], program.neighbour(k, &modes, &registers));
             modes[switch] = other;
             program.roots(&at, &modes, &mut registers, &mut again);
-            let segment = matches!(p.switches()[switch].test, Test::Segment { .. });
+            let segment = matches!(p.switches()[switch].test, Test::Segment { .. } | Test::Whole(_));
             let same = (again[k] + roots[k]).abs() < 1e-12;
             assert!(again[k] < 0.0 && (segment || same) && other != before, "{}", p.switches()[switch].text);
             modes[switch] = before;

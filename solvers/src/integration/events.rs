@@ -258,7 +258,7 @@ impl Integration {
         }
         self.bridging = None;
         let longest = self.longest_gap();
-        self.limit_growth(longest);
+        self.limit_growth(GROWTH * longest);
         if let Err(why) = self.scheme.restart(system, &mut self.engine, &self.node, self.h) {
             return self.ends_before(why);
         }
@@ -290,12 +290,12 @@ impl Integration {
         self.gaps.iter().fold(0.0, |m, gap| f64::max(m, *gap))
     }
 
-    /// Keeps a step that is chosen by its error to a multiple of `time` (s).
-    pub(super) fn limit_growth(&mut self, time: f64) {
+    /// Keeps a step that is chosen by its error to `most` (s).
+    pub(super) fn limit_growth(&mut self, most: f64) {
         // events that pile up are told as such, not as steps that are too short
-        let least = PILE * (self.node.state.t - self.start);
-        if !self.engine.is_fixed() && time.max(least) > 0.0 {
-            self.h = self.h.min(GROWTH * time.max(least));
+        let least = PILE * (self.node.state.t - self.start).max(1e-3 * (self.goal - self.start));
+        if !self.engine.is_fixed() && most.max(least) > 0.0 {
+            self.h = self.h.min(most.max(least));
         }
     }
 

@@ -9,6 +9,10 @@ use crate::geometry::Space;
 use crate::scalar::Dual;
 use grashof_solvers::{Control, Dense, Engine, Node, Stage, System};
 
+/// Below this smallest singular value of the scaled rows a position is next to singular: errors of the state are multiplied by its
+/// inverse in velocities, by the square of that in reactions.
+const SINGULAR: f64 = 1e-2;
+
 /// Steps to a first stretch where columns are resolved.
 const STEPS_TO_A_STRETCH: usize = 16;
 
@@ -326,6 +330,15 @@ where
         let (low, high) = self.pieces[piece].steps;
         let steps = &self.steps[low..high];
         steps.get(steps.partition_point(|s| s.end < at)).map_or(0.0, |s| s.h)
+    }
+
+    fn singular(&mut self, at: f64, piece: usize) -> bool {
+        if self.go(at, piece).is_err() {
+            return true;
+        }
+        let kkt = &mut self.eras[self.pieces[piece].era].engine.kkt;
+        let mut row = vec![0.0; self.node.lambda.len()];
+        (0..4).fold(1.0, |_, _| kkt.smallest_singular_value(&mut row)) < SINGULAR
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
