@@ -154,6 +154,27 @@ fn a_column_stops_unless_the_file_says_that_it_may_be_undefined() {
     assert!(outcome.scalars[0].is_nan() && outcome.findings.iter().any(|f| f.code == "undefined-scalar"));
 }
 
+/// Rows and first panels lie farther apart than the places where the root has no value.
+#[test]
+fn what_is_undefined_between_rows_stops_the_study_as_well() {
+    let root = "measures: { root: sqrt(abs(O.angle - 1.03) - 0.0003) }";
+    let studies = [
+        ("drivers: { drive: { joint: O, speed: 1 rad/s } }\nstart: { O.angle: 0 rad }", "inverse: { over: 2 s, samples: 4 }"),
+        (
+            "start: { O.angle: 0 rad, O.omega: 1 rad/s }\nloads: { hold: { joint: O, torque: 9.81 N m*cos(O.angle) } }",
+            "dynamics: { until: 2 s, every: 0.5 s }",
+        ),
+    ];
+    for (parts, study) in studies {
+        for shown in ["columns: [root]", "columns: [O.angle]\n    scalars: { m: mean(root) }"] {
+            let (outcome, undefined) = stopped(&arm(&format!("{parts}\n{root}"), &format!("    {study}\n    {shown}")));
+            says(&undefined, "measures.root", &["`root`", "sqrt of -"]);
+            let end = outcome.places.last().expect("rows");
+            assert!((end - 1.0297).abs() < 1e-7, "{study}: {end}");
+        }
+    }
+}
+
 #[test]
 fn a_column_stops_every_kind_of_study() {
     let parts = "measures: { root: sqrt(O.angle + 1.2) }\nstart: { O.angle: 0 rad, O.omega: 0 rad/s }";
