@@ -154,6 +154,18 @@ fn a_column_stops_unless_the_file_says_that_it_may_be_undefined() {
     assert!(outcome.scalars[0].is_nan() && outcome.findings.iter().any(|f| f.code == "undefined-scalar"));
 }
 
+/// The root is defined while |x| > 0.003, whatever the mode of `abs` is before it is looked at.
+#[test]
+fn a_force_that_is_defined_at_the_start_lets_the_motion_begin() {
+    let parts = "start: { O.angle: -1 rad, O.omega: 0 rad/s }\nloads: { hold: { joint: O, torque: 1 N m*sqrt(abs(O.angle) - 0.003) } }";
+    for integrator in ["dop853", "radau5"] {
+        let study = format!("    dynamics: {{ until: 0.01 s, every: 0.01 s, integrator: {integrator} }}\n    columns: [O.alpha]");
+        let outcome = result(&arm(parts, &study)).expect("a motion");
+        let right = (0.997_f64.sqrt() - 9.81 * 1.0_f64.cos()) / (2.0 / 3.0);
+        assert!(outcome.stopped.is_none() && (outcome.rows[0][0] - right).abs() < 1e-9, "{integrator}: {:?}", outcome.rows[0]);
+    }
+}
+
 /// Rows and first panels lie farther apart than the places where the root has no value.
 #[test]
 fn what_is_undefined_between_rows_stops_the_study_as_well() {

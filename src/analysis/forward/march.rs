@@ -199,7 +199,9 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
     state.q.copy_from_slice(&eras.start.q);
     state.v.copy_from_slice(&eras.start.v);
     state.z.copy_from_slice(&eras.mechanism.state_starts);
-    state.modes[..eras.start.modes.len()].copy_from_slice(&eras.start.modes);
+    // forces may have no value in modes that are not those of the state
+    let modes = settled(&eras.mechanism, [&state.q, &state.v, &state.z], &eras.start.modes);
+    state.modes[..modes.len()].copy_from_slice(&modes);
     state
 }
 
