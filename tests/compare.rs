@@ -257,3 +257,25 @@ fn json_stays_json() {
     assert_eq!(json[0]["study"], "swing");
     assert!(done.stderr.contains("swing: verify: "), "{}", done.stderr);
 }
+
+/// Moments about a ball joint are zero but for rounding: they have no digits to lose beside the forces of the mechanism.
+#[test]
+fn what_is_zero_in_a_motion_is_no_disagreement() {
+    let place = Place::new("zero");
+    let text = "grashof: 1
+name: ball joint
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+ground: { P: [1.0, 2.0, 3.0] }
+bodies:
+  pend: { mass: 1 kg, inertia: [0.1, 0.04, 0.1], points: { J: [0.0, -2.0, 0.0] } }
+  link: { points: { e: [2.0, 0.0, 0.0] } }
+joints: { R: { revolute: [ground.P, link.origin], axis: [0, 1, 1] }, J: { spherical: [link.e, pend.J] } }
+start: { pend.x: 3 m, pend.y: 4 m, pend.z: 3 m, R.angle: 0 }
+studies: { run: { dynamics: { until: 2 s, every: 0.1 s, tolerance: 1e-10 }, columns: [time, pend.x, pend.wx, J] } }
+";
+    fs::write(place.0.join("model.yaml"), text).unwrap();
+    let done = place.verify("run", &[]);
+    assert_eq!(done.code, 0, "{}\n{}", done.stdout, done.stderr);
+    assert!(done.digits().iter().all(|d| *d > 5.0), "{}", done.stdout);
+}

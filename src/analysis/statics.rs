@@ -69,7 +69,8 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let mut bench = Bench::new(model, study, mechanism, lifted, start, parameters, &[]);
-    let Settled { found, .. } = bench.settle(start, stop)?;
+    let Settled { mut found, .. } = bench.settle(start, stop)?;
+    found.stability.by_motion(&found.pose, mechanism, lifted, &start.metric);
     let findings = bench.findings(&found);
     let Pose { q, z, mut modes, .. } = found.pose;
     modes.truncate(start.modes.len());
@@ -97,6 +98,7 @@ where
         let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| interrupted())?;
         all.extend(further.into_iter().filter(|f| bench.beyond(&f.pose).is_none()));
     }
+    all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &lifted, &start.metric));
     bench.outcome(&watched, &begin, &all)
 }
 
@@ -244,8 +246,11 @@ where
             add(code, format!("the equilibrium is {}", self.names.verdict(found, &self.rest.unit)), place);
         }
         if !found.stability.symmetric {
-            let message = "the forces have no energy (the tangent stiffness is not symmetric): stability is that of slow motion, and a flutter is seen by `modes` with `damped: true` alone";
-            add("no-energy", message.into(), place);
+            let of = match found.stability.of_motion {
+                true => "stability is that of the linearised motion",
+                false => "stability is that of slow motion, and a flutter is seen by `modes` with `damped: true` alone",
+            };
+            add("no-energy", format!("the forces have no energy (the tangent stiffness is not symmetric): {of}"), place);
         }
         for (state, rate) in model.states.iter().zip(&found.pose.drift).filter(|(_, rate)| rate.abs() > 1e-9) {
             add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");

@@ -2,16 +2,19 @@
 //!
 //! With the same scheme at a tenth of the tolerance (half of a fixed step), and with one of another family. If errors follow the
 //! tolerance, the first of two runs at τ and rτ is off by |y − y'|/(1 − r), which is 10/9 of the difference (Richardson). A
-//! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension, and an energy in
-//! units of the largest energy or work of the run: what is zero but for rounding has no digits to lose.
+//! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension and of what its kind
+//! is in this mechanism and motion: the unit of length is the mechanism's size, that of time the shortest in which it moves by that
+//! size or a radian, that of mass follows from the largest energy or work of the run. An energy counts in units of that itself. What
+//! is zero but for rounding so has no digits to lose.
 
 use super::interrupt::interrupted;
 use super::schemes::{self, Steps, word};
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;
 use grashof::expression::Dimension;
-use grashof::mechanism::Coordinates;
-use grashof::model::{Column, Forward, Integrator, Kind, Model, Quantity, Study};
+use grashof::geometry::{Planar, Spatial};
+use grashof::mechanism::{Coordinates, build};
+use grashof::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
 use grashof::output::number;
 use std::ops::Range;
 
@@ -95,6 +98,11 @@ fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> R
     if base.stopped.is_some() {
         return Ok(None);
     }
+    let size = match model.space {
+        Dimensions::Planar => build::<Planar<f64>>(&model, parameters, Coordinates::Joint).map(|m| m.size()),
+        Dimensions::Spatial => build::<Spatial<f64>>(&model, parameters, Coordinates::Joint).map(|m| m.size()),
+    };
+    let size = size.unwrap_or(1.0);
     let (finer, factor, with) = finer(forward, steps);
     let witness = schemes::witness(forward.integrator);
     // a fixed step has no tolerance that the witness could share
@@ -105,7 +113,7 @@ fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> R
     let others = [(forward.integrator, finer, factor, with), (witness, Steps::Tolerance(tight), 1.0, word(witness).to_string())];
     let [a, b] = others.map(|(by, steps, factor, with)| {
         let other = compute(&mut model, by, steps);
-        Comparison { model: &model, study, base: &base, every, events: forward.locate }.verified(other, factor, with)
+        Comparison { model: &model, study, base: &base, size, every, events: forward.locate }.verified(other, factor, with)
     });
     Ok(Some([a, b]))
 }
@@ -149,6 +157,8 @@ struct Comparison<'a> {
     model: &'a Model,
     study: &'a Study,
     base: &'a Outcome,
+    /// Size of the mechanism, m.
+    size: f64,
     /// Output step, s.
     every: f64,
     /// Whether both locate switches, so that they must find the same.
@@ -232,12 +242,25 @@ impl Comparison<'_> {
         let columns = &self.study.columns;
         let sizes: Vec<f64> = (0..columns.len()).map(largest).collect();
         let energy = self.base.certificate.march.as_ref().map_or(0.0, |m| m.energy_scale);
+        let units = self.units(&sizes, energy);
         let least = |c: &Column| {
             let alike = columns.iter().zip(&sizes).filter(|(other, _)| other.dimension == c.dimension).map(|(_, size)| *size);
-            let least = LEAST * alike.fold(0.0, f64::max);
+            let least = LEAST * alike.fold(c.dimension.size(units), f64::max);
             if self.is_energy(c) { least.max(energy) } else { least }
         };
         columns.iter().zip(&sizes).map(|(c, size)| size.max(least(c)).max(ROUNDING)).collect()
+    }
+
+    /// Sizes of m, kg, s and A in this motion, from the sizes of the columns and the largest energy.
+    fn units(&self, sizes: &[f64], energy: f64) -> [f64; 4] {
+        let rate = |dimension: Dimension, way: f64| {
+            let alike = self.study.columns.iter().zip(sizes).filter(move |(c, _)| c.dimension == dimension);
+            alike.map(|(_, size)| size / way).fold(0.0, f64::max)
+        };
+        let fastest = rate(Dimension::SPEED, self.size).max(rate(Dimension::ANGULAR_SPEED, 1.0));
+        let whole = self.base.places.last().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
+        let time = if fastest > 0.0 { whole.min(fastest.recip()) } else { whole };
+        [self.size, energy * time * time / (self.size * self.size), time, 1.0]
     }
 
     /// Whether a column is made of energies, not of torques, which have the same dimension.

@@ -133,6 +133,12 @@ impl Dimension {
         Self { halves: [m.saturating_mul(2), kg.saturating_mul(2), s.saturating_mul(2), a.saturating_mul(2)], angle: 0 }
     }
 
+    /// The size of a quantity of this dimension where m, kg, s and A have these sizes.
+    #[must_use]
+    pub fn size(&self, units: [f64; 4]) -> f64 {
+        units.iter().zip(self.halves).map(|(unit, half)| unit.powf(0.5 * f64::from(half))).product()
+    }
+
     /// Dimension of a product; `*` does the same.
     #[must_use]
     #[expect(clippy::should_implement_trait, reason = "it is implemented; the method needs no import")]

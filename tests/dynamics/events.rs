@@ -378,9 +378,9 @@ studies: {{ run: {{ dynamics: {{ until: 2 s, every: 0.1 s, {scheme} }}, columns:
             let run = run_text(&text, &["--no-plots"]).succeeded();
             // half a second of (10 N − 0.5 kg g)/0.5 kg
             let end = 0.5 * (10.0 / 0.5 - 9.81) * 0.25;
-            verdict.close("end", &format!("{name}, {scheme}"), scalar(&run, "run", "end"), end, 1e-9);
-            verdict.close("low", &format!("{name}, {scheme}"), scalar(&run, "run", "low"), 0.0, 1e-10);
-            verdict.close("rest", &format!("{name}, {scheme}"), scalar(&run, "run", "rest"), 0.0, 1e-10);
+            verdict.close("end", format!("{name}, {scheme}"), scalar(&run, "run", "end"), end, 1e-9);
+            verdict.close("low", format!("{name}, {scheme}"), scalar(&run, "run", "low"), 0.0, 1e-10);
+            verdict.close("rest", format!("{name}, {scheme}"), scalar(&run, "run", "rest"), 0.0, 1e-10);
             if name == "event" {
                 let happened = run.json("run")["certificate"]["happened"].as_array().map_or(0, Vec::len);
                 // √(2·9.81·0.5) m/s by 0.2 five times is below the speed of rest

@@ -67,7 +67,8 @@ where
     } else {
         held_start(&mechanism, &start)
     };
-    let pose = Pose { q: &rest.q, z: &rest.z, modes: &rest.modes };
+    let Still { q, z, modes, findings } = rest;
+    let pose = Pose { q: &q, z: &z, modes: &modes };
     let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism)).map_err(|_| {
         let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
         let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
@@ -78,8 +79,11 @@ where
     let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();
     with_mass(&held.mass, &names, &study.place)?;
 
-    let mut report = Report { study, names: &names, lists: Vec::new(), shapes: Vec::new(), findings: rest.findings.clone() };
-    report.balance(&held, &own, start.size);
+    let mut report = Report { study, names: &names, lists: Vec::new(), shapes: Vec::new(), findings };
+    // an equilibrium that was searched for has been judged there
+    if !asked.at_equilibrium {
+        report.balance(&held, &own, start.size);
+    }
     let potential = held.circulation() <= POTENTIAL;
     let mut drawn: Vec<DVector<f64>> = Vec::new();
     let mut frequencies = Vec::new();

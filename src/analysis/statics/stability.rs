@@ -2,10 +2,18 @@
 //!
 //! With forces that have an energy, H is symmetric and is its second derivative: the equilibrium is stable if all eigenvalues are
 //! positive (Lagrange and Dirichlet), and each negative one is a motion that falls. The signs do not depend on the metric
-//! (Sylvester). Without an energy (H not symmetric) the real parts decide, as they do for slow, overdamped motion D ẏ = −H y; a
-//! flutter is not seen by them.
+//! (Sylvester). Without an energy (H not symmetric), with forces that depend on velocities, and with first-order states the poles of
+//! the linearised motion decide ([`Stability::by_motion`]). Where these cannot be had, since nothing has mass, the real parts of the
+//! eigenvalues of H do, as they do for slow, overdamped motion D ẏ = −H y; a flutter is not seen by them.
 
 use super::pose::Pose;
+use crate::analysis::eigenvalues::eigenvalues;
+use crate::analysis::linear::Linear;
+use crate::analysis::partition::preferred;
+use crate::dynamics::{LANES, Linearizer, Point};
+use crate::geometry::Space;
+use crate::mechanism::Mechanism;
+use crate::scalar::Dual;
 use nalgebra::linalg::{Schur, SymmetricEigen};
 use nalgebra::{DMatrix, DVector};
 
@@ -14,6 +22,8 @@ use nalgebra::{DMatrix, DVector};
 const ZERO: f64 = 1e-8;
 /// Part of H that may be unsymmetric by round-off.
 const SYMMETRIC: f64 = 1e-9;
+/// Part of the fastest pole below which the real part of a pole is round-off; a double zero is known to half of the digits.
+const STEADY: f64 = 1e-7;
 /// Sweeps of an eigensolver.
 const SWEEPS: usize = 10_000;
 
@@ -30,6 +40,8 @@ pub(super) struct Stability {
     pub(super) zero: usize,
     /// Whether the forces have an energy, as far as can be seen here.
     pub(super) symmetric: bool,
+    /// Whether it is that of the linearised motion.
+    pub(super) of_motion: bool,
     /// Stiffness of the order of those that act.
     pub(super) scale: f64,
 }
@@ -40,7 +52,7 @@ impl Stability {
         let n = h.nrows();
         let scale = pose.stiffness + h.amax();
         let symmetric = (h - h.transpose()).amax() <= SYMMETRIC * scale;
-        let mut found = Self { values: Vec::new(), falls: DVector::zeros(n), negative: 0, zero: 0, symmetric, scale };
+        let mut found = Self { values: Vec::new(), falls: DVector::zeros(n), negative: 0, zero: 0, symmetric, of_motion: false, scale };
         if n == 0 {
             return found;
         }
@@ -56,6 +68,33 @@ impl Stability {
         found.negative = found.values.iter().filter(|x| **x < -ZERO * scale).count();
         found.zero = found.values.iter().filter(|x| x.abs() <= ZERO * scale).count();
         found
+    }
+
+    /// Judges by the poles of the linearised motion what the stiffness alone does not tell: forces without an energy, and motions
+    /// that grow although every position is held. Left as it is where nothing resists, or friction depends on the reactions.
+    pub(super) fn by_motion<G>(&mut self, pose: &Pose, mechanism: &Mechanism<G>, lifted: &Mechanism<G::Lift<Dual<LANES>>>, metric: &[f64])
+    where
+        G: Space<S = f64>,
+        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+    {
+        if !mechanism.pressings.is_empty() {
+            return;
+        }
+        let zeros = vec![0.0; mechanism.nv];
+        let point = Point { t: 0.0, q: &pose.q, v: &zeros, z: &pose.z, a: &zeros, lambda: &pose.lambda, modes: &pose.modes };
+        let linear = Linear::new(mechanism, &mut Linearizer::new(lifted), &point, metric);
+        let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
+            return;
+        };
+        let steady = STEADY * poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
+        // one of each pair
+        let growing = poles.iter().filter(|p| p.re > steady && p.im >= 0.0).count();
+        if self.symmetric && growing <= self.negative {
+            return;
+        }
+        self.of_motion = true;
+        self.negative = growing;
+        self.zero = if self.symmetric { self.zero } else { poles.iter().filter(|p| p.norm() <= steady).count() };
     }
 
     /// Whether every motion is held.
