@@ -43,9 +43,11 @@ studies:
   turn:
     inverse: { over: 1 turn, samples: 24 }
     columns: [theta, time, phi3, drive, det]
+    undefined: [det]
     scalars: { swing: max(phi3) - min(phi3), mean_power: mean(drive.power) }
     plot: { angles: [phi3], torque: [drive.torque] }
   turn-again:
+    undefined: [det]
     kinematics: { over: 1 turn, samples: 12 }
   lengths:
     kinematics: { over: 1 turn, samples: 12 }

@@ -67,6 +67,7 @@ studies:
     dynamics: { until: until, every: until/50, tolerance: 1e-11 }
     sweep: { mass: [1 kg, 1.1 kg, -1 kg, 1.2 kg, 1.3 kg, 1.4 kg] }
     columns: [time, angle, odd, energy]
+    undefined: [odd]
     scalars: { widest: max(abs(angle)), never: first(angle > 100 rad) }
     plot: { angle: [angle], widest: { show: [widest], over: mass } }
 ";

@@ -234,6 +234,11 @@ impl Integration {
         &self.before
     }
 
+    /// The state behind the last event, if that is where the run cannot go on.
+    pub fn beyond(&self) -> Option<&State> {
+        self.halted.is_some().then_some(&self.ahead.state)
+    }
+
     /// Roots that were crossed at the event at which the last step ended.
     pub fn crossed(&self) -> &[usize] {
         &self.crossed

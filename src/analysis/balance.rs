@@ -5,7 +5,7 @@
 
 use super::continuous::Curve;
 use super::least_squares::shortest;
-use super::motion::Motion;
+use super::motion::{Lost, Motion};
 use super::panel::{NODES, node};
 use crate::geometry::Space;
 
@@ -18,31 +18,39 @@ pub(super) struct Balanced {
     pub residual: f64,
 }
 
+/// Why a motion is not balanced.
+pub(super) enum Unbalanced {
+    /// A mass has no line, in words.
+    NoLine(String),
+    /// The motion is lost on its way.
+    Lost(Lost),
+}
+
 /// Balances a motion by moving masses (body, index in its `attached`) along the lines from the bodies' origins through them.
 ///
 /// # Errors
-/// In words, if a mass has no line, or the motion is lost on its way.
-pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(usize, usize)]) -> Result<Balanced, String> {
+/// If a mass has no line, or the motion is lost on its way.
+pub(super) fn balance<G: Space<S = f64>>(motion: &mut Motion<'_, G>, moved: &[(usize, usize)]) -> Result<Balanced, Unbalanced> {
     let mechanism = motion.driven.dynamics.mechanism;
     let mut lines = Vec::new();
     for &(body, index) in moved {
         let attached = &mechanism.bodies[body].attached[index];
         let length = G::dot(attached.mass.com, attached.mass.com).sqrt();
         if length == 0.0 {
-            return Err(format!(
+            return Err(Unbalanced::NoLine(format!(
                 "`{}` is attached at the origin of `{}`: no line to move along",
                 attached.name, mechanism.bodies[body].name
-            ));
+            )));
         }
         lines.push((body, attached.mass.mass, attached.mass.com * (1.0 / length), length));
     }
-    let resolved = motion.resolve().map_err(|l| format!("the motion is lost at {}", l.at))?;
+    let resolved = motion.resolve().map_err(Unbalanced::Lost)?;
     let dimensions = G::VECTOR;
     // per place and direction: the centre of mass without offsets, and what each distance adds
     let (mut fixed, mut gains, mut weights) = (Vec::new(), Vec::new(), Vec::new());
     let mut nothing = vec![0.0; motion.columns()];
     for (panel, j) in resolved.panels.iter().flat_map(|p| (0..NODES).map(move |j| (p, j))) {
-        motion.eval(panel.place(j), panel.piece, &mut nothing).map_err(|l| format!("the motion is lost at {}", l.at))?;
+        motion.row(panel.place(j), panel.piece, &mut nothing).map_err(Unbalanced::Lost)?;
         weights.push(0.5 * panel.width() * node(j).1);
         let work = &motion.driven.dynamics.work;
         let (mass, mut h) = motion.driven.dynamics.first_moment();

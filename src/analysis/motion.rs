@@ -6,7 +6,9 @@ use super::continuous::Curve;
 use super::driven::Driven;
 use super::observe::Observer;
 use super::path::{NoPath, Path, SINGULAR};
+use super::resolve::Resolved;
 use super::switching::{Distance, Switching};
+use super::undefined::Gap;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 
@@ -15,6 +17,8 @@ use crate::mechanism::Mechanism;
 pub struct Lost {
     /// The independent variable there.
     pub at: f64,
+    /// What has no value there, if that is why.
+    pub gap: Option<Gap>,
 }
 
 /// A motion with its columns; the gaps of rigid stops follow them.
@@ -83,6 +87,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             columns,
         };
         motion.find_ends();
+        if let Some(t) = motion.path.gap.as_ref().and_then(|_| motion.path.last()) {
+            motion.ends[1] = motion.progress_at(t);
+        }
         Ok(motion)
     }
 
@@ -122,7 +129,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
     pub(super) fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
-        let lost = Lost { at: self.clock.value(s) };
+        let mut lost = Lost { at: self.clock.value(s), gap: None };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
         if let Some(piece) = piece {
@@ -140,7 +147,11 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     None => self.driven.follow(t, &mut self.modes),
                 };
                 if reached.is_err() || self.driven.condition() < SINGULAR {
-                    let q = self.smooth(t).ok_or(lost)?;
+                    lost.gap = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+                    if lost.gap.is_some() {
+                        return Err(lost);
+                    }
+                    let Some(q) = self.smooth(t) else { return Err(lost) };
                     self.singular(t, &q);
                 } else {
                     self.driven.rates(&self.modes);
@@ -163,6 +174,58 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.observer.set_modes(&mut self.modes);
         }
         Ok(())
+    }
+
+    /// Lets the motion end where all is defined last before a place (in the independent variable) where something is not; what is
+    /// undefined just behind it, or nothing if that is so from the start on.
+    pub(super) fn end_before(&mut self, at: f64) -> Option<Lost> {
+        let s = self.clock.progress(at);
+        let (mut good, mut bad) = (0.0, s);
+        self.defined(good).ok()?;
+        let mut lost = Lost { at, gap: None };
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            match self.defined(middle) {
+                Ok(()) => good = middle,
+                Err(why) => (bad, lost) = (middle, why),
+            }
+        }
+        self.ends[usize::from(s > 0.0)] = good;
+        (good != 0.0).then_some(lost)
+    }
+
+    /// Whether all is defined at progress `s`.
+    fn defined(&mut self, s: f64) -> Result<(), Lost> {
+        let mut out = vec![0.0; self.columns()];
+        self.solve(s, None)?;
+        self.read(s, &mut out)
+    }
+
+    /// As [`Curve::eval`], but where a law or an expression has no value by its own fault that is an error.
+    pub(super) fn row(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
+        self.solve(s, Some(piece))?;
+        let found = self.read(s, out);
+        if found.is_ok() {
+            return found;
+        }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
+            let beside = s + shift * self.clock.length;
+            self.solve(beside, Some(piece))?;
+            if self.read(beside, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where a law or an expression has none by its own fault.
+    pub(super) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Lost> {
+        let mut out = vec![0.0; self.columns()];
+        resolved.blanks().try_for_each(|(s, piece)| self.row(s, piece, &mut out))
     }
 
     /// Coordinates of the dead point at an end of the path.
@@ -208,14 +271,21 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         }
     }
 
-    /// Columns of the state evaluated last, then the gaps of rigid stops.
-    pub(super) fn read(&mut self, out: &mut [f64]) {
+    /// Columns of the state evaluated last, at progress `s`, then the gaps of rigid stops.
+    ///
+    /// # Errors
+    /// A law or an expression that has no value by its own fault; then no column has one.
+    pub(super) fn read(&mut self, s: f64, out: &mut [f64]) -> Result<(), Lost> {
         let (columns, gaps) = out.split_at_mut(self.columns);
         self.observer.columns(&self.modes, columns);
         let d = &self.driven.dynamics;
         for (gap, stop) in gaps.iter_mut().zip(&d.mechanism.stops) {
             *gap = stop.gap(d.work.readings[stop.gauge].x);
         }
+        let law = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
+        let Some(gap) = law.or_else(|| self.observer.undefined(&self.modes, columns)) else { return Ok(()) };
+        out.fill(f64::NAN);
+        Err(Lost { at: self.clock.value(s), gap: Some(gap) })
     }
 
     /// How far each switch is from the end of its mode on a piece.
@@ -241,8 +311,12 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
     }
 
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
-        self.solve(s, Some(piece))?;
-        self.read(out);
-        Ok(())
+        match self.row(s, piece, out) {
+            Err(Lost { gap: Some(_), .. }) => {
+                out.fill(f64::NAN);
+                Ok(())
+            }
+            found => found,
+        }
     }
 }

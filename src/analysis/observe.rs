@@ -1,7 +1,8 @@
 //! Columns: the quantities that expressions name, read from an evaluated mechanism, and the program that turns them into columns.
 
+use super::undefined::Gap;
 use crate::dynamics::{Dynamics, Reactions};
-use crate::expression::{Id, Program};
+use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
 use crate::mechanism::{EffortLaw, Mechanism};
 use crate::model::{Model, Quantity};
@@ -14,6 +15,8 @@ pub struct Observer<G: Space> {
     inputs: Vec<f64>,
     registers: Vec<f64>,
     modes: Vec<i32>,
+    /// The expressions, and whether each may be undefined.
+    ids: Vec<(Id, bool)>,
 }
 
 /// Where the value of a quantity is read; everything is resolved to indices and vectors.
@@ -85,7 +88,9 @@ impl<G: Space<S = f64>> Observer<G> {
     pub fn new(model: &Model, mechanism: &Mechanism<G>, parameters: &[f64], ids: &[Id]) -> Self {
         let program = model.pool.program(ids, parameters, &mechanism.tables);
         let fills = program.inputs().iter().map(|&i| (i as usize, source(mechanism, model.inputs[i as usize]))).collect();
+        let may = |id: &Id| model.study.as_ref().is_some_and(|study| study.undefined.contains(id));
         Self {
+            ids: ids.iter().map(|id| (*id, may(id))).collect(),
             fills,
             inputs: vec![f64::NAN; model.inputs.len()],
             registers: vec![0.0; program.registers()],
@@ -129,6 +134,19 @@ impl<G: Space<S = f64>> Observer<G> {
     /// Columns from the quantities read last.
     pub fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
         self.program.eval(&self.inputs, modes, &mut self.registers, out);
+    }
+
+    /// The first of the columns `out` that has no value by the fault of its own expression, but for those that may be undefined.
+    #[must_use]
+    pub fn undefined(&self, modes: &[i32], out: &[f64]) -> Option<Gap> {
+        let wrong = out.iter().zip(&self.ids).enumerate().filter(|(_, (x, (_, may)))| !x.is_finite() && !may);
+        wrong
+            .filter_map(|(k, (_, (id, _)))| match self.program.cause(k, &self.inputs, modes)? {
+                // the quantity itself is not determined there
+                Cause::Input(_) => None,
+                cause => Some(Gap::Watched(*id, cause)),
+            })
+            .next()
     }
 
     /// The program of the columns.

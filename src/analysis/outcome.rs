@@ -16,6 +16,9 @@ pub type Word = &'static str;
 pub struct Outcome {
     /// Why it stopped on its way, if it did; its rows are kept.
     pub stopped: Option<String>,
+    /// What has no value, if that is why.
+    #[serde(default)]
+    pub undefined: Option<Undefined>,
     /// Values of the parameters, in file order.
     pub parameters: Vec<(String, f64)>,
     /// Name of the independent variable: `theta`, `O.angle` or `time`.
@@ -210,6 +213,8 @@ pub enum Failure {
     Model(Vec<BuildFault>),
     /// The study asks for what the mechanism cannot give: freedom left over, too many drivers; with the path in the file.
     Study { code: &'static str, message: String, place: String, help: String },
+    /// Something has no value where it is needed from the start on.
+    Undefined(Undefined),
     /// It did not begin or end for a numerical reason.
     Numerical { message: String, help: String },
     /// No value of the parameter that is varied meets the target.
@@ -220,6 +225,17 @@ pub enum Failure {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unsolved {
     /// What was found.
+    pub message: String,
+    /// Path in the file.
+    pub place: String,
+    /// One remedy.
+    pub help: String,
+}
+
+/// What has no value in a study, with the path in the file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Undefined {
+    /// What, where and why.
     pub message: String,
     /// Path in the file.
     pub place: String,
@@ -255,7 +271,10 @@ impl Failure {
                 };
                 faults.iter().map(told).collect::<Vec<_>>().join("; ")
             }
-            Self::Study { message, .. } | Self::Numerical { message, .. } | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
+            Self::Undefined(Undefined { message, .. })
+            | Self::Study { message, .. }
+            | Self::Numerical { message, .. }
+            | Self::Unsolved(Unsolved { message, .. }) => message.clone(),
         }
     }
 }

@@ -8,6 +8,7 @@
 use super::driven::{Driven, NotReached};
 use super::fold::fold;
 use super::hermite::Hermite;
+use super::undefined::Gap;
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Step};
 
@@ -33,18 +34,22 @@ pub struct Path {
     pub nodes: Vec<Node>,
     /// Dead points at the two ends, if the range was not reached there: time and coordinates.
     pub dead: [Option<DeadPoint>; 2],
+    /// What is undefined behind the end of the path, if that is why it ends.
+    pub gap: Option<Gap>,
 }
 
 /// Time and coordinates of a dead point.
 pub type DeadPoint = (f64, Vec<f64>);
 
 /// Why there is no path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum NoPath {
     /// The start is a singular position, where velocities are not determined.
     SingularStart,
     /// The range asks for more steps than [`MOST_NODES`].
     TooLong,
+    /// Something has no value at the start.
+    Undefined(Gap),
 }
 
 /// Steps of a path at most: some 50 000 turns of a crank.
@@ -70,7 +75,11 @@ impl Path {
     /// If the start is a singular position, or the range is endless.
     pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Result<Self, NoPath> {
         let (q, v) = (driven.q.clone(), driven.v.clone());
-        let ends = if driven.follow(0.0, modes).is_ok() && driven.condition() >= SINGULAR {
+        let reached = driven.follow(0.0, modes).is_ok();
+        if !reached && let Some(law) = driven.dynamics.undefined(modes) {
+            return Err(NoPath::Undefined(Gap::Law(law)));
+        }
+        let ends = if reached && driven.condition() >= SINGULAR {
             driven.rates(modes);
             let start = driven.node(0.0, modes);
             [start.clone(), start]
@@ -78,14 +87,24 @@ impl Path {
             around(driven, modes, [&q, &v], to).ok_or(NoPath::SingularStart)?
         };
         let [behind, ahead] = ends;
-        let (mut nodes, dead_to) = march(driven, modes, &ahead, to)?;
+        let (mut nodes, end) = march(driven, modes, &ahead, to)?;
         if behind.t != ahead.t {
             nodes.insert(0, behind.clone());
         }
-        let mut dead = [None, dead_to];
+        let (mut dead, mut gap) = ([None, None], None);
+        match end {
+            End::Reached => {}
+            End::Dead(point) => dead[1] = Some(point),
+            End::Undefined(what) => gap = Some(what),
+        }
         if dead[1].is_some() {
-            let (back, dead_back) = march(driven, modes, &behind, -to)?;
-            dead[0] = dead_back;
+            let (back, end) = march(driven, modes, &behind, -to)?;
+            match end {
+                End::Reached => {}
+                End::Dead(point) => dead[0] = Some(point),
+                // what lies behind the start is of no interest
+                End::Undefined(_) => {}
+            }
             nodes = back.into_iter().skip(1).rev().chain(nodes).collect();
             if to < 0.0 {
                 nodes.reverse();
@@ -94,7 +113,12 @@ impl Path {
         } else if to < 0.0 {
             nodes.reverse();
         }
-        Ok(Self { nodes, dead })
+        Ok(Self { nodes, dead, gap })
+    }
+
+    /// Time of the node that is farthest from 0.
+    pub fn last(&self) -> Option<f64> {
+        [self.nodes.first(), self.nodes.last()].into_iter().flatten().map(|n| n.t).max_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
     /// A guess of the coordinates at `t`: quintic Hermite in axes, cubic in quaternions; and the node nearest before it.
@@ -155,13 +179,15 @@ fn around_reach<G: Space<S = f64>>(driven: &Driven<'_, G>, v: &[f64], to: f64) -
     (AROUND * to.abs()).min(AROUND_MOVE / driven.measure(v)) * to.signum()
 }
 
-/// Nodes from `start` to time `to`, and the dead point if it ends before.
-fn march<G: Space<S = f64>>(
-    driven: &mut Driven<'_, G>,
-    modes: &mut [i32],
-    start: &Node,
-    to: f64,
-) -> Result<(Vec<Node>, Option<DeadPoint>), NoPath> {
+/// Where a path ends.
+enum End {
+    Reached,
+    Dead(DeadPoint),
+    Undefined(Gap),
+}
+
+/// Nodes from `start` to time `to`, and what ends them.
+fn march<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], start: &Node, to: f64) -> Result<(Vec<Node>, End), NoPath> {
     let mut nodes = vec![start.clone()];
     let longest = to / 48.0;
     let mut h = longest;
@@ -172,7 +198,7 @@ fn march<G: Space<S = f64>>(
         }
         let left = to - last.t;
         if left.abs() <= 1e-14 * to.abs() {
-            return Ok((nodes, None));
+            return Ok((nodes, End::Reached));
         }
         if h.abs() >= left.abs() * (1.0 - 1e-12) {
             h = left;
@@ -189,17 +215,20 @@ fn march<G: Space<S = f64>>(
                     && let Ok(node) = step(driven, modes, last, to + around_reach(driven, &last.v, to), &mut delta)
                 {
                     nodes.push(node);
-                    return Ok((nodes, None));
+                    return Ok((nodes, End::Reached));
                 }
                 h *= 0.6;
                 if h.abs() < SHORTEST * to.abs() {
+                    if let Some(law) = driven.dynamics.undefined(modes) {
+                        return Ok((nodes, End::Undefined(Gap::Law(law))));
+                    }
                     let end = fold(driven, modes, last, to.signum()).unwrap_or_else(|| (last.t, last.q.clone()));
-                    return Ok((nodes, Some(end)));
+                    return Ok((nodes, End::Dead(end)));
                 }
             }
         }
     }
-    Ok((nodes, None))
+    Ok((nodes, End::Reached))
 }
 
 /// One trusted step to time `t`.

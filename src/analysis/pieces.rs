@@ -177,7 +177,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let mut rows = Rows::default();
         for (s, piece) in places {
             let mut out = vec![0.0; self.columns()];
-            self.eval(s, piece, &mut out)?;
+            self.row(s, piece, &mut out)?;
             rows.places.push(s);
             rows.pieces.push(piece);
             rows.values.push(out);
@@ -363,7 +363,8 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
         let mut roots = Vec::with_capacity(NODES + 1);
         for j in 0..NODES {
             roots.push(self.distances(panel.place(j))?);
-            self.motion.read(&mut panel.values[j * columns..(j + 1) * columns]);
+            // beyond the end of its modes there may be no values
+            let _ = self.motion.read(panel.place(j), &mut panel.values[j * columns..(j + 1) * columns]);
         }
         roots.push(end);
         Ok(Seen { panel, roots })

@@ -85,6 +85,13 @@ impl Resolved {
         Samples { places: &self.places, pieces: &self.pieces, values: &self.values }
     }
 
+    /// Places where a column has no value, with their pieces, rising.
+    pub(super) fn blanks(&self) -> impl Iterator<Item = (f64, usize)> + '_ {
+        let n = self.places.len();
+        let blank = move |i: &usize| self.values[*i..].iter().step_by(n).any(|y| !y.is_finite());
+        (0..n).filter(blank).map(|i| (self.places[i], self.pieces[i]))
+    }
+
     /// How well, for a certificate.
     pub(super) fn quality(&self) -> Resolution {
         Resolution { width: self.width, open: self.open.len(), evaluations: self.evaluations }

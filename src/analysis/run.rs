@@ -1,24 +1,25 @@
 //! One run of a kinematic study: build, assemble, trace, resolve, extremes, functionals, rows, scalars, expectations.
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
+use super::balance::Unbalanced;
 use super::clock::Clock;
 use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::mobility::drivers_fit;
 use super::motion::{Lost, Motion, Rows};
+use super::numbers::Sources;
 use super::observe::Observer;
-use super::outcome::{Certificate, Checked, Failure, Finding, Outcome};
+use super::outcome::{Certificate, Failure, Finding, Outcome};
 use super::path::{MOST_NODES, NoPath};
 use super::resolve::Resolved;
+use super::undefined::{Gap, assembled, blank};
 use super::{balance, contact, forward, linearize, modes, periodic, scene, statics};
 use crate::dynamics::{Dynamics, LANES};
 use crate::expression::Id;
-use crate::expression::Table;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism};
-use crate::model::{Dimensions, Functional, FunctionalKind, Kind, Model, Over, Quantity, Range, ShownWhat, Study, Tolerance};
+use crate::model::{Dimensions, Functional, FunctionalKind, Kind, Model, Over, Quantity, Range, ShownWhat, Study};
 use crate::scalar::Dual;
-use std::sync::Arc;
 
 /// Runs the study of a model once, at given parameter values (in file order).
 ///
@@ -73,12 +74,16 @@ fn driven<G: Space<S = f64>>(
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
-        let mut motion = trace(&mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
-        let offsets = balance::balance(&mut motion, moved).map_err(|message| Failure::Study {
-            code: "balance",
-            message,
-            place: study.place.clone(),
-            help: "name masses that are attached away from the origin of bodies that move".into(),
+        let mut motion =
+            trace((model, study), &mechanism, &start, clock(model, &mechanism, &start, range, parameters, study)?, observer, 0)?;
+        let refused =
+            |message: String, help: &str| Failure::Study { code: "balance", message, place: study.place.clone(), help: help.into() };
+        let offsets = balance::balance(&mut motion, moved).map_err(|why| match why {
+            Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
+            Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
+                Failure::Undefined(gap.told(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
+            }
+            Unbalanced::Lost(lost) => refused(format!("the motion is lost at {}", lost.at), "start elsewhere, or give a shorter range"),
         })?;
         for (&(body, index), offset) in moved.iter().zip(&offsets.distances) {
             let at = mechanism.bodies[body].attached[index].mass.com;
@@ -101,7 +106,7 @@ pub(super) fn prepared<G: Space<S = f64>>(
     parameters: &[f64],
     coordinates: Coordinates,
 ) -> Result<(Mechanism<G>, Assembled), Failure> {
-    let (mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
     drivers_fit(&mechanism, &start, model, study)?;
     contact::begins(model, &mechanism, &start)?;
     contact::driven(model, &mechanism, study)?;
@@ -109,6 +114,7 @@ pub(super) fn prepared<G: Space<S = f64>>(
 }
 
 fn trace<'m, G: Space<S = f64>>(
+    (model, study): (&Model, &Study),
     mechanism: &'m Mechanism<G>,
     start: &Assembled,
     clock: Clock,
@@ -122,6 +128,7 @@ fn trace<'m, G: Space<S = f64>>(
                 "start elsewhere, or change the lengths",
             ),
             NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
+            NoPath::Undefined(gap) => Failure::Undefined(gap.told(model, study, "the start")),
         }
     })
 }
@@ -234,25 +241,37 @@ fn observe<G: Space<S = f64>>(
     let watched = Watched::of(study);
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(model, mechanism, start, range, parameters, study)?;
-    let mut motion = trace(mechanism, start, clock, observer, watched.ids.len())?;
-    let lost = |l: Lost| {
-        let message = format!("the position at {} = {} could not be reached", independent(model, mechanism, clock), l.at);
-        Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range")
-    };
-    let resolved = motion.resolve().map_err(lost)?;
-    let breaks = motion.breaks.clone();
-    let extremes = extrema(&mut motion, resolved.samples(), &breaks);
+    let mut motion = trace((model, study), mechanism, start, clock, observer, watched.ids.len())?;
     let name = independent(model, mechanism, clock);
+    let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
+    let mut undefined = motion.path.gap.take().map(|gap| told(&gap, clock.value(motion.ends[1])));
+    let seen = loop {
+        match see(&mut motion, (model, study, parameters), &watched, range.samples, &name) {
+            Ok(seen) => break seen,
+            Err(Lost { at, gap: None }) => {
+                let message = format!("the position at {name} = {at} could not be reached");
+                return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
+            }
+            Err(Lost { at, gap: Some(gap) }) => {
+                let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
+                undefined = Some(told(&behind.unwrap_or(gap), at));
+            }
+        }
+    };
+    let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
     contact::passes((model, study, &name), &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
-    let rows = motion.rows(range.samples).map_err(lost)?;
     let n = rows.places.len();
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
-    findings.extend(unresolved(model, study, &watched, &resolved, &motion.lost_switches, &name, clock));
+    findings.extend(open);
 
     let complete = motion.path.dead == [None, None];
-    let stopped = (!complete).then(|| {
+    let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
-        let (name, unit) = (independent(model, mechanism, clock), if clock.is_driver() && drives_angle(mechanism) { (180.0 / std::f64::consts::PI, "deg") } else if clock.is_driver() { (1.0, "m") } else { (1.0, "s") });
+        let unit = if clock.is_driver() && drives_angle(mechanism) {
+            (180.0 / std::f64::consts::PI, "deg")
+        } else {
+            (1.0, if clock.is_driver() { "m" } else { "s" })
+        };
         format!(
             "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the driver cannot move them on",
             at.max(clock.value(motion.ends[0])) * unit.0,
@@ -262,32 +281,62 @@ fn observe<G: Space<S = f64>>(
         )
     });
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
-        results.push(if complete { 1.0 } else { 0.0 });
+        results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
     }
-    let ends = motion.ends;
-    let mut functionals = Functionals { clock, ends, curve: &mut motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals, &mut findings).map_err(lost)?;
-    let scalars =
-        evaluate(model, parameters, &mechanism.tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &results);
-    let expectations = expectations(model, study, parameters, &mechanism.tables, &found, &results);
+    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &functionals, results: &results };
+    let numbers = sources.numbers(undefined.is_none());
+    let undefined = undefined.or(numbers.undefined);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    let places: Vec<f64> = rows.places.iter().map(|s| clock.value(*s)).collect();
+    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    findings.extend(numbers.findings);
+    findings.extend(blank(study, &name, &places, &shown));
     Ok(Outcome {
-        stopped,
+        stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
+        undefined,
         parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
-        independent: independent(model, mechanism, clock),
-        places: rows.places.iter().map(|s| clock.value(*s)).collect(),
+        independent: name,
+        places,
         switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-        rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+        rows: shown,
         results,
-        scalars,
+        scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
-        expectations,
+        expectations: numbers.expectations,
         findings,
         certificate: Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) },
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
         ..Outcome::default()
     })
+}
+
+/// What is seen of a motion.
+struct Seen {
+    resolved: Resolved,
+    extremes: Vec<Option<Extremes>>,
+    rows: Rows,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+}
+
+/// Resolves a motion: its extremes, rows and functionals.
+fn see<G: Space<S = f64>>(
+    motion: &mut Motion<'_, G>,
+    (model, study, parameters): (&Model, &Study, &[f64]),
+    watched: &Watched,
+    samples: usize,
+    name: &str,
+) -> Result<Seen, Lost> {
+    let resolved = motion.resolve()?;
+    motion.all_defined(&resolved)?;
+    let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
+    let extremes = extrema(motion, resolved.samples(), &breaks);
+    let rows = motion.rows(samples)?;
+    let mut findings = unresolved(model, study, watched, &resolved, &motion.lost_switches, name, clock);
+    let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = all.all(model, study, parameters, &watched.functionals, &mut findings)?;
+    Ok(Seen { resolved, extremes, rows, functionals, findings })
 }
 
 /// Extremes by the independent variable instead of progress.
@@ -318,58 +367,6 @@ fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock
     });
     let word = if drives_angle(mechanism) { "angle" } else { "position" };
     measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
-}
-
-/// Values of scalar expressions from functionals and results.
-pub(super) fn evaluate(
-    model: &Model,
-    parameters: &[f64],
-    tables: &Arc<[Table]>,
-    ids: &[Id],
-    functionals: &[f64],
-    results: &[f64],
-) -> Vec<f64> {
-    let program = model.pool.program(ids, parameters, tables);
-    let mut inputs = vec![f64::NAN; model.inputs.len()];
-    for &i in program.inputs() {
-        inputs[i as usize] = match model.inputs[i as usize] {
-            Quantity::Functional(k) => functionals.get(k).copied().unwrap_or(f64::NAN),
-            Quantity::Result(k) => results.get(k).copied().unwrap_or(f64::NAN),
-            _ => f64::NAN,
-        };
-    }
-    let mut modes = vec![0; model.pool.switches().len()];
-    let mut registers = vec![0.0; program.registers()];
-    let mut out = vec![0.0; ids.len()];
-    program.set_modes(&inputs, &mut registers, &mut modes);
-    program.eval(&inputs, &modes, &mut registers, &mut out);
-    out
-}
-
-pub(super) fn expectations(
-    model: &Model,
-    study: &Study,
-    parameters: &[f64],
-    tables: &Arc<[Table]>,
-    functionals: &[f64],
-    results: &[f64],
-) -> Vec<Checked> {
-    study
-        .expect
-        .iter()
-        .map(|e| {
-            let tolerance_id = match e.tolerance {
-                Tolerance::Within(id) | Tolerance::Relative(id) => id,
-            };
-            let x = evaluate(model, parameters, tables, &[e.value, e.is, tolerance_id], functionals, results);
-            let tolerance = match e.tolerance {
-                Tolerance::Within(_) => x[2],
-                Tolerance::Relative(_) => x[2] * x[1].abs(),
-            };
-            let met = (x[0] - x[1]).abs() <= tolerance;
-            Checked { text: e.text.clone(), found: x[0], wanted: x[1], tolerance, met, place: e.place.clone() }
-        })
-        .collect()
 }
 
 /// Columns and switches that are not resolved within the effort that they are worth.

@@ -17,13 +17,16 @@ mod search;
 mod stability;
 mod words;
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
 use super::extremum::{Extremes, Extremum};
 use super::forward::system::Mechanical;
+use super::modes::held::settled;
+use super::numbers::Sources;
 use super::observe::Observer;
 use super::outcome::{Certificate, Failure, Finding, List, Outcome};
-use super::run::{Watched, evaluate, expectations};
+use super::run::Watched;
 use super::scene;
+use super::undefined::{assembled, in_state};
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -83,7 +86,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let watched = Watched::of(study);
     let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);
@@ -142,7 +145,16 @@ where
     /// The equilibrium from the start.
     fn settle(&mut self, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<Settled, Failure> {
         let states = self.rest.system.dynamics.mechanism.state_starts.clone();
-        let begin = self.rest.at(&start.q, &states, &start.modes).map_err(|lost| self.names.lost(lost, &self.study.place))?;
+        let begin = match self.rest.at(&start.q, &states, &start.modes) {
+            Ok(begin) => begin,
+            Err(lost) => {
+                let rest = vec![0.0; start.v.len()];
+                let mechanism = self.rest.system.dynamics.mechanism;
+                let modes = settled(mechanism, [&start.q, &rest, &states], &start.modes);
+                let undefined = in_state(self.model, mechanism, [&start.q, &rest, &states], &modes, "the start");
+                return Err(undefined.map_or_else(|| self.names.lost(lost, &self.study.place), Failure::Undefined));
+            }
+        };
         match self.search(&begin, stop) {
             Ok((found, passed)) => match self.beyond(&found.pose) {
                 Some(joint) => Err(self.names.beyond(&self.model.joints[joint].name, &self.study.place)),
@@ -285,7 +297,7 @@ where
         findings.extend(self.findings(&all[0]).into_iter().filter(|f| !["unstable", "indifferent"].contains(&f.code)));
 
         let scenes = self.scenes(begin, all);
-        let row = self.row(pose, watched.ids.len());
+        let row = self.row(pose, watched.ids.len())?;
         let functionals: Vec<f64> = (study.functionals.iter().zip(&watched.functionals))
             .map(|(f, &c)| match f.kind {
                 FunctionalKind::Integral => 0.0,
@@ -302,7 +314,8 @@ where
             .collect();
         let results = vec![stable(&all[0])];
         let tables = &self.rest.system.dynamics.mechanism.tables;
-        let ids: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results }.numbers(true);
+        findings.extend(numbers.findings);
         let alone = |value: f64| Extremum { value, at: 0.0, piece: 0 };
         Ok(Outcome {
             parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
@@ -310,13 +323,15 @@ where
             places: vec![0.0],
             rows: vec![watched.columns.iter().chain(&watched.shown).map(|&c| row[c]).collect()],
             lists,
-            scalars: evaluate(model, parameters, tables, &ids, &functionals, &results),
+            stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+            undefined: numbers.undefined,
+            scalars: numbers.scalars,
             extremes: watched
                 .columns
                 .iter()
                 .map(|&c| (!row[c].is_nan()).then(|| Extremes { min: alone(row[c]), max: alone(row[c]) }))
                 .collect(),
-            expectations: expectations(model, study, parameters, tables, &functionals, &results),
+            expectations: numbers.expectations,
             results,
             findings,
             certificate: Certificate { evaluations: 1, constraint: self.rest.open(pose), ..Certificate::default() },
@@ -326,14 +341,17 @@ where
     }
 
     /// All outputs of the observer at a pose.
-    fn row(&mut self, pose: &Pose, count: usize) -> Vec<f64> {
+    fn row(&mut self, pose: &Pose, count: usize) -> Result<Vec<f64>, Failure> {
         self.rest.show(pose);
         let system = &mut self.rest.system;
         let mut modes = pose.modes.clone();
         system.observer.set_modes(&mut modes);
         let mut row = vec![0.0; count];
         system.columns(&modes, &mut row);
-        row
+        match system.observer.undefined(&modes, &row) {
+            Some(gap) => Err(Failure::Undefined(gap.told(self.model, self.study, "the equilibrium"))),
+            None => Ok(row),
+        }
     }
 
     /// The equilibrium with the start behind it, and all equilibria if there are several.

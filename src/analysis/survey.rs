@@ -1,8 +1,10 @@
 //! What a mechanism is before anything moves: masses, topology, freedom, start.
 
-use super::assemble::{Found, assemble};
+use super::assemble::Found;
 use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
+use super::modes::held::settled;
 use super::outcome::{Failure, Finding};
+use super::undefined::{assembled, in_state};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, describe_loop};
 use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
@@ -45,7 +47,12 @@ pub fn survey(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
 }
 
 fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Survey, Failure> {
-    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
+    let state = [&start.q[..], &start.v, &mechanism.state_starts];
+    let modes = settled(&mechanism, state, &start.modes);
+    if let Some(undefined) = in_state(model, &mechanism, state, &modes, "the start") {
+        return Err(Failure::Undefined(undefined));
+    }
     let m = &mechanism;
     let diagonal = |tensor: G::Tensor| -> Vec<f64> {
         let axes: &[usize] = if G::SPIN == 1 { &[2] } else { &[0, 1, 2] };

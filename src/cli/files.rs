@@ -3,7 +3,7 @@
 use super::interrupt::uncut;
 use super::terminal::{fail, tell_report};
 use super::{Common, code, tell};
-use grashof::analysis::outcome::{Failure, Unsolved};
+use grashof::analysis::outcome::{Failure, Undefined, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Staging, WriteError};
@@ -201,6 +201,10 @@ pub(super) fn explain(document: &Document, failure: &Failure, study: &str, commo
         Failure::Unsolved(Unsolved { message, place, help }) => {
             let message = format!("study `{study}`: {message}");
             (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
+        }
+        Failure::Undefined(Undefined { message, place, help }) => {
+            let message = if study.is_empty() { message.clone() } else { format!("study `{study}`: {message}") };
+            (vec![document.diagnostic("undefined", place, message, "", Some(help.clone()))], code::NUMERICAL)
         }
         Failure::Numerical { message, help } => {
             let message = format!("study `{study}`: {message}");

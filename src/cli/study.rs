@@ -94,6 +94,8 @@ impl Job<'_> {
             };
             if interrupted() {
                 tell_interrupted(&message);
+            } else if let Some(undefined) = &outcome.undefined {
+                self.tell_at("undefined", &undefined.place, message, &undefined.help);
             } else {
                 self.tell_at("stopped", &study.place, message, help);
             }

@@ -17,6 +17,7 @@ mod reaction;
 mod scale;
 mod switches;
 mod tangent;
+mod undefined;
 mod workspace;
 
 pub use friction::{rubbed, slack};

@@ -2,7 +2,7 @@
 
 use super::pool::{Id, Node, Pool};
 use super::program::{Decision, Op, Program};
-use super::switch::Switch;
+use super::switch::{Switch, Test};
 use super::table::Table;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -39,10 +39,13 @@ impl Pool {
             let new = match node {
                 Node::Parameter(i) => copy.constant(parameters.get(i as usize).copied().unwrap_or(f64::NAN)),
                 Node::Input(i) if self.given(i).is_some() => copy.constant(self.given(i).unwrap_or(f64::NAN)),
-                Node::Table { table, order, x, .. } => match (copy.constant_value(of(x)), tables.get(table as usize)) {
-                    (Some(x), Some(table)) => copy.constant(table.eval(x, table.segment(x), order)),
-                    _ => copy.simplify(node.map(of)),
-                },
+                Node::Table { table, order, x, .. } => {
+                    let value = copy.number(of(x)).zip(tables.get(table as usize)).map(|(x, t)| t.eval(x, t.segment(x), order));
+                    match value.filter(|y| y.is_finite()) {
+                        Some(y) => copy.constant(y),
+                        None => copy.simplify(node.map(of)),
+                    }
+                }
                 _ => copy.simplify(node.map(of)),
             };
             image.insert(id, new);
@@ -138,22 +141,54 @@ impl Compiler<'_> {
             Node::Sinh(a) => Op::Sinh(self.register(a)),
             Node::Cosh(a) => Op::Cosh(self.register(a)),
             Node::Tanh(a) => Op::Tanh(self.register(a)),
-            Node::Compare { op, switch } => Op::Compare(op, switch),
+            Node::Compare { op, switch } => match self.pool.switches()[switch as usize].test {
+                Test::Compare(_, a, b) => Op::Compare(op, switch, self.register(a), self.register(b)),
+                _ => Op::Const(f64::NAN),
+            },
+            Node::Where(a, b) => Op::Where(self.register(a), self.register(b)),
             Node::And(a, b) => Op::And(self.register(a), self.register(b)),
             Node::Or(a, b) => Op::Or(self.register(a), self.register(b)),
             Node::Not(a) => Op::Not(self.register(a)),
             Node::If { condition, then, other } => Op::If(self.register(condition), self.register(then), self.register(other)),
-            Node::Abs { a, switch } => Op::Signed(self.register(a), switch),
-            Node::Sign { switch } => Op::Sign(switch),
+            Node::Abs { a, switch } => {
+                let signed = Op::Signed(self.register(a), switch);
+                return self.where_tested(id, signed, switch, &[a]);
+            }
+            Node::Sign { switch } => match self.pool.switches()[switch as usize].test {
+                Test::Sign(a) => Op::Sign(self.register(a), switch),
+                _ => Op::Const(f64::NAN),
+            },
             Node::Floor { a, switch } => Op::Floor(self.register(a), switch),
-            Node::Min { a, b, switch } => Op::Select(self.register(a), self.register(b), switch),
-            Node::Max { a, b, switch } => Op::Select(self.register(b), self.register(a), switch),
+            Node::Min { a, b, switch } => return self.select(id, [a, b], switch),
+            Node::Max { a, b, switch } => return self.select(id, [b, a], switch),
             Node::Table { table, order, x, switch } => match u16::try_from(table) {
                 Ok(table) => Op::Table(table, order, self.register(x), switch),
                 Err(_) => Op::Const(f64::NAN),
             },
         };
         let register = self.emit(op);
+        self.registers.insert(id, register);
+    }
+
+    /// One of two values; a rate is selected as what it is the rate of, and undefined where that is.
+    fn select(&mut self, id: Id, [a, b]: [Id; 2], switch: u32) {
+        let [first, second] = [self.register(a), self.register(b)];
+        let whole = matches!(self.pool.switches()[switch as usize].test, Test::Order(x, y) if [x.min(y), x.max(y)] == [a.min(b), a.max(b)]);
+        let op = if whole { Op::Select(first, second, switch) } else { Op::Choose(first, second, switch) };
+        self.where_tested(id, op, switch, &[a, b]);
+    }
+
+    /// The instruction of a node, and that its value is undefined where an operand of its switch is that it does not have itself.
+    fn where_tested(&mut self, id: Id, op: Op, switch: u32, own: &[Id]) {
+        let mut register = self.emit(op);
+        let mut tested = Vec::new();
+        let _ = self.pool.switches()[switch as usize].test.map(|operand| tested.push(operand));
+        for operand in tested {
+            if !own.contains(&operand) && !self.pool.tame[operand.index()] {
+                let operand = self.register(operand);
+                register = self.emit(Op::Where(register, operand));
+            }
+        }
         self.registers.insert(id, register);
     }
 

@@ -177,9 +177,14 @@ impl Pool {
         self.simplify(Node::If { condition, then, other })
     }
 
+    /// a where b is defined.
+    pub fn where_defined(&mut self, a: Id, b: Id) -> Id {
+        self.simplify(Node::Where(a, b))
+    }
+
     /// |a|.
     pub fn abs(&mut self, a: Id, text: &str) -> Id {
-        match self.constant_value(a) {
+        match self.number(a) {
             Some(x) => self.constant(x.abs()),
             None => {
                 let switch = self.switch(Test::Sign(a), text);
@@ -201,7 +206,7 @@ impl Pool {
 
     /// The largest whole number that is not above a.
     pub fn floor(&mut self, a: Id, text: &str) -> Id {
-        match self.constant_value(a) {
+        match self.number(a) {
             Some(x) => self.constant(x.floor()),
             None => {
                 let switch = self.switch(Test::Whole(a), text);

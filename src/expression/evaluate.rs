@@ -22,16 +22,24 @@ impl Pool {
         let order = self.reach(ids);
         let mut values = vec![f64::NAN; order.last().map_or(0, |top| top.index() + 1)];
         for id in order {
-            values[id.index()] = self.node_value(self.node(id), &|id| values[id.index()], parameters, tables);
+            let value = |id: Id| values[id.index()];
+            let mode = |switch: u32| self.switches[switch as usize].test.mode(value, tables);
+            values[id.index()] = self.node_value(self.node(id), &value, &mode, parameters, tables);
         }
         ids.iter().map(|id| values[id.index()]).collect()
     }
 
-    /// The value of a node from the values of its operands; switches take the mode that the values ask for.
-    pub(super) fn node_value(&self, node: Node, value: &dyn Fn(Id) -> f64, parameters: &[f64], tables: &[Table]) -> f64 {
-        let mode = |switch: u32| self.switches[switch as usize].test.mode(value, tables);
+    /// The value of a node from the values of its operands and the modes of switches; undefined as its operands are.
+    pub(super) fn node_value(
+        &self,
+        node: Node,
+        value: &dyn Fn(Id) -> f64,
+        mode: &dyn Fn(u32) -> i32,
+        parameters: &[f64],
+        tables: &[Table],
+    ) -> f64 {
         let truth = |truth: bool| f64::from(u8::from(truth));
-        match node {
+        let result = match node {
             Node::Const(bits) => f64::from_bits(bits),
             Node::Parameter(i) => parameters.get(i as usize).copied().unwrap_or(f64::NAN),
             Node::Input(i) => self.given(i).unwrap_or(f64::NAN),
@@ -40,7 +48,7 @@ impl Pool {
             Node::Sub(a, b) => value(a) - value(b),
             Node::Mul(a, b) => value(a) * value(b),
             Node::Div(a, b) => value(a) / value(b),
-            Node::Pow(a, b) => value(a).powf(value(b)),
+            Node::Pow(a, b) => power(value(a), value(b)),
             Node::Powi(a, n) => value(a).powi(n),
             // both from one call, as programs do it, so that the last digit agrees
             Node::Sin(a) => value(a).sin_cos().0,
@@ -49,7 +57,8 @@ impl Pool {
             Node::Asin(a) => value(a).asin(),
             Node::Acos(a) => value(a).acos(),
             Node::Atan(a) => value(a).atan(),
-            Node::Atan2(a, b) => value(a).atan2(value(b)),
+            // −0 is 0 here: a product whose sign nobody sees does not choose between 0 and a half turn
+            Node::Atan2(a, b) => (value(a) + 0.0).atan2(value(b) + 0.0),
             Node::Sqrt(a) => value(a).sqrt(),
             Node::Exp(a) => value(a).exp(),
             Node::Ln(a) => value(a).ln(),
@@ -70,7 +79,30 @@ impl Pool {
             Node::Table { table, order, x, switch } => {
                 tables.get(table as usize).map_or(f64::NAN, |t| t.eval(value(x), mode(switch), order))
             }
+            Node::Where(a, _) => value(a),
+        };
+        if self.all_defined(node, value) { result } else { f64::NAN }
+    }
+
+    /// Whether all is defined that the value of a node depends on.
+    pub(super) fn all_defined(&self, node: Node, value: &dyn Fn(Id) -> f64) -> bool {
+        let mut defined = true;
+        let mut look = |id: Id| defined &= value(id).is_finite();
+        match node {
+            // of the values to choose from only the one that is chosen counts
+            Node::If { condition, .. } => look(condition),
+            Node::Min { .. } | Node::Max { .. } => {}
+            _ => {
+                let _ = node.map(|operand| {
+                    look(operand);
+                    operand
+                });
+            }
         }
+        if let Some(switch) = node.switch() {
+            let _ = self.switches[switch as usize].test.map(look);
+        }
+        defined
     }
 
     /// An order in which parameters, whose values are expressions of one another, can be found.
@@ -120,6 +152,17 @@ impl Pool {
             found[i] = self.value(values[i], &found);
         }
         found
+    }
+}
+
+/// aⁿ as the pool writes it where n is a number.
+fn power(a: f64, n: f64) -> f64 {
+    match n {
+        2.0 => a * a,
+        -1.0 => 1.0 / a,
+        0.5 => a.sqrt(),
+        n if n.fract() == 0.0 && n.abs() <= 1000.0 => a.powi(n as i32),
+        _ => a.powf(n),
     }
 }
 

@@ -312,7 +312,11 @@ impl Lowerer<'_> {
         let text = self.slice(at).to_owned();
         let id = match function.node(self.pool, &ids, &text) {
             Some(id) => id,
-            None => self.rate(ids[0], at)?,
+            None => {
+                // a rate may be defined where what it is the rate of is not: that of log(x) is rate(x)/x
+                let rate = self.rate(ids[0], at)?;
+                self.pool.where_defined(rate, ids[0])
+            }
         };
         let keeps_zero = matches!(function.shape, Shape::Same | Shape::Alike | Shape::If | Shape::Root);
         Some(Lowered { any: any && keeps_zero, ..self.made(id, dimension, bare) })

@@ -5,6 +5,7 @@
 //! numbers. Every switch (comparison, `abs`, `sign`, `min`, `max`, `clamp`, table segment) has a number and an integer
 //! *mode*; a program never branches on a value: it selects by mode. This module knows no mechanics and no file format.
 
+mod cause;
 mod compile;
 mod construct;
 mod evaluate;
@@ -25,6 +26,7 @@ mod switch;
 mod table;
 mod units;
 
+pub use cause::Cause;
 pub use function::is_function;
 pub use lower::lower;
 pub use nearest::{MOST_CANDIDATES, nearest};
@@ -36,3 +38,6 @@ pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
 pub use table::{Between, Beyond, Table, TableError};
 pub use units::{Dimension, parse_unit};
+
+#[cfg(test)]
+mod undefined_tests;

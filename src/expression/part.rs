@@ -26,7 +26,8 @@ pub struct Part {
 }
 
 impl Program {
-    /// What is `wanted` of this program, alone, if it depends on one of the inputs `on`, and on no other, in any modes.
+    /// What is `wanted` of this program, alone, if it depends on one of the inputs `on`, and on no other, in any modes. That it may be
+    /// undefined where another input makes an operand of a switch so does not count.
     #[must_use]
     pub fn part(&self, wanted: Wanted, on: &[u32]) -> Option<Part> {
         let test = match wanted {
@@ -41,14 +42,15 @@ impl Program {
             }
             _ => return None,
         }
-        let needed = self.needed(&roots);
-        let inputs: Vec<u32> = self.ops.iter().zip(&needed).filter(|(_, n)| n.is_some()).filter_map(|(op, _)| op.input()).collect();
+        let ops = self.without_guards_by_others(on);
+        let needed = self.needed(&ops, &roots);
+        let inputs: Vec<u32> = ops.iter().zip(&needed).filter(|(_, n)| n.is_some()).filter_map(|(op, _)| op.input()).collect();
         if inputs.is_empty() || inputs.iter().any(|i| !on.contains(i)) {
             return None;
         }
         let mut program = Program { tables: self.tables.clone(), inputs, ..Program::default() };
         let mut renamed = vec![0; self.registers];
-        for (op, register) in self.ops.iter().zip(needed) {
+        for (op, register) in ops.iter().zip(needed) {
             let Some(register) = register else { continue };
             for offset in 0..op.results() {
                 renamed[register + offset] = (program.registers + offset) as u32;
@@ -68,18 +70,35 @@ impl Program {
         })
     }
 
+    /// The instructions, those that only ask whether something is defined which depends on other inputs than `on` without it.
+    fn without_guards_by_others(&self, on: &[u32]) -> Vec<Op> {
+        let mut by_others: Vec<bool> = Vec::with_capacity(self.registers);
+        let mut ops = Vec::with_capacity(self.ops.len());
+        for &op in &self.ops {
+            let op = if op.guards().into_iter().flatten().any(|r| by_others[r as usize]) { op.unguarded() } else { op };
+            let mut others = op.input().is_some_and(|i| !on.contains(&i));
+            op.map(|r| {
+                others |= by_others[r as usize];
+                r
+            });
+            by_others.extend(std::iter::repeat_n(others, op.results()));
+            ops.push(op);
+        }
+        ops
+    }
+
     /// The first register of each instruction on which the registers `roots` depend.
-    fn needed(&self, roots: &[u32]) -> Vec<Option<usize>> {
-        let mut firsts = Vec::with_capacity(self.ops.len());
+    fn needed(&self, ops: &[Op], roots: &[u32]) -> Vec<Option<usize>> {
+        let mut firsts = Vec::with_capacity(ops.len());
         let mut next = 0;
-        for op in &self.ops {
+        for op in ops {
             firsts.push(next);
             next += op.results();
         }
         let mut wanted = vec![false; next];
         roots.iter().for_each(|r| wanted[*r as usize] = true);
-        let mut needed = vec![None; self.ops.len()];
-        for (i, op) in self.ops.iter().enumerate().rev() {
+        let mut needed = vec![None; ops.len()];
+        for (i, op) in ops.iter().enumerate().rev() {
             if wanted[firsts[i]..firsts[i] + op.results()].contains(&true) {
                 needed[i] = Some(firsts[i]);
                 op.map(|r| {
@@ -132,6 +151,25 @@ impl Op {
         if matches!(self, Self::SinCos(_)) { 2 } else { 1 }
     }
 
+    /// Operands that only make its result undefined where they are.
+    fn guards(self) -> [Option<u32>; 2] {
+        match self {
+            Self::Compare(_, _, a, b) => [Some(a), Some(b)],
+            Self::Sign(a, _) | Self::Where(_, a) => [Some(a), None],
+            _ => [None; 2],
+        }
+    }
+
+    /// The same without them.
+    fn unguarded(self) -> Self {
+        match self {
+            Self::Compare(op, switch, ..) => Self::Holds(op, switch),
+            Self::Sign(_, switch) => Self::Mode(switch),
+            Self::Where(a, _) => Self::Scale(a, 1.0),
+            _ => self,
+        }
+    }
+
     /// The input that it reads.
     fn input(self) -> Option<u32> {
         if let Self::Input(i) = self { Some(i) } else { None }
@@ -140,7 +178,7 @@ impl Op {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Id, Pool};
+    use super::super::{Compare, Id, Pool};
     use super::*;
     use std::sync::Arc;
 
@@ -162,6 +200,23 @@ mod tests {
         let outputs: Vec<Id> = vec![p.abs(mixed, "mixed"), p.abs(alone, "alone"), alone];
         let program = p.program(&outputs, &[], &Arc::from([]));
         (p, program)
+    }
+
+    /// sin(3 t) where x < 0.5, else cos(3 t): its mode does not change with t.
+    #[test]
+    fn a_mode_that_others_decide_does_not_keep_a_part_from_being_cut_out() {
+        let mut p = Pool::new();
+        let (t, x) = (p.input(0), p.input(1));
+        let [three, half] = [3.0, 0.5].map(|c| p.constant(c));
+        let angle = p.mul(three, t);
+        let (sine, cosine) = (p.sin(angle), p.cos(angle));
+        let less = p.compare(Compare::Less, x, half, "x < 0.5");
+        let output = p.choose(less, sine, cosine);
+        let program = p.program(&[output], &[], &Arc::from([]));
+        let mut part = program.part(Wanted::Output(0), &[0]).unwrap();
+        assert_eq!([1, 0].map(|mode| part.value(0.2, &[mode])), [(3.0_f64 * 0.2).sin(), (3.0_f64 * 0.2).cos()]);
+        assert!(part.bounds(Interval::between(0.2, 0.3), &[1]).0.holds(0.75_f64.sin()));
+        assert!(program.part(Wanted::Switch(0), &[0]).is_none());
     }
 
     #[test]

@@ -23,6 +23,9 @@ impl Id {
 
 /// What a node computes. Conditions have the value 1 (true) or 0.
 ///
+/// A value that is not finite is undefined, and so is every node that it is an operand of, operands of its switch included; an `If`
+/// depends on its condition and on the value that it takes alone.
+///
 /// A node with a switch selects by the switch's mode, never by its operands: the rate of `min(a, b)` is a `Min` of the
 /// rates of a and b with the switch of a and b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -145,6 +148,8 @@ pub enum Node {
         /// A [`Test::Segment`].
         switch: u32,
     },
+    /// a where b is defined.
+    Where(Id, Id),
 }
 
 impl Node {
@@ -190,6 +195,7 @@ impl Node {
             Self::Tanh(a) => Self::Tanh(f(a)),
             Self::And(a, b) => Self::And(f(a), f(b)),
             Self::Or(a, b) => Self::Or(f(a), f(b)),
+            Self::Where(a, b) => Self::Where(f(a), f(b)),
             Self::Not(a) => Self::Not(f(a)),
             Self::If { condition, then, other } => Self::If { condition: f(condition), then: f(then), other: f(other) },
             Self::Abs { a, switch } => Self::Abs { a: f(a), switch },

@@ -21,7 +21,6 @@ pub(super) enum Op {
     Div(u32, u32),
     Powi(u32, i32),
     Powf(u32, f64),
-    /// e^(b ln a)
     Pow(u32, u32),
     SinCos(u32),
     Tan(u32),
@@ -36,7 +35,8 @@ pub(super) enum Op {
     Sinh(u32),
     Cosh(u32),
     Tanh(u32),
-    Compare(Compare, u32),
+    /// Comparison, switch, both sides.
+    Compare(Compare, u32, u32, u32),
     And(u32, u32),
     Or(u32, u32),
     Not(u32),
@@ -44,12 +44,20 @@ pub(super) enum Op {
     If(u32, u32, u32),
     /// Operand times the mode of a switch.
     Signed(u32, u32),
-    /// The mode of a switch.
-    Sign(u32),
+    /// Operand, the mode of its switch.
+    Sign(u32, u32),
     /// Operand, switch: the mode as a number.
     Floor(u32, u32),
-    /// Value in modes but 0, value in mode 0, switch.
+    /// Value in modes but 0, value in mode 0, switch; both are defined.
     Select(u32, u32, u32),
+    /// The same, whether or not the other one is defined.
+    Choose(u32, u32, u32),
+    /// The first where the second is defined.
+    Where(u32, u32),
+    /// Whether a comparison holds in the mode of a switch.
+    Holds(Compare, u32),
+    /// The mode of a switch.
+    Mode(u32),
     /// Table, order, argument, switch.
     Table(u16, u8, u32, u32),
 }
@@ -58,7 +66,7 @@ impl Op {
     /// The same instruction on other registers.
     pub(super) fn map(self, mut f: impl FnMut(u32) -> u32) -> Self {
         match self {
-            Self::Const(_) | Self::Input(_) | Self::Compare(..) | Self::Sign(_) => self,
+            Self::Const(_) | Self::Input(_) | Self::Holds(..) | Self::Mode(_) => self,
             Self::Neg(a) => Self::Neg(f(a)),
             Self::Add(a, b) => Self::Add(f(a), f(b)),
             Self::Shift(a, c) => Self::Shift(f(a), c),
@@ -82,13 +90,17 @@ impl Op {
             Self::Sinh(a) => Self::Sinh(f(a)),
             Self::Cosh(a) => Self::Cosh(f(a)),
             Self::Tanh(a) => Self::Tanh(f(a)),
+            Self::Compare(op, switch, a, b) => Self::Compare(op, switch, f(a), f(b)),
             Self::And(a, b) => Self::And(f(a), f(b)),
             Self::Or(a, b) => Self::Or(f(a), f(b)),
             Self::Not(a) => Self::Not(f(a)),
             Self::If(c, a, b) => Self::If(f(c), f(a), f(b)),
             Self::Signed(a, switch) => Self::Signed(f(a), switch),
+            Self::Sign(a, switch) => Self::Sign(f(a), switch),
             Self::Floor(a, switch) => Self::Floor(f(a), switch),
             Self::Select(a, b, switch) => Self::Select(f(a), f(b), switch),
+            Self::Choose(a, b, switch) => Self::Choose(f(a), f(b), switch),
+            Self::Where(a, b) => Self::Where(f(a), f(b)),
             Self::Table(table, order, x, switch) => Self::Table(table, order, f(x), switch),
         }
     }
@@ -136,10 +148,12 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::Sub(a, b) => at(a) - at(b),
         Op::Mul(a, b) => at(a) * at(b),
         Op::Scale(a, c) => at(a).scale(c),
-        Op::Div(a, b) => at(a) / at(b),
-        Op::Powi(a, n) => at(a).powi(n),
-        Op::Powf(a, n) => at(a).powf(n),
-        Op::Pow(a, b) => (at(b) * at(a).ln()).exp(),
+        // what is infinite is undefined, also where a function of it would be finite
+        Op::Div(a, b) => (at(a) / at(b)).where_finite(at(b)),
+        Op::Powi(a, n) if n > 0 => at(a).powi(n),
+        Op::Powi(a, n) => at(a).powi(n).where_finite(at(a)),
+        Op::Powf(a, n) => at(a).powf(n).where_finite(at(a)),
+        Op::Pow(a, b) => at(a).pow(at(b)).where_finite(at(a)).where_finite(at(b)),
         Op::SinCos(a) => {
             let (sin, cos) = at(a).sin_cos();
             r[k] = sin;
@@ -149,25 +163,28 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::Tan(a) => at(a).tan(),
         Op::Asin(a) => at(a).asin(),
         Op::Acos(a) => at(a).acos(),
-        Op::Atan(a) => at(a).atan(),
-        Op::Atan2(a, b) => at(a).atan2(at(b)),
+        Op::Atan(a) => at(a).atan().where_finite(at(a)),
+        Op::Atan2(a, b) => (at(a) + S::constant(0.0)).atan2(at(b) + S::constant(0.0)).where_finite(at(a)).where_finite(at(b)),
         Op::Sqrt(a) => at(a).sqrt(),
-        Op::Exp(a) => at(a).exp(),
+        Op::Exp(a) => at(a).exp().where_finite(at(a)),
         Op::Ln(a) => at(a).ln(),
         Op::Log10(a) => at(a).log10(),
         Op::Sinh(a) => at(a).sinh(),
         Op::Cosh(a) => at(a).cosh(),
-        Op::Tanh(a) => at(a).tanh(),
-        Op::Compare(op, switch) => boolean(op.holds(mode(switch))),
-        Op::And(a, b) => boolean(truth(a) && truth(b)),
-        Op::Or(a, b) => boolean(truth(a) || truth(b)),
-        Op::Not(a) => boolean(!truth(a)),
-        Op::If(c, a, b) => at(if truth(c) { a } else { b }),
+        Op::Tanh(a) => at(a).tanh().where_finite(at(a)),
+        Op::Compare(op, switch, a, b) => boolean(op.holds(mode(switch))).where_finite(at(a)).where_finite(at(b)),
+        Op::And(a, b) => boolean(truth(a) && truth(b)).where_finite(at(a)).where_finite(at(b)),
+        Op::Or(a, b) => boolean(truth(a) || truth(b)).where_finite(at(a)).where_finite(at(b)),
+        Op::Not(a) => boolean(!truth(a)).where_finite(at(a)),
+        Op::If(c, a, b) => at(if truth(c) { a } else { b }).where_finite(at(c)),
         Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
-        Op::Sign(switch) => S::constant(f64::from(mode(switch))),
-        // what is undefined stays so
-        Op::Floor(a, switch) => S::constant(whole(mode(switch)) + 0.0 * at(a).value()),
-        Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
+        Op::Sign(a, switch) => S::constant(f64::from(mode(switch))).where_finite(at(a)),
+        Op::Floor(a, switch) => S::constant(whole(mode(switch))).where_finite(at(a)),
+        Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }).where_finite(at(a)).where_finite(at(b)),
+        Op::Choose(a, b, switch) => at(if mode(switch) != 0 { a } else { b }),
+        Op::Where(a, b) => at(a).where_finite(at(b)),
+        Op::Holds(op, switch) => boolean(op.holds(mode(switch))),
+        Op::Mode(switch) => S::constant(f64::from(mode(switch))),
         Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
             Some(table) => table.eval(at(x), mode(switch), order),
             None => S::constant(f64::NAN),

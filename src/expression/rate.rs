@@ -70,6 +70,7 @@ impl Pool {
                 let square = self.add(xx, yy);
                 self.div(top, square)
             }
+            Node::Where(a, b) => self.where_defined(of(a), b),
             Node::If { condition, then, other } => self.choose(condition, of(then), of(other)),
             Node::Abs { a, switch } => self.simplify(Node::Abs { a: of(a), switch }),
             Node::Min { a, b, switch } => self.simplify(Node::Min { a: of(a), b: of(b), switch }),

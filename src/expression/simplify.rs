@@ -1,7 +1,8 @@
 //! Simplification of nodes: constants are folded and neutral operands dropped, so that rates and folded parameters leave no
 //! dead arithmetic.
 //!
-//! No rule changes a value, not even where an operand is not a number: 0·x is 0 only if x is finite wherever its leaves are.
+//! No rule changes a value, not even where an operand is undefined: 0·x is 0 only if x is defined wherever its leaves are. What is
+//! undefined is never folded, so that a message can still name the function and its argument.
 
 use super::pool::{Id, Node, Pool};
 use super::switch::Test;
@@ -17,6 +18,7 @@ impl Pool {
         self.conditions.push(match node {
             Node::Compare { .. } | Node::And(..) | Node::Or(..) | Node::Not(_) => true,
             Node::If { then, other, .. } => self.is_condition(then) && self.is_condition(other),
+            Node::Where(a, _) => self.is_condition(a),
             Node::Const(bits) => [0.0, 1.0].contains(&f64::from_bits(bits)),
             _ => false,
         });
@@ -38,7 +40,15 @@ impl Pool {
             tame &= self.tame[operand.index()];
             operand
         });
+        if let Some(switch) = node.switch() {
+            let _ = self.switches[switch as usize].test.map(|operand| tame &= self.tame[operand.index()]);
+        }
         tame
+    }
+
+    /// The value of a constant node that is defined.
+    pub(super) fn number(&self, id: Id) -> Option<f64> {
+        self.constant_value(id).filter(|x| x.is_finite())
     }
 
     pub(super) fn truth(&mut self, truth: bool) -> Id {
@@ -52,7 +62,7 @@ impl Pool {
         }
         let mut known = true;
         let values = test.map(|id| {
-            let value = self.constant_value(id);
+            let value = self.number(id);
             known &= value.is_some();
             value.unwrap_or(0.0)
         });
@@ -74,13 +84,16 @@ impl Pool {
             Node::Sub(a, b) => self.simple_difference(a, b),
             Node::Mul(a, b) => self.simple_product(a, b),
             Node::Div(a, b) => self.simple_quotient(a, b),
-            Node::Pow(a, b) => match self.constant_value(b) {
+            Node::Pow(a, b) => match self.number(b) {
                 Some(0.5) => self.sqrt(a),
                 Some(n) if n.fract() == 0.0 && n.abs() <= 1000.0 => self.powi(a, n as i32),
                 _ => self.intern(node),
             },
             Node::Powi(a, n) => match n {
-                0 => self.constant(1.0),
+                0 => {
+                    let one = self.constant(1.0);
+                    self.where_defined(one, a)
+                }
                 1 => a,
                 2 => self.mul(a, a),
                 -1 => {
@@ -89,17 +102,19 @@ impl Pool {
                 }
                 _ => self.intern(node),
             },
-            Node::And(a, b) => match (self.constant_value(a), self.constant_value(b)) {
-                (Some(0.0), _) | (_, Some(0.0)) => self.truth(false),
+            Node::And(a, b) => match (self.number(a), self.number(b)) {
+                (Some(0.0), _) => self.truth_where(false, b),
+                (_, Some(0.0)) => self.truth_where(false, a),
                 (Some(_), _) => b,
                 (_, Some(_)) => a,
                 _ if a == b => a,
                 _ => self.intern(Node::And(a.min(b), a.max(b))),
             },
-            Node::Or(a, b) => match (self.constant_value(a), self.constant_value(b)) {
+            Node::Or(a, b) => match (self.number(a), self.number(b)) {
                 (Some(0.0), _) => b,
                 (_, Some(0.0)) => a,
-                (Some(_), _) | (_, Some(_)) => self.truth(true),
+                (Some(_), _) => self.truth_where(true, b),
+                (_, Some(_)) => self.truth_where(true, a),
                 _ if a == b => a,
                 _ => self.intern(Node::Or(a.min(b), a.max(b))),
             },
@@ -107,12 +122,13 @@ impl Pool {
                 Node::Not(x) => x,
                 _ => self.intern(node),
             },
-            Node::If { condition, then, other } => match self.constant_value(condition) {
+            Node::If { condition, then, other } => match self.number(condition) {
                 Some(c) if c != 0.0 => then,
                 Some(_) => other,
-                None if then == other => then,
+                None if then == other => self.where_defined(then, condition),
                 None => self.intern(node),
             },
+            Node::Where(a, b) if a == b || self.tame[b.index()] || matches!(self.node(a), Node::Where(_, c) if c == b) => a,
             Node::Compare { op, switch } => match self.decided(self.switches[switch as usize].test) {
                 Some(mode) => self.truth(op.holds(mode)),
                 None => self.intern(node),
@@ -121,7 +137,7 @@ impl Pool {
                 Some(mode) => self.constant(f64::from(mode)),
                 None => self.intern(node),
             },
-            Node::Floor { a, .. } => match self.constant_value(a) {
+            Node::Floor { a, .. } => match self.number(a) {
                 Some(x) => self.constant(x.floor()),
                 None => self.intern(node),
             },
@@ -130,7 +146,7 @@ impl Pool {
                     let mode = self.constant(f64::from(mode));
                     self.mul(a, mode)
                 }
-                None if self.constant_value(a) == Some(0.0) => a,
+                None if self.constant_value(a) == Some(0.0) => self.where_tested(a, switch),
                 None => self.intern(node),
             },
             Node::Min { a, b, switch } => self.selected([b, a], switch, node),
@@ -143,9 +159,24 @@ impl Pool {
     fn selected(&mut self, choice: [Id; 2], switch: u32, node: Node) -> Id {
         match self.decided(self.switches[switch as usize].test) {
             Some(mode) => choice[mode as usize & 1],
-            None if choice[0] == choice[1] => choice[0],
+            None if choice[0] == choice[1] => self.where_tested(choice[0], switch),
             None => self.intern(node),
         }
+    }
+
+    fn truth_where(&mut self, truth: bool, defined: Id) -> Id {
+        let truth = self.truth(truth);
+        self.where_defined(truth, defined)
+    }
+
+    /// A node where all that its switch compares is defined.
+    fn where_tested(&mut self, mut a: Id, switch: u32) -> Id {
+        let mut tested = Vec::new();
+        let _ = self.switches[switch as usize].test.map(|operand| tested.push(operand));
+        for operand in tested {
+            a = self.where_defined(a, operand);
+        }
+        a
     }
 
     fn simple_sum(&mut self, a: Id, b: Id) -> Id {
@@ -213,17 +244,18 @@ impl Pool {
         }
     }
 
-    /// The value of a node without switch all of whose operands are numbers.
+    /// The value of a node without switch all of whose operands are numbers, if it is defined.
     fn folded(&self, node: Node) -> Option<f64> {
         if matches!(node, Node::Const(_) | Node::Parameter(_) | Node::Input(_)) || node.switch().is_some() {
             return None;
         }
         let mut known = true;
         let _ = node.map(|operand| {
-            known &= self.constant_value(operand).is_some();
+            known &= self.number(operand).is_some();
             operand
         });
-        known.then(|| self.node_value(node, &|id| self.constant_value(id).unwrap_or(f64::NAN), &[], &[]))
+        let value = known.then(|| self.node_value(node, &|id| self.number(id).unwrap_or(f64::NAN), &|_| 0, &[], &[]));
+        value.filter(|x| x.is_finite())
     }
 }
 

@@ -10,6 +10,7 @@ mod graph;
 mod programs;
 mod starts;
 
+use super::force::Output;
 use super::gauge::{Along, Gauge, Measured};
 use super::joint::Shape;
 use super::{Function, Mechanism, Row};
@@ -130,11 +131,11 @@ struct Builder<'m, G: Space> {
     inputs: Vec<Quantity>,
     tables: Arc<[Table]>,
     /// Outputs of the programs by stage.
-    position: Vec<Id>,
-    velocity: Vec<Id>,
-    time: Vec<Id>,
-    force: Vec<Id>,
-    states: Vec<Id>,
+    position: Vec<Output>,
+    velocity: Vec<Output>,
+    time: Vec<Output>,
+    force: Vec<Output>,
+    states: Vec<Output>,
     faults: Vec<BuildFault>,
 }
 

@@ -1,6 +1,6 @@
 //! What pulls and drives: efforts along gauges, loads at points, rotors, drivers, and the programs that give their sizes.
 
-use crate::expression::Program;
+use crate::expression::{Cause, Id, Program};
 use crate::geometry::Space;
 use crate::scalar::Scalar;
 
@@ -45,6 +45,37 @@ pub struct StagedProgram {
     pub inputs: usize,
     /// Number of outputs.
     pub outputs: usize,
+    /// What each output belongs to, as a path of keys in the model file.
+    pub places: Vec<String>,
+}
+
+/// A law of a driver, a coupling, a force or the rate of a state that is undefined.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Undefined {
+    /// What it belongs to, as a path of keys in the model file.
+    pub place: String,
+    /// Why.
+    pub cause: Cause,
+}
+
+impl StagedProgram {
+    /// Why an output is undefined, if that is the fault of its own expression and not of an input.
+    #[must_use]
+    pub fn undefined(&self, output: usize, inputs: &[f64], modes: &[i32]) -> Option<Undefined> {
+        match self.program.cause(output, inputs, modes)? {
+            Cause::Input(_) => None,
+            cause => Some(Undefined { place: self.places[output].clone(), cause }),
+        }
+    }
+}
+
+/// An output of a staged program before it is compiled.
+#[derive(Clone, Debug)]
+pub(super) struct Output {
+    /// Its value.
+    pub(super) value: Id,
+    /// What it belongs to, as a path of keys in the model file.
+    pub(super) place: String,
 }
 
 /// A driver: its gauge, and the outputs f, f', f'' of the time program.

@@ -15,7 +15,9 @@ mod translation;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
-pub use force::{Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf};
+pub use force::{
+    Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
+};
 pub use gauge::{Along, Gauge, Measured, Reading};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};

@@ -27,6 +27,7 @@ mod suggest;
 mod tables;
 mod urdf;
 mod vocabulary;
+mod words;
 mod yaml;
 
 pub use contacts::*;
@@ -41,6 +42,7 @@ pub use schema::schema;
 pub use study::*;
 pub use urdf::{Import, Imported, import, roll_pitch_yaw};
 pub use vocabulary::{Known, Quantity};
+pub use words::{in_unit, with_unit};
 
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,9 @@ use super::entities::{self, Model, Place};
 use super::fault::Fault;
 use super::study::Take;
 use super::vocabulary::Quantity;
-use crate::expression::{Id, Pool, Table, TableError};
+use super::words::why_undefined;
+use crate::expression::{Cause, Id, Pool, Table, TableError};
+use std::sync::Arc;
 
 /// What must hold of some values.
 #[derive(Clone, Copy, Debug)]
@@ -101,8 +103,9 @@ fn tables_with(pool: &Pool, tables: &[entities::Table], parameters: &[f64]) -> V
 }
 
 /// The fault of a parameter without a finite value.
-pub(crate) fn not_finite(parameter: &entities::Parameter, x: f64) -> Fault {
-    let message = format!("`{}` has no finite value: it is {x}", parameter.name);
+pub(crate) fn not_finite(parameter: &entities::Parameter, x: f64, why: Option<Cause>) -> Fault {
+    let why = why.map_or_else(|| format!("it is {x}"), why_undefined);
+    let message = format!("`{}` has no finite value: {why}", parameter.name);
     Fault::new("not-a-number", parameter.place.clone(), message, "a finite number").help(UNDEFINED)
 }
 
@@ -116,7 +119,8 @@ impl Model {
             let needs = self.pool.parameters_of(&[parameter.value]);
             let follows = needs.iter().any(|need| values.unknown.get(*need as usize) == Some(&true));
             if let (true, false, Some(x)) = (values.unknown.get(i) == Some(&true), follows, parameters.get(i)) {
-                faults.push(self.traced(not_finite(parameter, *x), &[parameter.value]));
+                let why = self.pool.cause(parameter.value, parameters, &Arc::from([]));
+                faults.push(self.traced(not_finite(parameter, *x, why), &[parameter.value]));
             }
         }
         let broken = broken(&self.checks, (&self.pool, &self.tables), &values, &String::clone);

@@ -23,6 +23,8 @@ pub struct Study {
     pub independent: Option<Dimension>,
     /// Columns in the order of the CSV; the first is the independent variable if `columns` was silent.
     pub columns: Vec<Column>,
+    /// Columns and curves that may be undefined: their cells are blank there.
+    pub undefined: Vec<Id>,
     /// True if the file names the columns.
     pub columns_given: bool,
     /// Scalars in file order; leaves are functionals, results and parameters.

@@ -195,6 +195,16 @@ impl<const N: usize> Scalar for Dual<N> {
     fn powi(self, n: i32) -> Self {
         self.chain(self.x.powi(n), f64::from(n) * self.x.powi(n - 1))
     }
+    fn pow(self, n: Self) -> Self {
+        let y = self.x.powf(n.x);
+        // the limit of xⁿ ln x at 0 is 0
+        let by_exponent = if y == 0.0 { 0.0 } else { y * self.x.ln() };
+        Self::combine(y, n.x * self.x.powf(n.x - 1.0), self, by_exponent, n)
+    }
+    #[inline(always)]
+    fn where_finite(self, other: Self) -> Self {
+        Self { x: self.x.where_finite(other.x), d: self.d }
+    }
     #[inline]
     fn scale(self, k: f64) -> Self {
         self.chain(self.x * k, k)
@@ -208,7 +218,7 @@ mod tests {
     /// Every function's derivative against a central difference of its value.
     #[test]
     fn derivatives_are_those_of_the_values() {
-        let functions: [fn(Dual<1>) -> Dual<1>; 16] = [
+        let functions: [fn(Dual<1>) -> Dual<1>; 17] = [
             |x| x.sqrt(),
             |x| x.sin_cos().0,
             |x| x.sin_cos().1,
@@ -220,6 +230,7 @@ mod tests {
             |x| x.exp() / (x + Dual::constant(2.0)),
             |x| x.ln() - x.powi(3) * x,
             |x| x.powf(1.7),
+            |x| x.pow(x + Dual::constant(0.4)),
             |x| x.log10(),
             |x| x.sinh(),
             |x| x.cosh(),

@@ -272,6 +272,22 @@ impl Scalar for Interval {
         let ends = self.monotone(|x| x.powi(n));
         if n % 2 == 0 && n != 0 && self.holds(0.0) { Self { low: 0.0, ..ends } } else { ends }
     }
+    fn pow(self, n: Self) -> Self {
+        if self.is_none() || n.is_none() {
+            return Self::NONE;
+        }
+        if n.low == n.high {
+            return self.powf(n.low);
+        }
+        // of a negative number there are powers at whole exponents alone
+        if self.low < 0.0 {
+            return if self.high < 0.0 && n.low.ceil() > n.high { Self::NONE } else { Self::ALL };
+        }
+        (n * self.ln()).exp()
+    }
+    fn where_finite(self, other: Self) -> Self {
+        if other.is_none() { Self::NONE } else { self }
+    }
 }
 
 #[cfg(test)]
@@ -290,7 +306,7 @@ mod tests {
 
     type OfTwo<S> = fn(S, S) -> S;
 
-    fn functions<S: Scalar>() -> [OfTwo<S>; 22] {
+    fn functions<S: Scalar>() -> [OfTwo<S>; 24] {
         [
             |x, _| x.log10(),
             |x, _| x.sinh(),
@@ -311,6 +327,8 @@ mod tests {
             |x, _| x.exp(),
             |x, _| x.ln(),
             |x, _| x.powf(1.7),
+            |x, y| x.pow(y),
+            |x, y| x.where_finite(y.ln()),
             |x, _| x.powi(3),
             |x, _| x.powi(-2),
             |x, y| (x * x - y).sin_cos().0 * (x - y).powi(2),
@@ -355,6 +373,10 @@ mod tests {
         assert_eq!(Interval::between(-2.0, 1.0).sqrt(), Interval::ALL);
         assert!((Interval::between(-2.0, -1.0).ln() + Interval::one()).is_none());
         assert!((Interval::one() / Interval::zero()).is_none());
+        assert!(Interval::between(-2.0, -1.0).pow(Interval::between(0.2, 0.8)).is_none());
+        assert_eq!(Interval::between(-2.0, -1.0).pow(Interval::between(0.2, 1.8)), Interval::ALL);
+        assert!(Interval::one().where_finite(Interval::between(-2.0, -1.0).sqrt()).is_none());
+        assert_eq!(Interval::one().where_finite(Interval::ALL), Interval::one());
         assert_eq!(Interval::one() / Interval::between(-1.0, 1.0), Interval::ALL);
     }
 }

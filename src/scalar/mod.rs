@@ -52,6 +52,10 @@ pub trait Scalar:
     fn powf(self, n: f64) -> Self;
     /// x to an integer power.
     fn powi(self, n: i32) -> Self;
+    /// x to a power that varies.
+    fn pow(self, n: Self) -> Self;
+    /// x where `other` is finite, not a number where it is not; derivatives are those of x.
+    fn where_finite(self, other: Self) -> Self;
     /// x · k for a plain number k.
     fn scale(self, k: f64) -> Self {
         self * Self::constant(k)
@@ -113,6 +117,13 @@ impl Scalar for f64 {
     }
     fn powi(self, n: i32) -> Self {
         f64::powi(self, n)
+    }
+    fn pow(self, n: Self) -> Self {
+        f64::powf(self, n)
+    }
+    #[inline(always)]
+    fn where_finite(self, other: Self) -> Self {
+        self + 0.0 * other
     }
     #[inline(always)]
     fn scale(self, k: f64) -> Self {

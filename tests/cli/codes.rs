@@ -14,7 +14,7 @@ fn an_expectation_that_is_not_met_ends_with_1() {
     place.run(&["run", "met.yaml", "--no-plots"]).ends(0);
     place.put("not.yaml", &with("    expect: { swing: { is: 1 rad, relative: 1e-3 } }"));
     let done = place.run(&["run", "not.yaml", "--no-plots"]).ends(1);
-    assert!(done.stderr.contains("swing") && done.stderr.contains("not.yaml:26"), "{}", done.stderr);
+    assert!(done.stderr.contains("swing") && done.stderr.contains("not.yaml:27"), "{}", done.stderr);
     // results are there all the same, and the JSON says it
     let report = place.json("results/not/turn.json");
     assert_eq!(report["status"], "done");

@@ -40,14 +40,14 @@ fn kept(run: &Run, until: f64, within: f64) -> Table {
 }
 
 #[test]
-fn a_force_that_is_not_a_number() {
+fn a_force_that_is_not_defined() {
     // from the start on
     let start = car("-2 N*sqrt(S.position/1 m)", "S.position: -0.1 m, S.velocity: 0 m/s", "until: 1 s");
-    told(&start, 2, &["not a number", "car"]);
+    told(&start, 3, &["load `push`", "is not defined at the start", "sqrt of -0.1"]);
     assert!(start.files().is_empty());
     // and on the way: x = 0.1 m is left behind at 0.1 s
     let run = car("-2 N*sqrt(S.position/1 m - 0.1)", "S.position: 0.2 m, S.velocity: -1 m/s", "until: 1 s, every: 10 ms");
-    told(&run, 3, &["not a number", "car", "t = 0.0"]);
+    told(&run, 3, &["load `push`", "is not defined at t = 0.0", "sqrt of -"]);
     kept(&run, 0.0975, 5e-3);
 }
 

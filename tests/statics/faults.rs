@@ -65,7 +65,7 @@ fn a_force_that_jumps_where_the_mechanism_wants_to_stay() {
 
 #[test]
 fn a_force_that_is_not_a_number() {
-    told(&car("-2 N*sqrt(S.position/1 m)", "-0.1 m"), &["the force on `S.position` is not a number at the start"]);
+    told(&car("-2 N*sqrt(S.position/1 m)", "-0.1 m"), &["load `push` is not defined at the start: sqrt of -0.1"]);
     // and where the search must not go: the equilibrium at 0 is the edge
     let edge = car("1 N - 2 N*sqrt(S.position/1 m)", "0.9 m");
     assert!(edge.stdout.contains("S.position = 0.25 m: stable"), "{}{}", edge.stdout, edge.stderr);

@@ -238,7 +238,9 @@ impl Integration {
                     stop |= stops;
                 }
             }
-            self.engine.settle(system, &mut self.node)?;
+            if let Err(why) = self.engine.settle(system, &mut self.node) {
+                return self.ends_before(why);
+            }
             next = self.also_crossed(system).or_else(|| self.also_timed(system));
         }
         if let Some(&root) = self.crossed.first()
@@ -257,8 +259,18 @@ impl Integration {
         self.bridging = None;
         let longest = self.longest_gap();
         self.limit_growth(GROWTH * longest);
-        self.scheme.restart(system, &mut self.engine, &self.node, self.h)?;
+        if let Err(why) = self.scheme.restart(system, &mut self.engine, &self.node, self.h) {
+            return self.ends_before(why);
+        }
         (self.turn, self.origin) = (0, self.node.state.t);
+        Ok(Progress::Event)
+    }
+
+    /// What was crossed leads to where nothing can be evaluated: the motion up to there stands, and the next advance fails.
+    fn ends_before(&mut self, why: Why) -> Result<Progress, Why> {
+        self.ahead.copy_from(&self.node);
+        self.node.copy_from(&self.before);
+        self.halted = Some(why);
         Ok(Progress::Event)
     }
 

@@ -3,7 +3,8 @@
 use super::setup::Plan;
 use super::system::{Mechanical, Root};
 use crate::analysis::assemble::{Assembled, units};
-use crate::analysis::outcome::{Failure, Finding, Happened};
+use crate::analysis::outcome::{Failure, Finding, Happened, Undefined};
+use crate::analysis::undefined::Gap;
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
 use crate::mechanism::{BuildFault, Mechanism};
@@ -49,6 +50,15 @@ where
         ),
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
+}
+
+/// What has no value in the state that was evaluated last, at a time.
+pub(super) fn undefined<G, D>(model: &Model, study: &Study, system: &mut Mechanical<'_, G, D>, modes: &[i32], t: f64) -> Option<Undefined>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    system.dynamics.undefined(modes).map(|law| Gap::Law(law).told(model, study, &format!("t = {t:.6} s")))
 }
 
 /// Why a run ends at an event that has set parameters to what no mechanism can have.

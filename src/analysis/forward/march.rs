@@ -7,11 +7,13 @@ use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
 use super::watch::{swept, watched};
-use crate::analysis::assemble::{Assembled, assemble};
+use crate::analysis::assemble::Assembled;
 use crate::analysis::contact;
+use crate::analysis::modes::held::settled;
 use crate::analysis::observe::Observer;
-use crate::analysis::outcome::{Certificate, Failure, Finding, Happened};
+use crate::analysis::outcome::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::analysis::sweep::parameters_with;
+use crate::analysis::undefined::{assembled, in_state};
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -43,7 +45,7 @@ impl<G: Space<S = f64>> Eras<G> {
     /// # Errors
     /// If the model has none, or it cannot be assembled.
     pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
-        let (mechanism, start) = assemble::<G>(model, parameters, coordinates)?;
+        let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
         contact::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
@@ -114,6 +116,8 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
 pub(in crate::analysis) struct Recorded<'m, G: Space<S = f64>> {
     pub(in crate::analysis) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
     pub(in crate::analysis) stopped: Option<String>,
+    /// What has no value, if that has stopped it.
+    pub(in crate::analysis) undefined: Option<Undefined>,
     pub(in crate::analysis) events: Vec<Happened>,
     pub(in crate::analysis) certificate: Certificate,
     pub(in crate::analysis) findings: Vec<Finding>,
@@ -157,6 +161,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         resting: Vec::new(),
         begins: Begins::Run,
         set_from: ids.len(),
+        undefined: None,
     };
     let mut era = eras;
     let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
@@ -180,12 +185,12 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
             }
         }
     };
-    let Flow { events, balance, findings: mut unresolved, .. } = flow;
+    let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan);
     unresolved.dedup_by(|a, b| a.path == b.path);
     findings.append(&mut unresolved);
     trajectory.finish();
-    Ok(Recorded { trajectory, stopped, events, certificate, findings })
+    Ok(Recorded { trajectory, stopped, undefined, events, certificate, findings })
 }
 
 /// The state at the assembled start.
@@ -194,7 +199,9 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
     state.q.copy_from_slice(&eras.start.q);
     state.v.copy_from_slice(&eras.start.v);
     state.z.copy_from_slice(&eras.mechanism.state_starts);
-    state.modes[..eras.start.modes.len()].copy_from_slice(&eras.start.modes);
+    // forces may have no value in modes that are not those of the state
+    let modes = settled(&eras.mechanism, [&state.q, &state.v, &state.z], &eras.start.modes);
+    state.modes[..modes.len()].copy_from_slice(&modes);
     state
 }
 
@@ -265,6 +272,8 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
+    /// What has no value, if that has stopped the run.
+    undefined: Option<Undefined>,
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
@@ -278,8 +287,16 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let begun = Integration::new(chart.system(), self.plan.settings, &start);
         let mut run = match begun {
             Ok(run) => run,
-            Err(halt) if first => return Err(explain::no_start(self.study, &era.mechanism, &era.start, &halt)),
-            Err(halt) => return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt))),
+            Err(halt) if first => {
+                let at = [&state.q[..], &state.v, &state.z];
+                let modes = settled(&era.mechanism, at, &era.start.modes);
+                let undefined = in_state(self.model, &era.mechanism, at, &modes, "the start");
+                return Err(undefined.map_or_else(|| explain::no_start(self.study, &era.mechanism, &era.start, &halt), Failure::Undefined));
+            }
+            Err(halt) => {
+                self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, halt.t);
+                return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)));
+            }
         };
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
         let mut dense = Dense::new(dims);
@@ -301,7 +318,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
             let progress = match run.advance(chart.system(), self.plan.until) {
                 Ok(progress) => progress,
-                Err(halt) => break After::Stopped(self.explain(era, &mut chart, &mut run, &halt)),
+                Err(halt) => {
+                    self.undefined = self.gap(&mut chart, &run, halt.t);
+                    break After::Stopped(self.explain(era, &mut chart, &mut run, &halt));
+                }
             };
             let happened = matches!(progress, Progress::Event | Progress::Stopped);
             std::mem::swap(&mut last, &mut node);
@@ -345,6 +365,18 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             Charted::Minimal(_) => None,
         };
         locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
+    }
+
+    /// What has no value where a run cannot go on.
+    fn gap(&self, chart: &mut Charted<'m, G>, run: &Integration, t: f64) -> Option<Undefined> {
+        let here = explain::undefined(self.model, self.study, chart.mechanical(), &run.node().state.modes, t);
+        if here.is_some() {
+            return here;
+        }
+        let (Charted::Whole(system), Some(beyond)) = (chart, run.beyond()) else { return None };
+        let dims = system.dims();
+        system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
+        explain::undefined(self.model, self.study, system, &beyond.modes, t)
     }
 
     /// Adds the last step to the trajectory.

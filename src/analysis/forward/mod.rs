@@ -18,13 +18,15 @@ pub use setup::{is_available, method};
 
 use super::clock::Clock;
 use super::continuous::Curve;
-use super::extremum::extrema;
+use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::motion::Rows;
-use super::outcome::{Certificate, Failure, Outcome};
+use super::numbers::Sources;
+use super::outcome::{Certificate, Failure, Finding, Outcome, Resolution};
 use super::resolve;
-use super::run::{Watched, evaluate, expectations, in_variable, unresolved};
+use super::run::{Watched, in_variable, unresolved};
 use super::scene;
+use super::undefined::{Gap, blank};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
 use crate::model::{Dimensions, Forward, Model, Study};
@@ -54,47 +56,60 @@ where
     let watched = Watched::of(study);
     let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
-    let Recorded { mut trajectory, stopped, events, certificate, mut findings } =
+    let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
         march::march(model, study, &plan, &watched.ids, &eras, parameters, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
-        return Err(Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"));
+        return Err(match undefined {
+            Some(undefined) => Failure::Undefined(undefined),
+            None => Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"),
+        });
     }
-    let lost = |off: Off| {
-        Failure::numerical(
-            format!("the state at t = {} s could not be evaluated", off.at),
-            "the position is nearly singular there: end the run before, or start elsewhere",
-        )
-    };
-    let breaks = trajectory.breaks();
-    let stretches = trajectory.stretches();
-    let resolved = resolve::on(&mut trajectory, &stretches, &breaks, setup::resolution(plan.settings.control)).map_err(lost)?;
-    let extremes = extrema(&mut trajectory, resolved.samples(), &breaks);
-    let rows = rows(&mut trajectory, &breaks, plan.every).map_err(lost)?;
-    let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(lost(Off { at: 0.0 })) };
     let clock = Clock::of_time(plan.until);
-    findings.extend(unresolved(model, study, &watched, &resolved, &[], "time", clock));
-    let mut functionals =
-        Functionals { clock, ends: [from, to], curve: &mut trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
-    let found = functionals.all(model, study, parameters, &watched.functionals, &mut findings).map_err(lost)?;
+    let seen = loop {
+        match see(&mut trajectory, (model, study, parameters), &watched, &plan) {
+            Ok(seen) => break seen,
+            Err(Off { at, gap: None }) => {
+                return Err(Failure::numerical(
+                    format!("the state at t = {at} s could not be evaluated"),
+                    "the position is nearly singular there: end the run before, or start elsewhere",
+                ));
+            }
+            Err(Off { at, gap: Some(gap) }) => {
+                let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("t = {at:.6} s"));
+                let Some(Off { at, gap: behind }) = trajectory.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
+                undefined = Some(told(&behind.unwrap_or(gap), at));
+            }
+        }
+    };
+    let Seen { breaks, rows, extremes, functionals, resolution, findings: open } = seen;
+    findings.extend(open);
+    let (from, to) = (breaks[0], breaks[breaks.len() - 1]);
+    events.retain(|e| e.at <= to);
+    let stopped = undefined.as_ref().map(|u| u.message.clone()).or(stopped);
     let tables = &eras.first().mechanism.tables;
-    let scalars = evaluate(model, parameters, tables, &study.scalars.iter().map(|s| s.value).collect::<Vec<_>>(), &found, &[]);
-    let expectations = if stopped.is_none() { expectations(model, study, parameters, tables, &found, &[]) } else { Vec::new() };
-    let certificate = Certificate { resolved: Some(resolved.quality()), ..balance::residuals(&mut trajectory, &rows, certificate) };
+    let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &[] }.numbers(stopped.is_none());
+    let undefined = undefined.or(numbers.undefined);
+    let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
+    let certificate = Certificate { resolved: Some(resolution), ..balance::residuals(&mut trajectory, &rows, certificate) };
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let n = rows.places.len();
+    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    findings.extend(numbers.findings);
+    findings.extend(blank(study, "t", &rows.places, &shown));
     let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
     Ok(Outcome {
         stopped,
+        undefined,
         parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
         independent: "time".into(),
         switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-        rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+        rows: shown,
         places: rows.places,
         results: Vec::new(),
-        scalars,
+        scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
-        expectations,
+        expectations: numbers.expectations,
         findings: eras.start.findings().chain(findings).collect(),
         certificate,
         events,
@@ -130,6 +145,42 @@ pub fn bare(model: &Model, study: &Study, forward: &Forward, parameters: &[f64],
     }
 }
 
+/// A motion seen over time.
+struct Seen {
+    breaks: Vec<f64>,
+    rows: Rows,
+    extremes: Vec<Option<Extremes>>,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+    resolution: Resolution,
+}
+
+/// Rows, extremes and functionals of a motion.
+fn see<G, D>(
+    trajectory: &mut Trajectory<'_, G, D>,
+    (model, study, parameters): (&Model, &Study, &[f64]),
+    watched: &Watched,
+    plan: &setup::Plan,
+) -> Result<Seen, Off>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let breaks = trajectory.breaks();
+    let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(Off { at: 0.0, gap: None }) };
+    let stretches = trajectory.stretches();
+    let resolved = resolve::on(trajectory, &stretches, &breaks, setup::resolution(plan.settings.control))?;
+    trajectory.all_defined(&resolved)?;
+    let extremes = extrema(trajectory, resolved.samples(), &breaks);
+    let rows = rows(trajectory, &breaks, plan.every)?;
+    let clock = Clock::of_time(plan.until);
+    let mut findings = unresolved(model, study, watched, &resolved, &[], "time", clock);
+    let mut functionals =
+        Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = functionals.all(model, study, parameters, &watched.functionals, &mut findings)?;
+    Ok(Seen { breaks, rows, extremes, functionals, findings, resolution: resolved.quality() })
+}
+
 /// Rows on the grid of the study, or at every step, with both sides of every switch.
 fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>) -> Result<Rows, Off>
 where
@@ -149,7 +200,7 @@ where
         };
         for t in places {
             let mut out = vec![0.0; trajectory.columns()];
-            trajectory.eval(t, piece, &mut out)?;
+            trajectory.row(t, piece, &mut out)?;
             rows.places.push(t);
             rows.pieces.push(piece);
             rows.values.push(out);

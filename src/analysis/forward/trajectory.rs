@@ -2,7 +2,8 @@
 
 use super::system::Mechanical;
 use crate::analysis::continuous::Curve;
-use crate::analysis::resolve::FIRST_PANELS;
+use crate::analysis::resolve::{FIRST_PANELS, Resolved};
+use crate::analysis::undefined::Gap;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
@@ -47,10 +48,12 @@ pub(in crate::analysis) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANE
 }
 
 /// A state of the trajectory could not be evaluated.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::analysis) struct Off {
     /// Time, s.
     pub(in crate::analysis) at: f64,
+    /// What has no value there, if that is why.
+    pub(in crate::analysis) gap: Option<Gap>,
 }
 
 /// A motion in time.
@@ -135,6 +138,38 @@ where
         }
     }
 
+    /// Lets the motion end where all is defined last before a time where something is not; what is undefined just behind it, or
+    /// nothing if that is so from the start on.
+    pub(in crate::analysis) fn end_before(&mut self, t: f64) -> Option<Off> {
+        let from = self.pieces.first()?.from;
+        let mut out = vec![0.0; self.columns];
+        let mut defined = |trajectory: &mut Self, t: f64| {
+            let piece = trajectory.pieces.iter().position(|p| t <= p.to).unwrap_or(0);
+            trajectory.columns_at(t, piece, &mut out)
+        };
+        let (mut good, mut bad) = (from, t);
+        defined(self, good).ok()?;
+        let mut off = Off { at: t, gap: None };
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            match defined(self, middle) {
+                Ok(()) => good = middle,
+                Err(why) => (bad, off) = (middle, why),
+            }
+        }
+        let last = self.pieces.iter().position(|p| good <= p.to).unwrap_or(0);
+        self.pieces.truncate(last + 1);
+        let piece = &mut self.pieces[last];
+        let (low, high) = piece.steps;
+        let step = (low + self.steps[low..high].partition_point(|s| s.end < good)).min(high.saturating_sub(1));
+        (piece.to, piece.steps.1) = (good, step + 1);
+        self.steps.truncate(step + 1);
+        if let Some(step) = self.steps.last_mut() {
+            (step.end, step.whole) = (good, true);
+        }
+        (good > from).then_some(off)
+    }
+
     /// Bytes in use by steps.
     pub(in crate::analysis) fn size(&self) -> usize {
         std::mem::size_of_val(&self.coefficients[..]) + std::mem::size_of_val(&self.steps[..])
@@ -185,8 +220,8 @@ where
     /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
     /// the constraints.
     pub(in crate::analysis) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
-        let off = Off { at: t };
-        let p = self.pieces.get(piece).ok_or(off)?;
+        let off = Off { at: t, gap: None };
+        let Some(p) = self.pieces.get(piece) else { return Err(off) };
         let (low, high) = p.steps;
         if low == high {
             return Err(off);
@@ -228,6 +263,49 @@ where
     }
 }
 
+impl<G, D> Trajectory<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// Columns at `t` on a piece.
+    fn columns_at(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        self.go(t, piece)?;
+        let n = self.columns;
+        out.copy_from_slice(&self.outputs(piece)[..n]);
+        let observer = &self.eras[self.pieces[piece].era].system.observer;
+        match observer.undefined(&self.node.state.modes, &self.out) {
+            Some(gap) => Err(Off { at: t, gap: Some(gap) }),
+            None => Ok(()),
+        }
+    }
+
+    /// As [`Curve::eval`], but where an expression has no value by its own fault that is an error.
+    pub(in crate::analysis) fn row(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        let found = self.columns_at(t, piece, out);
+        if !matches!(found, Err(Off { gap: Some(_), .. })) {
+            return found;
+        }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        let length = self.pieces.last().map_or(0.0, |p| p.to);
+        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
+            if self.columns_at(t + shift * length, piece, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where an expression has none by its own fault.
+    pub(in crate::analysis) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Off> {
+        let mut out = vec![0.0; self.columns];
+        resolved.blanks().try_for_each(|(t, piece)| self.row(t, piece, &mut out))
+    }
+}
+
 impl<G, D> Curve for Trajectory<'_, G, D>
 where
     G: Space<S = f64>,
@@ -264,9 +342,12 @@ where
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        self.go(t, piece)?;
-        let n = self.columns;
-        out.copy_from_slice(&self.outputs(piece)[..n]);
-        Ok(())
+        match self.row(t, piece, out) {
+            Err(Off { gap: Some(_), .. }) => {
+                out.fill(f64::NAN);
+                Ok(())
+            }
+            found => found,
+        }
     }
 }

@@ -12,18 +12,19 @@
 
 mod probe;
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
 use super::coordinates::coordinates;
 use super::eigenvalues::eigenvalues;
 use super::forward::explain::massless;
 use super::linear::{Linear, Reduced};
 use super::modes::held::settled;
+use super::numbers::Sources;
 use super::outcome::{Certificate, Failure, Finding, LinearSystem, List, Outcome};
 use super::partition::{Partition, preferred, with_mass};
-use super::run::{evaluate, expectations};
 use super::scene::{MECHANISM, of_poses};
 use super::statics::equilibrium;
 use super::sweep::parameters_with;
+use super::undefined::assembled;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -51,7 +52,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     without_friction(&mechanism, study)?;
     let lifted = mechanism.lift();
     let mut findings = Vec::new();
@@ -80,16 +81,19 @@ where
     let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values };
-    let scalars: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+    let numbers = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &[], results: &[] }.numbers(true);
+    findings.extend(numbers.findings);
     Ok(Outcome {
+        stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+        undefined: numbers.undefined,
         parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
         independent: "time".into(),
         places: vec![0.0],
         rows: vec![base.outputs.clone()],
         lists: vec![list("poles_real", poles.iter().map(|p| p.0).collect()), list("poles_imaginary", poles.iter().map(|p| p.1).collect())],
         linear: Some(system),
-        scalars: evaluate(model, parameters, &mechanism.tables, &scalars, &[], &[]),
-        expectations: expectations(model, study, parameters, &mechanism.tables, &[], &[]),
+        scalars: numbers.scalars,
+        expectations: numbers.expectations,
         extremes: vec![None; study.columns.len()],
         findings,
         certificate: Certificate { evaluations: 1, ..Certificate::default() },
@@ -159,7 +163,11 @@ impl<G: Space<S = f64>> Bench<'_, G> {
                 )
             })
         };
-        let answer = probe.answer(at, &[], true).ok_or_else(undetermined)?;
+        let answer = probe.answer(at, &[], true);
+        if let Some(gap) = &probe.gap {
+            return Err(Failure::Undefined(gap.told(self.model, self.study, "the state")));
+        }
+        let answer = answer.ok_or_else(undetermined)?;
         let mut linearizer = Linearizer::new(lifted);
         let point = Point { t: 0.0, q: &at.q, v: &at.v, z: &at.z, a: &answer.a, lambda: &answer.lambda, modes: &at.modes };
         let linear = Linear::new(m, &mut linearizer, &point, &self.start.metric).map_err(|_| undetermined())?;

@@ -2,6 +2,7 @@
 
 use crate::analysis::observe::Observer;
 use crate::analysis::partition::Partition;
+use crate::analysis::undefined::Gap;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -42,6 +43,8 @@ pub(super) struct Probe<'m, G: Space> {
     reactions: Reactions<G>,
     kkt: Kkt,
     metric: &'m [f64],
+    /// What has no value in the state that was answered last.
+    pub(super) gap: Option<Gap>,
 }
 
 impl<'m, G: Space<S = f64>> Probe<'m, G> {
@@ -54,6 +57,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
             kkt: Kkt::new(mechanism.nv, mechanism.rows.len()),
             dynamics,
             metric,
+            gap: None,
         }
     }
 
@@ -65,6 +69,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.work.z.copy_from_slice(&at.z);
         d.terms(0.0, &at.q, &at.v, &at.modes);
         d.rates(&at.modes);
+        self.gap = d.undefined(&at.modes).map(Gap::Law);
         self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
         self.kkt.factor(&d.work.mass, &d.work.g).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };
@@ -77,6 +82,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         }
         out.outputs = vec![0.0; self.observer.program().outputs()];
         self.observer.columns(&at.modes, &mut out.outputs);
+        self.gap = self.gap.take().or_else(|| self.observer.undefined(&at.modes, &out.outputs));
         out.a.iter().all(|a| a.is_finite()).then_some(out)
     }
 

@@ -10,12 +10,13 @@ pub mod jacobi;
 mod picture;
 pub mod power;
 
-use super::assemble::{Assembled, assemble};
+use super::assemble::Assembled;
 use super::coordinates::{Coordinate, coordinates};
+use super::numbers::Sources;
 use super::outcome::{Certificate, Failure, Finding, List, Outcome};
 use super::partition::{preferred, with_mass};
-use super::run::{evaluate, expectations};
 use super::statics::{Still, equilibrium};
+use super::undefined::{assembled, in_state};
 use crate::dynamics::{LANES, Linearizer};
 use crate::geometry::Space;
 use crate::mechanism::{Coordinates, Mechanism};
@@ -59,7 +60,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let (mechanism, start) = assemble::<G>(model, parameters, Coordinates::Joint)?;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let rest = if asked.at_equilibrium {
         equilibrium::<G>(model, study, &mechanism, &lifted, &start, parameters, stop)?
@@ -68,8 +69,11 @@ where
     };
     let Still { q, z, modes, findings } = rest;
     let pose = Pose { q: &q, z: &z, modes: &modes };
-    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism))
-        .map_err(|_| Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads"))?;
+    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism)).map_err(|_| {
+        let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
+        let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
+        undefined.map_or_else(unknown, Failure::Undefined)
+    })?;
     let all = coordinates(model, &mechanism);
     let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();
     let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();
@@ -102,11 +106,14 @@ where
     let scenes = drawn.iter().take(DRAWN).enumerate();
     let scenes = scenes.map(|(i, x)| (format!("mode-{}", i + 1), picture::picture(&mechanism, &held, pose, x))).collect();
     let results: Vec<f64> = (0..study.results.len()).map(|i| frequencies.get(i).copied().unwrap_or(f64::NAN)).collect();
-    let ids: Vec<_> = study.scalars.iter().map(|s| s.value).collect();
+    let numbers = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &[], results: &results }.numbers(true);
+    report.findings.extend(numbers.findings);
     Ok(Outcome {
+        stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+        undefined: numbers.undefined,
         parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
-        scalars: evaluate(model, parameters, &mechanism.tables, &ids, &[], &results),
-        expectations: expectations(model, study, parameters, &mechanism.tables, &[], &results),
+        scalars: numbers.scalars,
+        expectations: numbers.expectations,
         results,
         lists: report.lists,
         shapes: report.shapes,

@@ -151,7 +151,10 @@ impl Search<'_> {
         until: f64,
         begin: f64,
     ) -> Result<Lap<'e, G>, Broken> {
-        let Recorded { mut trajectory, stopped, mut events, certificate, findings } = recorded;
+        let Recorded { mut trajectory, stopped, undefined, mut events, certificate, findings } = recorded;
+        if let Some(undefined) = undefined {
+            return Err(Broken::Failure(Failure::Undefined(undefined)));
+        }
         if let (Some(why), false) = (&stopped, exhausted) {
             return Err(Broken::Stopped(why.clone()));
         }

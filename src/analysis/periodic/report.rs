@@ -14,10 +14,11 @@ use crate::analysis::forward::trajectory::Off;
 use crate::analysis::forward::{balance, pose};
 use crate::analysis::functional::Functionals;
 use crate::analysis::motion::Rows;
+use crate::analysis::numbers::Sources;
 use crate::analysis::outcome::{Certificate, Failure, Finding, List, Outcome, Resolution};
 use crate::analysis::quadrature::integrals;
 use crate::analysis::resolve;
-use crate::analysis::run::{Watched, evaluate, expectations, in_variable, unresolved};
+use crate::analysis::run::{Watched, in_variable, unresolved};
 use crate::analysis::scene;
 use crate::dynamics::LANES;
 use crate::expression::Id;
@@ -79,7 +80,10 @@ struct Seen {
     resolution: Resolution,
 }
 
-fn lost(off: Off) -> Failure {
+fn lost(search: &Search<'_>, off: Off) -> Failure {
+    if let Some(gap) = &off.gap {
+        return Failure::Undefined(gap.told(&search.model, search.study, &format!("t = {:.6} s", off.at)));
+    }
     Failure::numerical(
         format!("the state at t = {} s could not be evaluated", off.at),
         "look at the columns: one of them may not be defined there",
@@ -96,21 +100,22 @@ impl Regime<'_> {
         let mut mean = [0.0];
         let (stretches, width) = (lap.trajectory.stretches(), resolution(Control::Tolerance(search.tolerance)));
         let mut single = Single { trajectory: &mut lap.trajectory, column: columns.of };
-        let resolved = resolve::on(&mut single, &stretches, &times, width).map_err(lost)?;
-        integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(lost)?;
+        let resolved = resolve::on(&mut single, &stretches, &times, width).map_err(|off| lost(search, off))?;
+        integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(|off| lost(search, off))?;
         let Seen { clock, rows, at, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
         lap.findings.extend(findings);
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];
         let tables = &eras.mechanism.tables;
-        let scalars: Vec<Id> = study.scalars.iter().map(|s| s.value).collect();
+        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results }.numbers(true);
         let trajectory = &mut lap.trajectory;
         let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
         let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
+        lap.findings.extend(numbers.findings);
         lap.findings.push(stability::finding(&multipliers, &study.place));
         Ok(Outcome {
             parameters: model.parameters.iter().zip(parameters).map(|(p, x)| (p.name.clone(), *x)).collect(),
@@ -118,8 +123,10 @@ impl Regime<'_> {
             places: rows.places.iter().map(|s| clock.value(*s)).collect(),
             switches: (0..rows.places.len() - 1).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
             rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
-            scalars: evaluate(model, parameters, tables, &scalars, &functionals, &results),
-            expectations: expectations(model, study, parameters, tables, &functionals, &results),
+            stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+            undefined: numbers.undefined,
+            scalars: numbers.scalars,
+            expectations: numbers.expectations,
             results,
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
@@ -134,21 +141,23 @@ impl Regime<'_> {
     /// Rows, extremes and functionals of a period.
     fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen, Failure> {
         let Self { search, asked, parameters, watched, columns } = *self;
-        let (clock, advance) = clock(asked, parameters, columns, lap, search).map_err(lost)?;
+        let (clock, advance) = clock(asked, parameters, columns, lap, search).map_err(|off| lost(search, off))?;
         let mut turn = Turn::new(&mut lap.trajectory, advance, clock.length).map_err(|why| match why {
-            NoTurn::Off(off) => lost(off),
+            NoTurn::Off(off) => lost(search, off),
             NoTurn::Back(t) => explain::turns_back(search, t),
         })?;
-        let (rows, at) = rows(&mut turn, asked.samples).map_err(lost)?;
+        let (rows, at) = rows(&mut turn, asked.samples).map_err(|off| lost(search, off))?;
         let breaks = turn.breaks.clone();
         let width = resolution(Control::Tolerance(search.tolerance));
-        let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(lost)?;
+        let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(|off| lost(search, off))?;
+        turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
         let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
         let name = if asked.over.is_some() { &search.over } else { "time" };
         let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
         let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
-        let functionals = all.all(&search.model, search.study, parameters, &watched.functionals, &mut findings).map_err(lost)?;
+        let functionals =
+            all.all(&search.model, search.study, parameters, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
         Ok(Seen { clock, rows, at, extremes, functionals, findings, resolution: resolved.quality() })
     }
 }
@@ -189,7 +198,7 @@ fn clock<G: Space<S = f64>>(
     };
     let by = search.model.pool.value(by, parameters);
     let mut out = vec![0.0; lap.trajectory.columns()];
-    lap.trajectory.eval(lap.start.state.t, 0, &mut out)?;
+    lap.trajectory.row(lap.start.state.t, 0, &mut out)?;
     let mut clock = Clock::of_time(by.abs());
     (clock.from, clock.direction) = (out[value], by.signum());
     Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
@@ -208,7 +217,7 @@ where
         let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
         for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
             let mut out = vec![0.0; turn.columns()];
-            turn.eval(s, piece, &mut out)?;
+            turn.row(s, piece, &mut out)?;
             at.places.push(turn.time(s, piece)?);
             at.pieces.push(piece);
             rows.places.push(s);

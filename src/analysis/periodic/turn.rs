@@ -2,6 +2,7 @@
 
 use crate::analysis::continuous::Curve;
 use crate::analysis::forward::trajectory::{Off, Trajectory};
+use crate::analysis::resolve::Resolved;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
@@ -40,7 +41,7 @@ pub(super) struct Turn<'t, 'e, G: Space<S = f64>> {
 }
 
 /// Why a period is no curve over what advances.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum NoTurn {
     /// A state cannot be evaluated.
     Off(Off),
@@ -70,7 +71,7 @@ impl<'t, 'e, G: Space<S = f64>> Turn<'t, 'e, G> {
             let middles = ends.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
             let mut known = Vec::new();
             for t in middles.chain(ends.last().copied()) {
-                turn.trajectory.eval(t, piece, &mut out)?;
+                turn.trajectory.row(t, piece, &mut out)?;
                 known.push(Known { t, s: (out[by.value] - by.from) * by.direction, rate: out[by.rate] * by.direction });
             }
             if let Some(back) = known.iter().find(|k| k.rate.is_nan() || k.rate <= 0.0) {
@@ -99,7 +100,7 @@ impl<'t, 'e, G: Space<S = f64>> Turn<'t, 'e, G> {
         let mut t = between(low, high, s);
         let mut out = vec![0.0; self.trajectory.columns()];
         for _ in 0..MOST {
-            self.trajectory.eval(t, piece, &mut out)?;
+            self.trajectory.row(t, piece, &mut out)?;
             let miss = s - (out[by.value] - by.from) * by.direction;
             let next = (t + miss / (out[by.rate] * by.direction)).clamp(low.t, high.t);
             let moved = (next - t).abs();
@@ -109,6 +110,21 @@ impl<'t, 'e, G: Space<S = f64>> Turn<'t, 'e, G> {
             }
         }
         Ok(t)
+    }
+
+    /// As [`Curve::eval`], but where an expression has no value by its own fault that is an error.
+    pub(super) fn row(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        let t = self.time(s, piece)?;
+        self.trajectory.row(t, piece, out)
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where an expression has none by its own fault.
+    pub(super) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Off> {
+        let mut out = vec![0.0; self.trajectory.columns()];
+        resolved.blanks().try_for_each(|(s, piece)| self.row(s, piece, &mut out))
     }
 }
 

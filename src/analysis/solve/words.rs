@@ -5,6 +5,7 @@ use super::{Task, Trial};
 use crate::analysis::outcome::{Finding, Unsolved};
 use crate::analysis::root::Root;
 use crate::expression::Dimension;
+use crate::model::{in_unit, with_unit};
 
 /// A solution whose residual is above this part of the target and of the change over the first bracket is told to be coarse.
 const COARSE: f64 = 1e-6;
@@ -100,12 +101,12 @@ impl Words<'_> {
 
     /// The scalar with its unit.
     fn with_unit(&self, x: f64) -> String {
-        with_unit(x, self.dimension(), &self.task.solve.units[1])
+        in_own_unit(x, self.dimension(), &self.task.solve.units[1])
     }
 
     /// The parameter at a place, with its unit.
     fn at(&self, x: f64) -> String {
-        with_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension, &self.task.solve.units[0])
+        in_own_unit((self.place)(x), self.task.model.parameters[self.task.solve.parameter].dimension, &self.task.solve.units[0])
     }
 
     /// The scalar of the run at a place.
@@ -131,10 +132,7 @@ impl Words<'_> {
     }
 }
 
-/// A number of seven digits with its unit, that of the file if it has one.
-fn with_unit(x: f64, dimension: Dimension, own: &Option<(String, f64)>) -> String {
-    let (x, unit) = own.as_ref().map_or_else(|| (x, dimension.si()), |(unit, size)| (x / size, unit.clone()));
-    let rounded: f64 = format!("{x:.6e}").parse().unwrap_or(x);
-    let number = if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") };
-    format!("{number} {unit}").trim_end().to_string()
+/// A number with its unit, that of the file if it has one.
+fn in_own_unit(x: f64, dimension: Dimension, own: &Option<(String, f64)>) -> String {
+    own.as_ref().map_or_else(|| with_unit(x, dimension), |(unit, size)| in_unit(x / size, unit))
 }

@@ -1,6 +1,6 @@
 //! Drivers, couplings, springs, loads and motors as rows and efforts along gauges.
 
-use super::super::force::StretchOf;
+use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
 use super::super::{Buffer, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::Builder;
@@ -94,7 +94,7 @@ impl<G: Space> Builder<'_, G> {
         let output = self.time.len();
         let mut order = f;
         for _ in 0..3 {
-            self.time.push(order);
+            self.time.push(Output { value: order, place: place.to_owned() });
             let Some(next) = self.rate_by_time(order, place) else { return };
             order = next;
         }
@@ -159,7 +159,7 @@ impl<G: Space> Builder<'_, G> {
         let (damping, preload) = (G::S::constant(damping), G::S::constant(preload));
         let law = match spring.law {
             SpringLaw::Force(id) => {
-                self.force.push(id);
+                self.force.push(Output { value: id, place: place.to_owned() });
                 EffortLaw::Law { output: self.force.len() - 1, damping, preload }
             }
             SpringLaw::Stiffness(id) => {
@@ -190,8 +190,8 @@ impl<G: Space> Builder<'_, G> {
         if let Some(limit) = &joint.limit
             && let Some(gauge) = self.coordinate(index, &joint.place)
         {
-            let effort = self.drive_effort(gauge, limit.force);
             let place = format!("{}.limits", joint.place);
+            let effort = self.drive_effort(gauge, limit.force, &place);
             let ends =
                 [(limit.from, 1.0), (limit.to, -1.0)].into_iter().filter_map(|(end, sense)| Some((self.number(end?, &place), sense)));
             let ends = ends.collect();
@@ -227,7 +227,7 @@ impl<G: Space> Builder<'_, G> {
             && let Some(gauge) = self.coordinate(index, &joint.place)
         {
             let pressing = friction.pressed.map(|by| self.pressing(index, by));
-            self.force.push(friction.effort);
+            self.force.push(Output { value: friction.effort, place: format!("{}.friction", joint.place) });
             let law = EffortLaw::Friction { output: self.force.len() - 1, pressing };
             effort = Some(self.mechanism.efforts.len());
             self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
@@ -271,7 +271,7 @@ impl<G: Space> Builder<'_, G> {
                 let mut outputs = |ids: &[Id]| -> Vec<usize> {
                     ids.iter()
                         .map(|id| {
-                            self.force.push(*id);
+                            self.force.push(Output { value: *id, place: load.place.clone() });
                             self.force.len() - 1
                         })
                         .collect()
@@ -281,7 +281,7 @@ impl<G: Space> Builder<'_, G> {
             }
             &LoadOn::Joint { joint, effort } => {
                 if let Some(gauge) = self.coordinate(joint, &load.place) {
-                    self.drive_effort(gauge, effort);
+                    self.drive_effort(gauge, effort, &load.place);
                 }
             }
         }
@@ -291,7 +291,7 @@ impl<G: Space> Builder<'_, G> {
         let motor = &self.model.motors[index];
         let place = motor.place.as_str();
         let Some(gauge) = self.coordinate(motor.joint, place) else { return };
-        let effort = motor.torque.map(|torque| self.drive_effort(gauge, torque));
+        let effort = motor.torque.map(|torque| self.drive_effort(gauge, torque, place));
         self.mechanism.motor_efforts.push(effort);
         if let Some(inertia) = motor.inertia {
             let inertia = self.number(inertia, place);
@@ -305,20 +305,20 @@ impl<G: Space> Builder<'_, G> {
         for state in &self.model.states {
             let start = self.number(state.start, &state.place);
             self.mechanism.state_starts.push(start);
-            self.states.push(state.rate);
+            self.states.push(Output { value: state.rate, place: state.place.clone() });
         }
         for joint in &self.model.joints {
             let bristle = joint.friction.as_ref().and_then(|f| f.bristle);
             self.mechanism.bristles.push(bristle.map(|_| self.mechanism.state_starts.len()));
             if let Some(bristle) = bristle {
                 self.mechanism.state_starts.push(0.0);
-                self.states.push(bristle.rate);
+                self.states.push(Output { value: bristle.rate, place: format!("{}.friction", joint.place) });
             }
         }
     }
 
-    fn drive_effort(&mut self, gauge: usize, size: Id) -> usize {
-        self.force.push(size);
+    fn drive_effort(&mut self, gauge: usize, size: Id, place: &str) -> usize {
+        self.force.push(Output { value: size, place: place.to_owned() });
         let law = EffortLaw::Drive { output: self.force.len() - 1 };
         self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
         self.mechanism.efforts.len() - 1

@@ -1,6 +1,6 @@
 //! Expressions as programs: which gauge or rate each input is, derivatives of functions and drivers, and the final assembly.
 
-use super::super::force::{Leaf, StagedProgram};
+use super::super::force::{Leaf, Output, StagedProgram};
 use super::super::gauge::Measured;
 use super::super::{Function, Mechanism};
 use super::Builder;
@@ -11,7 +11,13 @@ use std::sync::Arc;
 
 impl<'m, G: Space> Builder<'m, G> {
     pub(super) fn new(model: &'m Model, parameters: &'m [f64]) -> Self {
-        let none = || StagedProgram { program: Pool::new().program(&[], &[], &Arc::from([])), fills: vec![], inputs: 0, outputs: 0 };
+        let none = || StagedProgram {
+            program: Pool::new().program(&[], &[], &Arc::from([])),
+            fills: vec![],
+            inputs: 0,
+            outputs: 0,
+            places: vec![],
+        };
         let mut builder = Self {
             model,
             parameters,
@@ -77,7 +83,7 @@ impl<'m, G: Space> Builder<'m, G> {
 
     /// Makes the gauges that the inputs of programs are read from, so that they count among the active ones.
     pub(super) fn gauges_of_programs(&mut self) {
-        let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(|ids| self.pool.inputs_of(ids));
+        let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(|of| self.pool.inputs_of(&ids(of)));
         for input in outputs.into_iter().flatten() {
             self.leaf(self.inputs[input as usize]);
         }
@@ -86,7 +92,7 @@ impl<'m, G: Space> Builder<'m, G> {
     /// Programs and counts; the mechanism is complete.
     pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::BuildFault>> {
         let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(Clone::clone);
-        let mut programs = outputs.map(|ids| self.program(&ids)).into_iter();
+        let mut programs = outputs.map(|of| self.program(of)).into_iter();
         if !self.faults.is_empty() {
             return Err(self.faults);
         }
@@ -114,8 +120,9 @@ impl<'m, G: Space> Builder<'m, G> {
         Ok(self.mechanism)
     }
 
-    fn program(&mut self, outputs: &[Id]) -> StagedProgram {
-        let program = self.pool.program(outputs, self.parameters, &self.tables);
+    fn program(&mut self, outputs: Vec<Output>) -> StagedProgram {
+        let program = self.pool.program(&ids(&outputs), self.parameters, &self.tables);
+        self.undefined_constants(&outputs);
         let mut fills = Vec::new();
         for &input in program.inputs() {
             let quantity = self.inputs[input as usize];
@@ -124,13 +131,30 @@ impl<'m, G: Space> Builder<'m, G> {
                 None => self.fault(
                     "not-usable",
                     "loads",
-                    format!("a load, spring, coupling or motor uses {quantity:?}"),
+                    format!("a load, spring, coupling or motor uses `{}`", self.model.name_of(quantity)),
                     "positions and velocities of bodies and joints",
                     Some("use coordinates or rates of bodies and joints instead".into()),
                 ),
             }
         }
-        StagedProgram { program, fills, inputs: self.inputs.len(), outputs: outputs.len() }
+        StagedProgram {
+            program,
+            fills,
+            inputs: self.inputs.len(),
+            outputs: outputs.len(),
+            places: outputs.into_iter().map(|o| o.place).collect(),
+        }
+    }
+
+    /// Faults outputs that are undefined whatever the motion: they depend on constants alone.
+    fn undefined_constants(&mut self, outputs: &[Output]) {
+        for output in outputs.iter().filter(|o| self.pool.inputs_of(&[o.value]).is_empty()).cloned().collect::<Vec<_>>() {
+            if let Some(cause) = self.pool.cause(output.value, self.parameters, &self.tables) {
+                let message = format!("a value is undefined: {}", self.model.why_undefined(cause));
+                let help = "give values for which it is defined, or choose between formulas by `if(condition, a, b)`".to_owned();
+                self.fault("not-a-number", &output.place, message, "a finite number", Some(help));
+            }
+        }
     }
 
     /// Where the value of a quantity comes from while the mechanism is evaluated.
@@ -194,9 +218,9 @@ impl<'m, G: Space> Builder<'m, G> {
                     self.fault(
                         "not-a-position",
                         place,
-                        format!("the expression uses {quantity:?}"),
-                        "coordinates of bodies and joints alone",
-                        None,
+                        format!("the expression uses `{}`", self.model.name_of(quantity)),
+                        "coordinates of points, planar angles and coordinates of joints alone",
+                        self.instead(quantity),
                     );
                     return None;
                 }
@@ -204,15 +228,27 @@ impl<'m, G: Space> Builder<'m, G> {
         }
         let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
         let value = self.position.len();
-        self.position.push(id);
+        let output = |value: Id| Output { value, place: place.to_owned() };
+        self.position.push(output(id));
         for &wanted in &inputs {
             let slope = self.pool.rate(id, &mut |_, input| Some(if input == wanted { one } else { zero }));
-            self.position.push(slope.ok()?);
+            self.position.push(output(slope.ok()?));
         }
         let first = self.rate_of(id)?;
         let second = self.rate_of(first)?;
-        self.velocity.push(second);
+        self.velocity.push(output(second));
         Some(self.function(Function { gauges, value, drift: self.velocity.len() - 1 }))
+    }
+
+    /// What to write where a quantity cannot stand in an expression of positions.
+    fn instead(&self, quantity: Quantity) -> Option<String> {
+        match quantity {
+            Quantity::Time => Some("let a driver move a body without mass as `t` says, and use its position".into()),
+            Quantity::Quaternion { .. } => {
+                Some("write directions by points of the body: the difference of two points at 1 m from each other is a unit vector".into())
+            }
+            _ => None,
+        }
     }
 
     /// The time rate of an expression of positions and velocities.
@@ -229,6 +265,11 @@ impl<'m, G: Space> Builder<'m, G> {
         self.inputs = inputs;
         rate.ok()
     }
+}
+
+/// Values of outputs.
+fn ids(outputs: &[Output]) -> Vec<Id> {
+    outputs.iter().map(|output| output.value).collect()
 }
 
 /// The rate of a quantity of a body or joint.

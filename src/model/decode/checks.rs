@@ -5,6 +5,7 @@ use crate::expression::Id;
 use crate::model::fault::Fault;
 use crate::model::rules::{self, Values};
 use crate::model::spans::Step;
+use std::sync::Arc;
 
 /// A rule with its values and the steps to its place.
 pub(crate) type Check<'n> = rules::Check<Vec<Step<'n>>>;
@@ -43,7 +44,8 @@ impl<'n> Decoder<'n> {
             numbers[i] = self.pool.value(ids[i], &numbers);
             if !numbers[i].is_finite() {
                 unknown[i] = true;
-                self.faults.push(rules::not_finite(&self.world.model.parameters[i], numbers[i]));
+                let why = self.pool.cause(ids[i], &numbers, &Arc::from([]));
+                self.faults.push(rules::not_finite(&self.world.model.parameters[i], numbers[i], why));
             }
         }
         Values { numbers, unknown }

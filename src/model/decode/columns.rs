@@ -2,7 +2,7 @@
 
 use super::studies::Frame;
 use super::{Decoder, Origin};
-use crate::expression::{self, Dimension};
+use crate::expression::{self, Dimension, Id};
 use crate::model::fault::At;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -33,6 +33,35 @@ impl<'n> Decoder<'n> {
             }
         }
         columns
+    }
+
+    /// What `undefined` names among the columns and the curves of figures.
+    pub(super) fn may_be_undefined(
+        &mut self,
+        node: Node<'n>,
+        at: &At<'_, 'n>,
+        frame: &mut Frame<'n>,
+        columns: &[Column],
+        plots: &[Plot],
+    ) -> Vec<Id> {
+        let here = at.key("undefined");
+        let shown = plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
+        let curves = shown.filter_map(|s| if let ShownWhat::Column(id) = s.what { Some(id) } else { None });
+        let known: Vec<Id> = columns.iter().map(|c| c.value).chain(curves).collect();
+        let mut ids = Vec::new();
+        for (i, item) in node.get("undefined").map(Node::items).unwrap_or_default().iter().enumerate() {
+            let Some(text) = item.as_str() else { continue };
+            for column in self.expand(text, &here.index(i), frame) {
+                if known.contains(&column.value) {
+                    ids.push(column.value);
+                } else {
+                    let message = format!("`{}` is no column of the study", column.name);
+                    self.fault("no-column", &here.index(i), message, "a column, or a curve of a figure").help =
+                        Some("name it in `columns`, too".to_owned());
+                }
+            }
+        }
+        ids
     }
 
     /// Independent variable, time, states, measures, drivers.

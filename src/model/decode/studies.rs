@@ -111,6 +111,7 @@ impl<'n> Decoder<'n> {
             over
         };
         let expect = self.expectations(node, &at, &mut frame);
+        let undefined = self.may_be_undefined(node, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
         let values = self.evaluate(&all, &waiting);
         for fault in &mut self.faults[before..] {
@@ -148,6 +149,7 @@ impl<'n> Decoder<'n> {
             solve,
             take,
             columns,
+            undefined,
             columns_given,
             independent: frame.offer.independent,
             scalars,

@@ -46,6 +46,7 @@ pub(crate) static STUDY: Table = Table {
         ),
         may("solve", Map(&SOLVE), "A parameter varied until a scalar meets its target."),
         may("columns", List(&COLUMN, Size::AtLeast(1)), "Columns of the CSV, in order."),
+        may("undefined", List(&COLUMN, Size::AtLeast(1)), "Columns that may be undefined: their cells are blank there."),
         may(
             "scalars",
             Named(Keys::Name, "a scalar", &Formula("an expression of functionals, parameters and scalars")),
