@@ -115,7 +115,7 @@ impl<G: Space<S = f64>> Curve for Distances<'_, '_, G> {
 }
 
 impl<'m, G: Space<S = f64>> Motion<'m, G> {
-    /// Finds the pieces, and resolves the columns on them to [`WIDTH`] of their size.
+    /// Finds the pieces, and resolves the columns on them to `WIDTH` of their size.
     ///
     /// # Errors
     /// If a place cannot be reached.

@@ -112,7 +112,7 @@ pub enum Node {
         /// A [`Test::Sign`].
         switch: u32,
     },
-    /// The largest whole number that is not above a: the mode of `switch`, not a number where that is [`super::switch::OUTSIDE`].
+    /// The largest whole number that is not above a: the mode of `switch`, not a number where that is `OUTSIDE`.
     Floor {
         /// The operand.
         a: Id,

@@ -1,6 +1,6 @@
 //! Events of a run: roots located on the continuous solution, crossings, impacts, and the work between.
 
-use super::resolve::{BESIDE, GAP, NODES, Resolver, Verdict};
+use super::resolve::{BESIDE, BETWEEN, COARSE, COARSE_GAP, GAP, NODES, Resolver, Verdict, is_far};
 use super::zeno::PILE;
 use super::{GROWTH, Integration, Progress};
 use crate::engine::{Node, Why};
@@ -50,8 +50,18 @@ impl Integration {
             // a rest that is a little longer saves a short one
             let to = if from + 1.3 * width >= end { end } else { from + width };
             width = to - from;
-            self.sample(system, from, to)?;
-            looks += NODES;
+            // every other node is enough where all roots are far from zero
+            self.sample(system, [from, to], &COARSE)?;
+            looks += COARSE.len();
+            if self.all_far() {
+                self.widest = self.widest.max(COARSE_GAP * width * h);
+                self.samples.swap(0, NODES - 1);
+                from = to;
+                width *= 2.0;
+                continue;
+            }
+            self.sample(system, [from, to], &BETWEEN)?;
+            looks += BETWEEN.len();
             let last = width <= NARROWEST || looks > MOST_LOOKS;
             match self.first_in(system, [from, to], last)? {
                 Part::Open => width *= 0.25,
@@ -77,9 +87,19 @@ impl Integration {
         self.noisy.iter_mut().for_each(|left| *left = left.saturating_sub(1));
     }
 
-    /// Roots at the nodes of a part of the step, and beside them; those of the begin are known.
-    fn sample(&mut self, system: &mut dyn System, from: f64, to: f64) -> Result<(), Why> {
-        for j in 1..=NODES {
+    /// Whether all roots are farther from zero than they change, at every other node of a part and beside them.
+    fn all_far(&self) -> bool {
+        self.looked.iter().all(|&root| {
+            let values = COARSE.iter().map(|&j| self.samples[j][root]);
+            let begin = self.samples[0][root];
+            let (low, high) = values.fold((begin, begin), |(low, high), x| (low.min(x), high.max(x)));
+            is_far(low, high)
+        })
+    }
+
+    /// Roots at nodes of a part of the step, the last of which stands for the place beside them; those of the begin are known.
+    fn sample(&mut self, system: &mut dyn System, [from, to]: [f64; 2], nodes: &[usize]) -> Result<(), Why> {
+        for &j in nodes {
             let s = if j < NODES { Resolver::node(j) } else { BESIDE };
             let theta = if j == NODES - 1 { to } else { from + 0.5 * (1.0 + s) * (to - from) };
             self.look(system, theta)?;

@@ -20,6 +20,15 @@ pub(super) const BESIDE: f64 = -0.184_537_29;
 /// Widest gap between nodes, in parts of the width: s from 0 to sin(π/8).
 pub(super) const GAP: f64 = 0.5 * 0.382_683_432_365_089_8;
 
+/// Every other node, which are those of degree four, and the place beside the nodes; without the begin.
+pub(super) const COARSE: [usize; 5] = [2, 4, 6, 8, NODES];
+
+/// The other nodes.
+pub(super) const BETWEEN: [usize; 4] = [1, 3, 5, 7];
+
+/// Widest gap between every other node, in parts of the width.
+pub(super) const COARSE_GAP: f64 = 0.5 * std::f64::consts::FRAC_1_SQRT_2;
+
 /// Cells between the places at which the polynomial is looked at.
 const FINE: usize = 32;
 
@@ -85,7 +94,7 @@ impl Resolver {
     pub(super) fn judge(&self, g: &[f64; NODES], beside: f64) -> Verdict {
         let (low, high) = g.iter().fold((beside, beside), |(low, high), x| (low.min(*x), high.max(*x)));
         // far from zero by what it changes
-        if low > 0.0 && low > 2.0 * (high - low) || low == high && low >= 0.0 {
+        if is_far(low, high) || low == high && low >= 0.0 {
             return Verdict::Clear;
         }
         let largest = high.abs().max(low.abs());
@@ -158,6 +167,11 @@ impl Resolver {
         let x = (x1 - 0.5 * slope / bend).clamp(x0, x2);
         (x, p[j] + (x - x1) * (slope + bend * (x - x1)))
     }
+}
+
+/// Whether values between `low` and `high` are farther from zero than they change.
+pub(super) fn is_far(low: f64, high: f64) -> bool {
+    low > 0.0 && low > 2.0 * (high - low)
 }
 
 /// The first place where the polynomial is above its error, if it rises until there: a function that begins at zero is not judged
