@@ -1,7 +1,7 @@
 //! Poses, twists, wrenches and inertias, written once over [`Space`].
 //!
-//! With V = (ω, v) the twist at the reference point, from which places are measured, the body-fixed point at r moves with v + ω × r; with F = (n, f) the power is
-//! n·ω + f·v. The momentum of a body is I V = (J ω + h × v, m v + ω × h), h = m c the first moment, J about that point.
+//! With V = (ω, v) the twist at the reference point, from which places are measured, the body-fixed point at r moves with
+//! v + ω × r; with F = (n, f) the power is n·ω + f·v. The momentum of a body is I V = (J ω + h × v, m v + ω × h), h = m c the first moment, J about that point.
 //! In world coordinates d/dt of a body-fixed twist m is V × m and of a wrench f is V ×* f (Featherstone 2008, section 2.9).
 
 use super::Space;
