@@ -142,8 +142,10 @@ fn what_stands_on_the_ground_does_not_know_where() {
 
 #[test]
 fn what_runs_on_a_rail_does_not_know_where_nor_how_fast() {
-    // the methods of variable order run at 1e-7, and take other steps where coordinates are rounded
-    law(&CART, &SCHEMES, 3e-7);
+    let (multistep, others): (Vec<&str>, Vec<&str>) = SCHEMES.iter().partition(|scheme| scheme.contains("bdf"));
+    law(&CART, &others, 1e-7);
+    // at 1e-7 it takes other steps where coordinates are rounded, and its own error is of that size
+    law(&CART, &multistep, 3e-7);
 }
 
 #[test]
