@@ -91,6 +91,25 @@ studies:
     verdict.give("pulses");
 }
 
+/// A condition that is met for 9e-5 rad of each turn alone, with nothing else that asks for close looks.
+#[test]
+fn a_hair_of_each_turn_is_met() {
+    let mut verdict = Verdict::default();
+    for scheme in SCHEMES {
+        let rest = format!(
+            "studies:
+  run:
+    dynamics: {{ until: {} s, every: 1 s, {scheme} }}
+    columns: [time, O.angle]
+    scalars: {{ hair: \"mean(cos(O.angle - 1) > 1 - 1e-9)\" }}",
+            0.4 * TAU
+        );
+        let found = run_text(&wheel(&rest), &["--no-plots"]).succeeded();
+        verdict.close("hair", scheme, scalar(&found, "run", "hair"), 2.0 * f64::acos(1.0 - 1e-9) / TAU, 1e-9);
+    }
+    verdict.give("hair");
+}
+
 /// A force of 1 N while sin(ω t + φ) > c acts for a known time, however many switches lie in a step.
 #[test]
 fn square_waves_of_time_are_bounded() {
