@@ -228,3 +228,28 @@ studies:
     }
     assert!(any.findings.iter().any(|f| f.code == "unresolved" && f.message.contains("`rocker.omega`")), "{:?}", any.findings);
 }
+
+/// Conditions that are met for a small part of each turn, between the places of any first look.
+#[test]
+fn short_windows_of_each_turn_are_met() {
+    for turns in [1, 3, 7, 20, 40] {
+        let text = format!(
+            "grashof: 1
+name: windows
+space: planar
+gravity: none
+bodies: {{ wheel: {{ mass: 30 kg, inertia: 20 kg m^2 }} }}
+joints: {{ O: {{ revolute: [ground, wheel.origin] }} }}
+drivers: {{ d: {{ joint: O, speed: 50 rad/s }} }}
+start: {{ O.angle: 0 deg }}
+studies:
+  k: {{ kinematics: {{ over: {turns} turn, samples: 3 }}, columns: [O.angle], scalars: {{ hair: \"mean(cos(O.angle - 1) > 1 - 1e-7)\", narrow: \"mean(cos(O.angle - 1) > 0.9999)\" }} }}
+"
+        );
+        let outcome = study(&text, "k", Coordinates::Joint);
+        for (found, level) in outcome.scalars.iter().zip([1.0 - 1e-7, 0.9999]) {
+            let right = f64::acos(level) / PI;
+            assert!((found - right).abs() < 1e-9, "{turns} turns, {level}: {found} for {right}");
+        }
+    }
+}

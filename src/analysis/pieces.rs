@@ -380,14 +380,19 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
             let size = seen.size(k);
             let least = values.iter().fold(f64::INFINITY, |m, y| m.min(*y));
             let settled = !size.is_finite() || size <= self.floor[k] || self.left.contains(&switch);
-            if settled || least > 4.0 * self.basis.rough(&values) {
+            let most = values.iter().fold(f64::NEG_INFINITY, |m, y| m.max(*y));
+            if settled || least > 2.0 * (most - least) {
+                continue;
+            }
+            // between its values it may come lower than all of them
+            let (s, low) = self.basis.dip(&values);
+            if least.min(low) > 4.0 * self.basis.rough(&values) {
                 continue;
             }
             if self.basis.tail(&values) > self.floor[k].max(WIDTH * size) {
                 cut |= to - from > NARROWEST * self.range();
                 continue;
             }
-            let (s, low) = self.basis.dip(&values);
             let known = s < -NEAR_END && self.fresh.contains(&switch) || s > NEAR_END && closed.contains(&switch);
             if known || low > 10.0 * WIDTH * size {
                 continue;
