@@ -7,6 +7,8 @@ mod closed_forms;
 mod common;
 #[path = "friction/equivalence.rs"]
 mod equivalence;
+#[path = "friction/sticking.rs"]
+mod sticking;
 #[path = "friction/stops.rs"]
 mod stops;
 

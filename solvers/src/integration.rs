@@ -11,7 +11,7 @@ use crate::schemes::{self, Method};
 use crate::{State, System};
 use foresight::Foresight;
 use resolve::{NODES, Resolver};
-use zeno::Zeno;
+pub use zeno::Zeno;
 
 mod begin;
 mod bridge;

@@ -35,7 +35,7 @@ pub use coloring::Coloring;
 pub use dense_output::Dense;
 pub use engine::{Control, Counts, Engine, Node, Rejected, Why};
 pub use friction::Friction;
-pub use integration::{Halt, Integration, Progress, Settings};
+pub use integration::{Halt, Integration, Progress, Settings, Zeno};
 pub use kkt::Kkt;
 pub use kkt::dense::{Lu, Singular};
 pub use kkt::factor::Factor;

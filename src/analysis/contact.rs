@@ -5,7 +5,7 @@ use super::assemble::Assembled;
 use super::continuous::Curve;
 use super::extremum::Extremes;
 use super::motion::Motion;
-use super::outcome::Failure;
+use super::outcome::{Failure, Finding};
 use super::resolve::Resolved;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
@@ -59,6 +59,39 @@ pub(super) fn driven<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
             help: "ask for `dynamics`, which can drive the same motion, or give the friction a `stick_speed` instead of `bristle`".into(),
         })
     })
+}
+
+/// Where a driven motion stands still and friction may hold by any force up to its largest: nothing tells which.
+pub(super) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut Motion<'_, G>, resolved: &Resolved) -> Vec<Finding> {
+    let mechanism = motion.driven.dynamics.mechanism;
+    let mut findings = Vec::new();
+    if !matches!(study.kind, Kind::Inverse(_)) {
+        return findings;
+    }
+    for contact in &mechanism.contacts {
+        let Some((holds, pressing)) = contact.friction() else { continue };
+        let still = |piece: &usize| motion.pieces[*piece][contact.mode] == 0;
+        let places: Vec<(f64, usize)> = resolved.places.iter().copied().zip(resolved.pieces.iter().copied()).collect();
+        let Some(&(from, piece)) = places.iter().find(|(_, piece)| still(piece)) else { continue };
+        let to = places.iter().filter(|(_, p)| *p == piece).fold(from, |to, (s, _)| to.max(*s));
+        if to <= from || motion.solve(0.5 * (from + to), Some(piece)).is_err() {
+            continue;
+        }
+        let driven = &motion.driven;
+        let normal = pressing.map_or(1.0, |pressing| driven.dynamics.pressing_force(pressing, &driven.lambda));
+        let most = driven.dynamics.work.force_outputs[holds] * normal;
+        let (from, to) = (motion.clock.value(from), motion.clock.value(to));
+        let unit = if contact.angular { "N m" } else { "N" };
+        findings.push(Finding {
+            code: "friction-not-unique",
+            message: format!(
+                "from {name} = {from:.6} to {to:.6} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are told with 0 in its place",
+                contact.name, -most
+            ),
+            path: contact.place.clone(),
+        });
+    }
+    findings
 }
 
 /// Refuses a driven motion that passes a rigid stop or, where forces are asked for, jams by friction.

@@ -7,6 +7,7 @@ pub mod assemble;
 mod balance;
 pub mod chebyshev;
 pub mod clock;
+mod complementarity;
 mod contact;
 pub mod continuous;
 pub mod coordinates;

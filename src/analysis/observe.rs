@@ -64,7 +64,8 @@ enum Source<G: Space> {
     SpringForce(usize),
     SpringEnergy(usize),
     Effort(usize),
-    Friction(usize),
+    /// By which it slides, and the contact by which it sticks.
+    Friction(usize, Option<usize>),
     Com {
         axis: usize,
         order: usize,
@@ -207,9 +208,10 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::InertiaEqSlope => Source::InertiaEqSlope,
         Quantity::State(state) => Source::State(state),
         Quantity::Friction { joint } => match m.friction_efforts[joint] {
-            Some(effort) => Source::Friction(effort),
+            Some(effort) => Source::Friction(effort, m.contact_of(effort)),
             None => Source::Given(f64::NAN),
         },
+        Quantity::ClutchEffort { clutch } => Source::Friction(m.clutches[clutch], m.contact_of(m.clutches[clutch])),
         Quantity::Bristle { joint } => m.bristles[joint].map_or(Source::Given(f64::NAN), Source::State),
         Quantity::Functional(_) | Quantity::Result(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
     }
@@ -274,7 +276,7 @@ impl<G: Space<S = f64>> Source<G> {
             }
             Self::SpringForce(effort) => -w.efforts[effort],
             Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
-            Self::Friction(effort) => w.efforts[effort],
+            Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),
             Self::Effort(effort) => {
                 debug_assert!(matches!(m.efforts[effort].law, EffortLaw::Drive { .. }));
                 w.efforts[effort]

@@ -15,7 +15,7 @@ mod stability;
 mod states;
 mod turn;
 
-use super::forward::march::Eras;
+use super::forward::eras::Eras;
 use super::outcome::{Failure, Outcome};
 use super::run::Watched;
 use super::sweep::parameters_with;

@@ -263,6 +263,7 @@ fn observe<G: Space<S = f64>>(
     let n = rows.places.len();
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
     findings.extend(open);
+    findings.extend(contact::dwells(study, &name, &mut motion, &resolved));
 
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {

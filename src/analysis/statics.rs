@@ -9,8 +9,10 @@
 //! 3. If it does not come to rest, as where forces without an energy drive it round and round, Newton's method takes over, first
 //!    from the start, then from places all over its motion.
 //!
-//! Drivers hold the position of time 0; nothing moves, so that damping and friction do not act and motors have their torque at rest.
+//! Drivers hold the position of time 0; nothing moves, so that damping does not act and motors have their torque at rest. A start that
+//! exact friction holds is an equilibrium, with rows that hold what sticks (`grip`); smooth laws of friction do not act.
 
+mod grip;
 mod others;
 mod pose;
 mod search;
@@ -33,6 +35,7 @@ use crate::geometry::Space;
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{FunctionalKind, Model, Study};
 use crate::scalar::Dual;
+use grip::Gripped;
 use pose::{Pose, Rest};
 use search::{Ended, Found};
 use words::{Names, six};
@@ -69,6 +72,16 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let mut bench = Bench::new(model, study, mechanism, lifted, start, parameters, &[]);
+    if let Some(Gripped { mechanism, live, pose }) = bench.grip(start) {
+        let lifted = mechanism.lift();
+        let mut held = Bench::new(model, study, &mechanism, &lifted, start, parameters, &[]);
+        held.rest.hold(&live);
+        let found = held.settle(start, stop)?.found;
+        let findings = held.findings(&found).into_iter().chain(bench.region(&pose)).collect();
+        let Pose { q, z, mut modes, .. } = found.pose;
+        modes.truncate(start.modes.len());
+        return Ok(Still { q, z, modes, findings });
+    }
     let Settled { mut found, .. } = bench.settle(start, stop)?;
     found.stability.by_motion(&found.pose, mechanism, lifted, &start.metric);
     let findings = bench.findings(&found);
@@ -90,6 +103,16 @@ where
     let lifted = mechanism.lift();
     let watched = Watched::of(study);
     let mut bench = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);
+    if let Some(Gripped { mechanism, live, pose }) = bench.grip(&start) {
+        let lifted = mechanism.lift();
+        let mut held = Bench::new(model, study, &mechanism, &lifted, &start, parameters, &watched.ids);
+        held.rest.hold(&live);
+        held.held = Some(bench.partition(&pose).independent);
+        let Settled { begin, found, .. } = held.settle(&start, stop)?;
+        let mut outcome = held.outcome(&watched, &begin, &[found])?;
+        outcome.findings.extend(bench.region(&pose));
+        return Ok(outcome);
+    }
     let Settled { begin, found, passed } = bench.settle(&start, stop)?;
     let mut all = vec![found];
     all.extend(passed);
@@ -112,6 +135,8 @@ struct Bench<'a, 'm, G: Space<S = f64>> {
     parameters: &'a [f64],
     rest: Rest<'m, G, G::Lift<Dual<LANES>>>,
     names: Names,
+    /// Coordinates that would be independent if friction held nothing.
+    held: Option<Vec<usize>>,
 }
 
 /// What a search from the start has come to.
@@ -139,7 +164,14 @@ where
     ) -> Self {
         let observer = Observer::new(model, mechanism, parameters, ids);
         let system = Mechanical::new(mechanism, lifted, start, observer, Vec::new());
-        Self { model, study, parameters, rest: Rest::new(system, start.size), names: Names::new(model, mechanism, &start.metric) }
+        Self {
+            model,
+            study,
+            parameters,
+            rest: Rest::new(system, start.size),
+            names: Names::new(model, mechanism, &start.metric),
+            held: None,
+        }
     }
 
     /// The equilibrium from the start.
@@ -170,6 +202,31 @@ where
                 }
             },
         }
+    }
+
+    /// The mechanism held by friction at its start.
+    fn grip(&mut self, start: &Assembled) -> Option<Gripped<G>> {
+        let states = self.rest.system.dynamics.mechanism.state_starts.clone();
+        let begin = self.rest.at(&start.q, &states, &start.modes).ok()?;
+        grip::gripped(&mut self.rest, begin)
+    }
+
+    /// Where friction holds a mechanism of one degree of freedom around a pose.
+    fn region(&mut self, pose: &Pose) -> Option<Finding> {
+        let independent = self.partition(pose).independent;
+        let names: Vec<&str> = self.rest.system.dynamics.mechanism.contacts.iter().map(|c| c.name.as_str()).collect();
+        let what = names.join(" and ");
+        let ends = grip::region(&mut self.rest, pose)?;
+        let at = |end: &Option<Pose>| {
+            let values = end.as_ref().map(|end| self.values(&independent, pose, end));
+            values.map(|values| self.names.place(&independent, &values))
+        };
+        let message = match [at(&ends[0]), at(&ends[1])] {
+            [Some(low), Some(high)] => format!("{what}: it rests anywhere from {low} to {high}"),
+            [Some(one), None] | [None, Some(one)] => format!("{what}: it rests anywhere beside {one}, on the side of the position told"),
+            [None, None] => format!("{what}: it rests wherever it is put"),
+        };
+        Some(Finding { code: "held-by-friction", message, path: self.study.place.clone() })
     }
 
     /// The equilibrium from a pose, and the ridge before it; else the pose where least is unbalanced, and why.
@@ -255,11 +312,18 @@ where
         for (state, rate) in model.states.iter().zip(&found.pose.drift).filter(|(_, rate)| rate.abs() > 1e-9) {
             add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");
         }
+        if self.rest.system.dynamics.mechanism.held().next().is_some() {
+            return out;
+        }
+        if let Some(region) = self.region(&found.pose) {
+            out.push(region);
+            return out;
+        }
         let held = |joint: usize| model.drivers.iter().any(|d| d.joint == joint);
         for (_, joint) in model.joints.iter().enumerate().filter(|(i, j)| j.friction.is_some() && !held(*i)) {
             let message =
                 format!("the friction of joint `{}` holds nothing here: with it the mechanism also rests beside this position", joint.name);
-            add("friction", message, &format!("joints.{}.friction", joint.name));
+            out.push(Finding { code: "friction", message, path: format!("joints.{}.friction", joint.name) });
         }
         out
     }
@@ -274,7 +338,7 @@ where
     fn outcome(&mut self, watched: &Watched, begin: &Pose, all: &[Found]) -> Result<Outcome, Failure> {
         let (model, study, parameters) = (self.model, self.study, self.parameters);
         let pose = &all[0].pose;
-        let independent = self.partition(pose).independent;
+        let independent = self.held.clone().unwrap_or_else(|| self.partition(pose).independent);
         let stable = |f: &Found| if f.stability.is_stable() { 1.0 } else { 0.0 };
         let places: Vec<Vec<f64>> = all.iter().map(|f| self.values(&independent, begin, &f.pose)).collect();
         let mut lists: Vec<List> = (independent.iter().enumerate())
@@ -291,7 +355,8 @@ where
         let mut findings: Vec<Finding> = Vec::new();
         for (i, (found, values)) in all.iter().zip(&places).enumerate() {
             let code = if i == 0 { "equilibrium" } else { "further-equilibrium" };
-            let message = format!("{}: {}", self.names.place(&independent, values), self.names.verdict(found, &self.rest.unit));
+            let place = self.names.place(&independent, values) + if self.held.is_some() { ", held by friction" } else { "" };
+            let message = format!("{place}: {}", self.names.verdict(found, &self.rest.unit));
             findings.push(Finding { code, message, path: study.place.clone() });
         }
         findings.extend(self.findings(&all[0]).into_iter().filter(|f| !["unstable", "indifferent"].contains(&f.code)));

@@ -32,6 +32,17 @@ impl<G: Space> Dynamics<'_, G> {
         sum
     }
 
+    /// The normal force N of a pressing, N, of the multipliers `lambda` (rows), whatever the sides on which it presses.
+    #[must_use]
+    pub fn pressing_force(&self, pressing: usize, lambda: &[G::S]) -> G::S {
+        let mut sum = G::S::default();
+        for place in &self.mechanism.pressings[pressing].places {
+            let n = size::<G>(place, 1.0, lambda);
+            sum += if n.value() < 0.0 { -n } else { n };
+        }
+        sum
+    }
+
     /// Places of a pressing with the signs of their forces.
     fn places(&self, pressing: usize) -> impl Iterator<Item = (&Pressed, f64)> {
         let m = self.mechanism;

@@ -6,7 +6,7 @@
 
 use super::{Dynamics, Workspace};
 use crate::geometry::{Motion, Pose, Space};
-use crate::mechanism::{Leaf, RowKind, StagedProgram, Step, StretchOf};
+use crate::mechanism::{Leaf, RowKind, RowOwner, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
@@ -147,12 +147,13 @@ impl<G: Space> Dynamics<'_, G> {
     pub(super) fn rows(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;
-        let Workspace { readings, columns, functions, motions, phi, g, .. } = &mut self.work;
+        let Workspace { readings, columns, functions, motions, phi, g, held, .. } = &mut self.work;
         for (i, (row, phi)) in m.rows.iter().zip(phi.iter_mut()).enumerate() {
             let g = &mut g[i * nv..(i + 1) * nv];
+            let offset = if let RowOwner::Contact(contact) = row.owner { held[contact] } else { row.offset };
             match row.kind {
                 RowKind::Gauge(i) => {
-                    *phi = readings[i].x - row.offset;
+                    *phi = readings[i].x - offset;
                     m.gauges[i].project(&readings[i], columns, |k, x| g[k] = x);
                 }
                 RowKind::Driver { gauge: i, driver } => {
@@ -167,7 +168,7 @@ impl<G: Space> Dynamics<'_, G> {
                 }
                 RowKind::Function(f) => {
                     let function = &m.functions[f];
-                    *phi = functions[function.value];
+                    *phi = functions[function.value] - offset;
                     g.fill(G::S::default());
                     for (i, &gauge) in function.gauges.iter().enumerate() {
                         let slope = functions[function.value + 1 + i];
@@ -275,6 +276,21 @@ impl<G: Space> Dynamics<'_, G> {
                     sum += self.work.functions[function.value + 1 + i] * (of_gauge(gauge) - self.work.readings[gauge].drift);
                 }
                 sum
+            }
+        }
+    }
+
+    /// Calls with index and entry of ∂ẋ/∂v of a gauge or function; an index may come more than once.
+    pub fn extent_gradient(&self, of: StretchOf, mut each: impl FnMut(usize, G::S)) {
+        let (m, w) = (self.mechanism, &self.work);
+        match of {
+            StretchOf::Gauge(i) => m.gauges[i].project(&w.readings[i], &w.columns, each),
+            StretchOf::Function(f) => {
+                let function = &m.functions[f];
+                for (i, &gauge) in function.gauges.iter().enumerate() {
+                    let slope = w.functions[function.value + 1 + i];
+                    m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| each(k, slope * x));
+                }
             }
         }
     }

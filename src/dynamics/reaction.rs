@@ -23,6 +23,8 @@ pub struct Reactions<G: Space> {
     pub frame: Force<G>,
     /// Torque or force of each driver on the second body.
     pub drives: Vec<G::S>,
+    /// Torque or force by which each contact is held where it sticks, on the second body; 0 while it slides.
+    pub held: Vec<G::S>,
     sums: Vec<Force<G>>,
     /// What belongs to each group, about its reference point.
     of_group: Vec<Force<G>>,
@@ -40,6 +42,7 @@ impl<G: Space> Dynamics<'_, G> {
             shaking: Force::default(),
             frame: Force::default(),
             drives: vec![G::S::default(); m.drives.len()],
+            held: vec![G::S::default(); m.contacts.len()],
             sums: vec![Force::default(); m.bodies.len()],
             of_group: vec![Force::default(); m.groups.len()],
             along: vec![G::S::default(); m.gauges.len()],
@@ -120,6 +123,7 @@ impl<G: Space> Dynamics<'_, G> {
         let (m, w) = (self.mechanism, &self.work);
         out.along.fill(G::S::default());
         out.joints.fill(Force::default());
+        out.held.fill(G::S::default());
         for (row, &l) in m.rows.iter().zip(lambda) {
             match row.kind {
                 RowKind::Gauge(i) | RowKind::Driver { gauge: i, .. } => out.along[i] -= l,
@@ -144,6 +148,7 @@ impl<G: Space> Dynamics<'_, G> {
                     }
                     _ => {}
                 },
+                RowOwner::Contact(c) => out.held[c] = -l,
                 RowOwner::Coupling | RowOwner::Stop(_) => {}
             }
         }

@@ -22,6 +22,8 @@ pub struct Workspace<G: Space> {
     pub columns: Vec<Motion<G>>,
     /// Small displacement of each body, in [`Dynamics::nudge`](super::Dynamics::nudge).
     pub(super) moved: Vec<Motion<G>>,
+    /// Where each contact is held, rad or m: written by the caller before `position`, if a row holds it.
+    pub held: Vec<G::S>,
     /// Gauge readings; `x` and `wrench` from here on.
     pub readings: Vec<Reading<G>>,
     /// Functions and their partial derivatives (outputs of the position program).
@@ -90,6 +92,7 @@ impl<G: Space> Workspace<G> {
             places: vec![Pose::identity(); bodies],
             columns: vec![Motion::default(); nv],
             moved: vec![Motion::default(); bodies],
+            held: zeros(mechanism.contacts.len()),
             readings: vec![Reading::default(); mechanism.gauges.len()],
             functions: zeros(mechanism.position_program.outputs),
             phi: zeros(rows),

@@ -274,6 +274,13 @@ impl Pool {
     }
 
     /// The number of the switch that tests this, new if it is the first.
+    /// The sign of `a` by a switch of its own, and the number of the switch: its mode may differ from that of other signs of `a`.
+    pub fn own_sign(&mut self, a: Id, text: &str) -> (Id, u32) {
+        let switch = self.switches.len() as u32;
+        self.switches.push(Switch { test: Test::Sign(a), text: text.to_owned() });
+        (self.intern(Node::Sign { switch }), switch)
+    }
+
     fn switch(&mut self, test: Test, text: &str) -> u32 {
         let next = self.switches.len() as u32;
         let number = *self.switch_index.entry(test).or_insert(next);

@@ -4,6 +4,7 @@
 //! not negative, so that `dynamics` holds no checks. It is immutable and shared by threads.
 
 pub mod build;
+mod contact;
 mod force;
 mod gauge;
 mod group;
@@ -15,6 +16,7 @@ mod translation;
 mod tree;
 
 pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
+pub use contact::{Contact, ContactLaw};
 pub use force::{
     Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
 };
@@ -127,12 +129,16 @@ pub struct Mechanism<G: Space> {
     pub pressings: Vec<Pressing>,
     /// Which effort is a joint's friction: `friction_efforts[joint]`.
     pub friction_efforts: Vec<Option<usize>>,
+    /// Efforts of clutches in file order.
+    pub clutches: Vec<usize>,
     /// First-order state of a joint's bristles: `bristles[joint]`.
     pub bristles: Vec<Option<usize>>,
     /// End stops that give way.
     pub buffers: Vec<Buffer>,
     /// Rigid stops.
     pub stops: Vec<Stop>,
+    /// Exact friction of joints and clutches, and one-way clutches.
+    pub contacts: Vec<Contact>,
     /// Rotors that turn with gauges.
     pub rotors: Vec<Rotor<G>>,
     /// Loads at points.
@@ -153,7 +159,7 @@ pub struct Mechanism<G: Space> {
     pub tables: Arc<[Table]>,
     /// Gravity, m/s².
     pub gravity: G::Vector,
-    /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`]) and of
+    /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`] and what one-way clutches do) and of
     /// winding numbers (they follow).
     pub switches: usize,
     /// Number of winding numbers.
@@ -182,14 +188,54 @@ impl<G: Space> Mechanism<G> {
     /// Adds a row that holds a joint on a rigid stop.
     pub fn rest(&mut self, stop: usize) {
         let Stop { along, at, angular, .. } = self.stops[stop];
+        if let Some(along) = along {
+            self.fix(along, at, angular, RowOwner::Stop(stop));
+        }
+    }
+
+    /// Adds a row that holds a contact; the state says where.
+    pub fn hold(&mut self, contact: usize) {
+        let Contact { along, angular, .. } = self.contacts[contact];
+        self.fix(along, 0.0, angular, RowOwner::Contact(contact));
+    }
+
+    fn fix(&mut self, along: StretchOf, at: f64, angular: bool, owner: RowOwner) {
         let kind = match along {
-            Some(StretchOf::Gauge(gauge)) => RowKind::Gauge(gauge),
-            Some(StretchOf::Function(function)) => RowKind::Function(function),
-            None => return,
+            StretchOf::Gauge(gauge) => RowKind::Gauge(gauge),
+            StretchOf::Function(function) => RowKind::Function(function),
         };
-        let offset = G::S::constant(at);
-        let label = String::new();
-        self.rows.push(Row { kind, owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
+        self.rows.push(Row { kind, owner, label: String::new(), offset: G::S::constant(at), anchored: false, angular });
+    }
+
+    /// Sets the senses in which contacts slide, and the switches that follow them: 0 where one of several sticks.
+    pub fn slide(&self, senses: &[i32], modes: &mut [i32]) {
+        for (contact, sense) in self.contacts.iter().zip(senses) {
+            modes[contact.mode] = *sense;
+            contact.follow.iter().for_each(|k| modes[*k] = *sense);
+        }
+        for (contact, _) in self.contacts.iter().zip(senses).filter(|(_, sense)| **sense == 0) {
+            contact.follow.iter().for_each(|k| modes[*k] = 0);
+        }
+    }
+
+    /// Whether a switch stands as a contact does.
+    #[must_use]
+    pub fn is_of_contact(&self, switch: usize) -> bool {
+        self.contacts.iter().any(|c| c.mode == switch || c.follow.contains(&switch))
+    }
+
+    /// The contact that an effort belongs to.
+    #[must_use]
+    pub fn contact_of(&self, effort: usize) -> Option<usize> {
+        self.contacts
+            .iter()
+            .position(|c| matches!(c.law, ContactLaw::Friction { effort: e, .. } | ContactLaw::OneWay { effort: e } if e == effort))
+    }
+
+    /// Contacts that rows hold, with their rows.
+    pub fn held(&self) -> impl Iterator<Item = (usize, usize)> {
+        let contact = |row: &Row<G>| if let RowOwner::Contact(contact) = row.owner { Some(contact) } else { None };
+        self.rows.iter().enumerate().filter_map(move |(i, row)| Some((contact(row)?, i)))
     }
 
     /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].
@@ -286,6 +332,7 @@ impl<G: Space> Mechanism<G> {
             RowOwner::Joint(j) => format!("joint `{}`, {}", self.joints[j].name, row.label),
             RowOwner::Driver(d) => format!("driver `{}`", self.drives[d].name),
             RowOwner::Coupling => format!("coupling `{}`", row.label),
+            RowOwner::Contact(c) => self.contacts[c].name.clone(),
             RowOwner::Stop(s) => format!("{} of joint `{}`", self.stops[s].word(), self.joints[self.stops[s].joint].name),
         }
     }
@@ -330,9 +377,11 @@ impl<G: Space> Mechanism<G> {
             motor_efforts: self.motor_efforts.clone(),
             pressings: self.pressings.clone(),
             friction_efforts: self.friction_efforts.clone(),
+            clutches: self.clutches.clone(),
             bristles: self.bristles.clone(),
             buffers: self.buffers.clone(),
             stops: self.stops.clone(),
+            contacts: self.contacts.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
             pulls: self.pulls.iter().map(Pull::lift).collect(),
             position_program: self.position_program.clone(),

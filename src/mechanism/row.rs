@@ -6,6 +6,8 @@
 //! | driver | x − anchor − f(t) | f' | f'' − c |
 //! | ratio | x₂ − anchor − ratio x₁ | 0 | −(c₂ − ratio c₁) |
 //! | function | e(x) | 0 | −(Σ e_i c_i + Σ e_ik ẋ_i ẋ_k) |
+//!
+//! A row that holds a contact has its target in the state, not in the mechanism: it is where the contact came to rest.
 
 use crate::geometry::Space;
 use crate::scalar::Scalar;
@@ -63,6 +65,8 @@ pub enum RowOwner {
     Coupling,
     /// A rigid stop on which its joint rests.
     Stop(usize),
+    /// A contact that sticks, where the state says.
+    Contact(usize),
 }
 
 /// An expression e of gauges, with its derivatives as outputs of the position and velocity programs.

@@ -5,7 +5,8 @@ use crate::expression::Id;
 
 /// Dry friction of a joint, against the motion of its one coordinate x.
 ///
-/// With g = coulomb + (static − coulomb) exp(−(x'/stribeck_speed)²), or coulomb alone: sliding with a `stick_speed` resists by
+/// With g = coulomb + (static − coulomb) exp(−(x'/stribeck_speed)²), or coulomb alone: exact friction resists by g · sign(x') while
+/// the joint slides, and by what holds it, g at most, while it sticks; with a `stick_speed` it resists by
 /// g · clamp(x'/stick_speed, −1, 1), bristles by their deflection (Canudas de Wit, Olsson, Åström & Lischinsky, IEEE Trans. Autom.
 /// Control 40 (1995) 419-425, equations 1 to 4).
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,8 @@ pub struct Friction {
     pub effort: Id,
     /// What makes the normal force, if the friction is by a coefficient.
     pub pressed: Option<Pressure>,
+    /// How it sticks, if it is exact.
+    pub sticking: Option<Sticking>,
     /// The deflection of bristles, if the friction has them.
     pub bristle: Option<Bristle>,
 }
@@ -27,6 +30,44 @@ impl Friction {
             _ => None,
         }
     }
+}
+
+/// Exact friction: it slides against the sign of a rate, or holds that rate at 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sticking {
+    /// The switch that is the sense in which the bodies slide on each other; 0 while they stick.
+    pub sense: u32,
+    /// g, in the unit of [`Friction::effort`]: at most so much holds.
+    pub holds: Id,
+}
+
+/// A clutch or brake: what may hold one joint, or two joints to each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clutch {
+    /// Its name.
+    pub name: String,
+    /// It acts on the coordinate of the second joint less that of the first; twice the same is that joint alone.
+    pub joints: [usize; 2],
+    /// The coordinate.
+    pub slipped: Id,
+    /// How it holds.
+    pub law: ClutchLaw,
+    /// Path in the model file.
+    pub place: String,
+}
+
+/// How a clutch holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClutchLaw {
+    /// Friction, with its force or torque on what belongs to the second joint while it slips; exact unless it has a `stick_speed`.
+    Friction {
+        /// While it slips, N or N m.
+        effort: Id,
+        /// How it sticks.
+        sticking: Option<Sticking>,
+    },
+    /// Its rate does not become negative.
+    OneWay,
 }
 
 /// What bears the normal force of a joint with friction.

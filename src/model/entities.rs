@@ -3,7 +3,7 @@
 //! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
-use super::contacts::{Friction, Limit, Stops};
+use super::contacts::{Clutch, Friction, Limit, Stops};
 use super::rules::Check;
 use super::{study::Study, vocabulary::Quantity};
 use crate::expression::{Dimension, Id, Pool};
@@ -53,6 +53,8 @@ pub struct Model {
     pub springs: Vec<Spring>,
     /// Motors in file order.
     pub motors: Vec<Motor>,
+    /// Clutches in file order.
+    pub clutches: Vec<Clutch>,
     /// First-order states in file order; [`Quantity::State`] counts them.
     pub states: Vec<FirstOrder>,
     /// Measures in file order.

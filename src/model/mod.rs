@@ -5,6 +5,7 @@
 //! tables of fields in `tables`) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 
+mod acting;
 mod contacts;
 mod decode;
 mod diagnostics;

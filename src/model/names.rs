@@ -36,6 +36,7 @@ pub(crate) enum Entity {
     Load(usize),
     Spring(usize),
     Motor(usize),
+    Clutch(usize),
     State(usize),
     Measure(usize),
     Event(usize),
@@ -54,6 +55,7 @@ impl Entity {
             Self::Load(_) => "a load",
             Self::Spring(_) => "a spring",
             Self::Motor(_) => "a motor",
+            Self::Clutch(_) => "a clutch",
             Self::State(_) => "a state",
             Self::Measure(_) => "a measure",
             Self::Event(_) => "an event",
@@ -65,7 +67,7 @@ impl Entity {
 type Section = (&'static str, fn(usize) -> Entity);
 
 /// The sections whose keys share the name space. Body 0 is the ground.
-const SECTIONS: [Section; 12] = [
+const SECTIONS: [Section; 13] = [
     ("parameters", Entity::Parameter),
     ("tables", Entity::Table),
     ("bodies", |i| Entity::Body(i + 1)),
@@ -75,6 +77,7 @@ const SECTIONS: [Section; 12] = [
     ("loads", Entity::Load),
     ("springs", Entity::Spring),
     ("motors", Entity::Motor),
+    ("clutches", Entity::Clutch),
     ("states", Entity::State),
     ("measures", Entity::Measure),
     ("events", Entity::Event),

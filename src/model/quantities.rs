@@ -1,6 +1,6 @@
 //! The quantities of a mechanism by their dotted paths: `crank.angle`, `rocker.tip.x`, `O.fx`, `com.vx`.
 
-use super::entities::{Dimensions, JointKind, Model, PointRef, SpringOn};
+use super::entities::{Dimensions, JointKind, Model, PointRef};
 use super::names::Entity;
 use super::scope::Reach;
 use super::suggest;
@@ -101,6 +101,7 @@ pub(crate) struct Sound {
     pub(crate) drivers: Vec<Option<usize>>,
     pub(crate) springs: Vec<Option<usize>>,
     pub(crate) motors: Vec<Option<usize>>,
+    pub(crate) clutches: Vec<Option<usize>>,
 }
 
 /// An `Unknown` that is silent: its cause was reported at its own place.
@@ -217,6 +218,10 @@ impl<'a> World<'a> {
                 Some(motor) => self.of_motor(pool, motor, head, rest),
                 None => Err(silent()),
             },
+            Entity::Clutch(clutch) => match self.sound.clutches.get(clutch).copied().flatten() {
+                Some(clutch) => self.of_clutch(pool, clutch, head, rest),
+                None => Err(silent()),
+            },
             Entity::State(state) if rest.is_empty() => match self.states.get(state).copied().flatten() {
                 Some(dimension) => Ok(Found::Leaf(Quantity::State(state), dimension)),
                 None => Err(silent()),
@@ -228,7 +233,7 @@ impl<'a> World<'a> {
             )),
             _ => Err(unknown(
                 format!("`{path}`: `{head}` is {}", entity.what()),
-                "a quantity of a body, joint, driver, spring or motor",
+                "a quantity of a body, joint, driver, spring, motor or clutch",
                 (!rest.is_empty()).then(|| format!("{} has no quantities", entity.what())),
             )),
         }
@@ -246,7 +251,7 @@ impl<'a> World<'a> {
         unknown(found, "a name of this model", help)
     }
 
-    fn wrong(&self, owner: &str, rest: &str, known: &[String]) -> Unknown {
+    pub(super) fn wrong(&self, owner: &str, rest: &str, known: &[String]) -> Unknown {
         let found = if rest.is_empty() { format!("`{owner}` alone is no quantity") } else { format!("`{owner}` has no `{rest}`") };
         let expected = suggest::known(known.iter().map(String::as_str)).unwrap_or_default();
         let help = suggest::nearest(rest, known.iter().map(String::as_str)).map(|near| format!("did you mean `{owner}.{near}`?"));
@@ -436,51 +441,6 @@ impl<'a> World<'a> {
             known.extend(["f".to_owned(), "m".to_owned()]);
             self.wrong(name, rest, &known)
         })
-    }
-
-    fn of_driver(&self, driver: usize, name: &str, rest: &str) -> Result<Found, Unknown> {
-        let angle = self.single(self.model.drivers[driver].joint).is_none_or(|c| c.angle);
-        match (rest, angle) {
-            ("torque", true) => Ok(Found::Leaf(Quantity::DriverEffort { driver }, Dimension::TORQUE)),
-            ("force", false) => Ok(Found::Leaf(Quantity::DriverEffort { driver }, Dimension::FORCE)),
-            ("power", _) => Ok(Found::Leaf(Quantity::DriverPower { driver }, Dimension::POWER)),
-            _ => Err(self.wrong(name, rest, &[if angle { "torque" } else { "force" }.to_owned(), "power".to_owned()])),
-        }
-    }
-
-    fn of_spring(&self, spring: usize, name: &str, rest: &str) -> Result<Found, Unknown> {
-        let Some(stretch) = self.stretches.get(spring).copied().flatten() else { return Err(silent()) };
-        match rest {
-            "stretch" => Ok(Found::Leaf(Quantity::Stretch { spring, order: 0 }, stretch)),
-            "force" => Ok(Found::Leaf(Quantity::SpringForce { spring }, Dimension::ENERGY.div(stretch))),
-            "energy" => Ok(Found::Leaf(Quantity::SpringEnergy { spring }, Dimension::ENERGY)),
-            _ => Err(self.wrong(name, rest, &["stretch".to_owned(), "force".to_owned(), "energy".to_owned()])),
-        }
-    }
-
-    fn of_motor(&mut self, pool: &mut Pool, motor: usize, name: &str, rest: &str) -> Result<Found, Unknown> {
-        let joint = self.model.motors[motor].joint;
-        let coordinate = |order| Quantity::Joint { joint, slot: 0, order };
-        match rest {
-            "angle" => Ok(Found::Leaf(coordinate(0), Dimension::ANGLE)),
-            "omega" => Ok(Found::Leaf(coordinate(1), Dimension::ANGULAR_SPEED)),
-            "torque" => Ok(Found::Leaf(Quantity::MotorTorque { motor }, Dimension::TORQUE)),
-            "power" => {
-                let (torque, omega) = (self.input(pool, Quantity::MotorTorque { motor }), self.input(pool, coordinate(1)));
-                let reach = Reach::of(Quantity::MotorTorque { motor });
-                Ok(Found::Made(Symbol { id: pool.mul(torque, omega), dimension: Dimension::POWER }, reach))
-            }
-            _ => Err(self.wrong(name, rest, &["angle", "omega", "torque", "power"].map(str::to_owned))),
-        }
-    }
-
-    /// Dimension of a spring's stretch, from what it measures; a general expression brings its own.
-    pub(crate) fn stretch_dimension(&self, on: &SpringOn) -> Option<Dimension> {
-        match on {
-            SpringOn::Between(..) => Some(Dimension::LENGTH),
-            SpringOn::Joint(joint) => self.single(*joint).map(|c| c.dimension(0)),
-            SpringOn::Stretch(_) => None,
-        }
     }
 }
 

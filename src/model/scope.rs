@@ -125,6 +125,7 @@ impl View<'_, '_, '_> {
         match self.world.names.get(head) {
             Some(Entity::Driver(i)) => *i >= sound.drivers.len(),
             Some(Entity::Motor(i)) => *i >= sound.motors.len(),
+            Some(Entity::Clutch(i)) => *i >= sound.clutches.len(),
             Some(Entity::Spring(i)) => *i >= sound.springs.len(),
             Some(Entity::State(i)) => *i >= self.world.states.len(),
             _ => false,

@@ -68,6 +68,7 @@ pub(crate) static FILE: Table = Table {
         may("loads", Named(Keys::Name, "a load", &Map(&LOAD)), "Applied forces and torques."),
         may("springs", Named(Keys::Name, "a spring", &Map(&SPRING)), "Springs and dampers."),
         may("motors", Named(Keys::Name, "a motor", &Map(&MOTOR)), "Motors with a torque-speed curve."),
+        may("clutches", Named(Keys::Name, "a clutch", &Map(&CLUTCH)), "Clutches, brakes and one-way clutches."),
         may(
             "start",
             Named(Keys::Reference, "a quantity", &Either(&[COORDINATE_OR_RATE, Map(&ROTATION)])),
@@ -226,7 +227,7 @@ static FRICTION: Table = Table {
         need("coulomb", FRICTION_LEVEL, "Torque or force of the friction; a plain number is a coefficient of friction."),
         may("static", FRICTION_LEVEL, "The same at rest, where it is higher; falls to `coulomb` over `stribeck_speed`."),
         may("stribeck_speed", RATE, "Speed over which the friction falls from `static` to `coulomb`."),
-        may("stick_speed", RATE, "Below this speed the joint sticks; 1 mm/s or 1e-3 rad/s if silent."),
+        may("stick_speed", RATE, "Friction in proportion to the speed below this one, instead of sticking."),
         may("radius", LENGTH, "Radius of the pin, with a coefficient of friction in a `revolute`."),
         may("length", LENGTH, "Length of the guide, with a coefficient of friction in a `slider`: the moment presses on its ends."),
         may("bristle", Map(&BRISTLE), "Bristles that bend before the joint slides (LuGre), in place of `stick_speed`."),
@@ -341,6 +342,25 @@ static MOTOR: Table = Table {
         may("curve", Name("the name of a table: torque over speed"), "Torque of the motor by its own speed."),
         may("gear", NUMBER, "Turns of the motor per turn of the joint; 1 if silent."),
         may("inertia", INERTIA, "Inertia of the rotor before the gear; 0 if silent."),
+    ],
+};
+
+static CLUTCH: Table = Table {
+    what: "a clutch",
+    choices: &[one_of(&["joint", "between"]), one_of(&["torque", "force", "one_way"]), at_most_one(&["stick_speed", "one_way"])],
+    fields: &[
+        may("joint", JOINT_NAME, "A brake: it acts on the coordinate of this joint."),
+        may(
+            "between",
+            List(&JOINT_NAME, Size::Exactly(2)),
+            "A clutch: it acts on the coordinate of the second joint less that of the first.",
+        ),
+        may("torque", Value(Want::Of(D::TORQUE)), "Largest torque, as long as it slips; an expression as of a load."),
+        may("force", Value(Want::Of(D::FORCE)), "Largest force between joints that slide; an expression as of a load."),
+        may("static", EFFORT, "The same at rest, where it is higher; falls over `stribeck_speed`."),
+        may("stribeck_speed", RATE, "Speed over which it falls from `static`."),
+        may("stick_speed", RATE, "In proportion to the slip below this one, instead of sticking."),
+        may("one_way", Flag, "The slip does not become negative: the first drives the second, which may overrun it."),
     ],
 };
 

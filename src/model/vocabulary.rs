@@ -40,6 +40,8 @@ pub enum Quantity {
     SpringEnergy { spring: usize },
     /// Torque of a motor on its joint, N m.
     MotorTorque { motor: usize },
+    /// Torque or force of a clutch, on what belongs to its second joint, N m or N.
+    ClutchEffort { clutch: usize },
     /// Centre of mass of all bodies, its velocity and acceleration.
     Com { axis: usize, order: usize },
     /// Kinetic energy, J.
@@ -116,6 +118,7 @@ impl Quantity {
             Self::Force { .. }
             | Self::Moment { .. }
             | Self::Friction { .. }
+            | Self::ClutchEffort { .. }
             | Self::DriverEffort { .. }
             | Self::DriverPower { .. }
             | Self::Frame { .. }
@@ -132,6 +135,7 @@ impl Quantity {
             Self::Force { .. }
                 | Self::Moment { .. }
                 | Self::Friction { .. }
+                | Self::ClutchEffort { .. }
                 | Self::DriverEffort { .. }
                 | Self::DriverPower { .. }
                 | Self::Frame { .. }

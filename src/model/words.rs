@@ -92,6 +92,11 @@ impl Model {
             Quantity::Stretch { spring: k, .. } => format!("rate({}.stretch)", spring(k)),
             Quantity::SpringForce { spring: k } => format!("{}.force", spring(k)),
             Quantity::SpringEnergy { spring: k } => format!("{}.energy", spring(k)),
+            Quantity::ClutchEffort { clutch: k } => {
+                let clutch = self.clutches.get(k);
+                let angle = clutch.and_then(|c| coordinates(&self.joints.get(c.joints[1])?.kind).first()).is_none_or(|c| c.angle);
+                format!("{}.{}", clutch.map_or("?", |c| c.name.as_str()), if angle { "torque" } else { "force" })
+            }
             Quantity::MotorTorque { motor } => format!("{}.torque", self.motors.get(motor).map_or("?", |m| m.name.as_str())),
             Quantity::Com { axis: k, order } => format!("com.{}{}", rate(order), axis(k)),
             Quantity::Kinetic => "energy.kinetic".into(),

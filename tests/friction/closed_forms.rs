@@ -78,7 +78,8 @@ fn a_block_that_sticks_creeps_at_the_share_of_the_stick_speed_that_holds_it() {
 fn a_block_stops_after_its_time_and_way() {
     let (mu, stick) = (0.3, 1e-3);
     for (settings, _) in &SCHEMES[..4] {
-        let text = incline("coulomb: 0.3", "W.velocity: 2 m/s", 1.2, settings).replace("alpha: 30 deg", "alpha: 0 deg");
+        let text =
+            incline("coulomb: 0.3, stick_speed: 1 mm/s", "W.velocity: 2 m/s", 1.2, settings).replace("alpha: 30 deg", "alpha: 0 deg");
         let outcome = done(&text, "slide");
         let way = (4.0 - stick * stick) / (2.0 * mu * G) + stick * stick / (mu * G);
         close(&format!("way, {settings}"), last(&outcome)[1], way, 3e-8);

@@ -136,6 +136,6 @@ start: { P.angle: 0 deg }");
 fn friction_that_may_hold_is_named() {
     let slope = run("gravity: [0, -9.81 m/s^2]
 bodies: { block: { mass: 1 kg } }
-joints: { S: { slider: [ground, block.origin], axis: [1, -0.1], friction: { coulomb: 5 N } } }");
+joints: { S: { slider: [ground, block.origin], axis: [1, -0.1], friction: { coulomb: 5 N, stick_speed: 1 mm/s } } }");
     told(&slope, &["moves on and on", "the friction of joints does not count here"]);
 }

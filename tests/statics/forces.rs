@@ -113,7 +113,7 @@ fn friction_and_dampers_hold_nothing() {
     let outcome = planar(
         DOWN,
         "bodies: { arm: { bar: { length: 1 m, mass: 2 kg } } }
-joints: { P: { revolute: [ground, arm.start], damping: 30 N m s/rad, friction: { coulomb: 20 N m } } }
+joints: { P: { revolute: [ground, arm.start], damping: 30 N m s/rad, friction: { coulomb: 20 N m, stick_speed: 1e-3 rad/s } } }
 start: { P.angle: -60 deg }",
         "",
     );

@@ -11,7 +11,7 @@ pub(super) const PILE: f64 = 1e-6;
 
 /// The last events of a run.
 #[derive(Clone, Debug)]
-pub(super) struct Zeno {
+pub struct Zeno {
     times: [f64; MANY],
     count: usize,
     shrinking: usize,
@@ -26,7 +26,7 @@ impl Default for Zeno {
 impl Zeno {
     /// Takes an event at `t`; true if a hundred have happened in a millionth of the time since `start`, or if a dozen intervals
     /// in a row have shrunk in a ratio, to less than a millionth of that time.
-    pub(super) fn pile_up(&mut self, t: f64, start: f64) -> bool {
+    pub fn pile_up(&mut self, t: f64, start: f64) -> bool {
         let back = |k: usize| self.times[(self.count + MANY - k) % MANY];
         let window = PILE * (t - start).max(1e-9);
         let many = self.count >= MANY && t - back(MANY) < window;

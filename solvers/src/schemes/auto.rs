@@ -1,5 +1,7 @@
 //! Explicit or implicit, as the motion asks: DOP853 first, Radau IIA where steps are bound by stability.
 //!
+//! Switches that follow each other within explicit steps are a sign of stiffness as well (`chatter`).
+//!
 //! All decisions are made from counted work, never from a clock, so that a run gives the same bits on every machine. A change to
 //! the implicit scheme is a trial: if a second of motion then costs more than before, the explicit one comes back, and the next
 //! trial waits twice as long. The implicit scheme is left as well when steps within the stability of the explicit one would cost
@@ -12,10 +14,12 @@ use crate::dense_output::Dense;
 use crate::engine::{Engine, Node, Rejected, Why};
 use crate::integration::Settings;
 use crate::scheme::Scheme;
+use chatter::Chatter;
 use ledger::{Ledger, Verdict};
 use singular::Singular;
 use spectrum::Spectrum;
 
+mod chatter;
 mod ledger;
 mod singular;
 mod spectrum;
@@ -34,6 +38,7 @@ pub(super) struct Auto {
     ledger: Ledger,
     spectrum: Spectrum,
     singular: Singular,
+    chatter: Chatter,
     failures: usize,
 }
 
@@ -48,6 +53,7 @@ impl Auto {
             ledger: Ledger::default(),
             spectrum: Spectrum::new(system),
             singular: Singular::new(system.dims()),
+            chatter: Chatter::default(),
             failures: 0,
         }
     }
@@ -110,6 +116,10 @@ impl Scheme for Auto {
         self.change = false;
         if engine.is_fixed() {
             self.on = h * self.spectrum.search(system, engine, node)? > BORDER;
+        } else if !self.on && self.chatter.restarts(node.state.t) && !self.singular.holds(engine) {
+            // a difference may reach to where the forces have no value: what is known by then is enough
+            let radius = self.spectrum.search(system, engine, node).unwrap_or(self.spectrum.radius);
+            self.change = radius > 0.0 && self.chatter.within(BORDER / radius);
         }
         self.ledger.begin(engine, node.state.t);
         self.active().restart(system, engine, node, h)
@@ -124,7 +134,8 @@ impl Scheme for Auto {
             return self.explicit.attempt(system, engine, from, h, to);
         }
         if self.ledger.asks() {
-            self.spectrum.improve(system, engine, from).map_err(fails)?;
+            // where a difference reaches to forces without a value the radius stays what it was
+            let _ = self.spectrum.improve(system, engine, from);
         }
         self.implicit_step(system, engine, from, h, to)
     }

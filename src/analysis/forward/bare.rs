@@ -1,8 +1,10 @@
 //! An integration alone, for measurements: nothing is recorded but its end.
 
 use super::balance::Balance;
+use super::chart::chart;
+use super::eras::Eras;
 use super::explain;
-use super::march::{Begins, Eras, begin, chart};
+use super::march::{Begins, begin};
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::watch::watched;

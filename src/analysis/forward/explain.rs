@@ -1,13 +1,14 @@
 //! Why a run did not begin or did not end, in words: what happened to which joint at what time, and what to try.
 
+use super::eras::Eras;
 use super::setup::Plan;
-use super::system::{Mechanical, Root};
+use super::system::{Mechanical, Met, Root};
 use crate::analysis::assemble::{Assembled, units};
 use crate::analysis::outcome::{Failure, Finding, Happened, Undefined};
 use crate::analysis::undefined::Gap;
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
-use crate::mechanism::{BuildFault, Mechanism};
+use crate::mechanism::{BuildFault, Contact, Mechanism};
 use crate::model::{Model, Parameter, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
@@ -31,6 +32,10 @@ where
         ),
         Why::Unresolved(root) => format!(
             "at t = {t:.6} s it cannot be told where {} changes next: it oscillates, or stays at its edge, within the rounding of the time; use another unit of time, or give a shorter `until`",
+            root_name(model, system, root)
+        ),
+        Why::Blocked(root) if matches!(system.roots.get(root), Some(Root::Slides(_))) => format!(
+            "at t = {t:.6} s {} is driven against the sense in which it locks: drive it the other way, or let it go",
             root_name(model, system, root)
         ),
         Why::Blocked(root) => format!(
@@ -121,6 +126,44 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
     }
 }
 
+/// What to do where friction by reactions jams.
+pub(super) const LESS_FRICTION: &str = "give a smaller `coulomb`, a longer guide, or drive the motion from the other side";
+
+/// Why contacts cannot be decided.
+pub(super) fn jams<G: Space<S = f64>>(eras: &Eras<G>, t: f64) -> String {
+    let m = &eras.mechanism;
+    format!("at t = {t:.6} s no accelerations obey the laws of friction of {}: it jams (Painlevé's paradox)", names(m, 0..m.contacts.len()))
+}
+
+/// Why a run ends where contacts stick and slide without end.
+pub(super) fn chatters<G: Space<S = f64>>(eras: &Eras<G>, met: &[Met], t: f64) -> String {
+    format!(
+        "at t = {t:.6} s {} begins and ceases to stick without end: its force, or what holds it, changes too often; give it a `stick_speed`",
+        names(&eras.mechanism, met.iter().map(|met| met.contact))
+    )
+}
+
+/// Contacts at rest that other joints or drivers hold as well.
+pub(super) fn not_unique<G: Space<S = f64>>(eras: &Eras<G>, open: &[usize]) -> Vec<Finding> {
+    let contacts = eras.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
+    let finding = |(_, contact): (usize, &Contact)| Finding {
+        code: "friction-not-unique",
+        message: format!(
+            "while it sticks {} is not unique: drivers or other friction hold the same motion; what is printed is 0 or one of the values",
+            contact.name
+        ),
+        path: contact.place.clone(),
+    };
+    contacts.map(finding).collect()
+}
+
+/// Contacts in words.
+fn names<G: Space<S = f64>>(mechanism: &Mechanism<G>, contacts: impl Iterator<Item = usize>) -> String {
+    let mut names: Vec<&str> = contacts.map(|c| mechanism.contacts[c].name.as_str()).collect();
+    names.dedup();
+    names.join(" and ")
+}
+
 /// The joints with friction by reactions, in words.
 fn rubbing<G: Space>(mechanism: &Mechanism<G>) -> String {
     let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", mechanism.joints[p.joint].name)).collect();
@@ -149,6 +192,7 @@ where
             }
             return format!("the {} of joint `{}`", m.stops[stop].word(), m.joints[m.stops[stop].joint].name);
         }
+        Some(&(Root::Slides(contact) | Root::Holds { contact, .. })) => return m.contacts[contact].name.clone(),
         Some(&Root::Event(event)) => return format!("the event `{}`", model.events[event].name),
         _ => None,
     };

@@ -1,116 +1,28 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
 use super::balance::Balance;
+use super::chart::{Charted, chart};
+use super::eras::{Eras, Holds};
 use super::explain;
 use super::pace::Pace;
 use super::setup::Plan;
-use super::system::Mechanical;
+use super::system::{Mechanical, Met};
 use super::trajectory::Trajectory;
 use super::watch::{swept, watched};
-use crate::analysis::assemble::Assembled;
-use crate::analysis::contact;
 use crate::analysis::modes::held::settled;
 use crate::analysis::observe::Observer;
 use crate::analysis::outcome::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::analysis::sweep::parameters_with;
-use crate::analysis::undefined::{assembled, in_state};
+use crate::analysis::undefined::in_state;
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, RowOwner, build};
 use crate::model::{Model, Study};
 use crate::scalar::Dual;
-use grashof_solvers::minimal::Minimal;
-use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
-use std::cell::OnceCell;
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System, Zeno};
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
-
-/// Changes of parameters in one run.
-const MOST_ERAS: usize = 5000;
-
-/// A mechanism with the same on dual numbers, at given parameters; and what follows when an event changes them.
-pub(in crate::analysis) struct Eras<G: Space<S = f64>> {
-    pub(in crate::analysis) mechanism: Mechanism<G>,
-    pub(in crate::analysis) lifted: Mechanism<G::Lift<Dual<LANES>>>,
-    pub(in crate::analysis) parameters: Vec<f64>,
-    pub(in crate::analysis) start: Assembled,
-    next: OnceCell<Box<Eras<G>>>,
-}
-
-impl<G: Space<S = f64>> Eras<G> {
-    /// The mechanism at the start.
-    ///
-    /// # Errors
-    /// If the model has none, or it cannot be assembled.
-    pub(in crate::analysis) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
-        let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
-        contact::begins(model, &mechanism, &start)?;
-        let lifted = mechanism.lift();
-        Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, next: OnceCell::new() })
-    }
-
-    /// The first era.
-    pub(super) fn first(&self) -> &Self {
-        self
-    }
-
-    /// The mechanism from an event on that has set parameters or changed the stops on which joints rest; rows keep where the start has
-    /// anchored them.
-    fn change(&self, model: &Model, parameters: &[f64], coordinates: Coordinates, resting: &[usize]) -> Result<&Self, Failure> {
-        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
-        for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
-            if row.anchored {
-                (row.offset, row.anchored) = (before.offset, before.anchored);
-            }
-        }
-        resting.iter().for_each(|stop| mechanism.rest(*stop));
-        let lifted = mechanism.lift();
-        let next = Self { mechanism, lifted, parameters: parameters.to_vec(), start: self.start.clone(), next: OnceCell::new() };
-        Ok(self.next.get_or_init(|| Box::new(next)))
-    }
-}
-
-/// The system that is integrated: with all coordinates, or with independent ones alone.
-pub(super) enum Charted<'m, G: Space<S = f64>> {
-    Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
-    Minimal(Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>),
-}
-
-impl<'m, G: Space<S = f64>> Charted<'m, G> {
-    pub(super) fn system(&mut self) -> &mut dyn System {
-        match self {
-            Self::Whole(system) => &mut **system,
-            Self::Minimal(system) => &mut **system,
-        }
-    }
-
-    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
-        match self {
-            Self::Whole(system) => system,
-            Self::Minimal(system) => system.inner_mut(),
-        }
-    }
-
-    pub(super) fn reduced(&self, state: &State) -> State {
-        match self {
-            Self::Whole(_) => state.clone(),
-            Self::Minimal(system) => system.reduced(state),
-        }
-    }
-
-    /// The node in all coordinates.
-    pub(super) fn whole(&mut self, node: &Node, out: &mut Node) {
-        match self {
-            Self::Whole(_) => out.copy_from(node),
-            Self::Minimal(system) => {
-                // what cannot be closed has been refused by the integrator before
-                let _ = system.whole(node, out);
-            }
-        }
-    }
-}
 
 /// What a run has left.
 pub(in crate::analysis) struct Recorded<'m, G: Space<S = f64>> {
@@ -146,7 +58,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
     };
     let first = machine(eras);
     let dims = first.dims();
-    let mut trajectory = Trajectory::new(first, ids.len(), follow);
+    let mut trajectory = Trajectory::new(&first, ids.len(), follow);
     let mut flow = Flow {
         model,
         study,
@@ -158,33 +70,42 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         findings: Vec::new(),
         pace: Pace::default(),
         changed: Vec::new(),
-        resting: Vec::new(),
+        holds: Holds::default(),
+        met: Vec::new(),
+        loosened: false,
+        open: Vec::new(),
         begins: Begins::Run,
         set_from: ids.len(),
         undefined: None,
     };
-    let mut era = eras;
     let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
-    let mut count = 0;
+    let (mut present, mut zeno, mut met) = (eras.parameters.clone(), Zeno::default(), false);
     let stopped = loop {
+        let chosen = flow.choose(eras, &present, &machine, &mut state);
+        let era = match chosen {
+            Ok(Some(era)) => era,
+            Ok(None) if flow.begins == Begins::Run => return Err(Failure::numerical(explain::jams(eras, state.t), explain::LESS_FRICTION)),
+            Ok(None) => break Some(format!("{}; {}", explain::jams(eras, state.t), explain::LESS_FRICTION)),
+            Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
+            Err(failure) => break Some(failure.reason()),
+        };
+        if met && zeno.pile_up(state.t, 0.0) {
+            break Some(explain::chatters(eras, &flow.met, state.t));
+        }
+        flow.trajectory.era(std::ptr::from_ref(era).addr(), || machine(era));
         match flow.era(era, machine(era), &mut state)? {
             After::Done => break None,
             After::Stopped(why) => break Some(why),
             After::Changed => {
-                count += 1;
-                if count > MOST_ERAS {
-                    break Some(format!("parameters, or stops on which joints rest, have changed {MOST_ERAS} times; at t = {} s", state.t));
+                met = !flow.met.is_empty();
+                if flow.begins == Begins::Parameters {
+                    let values = swept(study, parameters).into_iter().chain(flow.changed.clone()).collect::<Vec<_>>();
+                    present = parameters_with(model, &values);
                 }
-                let set = flow.changed.clone();
-                let values = swept(study, parameters).into_iter().chain(set).collect::<Vec<_>>();
-                era = match era.change(model, &parameters_with(model, &values), plan.coordinates, &flow.resting) {
-                    Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
-                    changed => changed?,
-                };
-                flow.trajectory.era(machine(era));
             }
         }
     };
+    flow.findings.extend(explain::not_unique(eras, &flow.open));
     let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan);
     unresolved.dedup_by(|a, b| a.path == b.path);
@@ -203,37 +124,6 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
     let modes = settled(&eras.mechanism, [&state.q, &state.v, &state.z], &eras.start.modes);
     state.modes[..modes.len()].copy_from_slice(&modes);
     state
-}
-
-/// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start` that no driver
-/// moves.
-pub(super) fn chart<'m, G: Space<S = f64>>(
-    study: &Study,
-    plan: &Plan,
-    system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
-    era: &Eras<G>,
-    state: &State,
-) -> Result<Charted<'m, G>, Failure> {
-    if !plan.minimal {
-        return Ok(Charted::Whole(Box::new(system)));
-    }
-    explain::charted(study, &era.start, state)?;
-    // a joint that rests on a stop may be the one that was asked for: then others are
-    let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
-    let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
-    let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
-        Measured::Coordinate { along, .. } => Some(along.v),
-        _ => None,
-    };
-    let driven = |v: &usize| era.mechanism.drives.iter().any(|d| velocity(d.gauge) == Some(*v));
-    let independent: Vec<usize> = asked
-        .filter_map(|s| match s.asked {
-            Asked::Gauge { gauge, order: 0 } => velocity(gauge).filter(|v| !driven(v)),
-            _ => None,
-        })
-        .collect();
-    let minimal = Minimal::new(system, state, &independent);
-    minimal.map(|m| Charted::Minimal(Box::new(m))).map_err(|why| explain::no_chart(study, &why))
 }
 
 /// What an era begins with.
@@ -267,8 +157,13 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     pace: Pace,
     /// Parameters that events have set.
     changed: Vec<(usize, f64)>,
-    /// Stops on which joints rest.
-    resting: Vec<usize>,
+    /// Stops on which joints rest, and contacts that stick.
+    holds: Holds,
+    /// Contacts that stopped or gave way at the end of the era before, and whether all were let go for a blow.
+    met: Vec<Met>,
+    loosened: bool,
+    /// Contacts whose friction was not determined at some time.
+    open: Vec<usize>,
     begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
@@ -277,6 +172,38 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
+    /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
+    /// laws of friction.
+    fn choose(
+        &mut self,
+        eras: &'m Eras<G>,
+        parameters: &[f64],
+        machine: &impl Fn(&'m Eras<G>) -> Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        state: &mut State,
+    ) -> Result<Option<&'m Eras<G>>, Failure> {
+        let coordinates = self.plan.coordinates;
+        let free = Holds { held: Vec::new(), ..self.holds.clone() };
+        let base = eras.with(self.model, parameters, coordinates, &free)?;
+        if base.mechanism.contacts.is_empty() {
+            return Ok(Some(base));
+        }
+        if self.loosened {
+            self.holds.held.clear();
+            return Ok(Some(base));
+        }
+        let mut system = machine(base);
+        let contacts = &base.mechanism.contacts;
+        if self.begins == Begins::Run {
+            base.mechanism.slide(&vec![0; contacts.len()], &mut state.modes);
+        }
+        let Some(decided) = system.decide(state, &self.holds.held, &self.met) else { return Ok(None) };
+        base.mechanism.slide(&decided.senses, &mut state.modes);
+        state.live = system.extents(state);
+        self.open.extend(decided.open);
+        self.holds.held = decided.held;
+        eras.with(self.model, parameters, coordinates, &self.holds).map(Some)
+    }
+
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
     fn era(&mut self, era: &'m Eras<G>, system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
         let first = self.begins == Begins::Run;
@@ -450,11 +377,12 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         }
         let system = chart.mechanical();
         let rests = system.take_rests();
-        self.begins = if rests.is_empty() { Begins::Parameters } else { Begins::Rests };
+        (self.met, self.loosened) = system.take_met();
+        self.begins = Begins::Rests;
         for (stop, rests) in rests {
-            self.resting.retain(|s| *s != stop);
+            self.holds.resting.retain(|s| *s != stop);
             if rests {
-                self.resting.push(stop);
+                self.holds.resting.push(stop);
             }
         }
         system.observe(&before.state.at(), &before.a, &before.lambda);

@@ -5,6 +5,8 @@
 
 pub(in crate::analysis) mod balance;
 mod bare;
+mod chart;
+pub(in crate::analysis) mod eras;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
 mod pace;
@@ -31,7 +33,8 @@ use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
 use crate::model::{Dimensions, Forward, Model, Study};
 use crate::scalar::Dual;
-use march::{Eras, Recorded};
+use eras::Eras;
+use march::Recorded;
 use trajectory::{Off, Trajectory};
 
 /// Most numbers in the rows of a run: 4 GB of them.

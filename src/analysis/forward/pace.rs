@@ -4,7 +4,7 @@
 //! a stiff damper holds an explicit scheme to steps that never end. After some steps the run tells how many it would need; if these
 //! are more than could be kept, it stops and says what is so fast. Fixed steps are as many as the user has asked for.
 
-use super::march::Eras;
+use super::eras::Eras;
 use super::setup::Plan;
 use crate::analysis::coordinates::coordinates;
 use crate::analysis::eigenvalues::measurable;

@@ -9,6 +9,8 @@
 //! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the era |
 //! | stop just left | beyond its neighbourhood | it is watched exactly again |
 //! | stop on which a joint rests | the stop pushes | it is left, which ends the era |
+//! | contact that slides | it slides on | it sticks or turns round, which ends the era |
+//! | contact that sticks | less holds it than may | it slides, which ends the era |
 //! | event of the model | on its present side of zero | the other side; what the event does; an impact is a blow, as of a stop |
 //!
 //! `modes` hold the switches of all expressions, then the windings, the side of each event, and for each rigid stop whether it was
@@ -18,6 +20,7 @@ mod ahead;
 mod contact;
 mod events;
 mod patterns;
+mod sticking;
 
 use crate::analysis::contact::PASSED;
 use crate::analysis::observe::Observer;
@@ -29,6 +32,7 @@ use ahead::Timed;
 pub(in crate::analysis) use events::Watched;
 use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 use patterns::known_by_rows;
+pub(super) use sticking::Met;
 
 /// Where a root comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +51,10 @@ pub(in crate::analysis) enum Root {
     Clear(usize),
     /// A row that holds a joint on a stop.
     Rest { row: usize, stop: usize },
+    /// A contact that slides in the sense of its mode, or rests without a row of its own.
+    Slides(usize),
+    /// A row that holds a contact, which gives way where what holds it reaches its largest value in a sense, −1 or 1.
+    Holds { contact: usize, row: usize, sense: i32 },
     /// An event of the model.
     Event(usize),
 }
@@ -67,6 +75,8 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     friction: Option<Friction>,
     /// Terms of the own solution where friction depends on reactions.
     terms: Terms,
+    /// Size of the mechanism, m.
+    size: f64,
     /// How near to each rigid stop counts as on it, rad or m.
     near: Vec<f64>,
     /// Stops on which joints have come to rest (true) or which they have left, in the event crossed last.
@@ -74,6 +84,9 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     /// Events with impacts that were met in the event crossed last, and the one that cannot rest.
     struck: Vec<usize>,
     restless: Option<usize>,
+    /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction holds.
+    met: Vec<Met>,
+    loosened: bool,
     a: Vec<f64>,
     lambda: Vec<f64>,
     inputs: Vec<f64>,
@@ -102,16 +115,17 @@ where
         let (nv, rows, nz) = (mechanism.nv, mechanism.rows.len(), mechanism.state_starts.len());
         let mut roots = Vec::new();
         let mut seen = Vec::new();
+        let of_contact = |switch: u32| mechanism.is_of_contact(switch as usize);
         for (program, staged) in mechanism.programs().iter().enumerate() {
             for (k, switch) in staged.program.switches().iter().enumerate() {
-                if !seen.contains(switch) {
+                if !seen.contains(switch) && !of_contact(*switch) {
                     seen.push(*switch);
                     roots.push(Root::Force { program, k });
                 }
             }
         }
         for (k, switch) in observer.program().switches().iter().enumerate() {
-            if !seen.contains(switch) {
+            if !seen.contains(switch) && !of_contact(*switch) {
                 roots.push(Root::Column { k });
             }
         }
@@ -130,6 +144,13 @@ where
                 None => roots.extend([Root::Stop(stop), Root::Clear(stop)]),
             }
         }
+        let contacts: Vec<(usize, usize)> = mechanism.held().collect();
+        for contact in 0..mechanism.contacts.len() {
+            match contacts.iter().find(|(c, _)| *c == contact) {
+                Some(&(_, row)) => roots.extend([-1, 1].map(|sense| Root::Holds { contact, row, sense })),
+                None => roots.push(Root::Slides(contact)),
+            }
+        }
         roots.extend((0..events.len()).map(Root::Event));
         let dims = Dims {
             q: mechanism.nq,
@@ -138,7 +159,7 @@ where
             holonomic: rows,
             nonholonomic: 0,
             modes: mechanism.switches + mechanism.windings + events.len() + mechanism.stops.len(),
-            live: 0,
+            live: mechanism.contacts.len(),
             roots: roots.len(),
             work: WORKS,
         };
@@ -173,7 +194,8 @@ where
             roots_by_reactions: observer.switches_by_forces()
                 || (!events.is_empty() && observer.needs_forces())
                 || mechanism.sides().next().is_some()
-                || !held.is_empty(),
+                || !held.is_empty()
+                || !contacts.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
@@ -193,10 +215,13 @@ where
             terms: Terms::new(dims),
             a: vec![0.0; nv],
             lambda: vec![0.0; rows],
+            size: start.size,
             near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
             rests: Vec::with_capacity(2 * mechanism.stops.len()),
             struck: Vec::with_capacity(mechanism.stops.len()),
             restless: None,
+            met: Vec::with_capacity(mechanism.contacts.len()),
+            loosened: false,
             dynamics,
             observer,
             roots,
@@ -216,6 +241,7 @@ where
 
     fn kinematics(&mut self, at: &At<'_>) {
         self.dynamics.work.z.copy_from_slice(at.z);
+        self.dynamics.work.held.copy_from_slice(at.live);
         self.dynamics.time(at.t, at.modes);
         self.dynamics.position(at.q, at.modes);
         self.dynamics.velocity(at.v, at.modes);
@@ -365,17 +391,21 @@ where
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
         modes.copy_from_slice(at.modes);
         let m = self.dynamics.mechanism;
+        // what sticks and slides is decided at events alone
+        let senses: Vec<i32> = m.contacts.iter().map(|c| at.modes[c.mode]).collect();
         // a function of positions may switch and feed the others: twice settles what depends on it
         for _ in 0..2 {
             let own: &[i32] = modes;
             self.kinematics(&At { modes: own, ..at });
             for program in 0..m.programs().len() {
                 self.with_program(program, |p, inputs, registers, _| p.set_modes(inputs, registers, modes));
+                m.slide(&senses, modes);
             }
         }
         self.press(&at, modes);
         self.look(&At { modes, ..at }, None);
         self.observer.set_modes(modes);
+        m.slide(&senses, modes);
         self.observer.columns(modes, &mut self.outputs);
         self.sides_of_events(modes);
         for root in &self.roots {
@@ -421,6 +451,7 @@ where
                     (end * end - off * off) / (2.0 * end)
                 }
                 Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
+                Root::Slides(_) | Root::Holds { .. } => self.grip(self.roots[i], &at, a, lambda),
                 Root::Event(event) => self.way(event, self.outputs[self.events[event].output], at.modes),
             };
         }
@@ -455,6 +486,8 @@ where
                 Effect::Record
             }
             root @ (Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. }) => self.part(root, state, row),
+            Root::Slides(contact) => self.meet(contact, 0, row),
+            Root::Holds { contact, sense, .. } => self.meet(contact, sense, row),
             Root::Event(event) => self.cross_event(event, state, row),
         }
     }

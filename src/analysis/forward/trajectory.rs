@@ -35,6 +35,8 @@ struct Step {
 struct Piece {
     era: usize,
     modes: Vec<i32>,
+    /// Where contacts are held.
+    live: Vec<f64>,
     /// First step and the one behind the last.
     steps: (usize, usize),
     from: f64,
@@ -43,6 +45,7 @@ struct Piece {
 
 /// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
 pub(in crate::analysis) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    key: usize,
     pub(in crate::analysis) system: Mechanical<'m, G, D>,
     pub(in crate::analysis) engine: Engine,
 }
@@ -71,6 +74,8 @@ pub(in crate::analysis) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Du
     follow: bool,
     /// The step found last.
     near: usize,
+    /// The present era.
+    current: usize,
 }
 
 impl<'m, G, D> Trajectory<'m, G, D>
@@ -79,10 +84,10 @@ where
     D: Space<S = Dual<LANES>>,
 {
     /// An empty one of `columns` columns, to be filled from an era on.
-    pub(in crate::analysis) fn new(first: Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
+    pub(in crate::analysis) fn new(first: &Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
         let dims = first.dims();
         let outputs = first.observer.program().outputs();
-        let mut trajectory = Self {
+        Self {
             eras: Vec::new(),
             node: Node::new(dims),
             steps: Vec::new(),
@@ -93,15 +98,18 @@ where
             out: vec![0.0; outputs],
             follow,
             near: 0,
-        };
-        trajectory.era(first);
-        trajectory
+            current: 0,
+        }
     }
 
-    /// Begins another era.
-    pub(in crate::analysis) fn era(&mut self, system: Mechanical<'m, G, D>) {
-        let engine = Engine::new(&system, Control::Tolerance(1e-8));
-        self.eras.push(Era { system, engine });
+    /// Begins an era of a mechanism by its key, which `make` makes if it is new.
+    pub(in crate::analysis) fn era(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G, D>) {
+        self.current = self.eras.iter().position(|era| era.key == key).unwrap_or_else(|| {
+            let system = make();
+            let engine = Engine::new(&system, Control::Tolerance(1e-8));
+            self.eras.push(Era { key, system, engine });
+            self.eras.len() - 1
+        });
     }
 
     /// Begins a piece at a node.
@@ -112,7 +120,8 @@ where
         if self.pieces.last().is_some_and(|p| p.from >= t) {
             self.pieces.pop();
         }
-        self.pieces.push(Piece { era: self.eras.len() - 1, modes, steps: (n, n), from: t, to: t });
+        let live = node.state.live.clone();
+        self.pieces.push(Piece { era: self.current, modes, live, steps: (n, n), from: t, to: t });
     }
 
     /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
@@ -233,7 +242,8 @@ where
         self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
         self.dense.evaluate(t, &mut self.node.state);
         self.node.state.modes.copy_from_slice(&p.modes);
-        let Era { system, engine } = &mut self.eras[p.era];
+        self.node.state.live.copy_from_slice(&p.live);
+        let Era { system, engine, .. } = &mut self.eras[p.era];
         // eras differ in the rows that hold joints on their stops
         self.node.lambda.resize(system.dims().rows(), 0.0);
         if self.follow {
@@ -250,7 +260,7 @@ where
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
     pub(in crate::analysis) fn residuals(&mut self, piece: usize) -> [f64; 2] {
-        let Era { system, engine } = &mut self.eras[self.pieces[piece].era];
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
         engine.evaluate(system, self.node.state.at(), Stage::Velocity);
         [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
     }

@@ -5,7 +5,7 @@ use super::monodromy::Rough;
 use super::settle::Unsettled;
 use super::shooting::Lost;
 use super::timed;
-use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::eras::Eras;
 use crate::analysis::outcome::Failure;
 use crate::geometry::Space;
 
@@ -79,8 +79,8 @@ pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
             "change a parameter a little, or smooth the switch",
         ),
         Rough::Rests => Failure::numerical(
-            "a joint rests on a rigid stop in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",
-            "give the stop a `stiffness` instead of a `restitution`",
+            "a joint rests on a rigid stop, or is held by friction, in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",
+            "give the stop a `stiffness` instead of a `restitution`, the friction a `stick_speed`",
         ),
         Rough::Singular(t) => Failure::Study {
             code: "singular-mass",

@@ -1,6 +1,7 @@
 //! One period of the motion: from a state to where the period ends.
 
-use crate::analysis::forward::march::{self, Eras, Recorded};
+use crate::analysis::forward::eras::Eras;
+use crate::analysis::forward::march::{self, Recorded};
 use crate::analysis::forward::setup::Plan;
 use crate::analysis::forward::system::Mechanical;
 use crate::analysis::forward::trajectory::{Era, Trajectory};

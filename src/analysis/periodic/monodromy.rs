@@ -8,7 +8,7 @@
 use super::collocation::{Gauss, STAGES};
 use super::lap::{Lap, Search, Section, tools};
 use super::saltation::{Side, pass, rate};
-use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::eras::Eras;
 use crate::analysis::linear::{Linear, Singular};
 use crate::analysis::partition::preferred;
 use crate::dynamics::{LANES, Linearizer, Point};
@@ -46,7 +46,7 @@ pub(super) enum Rough {
     Singular(f64),
     /// A switch is only touched at this time, s.
     Touched(f64),
-    /// A joint rests on a rigid stop in a part of the period.
+    /// A joint rests on a rigid stop, or a contact sticks, in a part of the period.
     Rests,
 }
 

@@ -8,7 +8,7 @@ use super::{explain, stability};
 use crate::analysis::clock::Clock;
 use crate::analysis::continuous::Curve;
 use crate::analysis::extremum::{Extremes, extrema};
-use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::eras::Eras;
 use crate::analysis::forward::setup::resolution;
 use crate::analysis::forward::trajectory::Off;
 use crate::analysis::forward::{balance, pose};

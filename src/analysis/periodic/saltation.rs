@@ -162,6 +162,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         let differs = |mode: usize| before.state.modes[mode] != after.state.modes[mode];
         let crossed = |root: &Root| match *root {
             Root::Force { program, k } => differs(m.programs()[program].program.switches()[k] as usize),
+            Root::Slides(contact) => differs(m.contacts[contact].mode),
             Root::Event(event) => differs(m.switches + m.windings + event),
             _ => false,
         };

@@ -2,7 +2,7 @@
 
 use super::lap::{Broken, Lap, Search, Section};
 use super::states::{Scale, between, largest, unwind};
-use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::eras::Eras;
 use crate::geometry::Space;
 use grashof_solvers::State;
 

@@ -16,7 +16,7 @@ use super::monodromy::{Map, Rough, Surface};
 use super::saltation::rate;
 use super::states::{Scale, between, largest};
 use crate::analysis::eigenvalues::eigenvalues;
-use crate::analysis::forward::march::Eras;
+use crate::analysis::forward::eras::Eras;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;

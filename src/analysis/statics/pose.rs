@@ -86,6 +86,17 @@ where
         Self { size, unit, state, terms, tangent, zeros: vec![0.0; dims.v], system }
     }
 
+    /// Holds contacts where they stand, rad or m.
+    pub(super) fn hold(&mut self, live: &[f64]) {
+        self.state.live.copy_from_slice(live);
+    }
+
+    /// The state at a pose.
+    pub(super) fn state(&mut self, pose: &Pose) -> State {
+        self.show(pose);
+        self.state.clone()
+    }
+
     /// The pose nearest to given coordinates, states and modes.
     pub(super) fn at(&mut self, q: &[f64], z: &[f64], modes: &[i32]) -> Result<Pose, Lost> {
         self.state.q.copy_from_slice(q);

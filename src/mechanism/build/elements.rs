@@ -2,11 +2,11 @@
 
 use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
-use super::super::{Buffer, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
+use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, REST_SPEED, SpringLaw, SpringOn};
+use crate::model::{ClutchLaw, CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, REST_SPEED, SpringLaw, SpringOn, Sticking};
 use crate::scalar::Scalar;
 
 impl<G: Space> Builder<'_, G> {
@@ -35,6 +35,9 @@ impl<G: Space> Builder<'_, G> {
         }
         for index in 0..self.model.motors.len() {
             self.motor(index);
+        }
+        for index in 0..self.model.clutches.len() {
+            self.clutch(index);
         }
     }
 
@@ -230,9 +233,61 @@ impl<G: Space> Builder<'_, G> {
             self.force.push(Output { value: friction.effort, place: format!("{}.friction", joint.place) });
             let law = EffortLaw::Friction { output: self.force.len() - 1, pressing };
             effort = Some(self.mechanism.efforts.len());
-            self.mechanism.efforts.push(Effort { along: StretchOf::Gauge(gauge), law });
+            let along = StretchOf::Gauge(gauge);
+            self.mechanism.efforts.push(Effort { along, law });
+            let name = format!("the friction of joint `{}`", joint.name);
+            let angular = !matches!(joint.kind, JointKind::Slider);
+            self.sticking((name, &format!("{}.friction", joint.place)), friction.sticking, along, angular, pressing);
         }
         self.mechanism.friction_efforts.push(effort);
+    }
+
+    fn clutch(&mut self, index: usize) {
+        let clutch = &self.model.clutches[index];
+        let (place, [first, second]) = (clutch.place.as_str(), clutch.joints);
+        let along = if first == second {
+            self.coordinate(first, place).map(StretchOf::Gauge)
+        } else {
+            self.function_of(clutch.slipped, place).map(StretchOf::Function)
+        };
+        let Some(along) = along else { return };
+        let angular = !matches!(self.model.joints[second].kind, JointKind::Slider);
+        let name = format!("clutch `{}`", clutch.name);
+        self.mechanism.clutches.push(self.mechanism.efforts.len());
+        match clutch.law {
+            ClutchLaw::Friction { effort, sticking } => {
+                self.force.push(Output { value: effort, place: place.to_owned() });
+                let law = EffortLaw::Friction { output: self.force.len() - 1, pressing: None };
+                self.mechanism.efforts.push(Effort { along, law });
+                self.sticking((name, place), sticking, along, angular, None);
+            }
+            ClutchLaw::OneWay => {
+                let none = G::S::constant(0.0);
+                let law = EffortLaw::Linear { stiffness: none, rest: none, damping: none, preload: none };
+                self.mechanism.efforts.push(Effort { along, law });
+                let effort = self.mechanism.efforts.len() - 1;
+                // the mode is given at the end, when the switches are counted
+                let (place, law) = (place.to_owned(), ContactLaw::OneWay { effort });
+                self.mechanism.contacts.push(Contact { name, place, along, angular, mode: usize::MAX, follow: Vec::new(), law });
+            }
+        }
+    }
+
+    /// What sticks by the friction that was entered last.
+    fn sticking(
+        &mut self,
+        (name, place): (String, &str),
+        sticking: Option<Sticking>,
+        along: StretchOf,
+        angular: bool,
+        pressing: Option<usize>,
+    ) {
+        let Some(Sticking { sense, holds }) = sticking else { return };
+        let effort = self.mechanism.efforts.len() - 1;
+        self.force.push(Output { value: holds, place: place.to_owned() });
+        let law = ContactLaw::Friction { effort, holds: self.force.len() - 1, pressing };
+        let (place, mode) = (place.to_owned(), sense as usize);
+        self.mechanism.contacts.push(Contact { name, place, along, angular, mode, follow: Vec::new(), law });
     }
 
     /// Places of impacts: what happens at the zero of an event with a restitution happens as at a rigid stop.

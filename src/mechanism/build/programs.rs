@@ -50,6 +50,8 @@ impl<'m, G: Space> Builder<'m, G> {
                 bristles: vec![],
                 buffers: vec![],
                 stops: vec![],
+                contacts: vec![],
+                clutches: vec![],
                 rotors: vec![],
                 pulls: vec![],
                 position_program: none(),
@@ -115,6 +117,16 @@ impl<'m, G: Space> Builder<'m, G> {
                 place.side = self.mechanism.switches;
                 self.mechanism.switches += 1;
             }
+        }
+        let switches = self.pool.switches();
+        let own: Vec<usize> = self.mechanism.contacts.iter().map(|c| c.mode).collect();
+        for contact in self.mechanism.contacts.iter_mut().filter(|c| c.friction().is_some()) {
+            let same = |i: &usize| !own.contains(i) && switches[*i].test == switches[contact.mode].test;
+            contact.follow = (0..switches.len()).filter(same).collect();
+        }
+        for contact in self.mechanism.contacts.iter_mut().filter(|c| c.friction().is_none()) {
+            contact.mode = self.mechanism.switches;
+            self.mechanism.switches += 1;
         }
         self.mechanism.group();
         Ok(self.mechanism)

@@ -103,7 +103,7 @@ impl<'n> Decoder<'n> {
     fn built_of(&self, uses: &impl Fn(&Id) -> bool, checks: usize) -> Option<String> {
         let model = &self.world.model;
         let fixed = |steps: &[Step<'_>]| {
-            let varies = matches!(steps, [Step::Key("loads" | "states" | "start"), ..]);
+            let varies = matches!(steps, [Step::Key("loads" | "clutches" | "states" | "start"), ..]);
             !varies && !matches!(steps, [Step::Key("joints"), _, Step::Key("limits" | "friction"), ..])
         };
         if let Some(check) = self.checks[..checks].iter().find(|check| fixed(&check.place) && check.ids.iter().any(uses)) {

@@ -1,9 +1,8 @@
 //! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
 
 use super::Decoder;
-use super::stops::STICK_SPEED;
 use crate::expression::{Dimension, Id};
-use crate::model::contacts::{Bristle, Friction, Pressure};
+use crate::model::contacts::{Bristle, Friction, Pressure, Sticking};
 use crate::model::entities::JointKind;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
@@ -40,6 +39,9 @@ impl<'n> Decoder<'n> {
         let level = self.level(node, at, coordinate);
         let (pressed, arm) = self.pressed(kind, node, at, level.as_ref().map(|l| l.coefficient));
         let level = level?;
+        let rate = self.own(1);
+        let text = format!("friction of joint `{name}`");
+        let mut sense = None;
         let (resists, bristle) = match node.get("bristle") {
             Some(inner) => {
                 if node.get("stick_speed").is_some() {
@@ -52,11 +54,17 @@ impl<'n> Decoder<'n> {
                 let (resists, bristle) = self.bristle(name, inner, &at.key("bristle"), coordinate, &level)?;
                 (resists, Some(bristle))
             }
-            None => (self.slip(name, stick, &level), None),
+            None => {
+                let share;
+                (share, sense) = self.share(rate, node.get("stick_speed").is_some(), stick, &text);
+                (self.pool.mul(level.resists, share), None)
+            }
         };
         let p = &mut self.pool;
-        let whole = arm.map_or(resists, |arm| p.mul(arm, resists));
-        Some(Friction { effort: p.neg(whole), pressed, bristle })
+        let mut whole = |resists| arm.map_or(resists, |arm| p.mul(arm, resists));
+        let (resists, holds) = (whole(resists), whole(level.resists));
+        let sticking = sense.map(|sense| Sticking { sense, holds });
+        Some(Friction { effort: p.neg(resists), pressed, sticking, bristle })
     }
 
     /// `coulomb`, `static`, `stribeck_speed`.
@@ -90,17 +98,23 @@ impl<'n> Decoder<'n> {
         let (coulomb, mut resists) = (lowered.id, lowered.id);
         if let (Some(highest), Some(speed)) = (highest, speed) {
             let rate = self.own(1);
-            let p = &mut self.pool;
-            let above = p.sub(highest, coulomb);
-            let part = p.div(rate, speed);
-            let square = p.powi(part, 2);
-            let exponent = p.neg(square);
-            let falling = p.exp(exponent);
-            let more = p.mul(above, falling);
-            resists = p.add(coulomb, more);
+            let above;
+            (resists, above) = self.falling(coulomb, highest, (rate, speed));
             self.check_key(Rule::NotNegative("`static` less `coulomb`"), Some(above), at, "static");
         }
         Some(Level { coefficient, dimension, coulomb, resists })
+    }
+
+    /// coulomb + (static − coulomb) exp(−(x'/speed)²), and static − coulomb.
+    pub(super) fn falling(&mut self, coulomb: Id, highest: Id, (rate, speed): (Id, Id)) -> (Id, Id) {
+        let p = &mut self.pool;
+        let above = p.sub(highest, coulomb);
+        let part = p.div(rate, speed);
+        let square = p.powi(part, 2);
+        let exponent = p.neg(square);
+        let falling = p.exp(exponent);
+        let more = p.mul(above, falling);
+        (p.add(coulomb, more), above)
     }
 
     /// What bears the normal force, and the arm of the friction: `radius` of a pin, `length` of a guide; `coefficient` is known of a
@@ -150,15 +164,22 @@ impl<'n> Decoder<'n> {
         if guide { (Some(Pressure::Guide { length }), None) } else { (Some(Pressure::Pin), radius) }
     }
 
-    /// g · clamp(x'/stick_speed, −1, 1).
-    fn slip(&mut self, name: &str, stick: Option<Id>, level: &Level) -> Id {
-        let rate = self.own(1);
+    /// What is left of the largest friction: clamp(x'/stick_speed, −1, 1), or sign(x') by a switch of its own, which is told.
+    pub(super) fn share(&mut self, rate: Id, smooth: bool, stick: Option<Id>, text: &str) -> (Id, Option<u32>) {
         let p = &mut self.pool;
-        let stick = stick.unwrap_or_else(|| p.constant(STICK_SPEED));
-        let (low, high) = (p.constant(-1.0), p.constant(1.0));
-        let slip = p.div(rate, stick);
-        let share = p.clamp(slip, low, high, &format!("friction of joint `{name}`"));
-        p.mul(level.resists, share)
+        match stick {
+            Some(stick) => {
+                let (low, high) = (p.constant(-1.0), p.constant(1.0));
+                let slip = p.div(rate, stick);
+                (p.clamp(slip, low, high, text), None)
+            }
+            // a stick speed with a fault of its own
+            None if smooth => (p.constant(0.0), None),
+            None => {
+                let (share, sense) = p.own_sign(rate, text);
+                (share, Some(sense))
+            }
+        }
     }
 
     /// `bristle: { stiffness, damping }`: with the state y = σ₀ z/F, F being `coulomb` and z the deflection,

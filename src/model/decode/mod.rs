@@ -3,6 +3,7 @@
 
 mod bodies;
 mod checks;
+mod clutches;
 mod columns;
 mod dynamics;
 mod events;
@@ -101,6 +102,7 @@ impl<'n> Decoder<'n> {
             loads: Vec::new(),
             springs: Vec::new(),
             motors: Vec::new(),
+            clutches: Vec::new(),
             states: Vec::new(),
             measures: Vec::new(),
             events: Vec::new(),
@@ -133,11 +135,13 @@ impl<'n> Decoder<'n> {
         decoder.drivers();
         decoder.motors();
         decoder.springs_by_name();
+        decoder.clutches_by_name();
         decoder.states_by_name();
         decoder.measures();
         decoder.springs();
         decoder.couplings();
         decoder.loads();
+        decoder.clutches();
         decoder.start();
         decoder.events();
         decoder

@@ -9,9 +9,6 @@ use crate::model::quantities::Coordinate;
 use crate::model::rules::Rule;
 use crate::model::vocabulary::Quantity;
 
-/// Below this rate a joint sticks, rad/s or m/s, if its friction does not say another.
-pub(super) const STICK_SPEED: f64 = 1e-3;
-
 /// A rebound below this rate counts as rest, rad/s or m/s, if the limits do not say another.
 pub(crate) const REST_SPEED: f64 = 1e-3;
 

@@ -3,13 +3,14 @@
 use super::{Mechanical, Root};
 use crate::dynamics::{LANES, slack};
 use crate::geometry::Space;
+use crate::mechanism::StretchOf;
 use crate::scalar::Dual;
 use grashof_solvers::{At, Effect, Stage, State, System};
 
 impl Root {
     /// Whether its crossing acts on the motion as a kink does not: by a blow, or by what an event of the model does or notes.
     pub(super) fn acts(self) -> bool {
-        matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Event(_))
+        matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Slides(_) | Self::Holds { .. } | Self::Event(_))
     }
 }
 
@@ -62,19 +63,22 @@ where
 
     /// A joint reaches a rigid stop: it rebounds, rests or, pulled away, has only touched it; at the state looked at last.
     fn strike(&mut self, index: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
-        let m = self.dynamics.mechanism;
-        let stop = m.stops[index];
+        let stop = self.dynamics.mechanism.stops[index];
         let mode = self.mode_of_stop(index);
         row.fill(0.0);
-        m.gauges[stop.gauge].project(&self.dynamics.work.readings[stop.gauge], &self.dynamics.work.columns, |k, x| row[k] += x);
-        let Some(along) = stop.along else { return self.strike_without_rest(index, restitution) };
+        self.dynamics.extent_gradient(StretchOf::Gauge(stop.gauge), |k, x| row[k] += x);
+        if self.lets_go() {
+            return Effect::Stop;
+        }
+        let undecided = self.undecided(&state.modes);
+        let Some(along) = stop.along else { return self.strike_without_rest(index, restitution, undecided) };
         let speed = -stop.sense * self.dynamics.extent_rate(along);
         if speed < -stop.rest_speed {
             // another blow at the same instant has thrown it back already
             state.modes[mode] = 1;
-            return Effect::Record;
+            return if undecided { Effect::Stop } else { Effect::Record };
         }
-        let rebound = Effect::Bounce { restitution, stops: false };
+        let rebound = Effect::Bounce { restitution, stops: undecided };
         if restitution * speed >= stop.rest_speed {
             state.modes[mode] = 0;
             return rebound;
@@ -86,15 +90,19 @@ where
             return Effect::Bounce { restitution: 0.0, stops: true };
         }
         state.modes[mode] = 1;
-        if speed > 0.0 { rebound } else { Effect::Record }
+        match undecided {
+            _ if speed > 0.0 => rebound,
+            true => Effect::Stop,
+            false => Effect::Record,
+        }
     }
 
     /// A blow at the zero of a function that holds more than positions: nothing can rest there, and where it would the run ends.
-    fn strike_without_rest(&mut self, index: usize, restitution: f64) -> Effect {
+    fn strike_without_rest(&mut self, index: usize, restitution: f64, undecided: bool) -> Effect {
         let stop = self.dynamics.mechanism.stops[index];
         let rebound = restitution * self.dynamics.work.readings[stop.gauge].rate.abs();
         if rebound >= stop.rest_speed {
-            return Effect::Impulse { restitution, stops: false };
+            return Effect::Impulse { restitution, stops: undecided };
         }
         self.restless = stop.event;
         Effect::Stop

@@ -1,0 +1,150 @@
+//! Forces between bounds that keep rates of contacts at zero, or stand at a bound: the linear complementarity problem with boxes.
+//!
+//! Find f and w = A f + b with, for each i, one of
+//!
+//! ```text
+//! low < f < high and w = 0,      f = low and w ≥ 0,      f = high and w ≤ 0.
+//! ```
+//!
+//! A is symmetric and positive semidefinite. Whatever does not fit changes its place at once as long as fewer do not fit than before,
+//! else the first that does not fit changes alone, which ends after finitely many changes (Júdice and Pires, Computers & Operations
+//! Research 21 (1994) 587-596; Murty, Opsearch 11 (1974) 204-213).
+
+use nalgebra::{DMatrix, DVector};
+
+/// Where a force stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// At its lower bound.
+    Low,
+    /// Between its bounds.
+    Between,
+    /// At its upper bound.
+    High,
+}
+
+/// One force: its bounds, its place to begin with, and by how much a force and an acceleration may miss.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounded {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) place: Place,
+    pub(super) force: f64,
+    pub(super) acceleration: f64,
+}
+
+/// Times that everything may change at once without fewer misfits.
+const PATIENCE: usize = 10;
+
+/// Changes in all: many more than are ever needed, few enough to end.
+const MOST_CHANGES: usize = 10_000;
+
+/// Added to the diagonal of A in parts of it, so that forces that only their sum determines share it.
+const SHARED: f64 = 1e-12;
+
+/// The forces and their places; none where no places fit.
+pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded]) -> Option<(DVector<f64>, Vec<Place>)> {
+    let mut places: Vec<Place> = all.iter().map(|x| x.place).collect();
+    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    for _ in 0..MOST_CHANGES {
+        let f = forces(a, b, all, &places)?;
+        let w = a * &f + b;
+        let changes: Vec<(usize, Place)> = (0..all.len()).filter_map(|i| Some((i, elsewhere(&all[i], places[i], f[i], w[i])?))).collect();
+        if changes.is_empty() {
+            return Some((f, places));
+        }
+        if changes.len() < fewest {
+            (fewest, patience) = (changes.len(), PATIENCE);
+        } else {
+            patience = patience.saturating_sub(1);
+        }
+        let now = if patience > 0 { &changes[..] } else { &changes[..1] };
+        now.iter().for_each(|&(i, place)| places[i] = place);
+    }
+    None
+}
+
+/// Where a force goes that does not fit its place.
+fn elsewhere(x: &Bounded, place: Place, f: f64, w: f64) -> Option<Place> {
+    match place {
+        Place::Between if f < x.low - x.force => Some(Place::Low),
+        Place::Between if f > x.high + x.force => Some(Place::High),
+        Place::Low if w < -x.acceleration => Some(Place::Between),
+        Place::High if w > x.acceleration => Some(Place::Between),
+        _ => None,
+    }
+}
+
+/// Forces for given places: those between solve w = 0.
+fn forces(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], places: &[Place]) -> Option<DVector<f64>> {
+    let mut f = DVector::from_fn(all.len(), |i, _| match places[i] {
+        Place::Low => all[i].low,
+        Place::High => all[i].high,
+        Place::Between => 0.0,
+    });
+    let free: Vec<usize> = (0..all.len()).filter(|i| places[*i] == Place::Between).collect();
+    if free.is_empty() {
+        return Some(f);
+    }
+    let right = a * &f + b;
+    let block = DMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])] * if i == j { 1.0 + SHARED } else { 1.0 });
+    let solved = block.lu().solve(&DVector::from_fn(free.len(), |i, _| -right[free[i]]))?;
+    free.iter().zip(solved.iter()).for_each(|(i, x)| f[*i] = *x);
+    Some(f)
+}
+
+/// Those of `wanted` (in this order) whose columns of A are independent.
+pub(super) fn independent(a: &DMatrix<f64>, wanted: &[usize]) -> Vec<usize> {
+    /// Part of a diagonal entry of A that is left of a dependent one.
+    const DEPENDENT: f64 = 1e-9;
+    let mut kept: Vec<usize> = Vec::new();
+    for &i in wanted {
+        let block = DMatrix::from_fn(kept.len(), kept.len(), |r, c| a[(kept[r], kept[c])]);
+        let side = DVector::from_fn(kept.len(), |r, _| a[(kept[r], i)]);
+        let explained = if kept.is_empty() { Some(0.0) } else { block.lu().solve(&side).map(|x| x.dot(&side)) };
+        if explained.is_some_and(|explained| a[(i, i)] - explained > DEPENDENT * a[(i, i)]) {
+            kept.push(i);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounded(low: f64, high: f64) -> Bounded {
+        Bounded { low, high, place: Place::Between, force: 1e-12, acceleration: 1e-12 }
+    }
+
+    #[test]
+    fn random_problems_obey_their_laws() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
+        };
+        for case in 0..2000 {
+            let n = 1 + case % 9;
+            let root = DMatrix::from_fn(n, n, |_, _| random());
+            let a = &root * root.transpose() + DMatrix::identity(n, n) * 1e-3;
+            let b = DVector::from_fn(n, |_, _| 3.0 * random());
+            let all: Vec<Bounded> = (0..n).map(|i| if i % 4 == 3 { bounded(0.0, f64::INFINITY) } else { bounded(-0.7, 0.7) }).collect();
+            let (f, _) = solve(&a, &b, &all).unwrap_or_else(|| panic!("case {case}"));
+            let w = &a * &f + &b;
+            for i in 0..n {
+                let (low, high) = (f[i] <= all[i].low + 1e-9, f[i] >= all[i].high - 1e-9);
+                assert!(f[i] > all[i].low - 1e-9 && f[i] < all[i].high + 1e-9, "case {case}: {f}");
+                assert!(w[i].abs() < 1e-8 || low && w[i] > 0.0 || high && w[i] < 0.0, "case {case}: {w}");
+            }
+        }
+    }
+
+    #[test]
+    fn two_brakes_on_one_shaft_share_and_one_of_them_is_enough() {
+        let a = DMatrix::from_element(2, 2, 1.0);
+        let (f, places) = solve(&a, &DVector::from_element(2, -3.0), &[bounded(-2.0, 2.0); 2]).unwrap();
+        assert!((f[0] - 1.5).abs() < 1e-3 && (f[1] - 1.5).abs() < 1e-3 && places == [Place::Between; 2]);
+        assert_eq!(independent(&a, &[1, 0]), [1]);
+    }
+}

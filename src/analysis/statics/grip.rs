@@ -1,0 +1,106 @@
+//! Where friction holds a mechanism at rest: at its start, and around a pose of a mechanism with one degree of freedom.
+
+use super::pose::{Pose, Rest};
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::mechanism::Mechanism;
+use crate::scalar::Dual;
+
+/// First step of the search for the end of a region, and how far it goes, in radians or sizes.
+const STEP: f64 = 1e-3;
+const FARTHEST: f64 = std::f64::consts::TAU;
+
+/// The longest step of that search.
+const LONGEST: f64 = 0.05;
+
+/// A mechanism that friction holds.
+pub(super) struct Gripped<G: Space<S = f64>> {
+    /// With rows that hold the contacts that stick.
+    pub(super) mechanism: Mechanism<G>,
+    /// Where they stand, rad or m.
+    pub(super) live: Vec<f64>,
+    /// The pose.
+    pub(super) pose: Pose,
+}
+
+/// The mechanism held by friction at a pose; none where it would move.
+pub(super) fn gripped<G, D>(rest: &mut Rest<'_, G, D>, pose: Pose) -> Option<Gripped<G>>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    if rest.system.dynamics.mechanism.contacts.is_empty() {
+        return None;
+    }
+    let state = rest.state(&pose);
+    let held = rest.system.gripped(&state)?;
+    let live = rest.system.extents(&state);
+    let mut mechanism = rest.system.dynamics.mechanism.clone();
+    held.iter().for_each(|contact| mechanism.hold(*contact));
+    (!held.is_empty()).then_some(Gripped { mechanism, live, pose })
+}
+
+/// The ends of the region around a pose, at which friction holds a mechanism with one degree of freedom; none at an end where it holds
+/// on and on, and none at all where it does not hold at the pose, or there are more degrees of freedom.
+pub(super) fn region<G, D>(rest: &mut Rest<'_, G, D>, pose: &Pose) -> Option<[Option<Pose>; 2]>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    if pose.basis.ncols() != 1 || !holds(rest, pose) {
+        return None;
+    }
+    let mut ends = [-1.0, 1.0].map(|sense| end(rest, pose, sense));
+    // the basis points one way or the other
+    if let [Some(low), Some(high)] = &ends
+        && low.q.iter().zip(&high.q).find(|(a, b)| a != b).is_some_and(|(a, b)| a > b)
+    {
+        ends.reverse();
+    }
+    Some(ends)
+}
+
+fn holds<G, D>(rest: &mut Rest<'_, G, D>, pose: &Pose) -> bool
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let state = rest.state(pose);
+    rest.system.gripped(&state).is_some()
+}
+
+/// The last pose that is held in a sense, to the rounding of its coordinates.
+fn end<G, D>(rest: &mut Rest<'_, G, D>, from: &Pose, sense: f64) -> Option<Pose>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let (mut here, mut step, mut gone) = (from.clone(), STEP, 0.0);
+    let mut direction = &from.basis * nalgebra::DVector::from_element(1, sense);
+    let mut halving = false;
+    while gone < FARTHEST {
+        let length = rest.measure(&direction);
+        let delta = &direction * (step / length);
+        let next = rest.moved(&here, delta.as_slice()).ok().filter(|next| next.basis.ncols() == 1);
+        match next.filter(|next| holds(rest, next)) {
+            Some(next) => {
+                gone += step;
+                // the same sense as before
+                let along = &next.basis * nalgebra::DVector::from_element(1, 1.0);
+                direction = if along.dot(&direction) < 0.0 { -along } else { along };
+                here = next;
+                if !halving {
+                    step = (1.5 * step).min(LONGEST);
+                }
+            }
+            None => {
+                halving = true;
+                step *= 0.5;
+                if step < 1e-12 {
+                    return Some(here);
+                }
+            }
+        }
+    }
+    None
+}
