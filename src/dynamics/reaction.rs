@@ -23,6 +23,8 @@ pub struct Reactions<G: Space> {
     pub frame: Force<G>,
     /// Torque or force of each driver on the second body.
     pub drives: Vec<G::S>,
+    /// Torque or force on the second body of each row that holds a joint on a rigid stop (rows); 0 in the others.
+    pub rests: Vec<G::S>,
     sums: Vec<Force<G>>,
     /// What belongs to each group, about its reference point.
     of_group: Vec<Force<G>>,
@@ -40,6 +42,7 @@ impl<G: Space> Dynamics<'_, G> {
             shaking: Force::default(),
             frame: Force::default(),
             drives: vec![G::S::default(); m.drives.len()],
+            rests: vec![G::S::default(); m.rows.len()],
             sums: vec![Force::default(); m.bodies.len()],
             of_group: vec![Force::default(); m.groups.len()],
             along: vec![G::S::default(); m.gauges.len()],
@@ -120,7 +123,7 @@ impl<G: Space> Dynamics<'_, G> {
         let (m, w) = (self.mechanism, &self.work);
         out.along.fill(G::S::default());
         out.joints.fill(Force::default());
-        for (row, &l) in m.rows.iter().zip(lambda) {
+        for (index, (row, &l)) in m.rows.iter().zip(lambda).enumerate() {
             match row.kind {
                 RowKind::Gauge(i) | RowKind::Driver { gauge: i, .. } => out.along[i] -= l,
                 RowKind::Ratio { first, second, ratio } => {
@@ -144,7 +147,8 @@ impl<G: Space> Dynamics<'_, G> {
                     }
                     _ => {}
                 },
-                RowOwner::Coupling | RowOwner::Stop(_) => {}
+                RowOwner::Stop(_) => out.rests[index] = -l,
+                RowOwner::Coupling => {}
             }
         }
         for (effort, &size) in m.efforts.iter().zip(&w.efforts) {
