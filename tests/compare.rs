@@ -279,3 +279,32 @@ studies: { run: { dynamics: { until: 2 s, every: 0.1 s, tolerance: 1e-10 }, colu
     assert_eq!(done.code, 0, "{}\n{}", done.stdout, done.stderr);
     assert!(done.digits().iter().all(|d| *d > 5.0), "{}", done.stdout);
 }
+
+/// The only motion in time of one run is compared without being named; sweeps and other kinds do not count.
+#[test]
+fn the_only_motion_in_time_need_not_be_named() {
+    let place = Place::new("only");
+    let done = place.compare(&["--no-plots"]);
+    done.refused(&["the model has 5 motions in time", "name one with `--study`", "`swing`, `all-steps`"]);
+    let (head, _) = MODEL.split_once("  all-steps:").unwrap();
+    let (_, masses) = MODEL.split_once("  masses:").unwrap();
+    let (masses, _) = masses.split_once("  wild:").unwrap();
+    let rests = "  rests: { statics: { from: start } }\n";
+    let only = format!("{head}  masses:{masses}{rests}");
+    fs::write(place.0.join("model.yaml"), &only).unwrap();
+    let arguments = ["--integrators", "dop853,bdf", "--tolerances", "1e-5,1e-7", "--no-plots"];
+    let done = place.compare(&arguments);
+    assert_eq!(done.code, 0, "{}\n{}", done.stdout, done.stderr);
+    let (_, rows) = place.rows();
+    assert_eq!(rows.len(), 4);
+    // its errors are those of the study that it is
+    let named = place.compare(&[&["--study", "swing"][..], &arguments].concat());
+    let errors = |rows: &[Vec<String>], header: &[String]| -> Vec<String> {
+        let column = header.iter().position(|name| name.starts_with("error")).unwrap();
+        rows.iter().map(|row| row[column].clone()).collect()
+    };
+    let (header, again) = place.rows();
+    assert_eq!((named.code, errors(&rows, &header)), (0, errors(&again, &header)));
+    fs::write(place.0.join("model.yaml"), format!("{}studies:\n{rests}", MODEL.split_once("studies:").unwrap().0)).unwrap();
+    place.compare(&[]).refused(&["no motion in time of one run"]);
+}

@@ -28,6 +28,8 @@ pub(super) struct Sources<'a> {
     pub(super) functionals: &'a [f64],
     /// Values of `study.results`, in their order.
     pub(super) results: &'a [f64],
+    /// Works of a motion in time, J; else none.
+    pub(super) works: &'a [f64],
 }
 
 impl Sources<'_> {
@@ -87,6 +89,7 @@ impl Sources<'_> {
             inputs[i as usize] = match self.model.inputs[i as usize] {
                 Quantity::Functional(k) => self.functionals.get(k).copied().unwrap_or(f64::NAN),
                 Quantity::Result(k) => self.results.get(k).copied().unwrap_or(f64::NAN),
+                Quantity::Work(k) => self.works.get(k).copied().unwrap_or(f64::NAN),
                 _ => f64::NAN,
             };
         }

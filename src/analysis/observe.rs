@@ -4,7 +4,7 @@ use super::undefined::Gap;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
-use crate::mechanism::{EffortLaw, Mechanism};
+use crate::mechanism::{EffortLaw, Mechanism, RowOwner};
 use crate::model::{Model, Quantity};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
@@ -38,6 +38,7 @@ enum Source<G: Space> {
         body: usize,
         axis: usize,
         order: usize,
+        own: bool,
     },
     Quaternion {
         body: usize,
@@ -66,6 +67,11 @@ enum Source<G: Space> {
     Effort(usize),
     /// By which it slides, and the contact by which it sticks.
     Friction(usize, Option<usize>),
+    /// The end stops of a joint: the effort of those that give way, and the rows that hold the joint on rigid ones.
+    Stop {
+        effort: Option<usize>,
+        row: Option<usize>,
+    },
     Com {
         axis: usize,
         order: usize,
@@ -179,7 +185,7 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::Time => Source::Time,
         Quantity::Point { at, axis, order } => Source::Point { body: at.body, at: m.bodies[at.body].points[at.point].1, axis, order },
         Quantity::Angle { body, order } => Source::Angle { body, order },
-        Quantity::Spin { body, axis, order } => Source::Spin { body, axis, order },
+        Quantity::Spin { body, axis, order, own } => Source::Spin { body, axis, order, own },
         Quantity::Quaternion { body, component } => Source::Quaternion { body, component },
         Quantity::Joint { joint, slot, order } => match m.joints[joint].slots.get(slot) {
             Some(&gauge) => Source::Gauge { gauge, order },
@@ -212,8 +218,15 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
             None => Source::Given(f64::NAN),
         },
         Quantity::ClutchEffort { clutch } => Source::Friction(m.clutches[clutch], m.contact_of(m.clutches[clutch])),
+        Quantity::Stop { joint } => Source::Stop {
+            effort: m.buffers.iter().find(|b| b.joint == joint).map(|b| b.effort),
+            row: m
+                .rows
+                .iter()
+                .position(|row| matches!(row.owner, RowOwner::Stop(stop) if m.stops[stop].joint == joint && m.stops[stop].event.is_none())),
+        },
         Quantity::Bristle { joint } => m.bristles[joint].map_or(Source::Given(f64::NAN), Source::State),
-        Quantity::Functional(_) | Quantity::Result(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
+        Quantity::Functional(_) | Quantity::Result(_) | Quantity::Work(_) | Quantity::Taken(_) => Source::Given(f64::NAN),
     }
 }
 
@@ -248,8 +261,9 @@ impl<G: Space<S = f64>> Source<G> {
                 1 => G::spin_component(w.twists[body].w, 2),
                 _ => G::spin_component(r.accelerations[body].w, 2),
             },
-            Self::Spin { body, axis, order } => {
-                G::spin_component(if order == 1 { w.twists[body].w } else { r.accelerations[body].w }, axis)
+            Self::Spin { body, axis, order, own } => {
+                let spin = if order == 1 { w.twists[body].w } else { r.accelerations[body].w };
+                G::spin_component(d.in_axes(body, own, spin), axis)
             }
             Self::Quaternion { body, component } => {
                 let r = w.places[body].r;
@@ -277,6 +291,7 @@ impl<G: Space<S = f64>> Source<G> {
             Self::SpringForce(effort) => -w.efforts[effort],
             Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
             Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),
+            Self::Stop { effort, row } => effort.map_or(0.0, |effort| w.efforts[effort]) + row.map_or(0.0, |row| r.rests[row]),
             Self::Effort(effort) => {
                 debug_assert!(matches!(m.efforts[effort].law, EffortLaw::Drive { .. }));
                 w.efforts[effort]

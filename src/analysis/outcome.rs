@@ -3,6 +3,7 @@
 use super::assemble::AssemblyFault;
 use super::extremum::Extremes;
 use crate::mechanism::BuildFault;
+use crate::model::WORKS;
 use grashof_solvers::Counts;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
@@ -137,6 +138,8 @@ pub struct March {
     pub loads: f64,
     /// Work of dampers, J.
     pub dampers: f64,
+    /// Work of end stops beside what they store, J: damping of those that give way, blows at rigid ones.
+    pub stops: f64,
     /// Energy that events have given or taken at once, J.
     pub impacts: f64,
     /// Widest gap between looks at the conditions that depend on the motion, s; 0 where there are none.
@@ -146,6 +149,14 @@ pub struct March {
     /// What was spent.
     #[serde(with = "CountsFields")]
     pub counts: Counts,
+}
+
+impl March {
+    /// The works by [`WORKS`](crate::model::WORKS), J.
+    #[must_use]
+    pub fn works(&self) -> [f64; WORKS.len()] {
+        [self.drivers, self.loads, self.dampers, self.stops, self.impacts]
+    }
 }
 
 /// How well the rows satisfy the equations.

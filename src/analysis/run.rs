@@ -284,7 +284,7 @@ fn observe<G: Space<S = f64>>(
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
         results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
     }
-    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &functionals, results: &results };
+    let sources = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
     let numbers = sources.numbers(undefined.is_none());
     let undefined = undefined.or(numbers.undefined);
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();

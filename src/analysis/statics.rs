@@ -379,7 +379,7 @@ where
             .collect();
         let results = vec![stable(&all[0])];
         let tables = &self.rest.system.dynamics.mechanism.tables;
-        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results }.numbers(true);
+        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         findings.extend(numbers.findings);
         let alone = |value: f64| Extremum { value, at: 0.0, piece: 0 };
         Ok(Outcome {

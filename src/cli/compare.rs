@@ -14,7 +14,7 @@ use grashof::analysis::outcome::Failure;
 use grashof::analysis::run::run;
 use grashof::analysis::sweep::parameters;
 use grashof::mechanism::Coordinates;
-use grashof::model::{Forward, Integrator, Kind, Model, Study};
+use grashof::model::{Document, Forward, Integrator, Kind, Model, Study};
 use std::path::Path;
 use std::time::Instant;
 
@@ -39,9 +39,9 @@ const MOST: usize = 40;
 pub(super) struct Arguments {
     /// Model file, or `-` for stdin
     model: String,
-    /// The study, a motion in time
+    /// The study, a motion in time [default: the only one of the file]
     #[arg(long, value_name = "S")]
-    study: String,
+    study: Option<String>,
     /// Integrators to compare [default: dop853,radau5,bdf, or rk4,newmark,generalized-alpha,bdf with fixed steps, and that of the study]
     #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
     integrators: Vec<String>,
@@ -106,12 +106,16 @@ pub(super) fn compare(arguments: &Arguments, common: &Common) -> u8 {
 fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let integrators = integrators(&arguments.integrators)?;
     let document = files::document(&arguments.model, common).ok_or(code::INPUT)?;
-    let report = document.check_all(&files::selection(common, Some(&arguments.study)).ok_or(code::INPUT)?);
+    let name = match &arguments.study {
+        Some(name) => name.clone(),
+        None => only_motion(&document, common)?,
+    };
+    let report = document.check_all(&files::selection(common, Some(&name)).ok_or(code::INPUT)?);
     if report.failed() {
         files::print(&report, common);
         return Err(code::INPUT);
     }
-    let mut model = load(&document, common, &arguments.study, &mut Scalars::new())?;
+    let mut model = load(&document, common, &name, &mut Scalars::new())?;
     let study = model.study.clone().ok_or(code::INPUT)?;
     let forward = motion(&study)?.clone();
     let values = parameters(&model);
@@ -207,6 +211,34 @@ fn usable(integrators: &[Integrator], fixed: bool) -> Result<(), u8> {
         ));
     }
     Ok(())
+}
+
+/// The study that is compared where none is named: the only motion in time of one run in the file.
+fn only_motion(document: &Document, common: &Common) -> Result<String, u8> {
+    let names = document.study_names();
+    let is_motion = |name: &&String| {
+        let model = files::selection(common, Some(name)).and_then(|selection| document.model(&selection).ok());
+        let study = model.and_then(|model| model.study);
+        study.is_some_and(|s| matches!(s.kind, Kind::Dynamics(_)) && s.sweep.is_empty() && s.solve.is_none())
+    };
+    let motions: Vec<&String> = names.iter().filter(is_motion).collect();
+    match motions[..] {
+        [only] => Ok(only.clone()),
+        [] => {
+            // faults of the file come before what it lacks
+            let report = document.check_all(&files::selection(common, None).ok_or(code::INPUT)?);
+            if report.failed() {
+                files::print(&report, common);
+                return Err(code::INPUT);
+            }
+            let help = "add one, as `studies: { swing: { dynamics: { until: 10 s } } }`";
+            Err(refuse("the model has no motion in time of one run, so there is nothing to compare", help))
+        }
+        _ => {
+            let list = motions.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            Err(refuse(&format!("the model has {} motions in time", motions.len()), &format!("name one with `--study`: {list}")))
+        }
+    }
 }
 
 /// The motion in time of a study of one run.

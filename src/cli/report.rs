@@ -8,7 +8,7 @@ use super::{linear, modes};
 use grashof::analysis::extremum::Extremum;
 use grashof::analysis::outcome::{self, Outcome};
 use grashof::analysis::solve::Solved;
-use grashof::model::{Kind, Model, Study};
+use grashof::model::{Kind, Model, Study, WORKS};
 use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
 use serde_json::Value;
 
@@ -142,13 +142,9 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
     all.push(("integrator".into(), Value::String(m.schemes.clone())));
     let happened = outcome.events.iter().map(|e| serde_json::json!({ "name": e.name, "at": json_number(e.at) }));
     all.push(("happened".into(), Value::Array(happened.collect())));
+    all.extend([number("energy_drift", m.energy_drift), number("energy_scale", m.energy_scale)]);
+    all.extend(WORKS.iter().zip(m.works()).map(|(name, work)| number(name, work)));
     all.extend([
-        number("energy_drift", m.energy_drift),
-        number("energy_scale", m.energy_scale),
-        number("work_drivers", m.drivers),
-        number("work_loads", m.loads),
-        number("work_dampers", m.dampers),
-        number("work_impacts", m.impacts),
         number("widest_gap", m.widest_gap),
         count("steps", m.counts.steps),
         count("rejected", m.counts.rejected),
@@ -167,11 +163,8 @@ fn certificate(outcome: &Outcome) -> Vec<(String, Value)> {
 fn march(outcome: &Outcome) -> String {
     let Some(m) = &outcome.certificate.march else { return String::new() };
     let (c, k) = (&outcome.certificate, &m.counts);
-    let works: Vec<String> = [("drivers", m.drivers), ("loads", m.loads), ("dampers", m.dampers), ("impacts", m.impacts)]
-        .iter()
-        .filter(|(_, x)| x.abs() > 1e-12 * m.energy_scale)
-        .map(|(name, x)| format!("{name} {x:+.6} J"))
-        .collect();
+    let works = WORKS.iter().zip(m.works()).filter(|(_, x)| x.abs() > 1e-12 * m.energy_scale);
+    let works: Vec<String> = works.map(|(name, x)| format!("{} {x:+.6} J", name.trim_start_matches("work_"))).collect();
     let works = if works.is_empty() { String::new() } else { format!("; {}", works.join(", ")) };
     let relative = if m.energy_scale > 0.0 { m.energy_drift / m.energy_scale } else { 0.0 };
     let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));

@@ -33,10 +33,37 @@ impl<G: Space> Dynamics<'_, G> {
         sum
     }
 
+    /// Potential energy of bodies in a field of gravity that has a potential, J.
+    fn field_energy(&mut self, modes: &[i32]) -> G::S {
+        let m = self.mechanism;
+        let mut sum = G::S::default();
+        if m.pulls.iter().any(|pull| pull.potential.is_some()) {
+            self.fill(&m.force_program);
+            let w = &mut self.work;
+            m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
+            m.pulls.iter().filter_map(|pull| pull.potential).for_each(|output| sum += w.force_outputs[output]);
+        }
+        sum
+    }
+
+    /// Power of what has a potential among the loads at points, W; after [`Dynamics::loads`].
+    #[must_use]
+    pub fn field_power(&self) -> G::S {
+        let w = &self.work;
+        let mut sum = G::S::default();
+        for pull in self.mechanism.pulls.iter().filter(|pull| pull.potential.is_some()) {
+            let velocity = w.twists[pull.body].at(w.places[pull.body].point(pull.at));
+            for (axis, &output) in pull.force.iter().enumerate() {
+                sum += w.force_outputs[output] * G::component(velocity, axis);
+            }
+        }
+        sum
+    }
+
     /// Potential energy of gravity, springs and end stops that give way, J.
     #[must_use]
     pub fn potential_energy(&mut self, modes: &mut [i32]) -> G::S {
-        let mut sum = self.gravity_energy();
+        let mut sum = self.gravity_energy() + self.field_energy(modes);
         for spring in 0..self.mechanism.stretches.len() {
             sum += self.spring_energy(spring, modes);
         }

@@ -108,7 +108,8 @@ impl<G: Space> Dynamics<'_, G> {
             w.applied[b] = Force { n: G::moment(inertia.h, m.gravity), f: m.gravity * inertia.m };
         }
         for pull in &m.pulls {
-            let axes = w.places[pull.frame].r;
+            let frame = w.places[pull.frame].r;
+            let axes = pull.axes.map_or(frame, |axes| G::multiply(frame, axes));
             let mut wrench = Force::default();
             if !pull.force.is_empty() {
                 let mut f = [G::S::default(); 3];

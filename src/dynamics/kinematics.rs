@@ -233,9 +233,15 @@ impl<G: Space> Dynamics<'_, G> {
             Leaf::Gauge { gauge, .. } => w.readings[gauge].drift,
             Leaf::Stretch { spring, order: 0 } => self.extent(self.mechanism.stretches[spring].of) - self.mechanism.stretches[spring].rest,
             Leaf::Stretch { spring, .. } => self.extent_rate(self.mechanism.stretches[spring].of),
-            Leaf::Spin { body, axis } => G::spin_component(w.twists[body].w, axis),
+            Leaf::Spin { body, axis, own } => G::spin_component(self.in_axes(body, own, w.twists[body].w), axis),
             Leaf::State(state) => w.z[state],
         }
+    }
+
+    /// An angular velocity or acceleration in the axes of a body, or as it is in those of the world.
+    #[must_use]
+    pub fn in_axes(&self, body: usize, own: bool, w: G::Spin) -> G::Spin {
+        if own { G::rotate_spin(G::inverse(self.work.places[body].r), w) } else { w }
     }
 
     /// x of a gauge or function.

@@ -25,6 +25,8 @@ pub struct Reactions<G: Space> {
     pub drives: Vec<G::S>,
     /// Torque or force by which each contact is held where it sticks, on the second body; 0 while it slides.
     pub held: Vec<G::S>,
+    /// Torque or force on the second body of each row that holds a joint on a rigid stop (rows); 0 in the others.
+    pub rests: Vec<G::S>,
     sums: Vec<Force<G>>,
     /// What belongs to each group, about its reference point.
     of_group: Vec<Force<G>>,
@@ -43,6 +45,7 @@ impl<G: Space> Dynamics<'_, G> {
             frame: Force::default(),
             drives: vec![G::S::default(); m.drives.len()],
             held: vec![G::S::default(); m.contacts.len()],
+            rests: vec![G::S::default(); m.rows.len()],
             sums: vec![Force::default(); m.bodies.len()],
             of_group: vec![Force::default(); m.groups.len()],
             along: vec![G::S::default(); m.gauges.len()],
@@ -124,7 +127,7 @@ impl<G: Space> Dynamics<'_, G> {
         out.along.fill(G::S::default());
         out.joints.fill(Force::default());
         out.held.fill(G::S::default());
-        for (row, &l) in m.rows.iter().zip(lambda) {
+        for (index, (row, &l)) in m.rows.iter().zip(lambda).enumerate() {
             match row.kind {
                 RowKind::Gauge(i) | RowKind::Driver { gauge: i, .. } => out.along[i] -= l,
                 RowKind::Ratio { first, second, ratio } => {
@@ -149,7 +152,8 @@ impl<G: Space> Dynamics<'_, G> {
                     _ => {}
                 },
                 RowOwner::Contact(c) => out.held[c] = -l,
-                RowOwner::Coupling | RowOwner::Stop(_) => {}
+                RowOwner::Stop(_) => out.rests[index] = -l,
+                RowOwner::Coupling => {}
             }
         }
         for (effort, &size) in m.efforts.iter().zip(&w.efforts) {

@@ -7,6 +7,7 @@ mod bodies;
 mod elements;
 mod friction;
 mod graph;
+mod particle;
 mod programs;
 mod starts;
 
@@ -123,6 +124,8 @@ struct Builder<'m, G: Space> {
     honour_cuts: bool,
     mechanism: Mechanism<G>,
     shapes: Vec<Shape>,
+    /// Which bodies are point masses without a rotation.
+    particles: Vec<bool>,
     /// Gauge of each slot of each joint, once something needs it.
     slots: Vec<Vec<Option<usize>>>,
     /// Measured quantities of cut joints' slots.

@@ -29,6 +29,8 @@ pub enum Leaf {
         body: usize,
         /// 0 x, 1 y, 2 z.
         axis: usize,
+        /// In the axes of the body instead of the world's.
+        own: bool,
     },
     /// A first-order state.
     State(usize),
@@ -239,6 +241,8 @@ impl Stop {
 /// End stops that give way: ½ k d² where the coordinate is by d beyond an end. Their force is an effort.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Buffer {
+    /// The joint.
+    pub joint: usize,
     /// The effort.
     pub effort: usize,
     /// The gauge of the coordinate.
@@ -278,6 +282,10 @@ pub struct Pull<G: Space> {
     pub torque: Vec<usize>,
     /// The body whose axes the components are in; 0 is the world.
     pub frame: usize,
+    /// The axes of the components in that body, if they are not its own.
+    pub axes: Option<G::Rotation>,
+    /// Output that is the potential energy of the load, J: a field of gravity that has one.
+    pub potential: Option<usize>,
 }
 
 impl<G: Space> Stretch<G> {
@@ -308,6 +316,8 @@ impl<G: Space> Pull<G> {
             force: self.force.clone(),
             torque: self.torque.clone(),
             frame: self.frame,
+            axes: self.axes.map(G::lift_rotation::<D>),
+            potential: self.potential,
         }
     }
 }

@@ -124,6 +124,7 @@ impl Shape {
             JointKind::Universal { .. } => "universal",
             JointKind::Spherical => "spherical",
             JointKind::Free => "free",
+            JointKind::Particle => "point",
         }
     }
 
@@ -142,6 +143,8 @@ impl Shape {
             JointKind::Screw { .. } => vec![Axis::Screw(n, self.pitch)],
             JointKind::Universal { .. } => vec![Axis::Hinge(n), Axis::Hinge(apply(&self.align, self.second))],
             JointKind::Spherical => vec![Axis::Ball],
+            JointKind::Particle if planar => vec![Axis::Slide([1.0, 0.0, 0.0]), Axis::Slide([0.0, 1.0, 0.0])],
+            JointKind::Particle => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], z].map(Axis::Slide).to_vec(),
             JointKind::Free if planar => vec![Axis::Slide([1.0, 0.0, 0.0]), Axis::Slide([0.0, 1.0, 0.0]), Axis::Hinge(z)],
             JointKind::Free => {
                 vec![Axis::Slide([1.0, 0.0, 0.0]), Axis::Slide([0.0, 1.0, 0.0]), Axis::Slide([0.0, 0.0, 1.0]), Axis::Ball]
@@ -193,7 +196,8 @@ impl Shape {
                 vec![turn(w, cross(n, w), self.second), turn(first, cross(first, self.second), n)]
             }
             JointKind::Free if planar => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0]), Measured::Angle],
-            JointKind::Free => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0]), slide([0.0, 0.0, 1.0])],
+            JointKind::Particle if planar => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0])],
+            JointKind::Free | JointKind::Particle => vec![slide([1.0, 0.0, 0.0]), slide([0.0, 1.0, 0.0]), slide([0.0, 0.0, 1.0])],
             JointKind::Fixed | JointKind::Spherical => vec![],
             JointKind::Distance { .. } => vec![Measured::Distance { pa, pb }],
         }
@@ -326,6 +330,11 @@ pub(super) fn unit(a: [f64; 3]) -> [f64; 3] {
 }
 pub(super) fn apply(r: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| dot(r[i], x))
+}
+/// A B.
+pub(super) fn multiply(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let b = transpose(b);
+    std::array::from_fn(|i| std::array::from_fn(|k| dot(a[i], b[k])))
 }
 pub(super) fn transpose(r: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))

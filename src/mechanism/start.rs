@@ -25,12 +25,14 @@ pub enum Asked {
         /// 0 or 1.
         order: usize,
     },
-    /// A component of a body's angular velocity in world axes.
+    /// A component of a body's angular velocity.
     Spin {
         /// The body.
         body: usize,
         /// 0 x, 1 y, 2 z.
         axis: usize,
+        /// In the axes of the body instead of the world's.
+        own: bool,
     },
     /// The orientation of a body; the value of the start is its angle.
     Orientation(usize),

@@ -3,6 +3,7 @@
 //! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
+use super::bodies::{Attraction, Body};
 use super::contacts::{Clutch, Friction, Limit, Stops};
 use super::rules::Check;
 use super::{study::Study, vocabulary::Quantity};
@@ -37,8 +38,10 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Tables in file order; a table node's index points here.
     pub tables: Vec<Table>,
-    /// 2 or 3 components, m/s².
+    /// 2 or 3 components, m/s²; 0 where gravity is a field.
     pub gravity: Vec<Id>,
+    /// Gravity of each body where it is a field.
+    pub attractions: Vec<Attraction>,
     /// Bodies in file order; the first is the ground.
     pub bodies: Vec<Body>,
     /// Joints in file order.
@@ -115,86 +118,6 @@ pub struct PointRef {
     pub point: usize,
 }
 
-/// A rigid body.
-#[derive(Clone, Debug)]
-pub struct Body {
-    /// Its name; `ground` for the first.
-    pub name: String,
-    /// The one shape, if any.
-    pub shape: Option<Shape>,
-    /// Explicit mass, kg.
-    pub mass: Option<Id>,
-    /// Explicit inertia about `com` in body axes, kg m²: 1 figure (planar, or a sphere), 3 (Ixx, Iyy, Izz) or 6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz).
-    pub inertia: Vec<Id>,
-    /// Explicit centre of mass, body frame, m.
-    pub com: Option<Vec<Id>>,
-    /// `fictitious: true`: an inertia that no real body has is allowed.
-    pub fictitious: bool,
-    /// Points that outline the body in drawings beside its joints and points, body frame, m.
-    pub drawn: Vec<Vec<Id>>,
-    /// Points: 0 `origin`, 1 `com`, then those of the shape (`start`, `end` of a bar), then the user's.
-    pub points: Vec<Point>,
-    /// Point masses and rotors.
-    pub attached: Vec<Attached>,
-    /// Where it stands.
-    pub place: Place,
-}
-
-/// A shape with its sizes, m, and mass, kg.
-#[derive(Clone, Debug)]
-#[allow(missing_docs, reason = "the line above each variant names its fields")]
-pub enum Shape {
-    /// Uniform straight bar from the body's origin along x; `width` (y) and `height` (z) 0 when thin.
-    Bar { length: Id, mass: Option<Id>, width: Option<Id>, height: Option<Id> },
-    /// Uniform straight bar drawn in place between two points of the world; the body frame is the world frame at the drawn position.
-    BarBetween { from: Vec<Id>, to: Vec<Id>, mass: Option<Id>, width: Option<Id>, height: Option<Id> },
-    /// Uniform disc about z through the origin.
-    Disc { radius: Id, mass: Option<Id>, thickness: Option<Id> },
-    /// Uniform plate (planar: two sizes) or box (three sizes) centred at the origin.
-    Plate { size: Vec<Id>, mass: Option<Id> },
-    /// Uniform ball centred at the origin.
-    Ball { radius: Id, mass: Option<Id> },
-}
-
-/// A named point fixed in a body.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// Its name.
-    pub name: String,
-    /// Its position in the body frame, m.
-    pub at: PointAt,
-}
-
-/// Where a point of a body lies.
-#[derive(Clone, Debug)]
-pub enum PointAt {
-    /// The body's origin.
-    Origin,
-    /// The centre of mass of the body with all that is attached.
-    Com,
-    /// The start of the bar.
-    Start,
-    /// The end of the bar.
-    End,
-    /// 2 or 3 coordinates in the body frame, m.
-    Given(Vec<Id>),
-}
-
-/// A point mass or rotor on a body.
-#[derive(Clone, Debug)]
-pub struct Attached {
-    /// Its name.
-    pub name: String,
-    /// The point of the body where it sits (0, the origin, if not given).
-    pub at: usize,
-    /// Its mass, kg.
-    pub mass: Option<Id>,
-    /// Its inertia about its own centre, kg m²: empty, 1, 3 or 6 figures as in [`Body::inertia`].
-    pub inertia: Vec<Id>,
-    /// Where it stands.
-    pub place: Place,
-}
-
 /// A connection of two points.
 #[derive(Clone, Debug)]
 pub struct Joint {
@@ -228,6 +151,13 @@ pub struct Joint {
     pub place: Place,
 }
 
+impl Joint {
+    /// Whether its way has ends.
+    pub(crate) fn has_stops(&self) -> bool {
+        self.limit.is_some() || self.stops.is_some()
+    }
+}
+
 /// Kind of a joint.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
@@ -254,6 +184,8 @@ pub enum JointKind {
     Spherical,
     /// No constraint; carries the coordinates of a free body.
     Free,
+    /// No constraint; carries the place of a point mass, which has no rotation.
+    Particle,
 }
 
 /// A relation between coordinates.
@@ -328,8 +260,8 @@ pub struct Load {
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
 pub enum LoadOn {
-    /// At a point of a body: force (2 or 3 components; empty if none) and torque (planar 1, spatial 3 components; empty if none), in the axes of body `frame` (0 is the world).
-    Point { at: PointRef, force: Vec<Id>, torque: Vec<Id>, frame: usize },
+    /// At a point of a body: force (2 or 3 components; empty if none) and torque (planar 1, spatial 3 components; empty if none), in the axes of the point `frame` (of body 0: those of the world).
+    Point { at: PointRef, force: Vec<Id>, torque: Vec<Id>, frame: PointRef },
     /// On a joint's coordinate: on the second body, reaction on the first; N m or N.
     Joint { joint: usize, effort: Id },
 }
@@ -483,4 +415,6 @@ pub enum StartValue {
     Number(Id),
     /// Spatial orientation of a body: axis (world) and angle.
     Rotation { axis: Vec<Id>, angle: Id },
+    /// The same by roll, pitch and yaw about the axes of the world.
+    RollPitchYaw([Id; 3]),
 }

@@ -6,7 +6,9 @@
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 
 mod acting;
+mod bodies;
 mod contacts;
+mod coordinates;
 mod decode;
 mod diagnostics;
 mod document;
@@ -31,18 +33,19 @@ mod vocabulary;
 mod words;
 mod yaml;
 
+pub use bodies::*;
 pub use contacts::*;
+pub(crate) use coordinates::coordinates as coordinates_of;
 pub(crate) use decode::REST_SPEED;
 pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
 pub use document::{Document, Selection};
 pub use entities::*;
 pub use include::Files;
-pub(crate) use quantities::coordinates as coordinates_of;
 pub use rules::Check;
 pub use schema::schema;
 pub use study::*;
-pub use urdf::{Import, Imported, import, roll_pitch_yaw};
-pub use vocabulary::{Known, Quantity};
+pub use urdf::{Import, Imported, axis_angle, import, roll_pitch_yaw};
+pub use vocabulary::{Known, Quantity, WORKS};
 pub use words::{in_unit, with_unit};
 
 #[cfg(test)]

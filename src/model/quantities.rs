@@ -1,63 +1,13 @@
 //! The quantities of a mechanism by their dotted paths: `crank.angle`, `rocker.tip.x`, `O.fx`, `com.vx`.
 
-use super::entities::{Dimensions, JointKind, Model, PointRef};
+use super::coordinates::{ANGLE, Coordinate, POSITION, angle, coordinates, length};
+use super::entities::{Dimensions, Model, PointRef};
 use super::names::Entity;
 use super::scope::Reach;
 use super::suggest;
 use super::vocabulary::Quantity;
 use crate::expression::{Dimension, Id, Pool, Symbol, Unknown};
 use std::collections::HashMap;
-
-/// A coordinate of a joint.
-#[derive(Debug)]
-pub(crate) struct Coordinate {
-    /// Its name, that of its rate and that of its second rate.
-    pub(crate) names: [&'static str; 3],
-    /// Its number in the joint.
-    pub(crate) slot: usize,
-    /// Angle or length.
-    pub(crate) angle: bool,
-}
-
-const fn angle(names: [&'static str; 3], slot: usize) -> Coordinate {
-    Coordinate { names, slot, angle: true }
-}
-const fn length(names: [&'static str; 3], slot: usize) -> Coordinate {
-    Coordinate { names, slot, angle: false }
-}
-
-const ANGLE: [&str; 3] = ["angle", "omega", "alpha"];
-const POSITION: [&str; 3] = ["position", "velocity", "acceleration"];
-
-/// The coordinates of a joint that have names.
-pub(crate) fn coordinates(kind: &JointKind) -> &'static [Coordinate] {
-    const HINGE: &[Coordinate] = &[angle(ANGLE, 0)];
-    const SLIDE: &[Coordinate] = &[length(POSITION, 0)];
-    const CYLINDER: &[Coordinate] = &[angle(ANGLE, 0), length(POSITION, 1)];
-    const CROSS: &[Coordinate] = &[angle(["angle1", "omega1", "alpha1"], 0), angle(["angle2", "omega2", "alpha2"], 1)];
-    const PLANE: &[Coordinate] = &[length(["x", "vx", "ax"], 0), length(["y", "vy", "ay"], 1), angle(ANGLE, 2)];
-    match kind {
-        JointKind::Revolute | JointKind::Screw { .. } => HINGE,
-        JointKind::Slider => SLIDE,
-        JointKind::Cylindrical => CYLINDER,
-        JointKind::Universal { .. } => CROSS,
-        JointKind::Planar => PLANE,
-        JointKind::PinInSlot | JointKind::Fixed | JointKind::Distance { .. } | JointKind::Spherical | JointKind::Free => &[],
-    }
-}
-
-impl Coordinate {
-    /// Dimension of its rate of this order.
-    pub(crate) fn dimension(&self, order: usize) -> Dimension {
-        let base = if self.angle { Dimension::ANGLE } else { Dimension::LENGTH };
-        base.div(Dimension::TIME.pow(order as i32))
-    }
-
-    /// Dimension of the generalised force that works on it.
-    pub(crate) fn effort(&self) -> Dimension {
-        if self.angle { Dimension::TORQUE } else { Dimension::FORCE }
-    }
-}
 
 /// A resolved path.
 #[derive(Clone, Copy)]
@@ -115,6 +65,9 @@ pub(super) fn unknown(found: impl Into<String>, expected: impl Into<String>, hel
 }
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
+
+/// Behind the name of a rate of rotation that is in the axes of the body.
+const OWN: &str = "_own";
 
 impl<'a> World<'a> {
     /// Names of one kind of things, in file order; not more than a message can use.
@@ -373,19 +326,29 @@ impl<'a> World<'a> {
             return Ok(Found::Leaf(Quantity::Angle { body, order }, angle(ANGLE, 0).dimension(order)));
         }
         if !planar {
-            if let Some(axis) = rest.strip_prefix('w').and_then(|axis| self.axis(axis)) {
-                return Ok(Found::Leaf(Quantity::Spin { body, axis, order: 1 }, Dimension::ANGULAR_SPEED));
+            let (name, own) = rest.strip_suffix(OWN).map_or((rest, false), |name| (name, true));
+            for (order, prefix) in [(1, "w"), (2, "alpha")] {
+                if let Some(axis) = name.strip_prefix(prefix).and_then(|axis| self.axis(axis)) {
+                    return Ok(Found::Leaf(Quantity::Spin { body, axis, order, own }, angle(ANGLE, 0).dimension(order)));
+                }
             }
             if let Some(component) = ["qw", "qx", "qy", "qz"].iter().position(|name| *name == rest) {
                 return Ok(Found::Leaf(Quantity::Quaternion { body, component }, Dimension::NONE));
             }
             if ANGLE.contains(&rest) {
-                let help = Some("an angle belongs to a joint, as `J.angle`; a body has `wx wy wz` and `qw qx qy qz`".to_owned());
+                let help = Some(
+                    "an angle belongs to a joint, as `J.angle`; a body has `wx wy wz`, `alphax alphay alphaz` and `qw qx qy qz`".to_owned(),
+                );
                 return Err(unknown(format!("`{head}` has no `{rest}` in space"), "a quantity of a body in space", help));
             }
         }
         let mut known = self.point_quantities();
-        known.extend(if planar { ANGLE.to_vec() } else { vec!["wx", "wy", "wz", "qw", "qx", "qy", "qz"] }.into_iter().map(str::to_owned));
+        if planar {
+            known.extend(ANGLE.map(str::to_owned));
+        } else {
+            known.extend(["qw", "qx", "qy", "qz"].map(str::to_owned));
+            known.extend(self.axes(&["w", "alpha"]).into_iter().flat_map(|name| [format!("{name}{OWN}"), name]));
+        }
         if self.model.bodies[body].points.iter().any(|p| p.name == rest) {
             return Err(self.wrong(&format!("{head}.{rest}"), "", &self.point_quantities()));
         }
@@ -430,6 +393,15 @@ impl<'a> World<'a> {
                 return Ok(Found::Leaf(quantity, coordinate.dimension(order)));
             }
         }
+        if let ("stop" | "stop_power", [c], true) = (rest, all, self.model.joints[joint].has_stops()) {
+            let stop = Quantity::Stop { joint };
+            if rest == "stop" {
+                return Ok(Found::Leaf(stop, c.effort()));
+            }
+            let rate = Quantity::Joint { joint, slot: 0, order: 1 };
+            let (force, speed) = (self.input(pool, stop), self.input(pool, rate));
+            return Ok(Found::Made(Symbol { id: pool.mul(force, speed), dimension: Dimension::POWER }, Reach::of(stop)));
+        }
         if let (Some((quantity, unit)), [c]) = (self.model.joints[joint].friction.as_ref().and_then(|f| f.quantity(joint, rest)), all) {
             let (leaf, reach) = self.leaf(pool, quantity, if unit.is_some() { c.dimension(0) } else { c.effort() });
             return Ok(Found::Made(Symbol { id: unit.map_or(leaf.id, |unit| pool.mul(unit, leaf.id)), ..leaf }, reach));
@@ -437,6 +409,9 @@ impl<'a> World<'a> {
         let found = self.resultant(pool, name, rest, |axis| Quantity::Force { joint, axis }, |axis| Quantity::Moment { joint, axis });
         found.map_err(|_| {
             let mut known: Vec<String> = all.iter().flat_map(|c| c.names).map(str::to_owned).collect();
+            if self.model.joints[joint].has_stops() {
+                known.extend(["stop", "stop_power"].map(str::to_owned));
+            }
             known.extend(self.axes(if self.planar() { &["f"] } else { &["f", "m"] }));
             known.extend(["f".to_owned(), "m".to_owned()]);
             self.wrong(name, rest, &known)

@@ -39,6 +39,7 @@ const BRISTLE_STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m or N m/rad
 const BRISTLE_DAMPING: Shape = Value(Want::Varies("a damping: N s/m or N m s/rad; with a coefficient of friction s/m, or s"));
 const ROLL_PITCH_YAW: Shape = List(&ANGLE, Size::Exactly(3));
 const POSITION: Shape = List(&LENGTH, Size::Space);
+const PLACED: Shape = Either(&[POSITION, Map(&FRAME)]);
 const DIRECTION: Shape = List(&NUMBER, Size::Space);
 const POINT: Shape = Name("a point `body.point`, or a body for its origin");
 const JOINT_NAME: Shape = Name("the name of a joint");
@@ -55,12 +56,12 @@ pub(crate) static FILE: Table = Table {
         need("space", Word(&["planar", "spatial"]), "`planar` (x, y) or `spatial`."),
         need(
             "gravity",
-            Either(&[Word(&["none"]), List(&Value(Want::Of(D::ACCELERATION)), Size::Space)]),
-            "Acceleration of gravity, or `none`.",
+            Either(&[Word(&["none"]), List(&Value(Want::Of(D::ACCELERATION)), Size::Space), Map(&GRAVITY)]),
+            "Acceleration of gravity, or a field of it, or `none`.",
         ),
         may("parameters", Named(Keys::Name, "a parameter", &ANY), "Numbers with names; each can be set from outside."),
         may("tables", Named(Keys::Name, "a table", &Map(&TABLE)), "Functions given by points, called `name(x)`."),
-        may("ground", Named(Keys::Name, "a point of the frame", &POSITION), "Points of the frame: `ground.NAME`."),
+        may("ground", Named(Keys::Name, "a point of the frame", &PLACED), "Points of the frame: `ground.NAME`."),
         need("bodies", Named(Keys::Name, "a body", &Map(&BODY)), "Rigid bodies."),
         may("joints", Named(Keys::Name, "a joint", &Map(&JOINT)), "Connections of two points."),
         may("couplings", Named(Keys::Name, "a coupling", &Map(&COUPLING)), "Relations between coordinates."),
@@ -71,7 +72,11 @@ pub(crate) static FILE: Table = Table {
         may("clutches", Named(Keys::Name, "a clutch", &Map(&CLUTCH)), "Clutches, brakes and one-way clutches."),
         may(
             "start",
-            Named(Keys::Reference, "a quantity", &Either(&[COORDINATE_OR_RATE, Map(&ROTATION)])),
+            Named(
+                Keys::Reference,
+                "a quantity",
+                &Either(&[COORDINATE_OR_RATE, List(&COORDINATE_OR_RATE, Size::Exactly(3)), Map(&ROTATION)]),
+            ),
             "Initial values of joint and body quantities: plain values are exact, values with `~` in front are guesses.",
         ),
         may("states", Named(Keys::Name, "a state", &Map(&STATE)), "First-order states: quantities given by their time rate."),
@@ -91,6 +96,16 @@ pub(crate) static FILE: Table = Table {
         may("replicate", Later, "Reserved."),
         may("mirror", Later, "Reserved."),
     ],
+};
+
+static GRAVITY: Table = Table {
+    what: "a field of gravity",
+    choices: &[],
+    fields: &[need(
+        "potential",
+        Formula("an expression of the place x, y, z, r"),
+        "Potential of gravity, J/kg: the acceleration is minus its gradient.",
+    )],
 };
 
 /// Keys that a variant may not change.
@@ -133,10 +148,19 @@ static BODY: Table = Table {
         may("mass", MASS, "Mass."),
         may("inertia", FIGURES, "Inertia about the centre of mass: a number, `[Ixx, Iyy, Izz]`, or with `Ixy, Ixz, Iyz`."),
         may("com", POSITION, "Centre of mass in the body frame."),
-        may("points", Named(Keys::Name, "a point", &POSITION), "Points in the body frame."),
+        may("points", Named(Keys::Name, "a point", &PLACED), "Points in the body frame."),
         may("drawn", List(&POSITION, Size::AtLeast(1)), "Points that outline the body in drawings, body frame."),
         may("attached", Named(Keys::Name, "an attached mass", &Map(&ATTACHED)), "Point masses and rotors on the body."),
         may("fictitious", Flag, "Allows an inertia that no real body has, as robots from data sheets do; moments below 0 stay refused."),
+    ],
+};
+
+static FRAME: Table = Table {
+    what: "a point with axes of its own",
+    choices: &[],
+    fields: &[
+        need("at", POSITION, "Place in the body frame."),
+        may("rpy", ROLL_PITCH_YAW, "Spatial: how the axes of the point stand in the body: turned about x, then y, then z."),
     ],
 };
 
@@ -310,7 +334,11 @@ static LOAD: Table = Table {
             Either(&[Value(Want::Of(D::TORQUE)), List(&Value(Want::Of(D::TORQUE)), Size::Exactly(3))]),
             "Torque: a number in the plane or on a joint, a vector in space.",
         ),
-        may("frame", Name("the name of a body, or `world`"), "Body whose axes the components are in; `world` if silent."),
+        may(
+            "frame",
+            Name("a body, a point `body.point` with axes of its own, or `world`"),
+            "Body or point whose axes the components are in; `world` if silent.",
+        ),
     ],
 };
 

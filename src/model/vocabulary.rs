@@ -14,8 +14,8 @@ pub enum Quantity {
     Point { at: PointRef, axis: usize, order: usize },
     /// Planar angle of a body from +x, counter-clockwise and unwrapped, or its rates. rad, rad/s, rad/s².
     Angle { body: usize, order: usize },
-    /// Spatial: component of a body's angular velocity (`order` 1) or acceleration (2) in world axes, rad/s, rad/s².
-    Spin { body: usize, axis: usize, order: usize },
+    /// Spatial: component of a body's angular velocity (`order` 1) or acceleration (2), in world axes or in its `own`, rad/s, rad/s².
+    Spin { body: usize, axis: usize, order: usize, own: bool },
     /// Spatial: component of a body's unit quaternion (w, x, y, z).
     Quaternion { body: usize, component: usize },
     /// The one coordinate of a joint (angle or position, second body relative to first) or its rates; `slot` counts the axes of a joint with several (cylindrical: 0 angle, 1 position).
@@ -24,6 +24,8 @@ pub enum Quantity {
     Force { joint: usize, axis: usize },
     /// Reaction: moment about the joint's point (of the second body), world axes; planar only `axis` 2. N m.
     Moment { joint: usize, axis: usize },
+    /// Torque or force of the end stops of a joint, on the second body along its coordinate, N m or N.
+    Stop { joint: usize },
     /// Dry friction of a joint, on the second body along its coordinate, N m or N.
     Friction { joint: usize },
     /// State of the bristles of a joint: their deflection in parts of coulomb/stiffness.
@@ -68,9 +70,14 @@ pub enum Quantity {
     Functional(usize),
     /// Only in `scalars` and `expect`: a result of the study's kind, by index in `study.results` (`turns_fully`, `kappa`, `residual`).
     Result(usize),
+    /// Only in `scalars` and `expect` of motion in time: the work [`WORKS`] of this index, J.
+    Work(usize),
     /// Brought by `take:` from another study, by index in `study.take`.
     Taken(usize),
 }
+
+/// Works of a motion in time: what has changed the energy of the mechanism.
+pub const WORKS: [&str; 5] = ["work_drivers", "work_loads", "work_dampers", "work_stops", "work_impacts"];
 
 /// How far the motion must be known for a quantity to be known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -119,11 +126,12 @@ impl Quantity {
             | Self::Moment { .. }
             | Self::Friction { .. }
             | Self::ClutchEffort { .. }
+            | Self::Stop { .. }
             | Self::DriverEffort { .. }
             | Self::DriverPower { .. }
             | Self::Frame { .. }
             | Self::FrameMoment { .. } => Known::Acceleration,
-            Self::Functional(_) | Self::Result(_) | Self::Taken(_) => Known::Study,
+            Self::Functional(_) | Self::Result(_) | Self::Work(_) | Self::Taken(_) => Known::Study,
         }
     }
 
@@ -136,6 +144,7 @@ impl Quantity {
                 | Self::Moment { .. }
                 | Self::Friction { .. }
                 | Self::ClutchEffort { .. }
+                | Self::Stop { .. }
                 | Self::DriverEffort { .. }
                 | Self::DriverPower { .. }
                 | Self::Frame { .. }
@@ -156,7 +165,8 @@ impl Quantity {
         Some(match self {
             Self::Point { at, axis, order: order @ 0..2 } => Self::Point { at, axis, order: order + 1 },
             Self::Angle { body, order: order @ 0..2 } => Self::Angle { body, order: order + 1 },
-            Self::Spin { body, axis, order: 1 } => Self::Spin { body, axis, order: 2 },
+            // along its own axes too, d(Rᵀω)/dt = Rᵀω̇ − Rᵀ(ω × ω) = Rᵀω̇
+            Self::Spin { body, axis, order: 1, own } => Self::Spin { body, axis, order: 2, own },
             Self::Joint { joint, slot, order: order @ 0..2 } => Self::Joint { joint, slot, order: order + 1 },
             Self::Stretch { spring, order: order @ 0..2 } => Self::Stretch { spring, order: order + 1 },
             Self::Com { axis, order: order @ 0..2 } => Self::Com { axis, order: order + 1 },

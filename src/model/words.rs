@@ -1,8 +1,8 @@
 //! Quantities, values and what has no value, in the words of the model file.
 
+use super::coordinates::coordinates;
 use super::entities::Model;
-use super::quantities::coordinates;
-use super::vocabulary::Quantity;
+use super::vocabulary::{Quantity, WORKS};
 use crate::expression::{Cause, Dimension};
 
 /// A number of seven digits with its unit.
@@ -75,8 +75,9 @@ impl Model {
                 format!("{}{point}.{}{}", body(at.body), rate(order), axis(k))
             }
             Quantity::Angle { body: k, order } => format!("{}.{}", body(k), ["angle", "omega", "alpha"].get(order).unwrap_or(&"?")),
-            Quantity::Spin { body: k, axis: a, order: 1 } => format!("{}.w{}", body(k), axis(a)),
-            Quantity::Spin { body: k, axis: a, .. } => format!("rate({}.w{})", body(k), axis(a)),
+            Quantity::Spin { body: k, axis: a, order, own } => {
+                format!("{}.{}{}{}", body(k), if order == 1 { "w" } else { "alpha" }, axis(a), if own { "_own" } else { "" })
+            }
             Quantity::Quaternion { body: k, component } => format!("{}.q{}", body(k), ["w", "x", "y", "z"].get(component).unwrap_or(&"?")),
             Quantity::Joint { joint: k, slot, order } => {
                 let names = self.joints.get(k).and_then(|j| coordinates(&j.kind).iter().find(|c| c.slot == slot)).map(|c| c.names);
@@ -85,6 +86,7 @@ impl Model {
             Quantity::Force { joint: k, axis: a } => format!("{}.f{}", joint(k), axis(a)),
             Quantity::Moment { joint: k, axis: a } => format!("{}.m{}", joint(k), axis(a)),
             Quantity::Friction { joint: k } => format!("{}.friction", joint(k)),
+            Quantity::Stop { joint: k } => format!("{}.stop", joint(k)),
             Quantity::Bristle { joint: k } => format!("{}.bristle", joint(k)),
             Quantity::DriverEffort { driver: k } => format!("{}.{}", driver(k), self.effort_word(k)),
             Quantity::DriverPower { driver: k } => format!("{}.power", driver(k)),
@@ -113,6 +115,7 @@ impl Model {
                 self.study.as_ref().and_then(|s| s.functionals.get(k)).map_or_else(|| "?".into(), |f| f.text.clone())
             }
             Quantity::Result(k) => self.study.as_ref().and_then(|s| s.results.get(k)).map_or_else(|| "?".into(), |r| r.name.clone()),
+            Quantity::Work(k) => WORKS[k].into(),
             Quantity::Taken(k) => self.study.as_ref().and_then(|s| s.take.get(k)).map_or_else(|| "?".into(), |t| t.name.clone()),
         }
     }

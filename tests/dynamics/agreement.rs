@@ -214,7 +214,7 @@ studies:
     let scalar = |name: &str| crate::scalar(&run, "run", name);
     let scale = figure("energy_scale");
     let mut verdict = Verdict::default();
-    let works = figure("work_drivers") + figure("work_loads") + figure("work_dampers") + figure("work_impacts");
+    let works = ["drivers", "loads", "dampers", "stops", "impacts"].map(|of| figure(&format!("work_{of}"))).iter().sum::<f64>();
     verdict.close("gain", "the end", gain, works, 1e-7 * scale);
     verdict.close("drift", "", figure("energy_drift"), 0.0, 1e-7 * scale);
     verdict.close("work of motor and load", "", figure("work_loads"), scalar("put_in") + scalar("pressed"), 1e-7 * scale);

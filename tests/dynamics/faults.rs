@@ -100,12 +100,12 @@ studies: { run: { dynamics: { until: 1 s } } }
 ");
     told(&leaf, 2, &["`lower`", "mass"]);
     let point = run("gravity: [0, -9.81 m/s^2]
-bodies: { bob: { mass: 1 kg } }
+bodies: { bob: { mass: 1 kg, points: { eye: [0, 10 cm] } } }
 joints: { L: { distance: [ground, bob.origin], length: 1 m } }
 start: { bob.x: 1 m, bob.y: 0 m }
 studies: { run: { dynamics: { until: 1 s } } }
 ");
-    told(&point, 2, &["`bob`", "inertia"]);
+    told(&point, 2, &["`bob` can turn and has no inertia", "a point mass, which needs none"]);
     assert!(leaf.files().is_empty() && point.files().is_empty());
 }
 

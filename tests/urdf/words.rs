@@ -170,3 +170,36 @@ fn orientations_and_fictitious_inertias_are_checked() {
     assert!(spatial("inertia: [1, 1, 3], fictitious: true", "damping: 0").is_empty());
     assert_eq!(spatial("inertia: [1, -1, 3], fictitious: true", "damping: 0"), ["impossible-inertia"]);
 }
+
+/// A URDF asks `<limit>` of joints that turn or slide between ends. Without it nothing is missing to move the joint: a remark.
+#[test]
+fn joints_without_a_limit_are_read_as_free_of_limits() {
+    let limit = "<limit lower=\"-1\" upper=\"1\" effort=\"5\" velocity=\"2\"/>";
+    let text = |kind: &str, limit: &str| {
+        format!(
+            "<robot name=\"r\">\n  <link name=\"a\"/>\n  <link name=\"b\"><inertial><mass value=\"1\"/>\
+             <inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>\n  \
+             <joint name=\"j\" type=\"{kind}\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/>{limit}</joint>\n</robot>\n"
+        )
+    };
+    for kind in ["revolute", "prismatic"] {
+        for stops in [false, true] {
+            let asked = Import { stops, ..Import::default() };
+            let read = |limit: &str| import(text(kind, limit).as_bytes(), "x.urdf", &asked).unwrap_or_else(|report| panic!("{report}"));
+            let (without, with) = (read(""), read(limit));
+            let remark = format!("joints without the `<limit>` that a URDF gives them, read as free of limits: j ({kind})");
+            assert!(without.notes.iter().any(|(line, note)| *line == 4 && note.contains(&remark)), "{:?}", without.notes);
+            assert!(!with.notes.iter().any(|(_, note)| note.contains("read as free")), "{:?}", with.notes);
+            assert!(!without.text.contains("limits: {"), "{}", without.text);
+            assert_eq!(with.text.contains("limits: {"), stops, "{}", with.text);
+            // the same joint, and it moves
+            let report = Document::read(&without.text, "x").unwrap().check_all(&Selection::default());
+            assert!(report.diagnostics.is_empty(), "{report}");
+            let continuous = import(text("continuous", "").as_bytes(), "x.urdf", &asked).unwrap();
+            if kind == "revolute" {
+                let joint = |text: &str| text.lines().find(|line| line.contains("revolute:")).map(str::to_owned);
+                assert_eq!(joint(&without.text), joint(&continuous.text));
+            }
+        }
+    }
+}

@@ -29,7 +29,7 @@ pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Resul
         let (found, tilt) = match start.asked {
             Asked::Gauge { gauge, order: 0 } => (w.readings[gauge].x, None),
             Asked::Gauge { gauge, .. } => (w.readings[gauge].rate, None),
-            Asked::Spin { body, axis } => (G::spin_component(w.twists[body].w, axis), None),
+            Asked::Spin { body, axis, own } => (G::spin_component(dynamics.in_axes(body, own, w.twists[body].w), axis), None),
             Asked::Orientation(k) => {
                 let (angle, tilt) = orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r);
                 (angle, Some(tilt))

@@ -52,9 +52,9 @@ impl<G: Space<S = f64>> System<'_, G> {
                 m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| row[k] = x);
                 Some((row, self.gauge_scale(gauge)))
             }
-            Asked::Spin { body, axis } => {
+            Asked::Spin { body, axis, own } => {
                 for &k in &m.bodies[body].path {
-                    row[k] = G::spin_component(w.columns[k].w, axis);
+                    row[k] = G::spin_component(self.dynamics.in_axes(body, own, w.columns[k].w), axis);
                 }
                 Some((row, 1.0))
             }

@@ -5,7 +5,7 @@
 
 use super::march::Begins;
 use super::setup::Plan;
-use super::system::{Mechanical, WORKS};
+use super::system::{Mechanical, Root, WORKS};
 use super::trajectory::Trajectory;
 use crate::analysis::motion::Rows;
 use crate::analysis::outcome::{Certificate, Finding, March};
@@ -17,6 +17,13 @@ use grashof_solvers::{Control, Counts, Integration, Node};
 /// Energies looked at in the course of a run.
 const LOOKS: f64 = 400.0;
 
+/// Part of the energy scale that the balance may lack, in tolerances, and its ends.
+const TOLERANCES: f64 = 1e4;
+const LEAST: f64 = 1e-7;
+const MOST: f64 = 1e-2;
+/// Roundings of the largest energy that it may lack.
+const ROUNDING: f64 = 1e5;
+
 /// Energies and counters of a run so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Balance {
@@ -25,8 +32,14 @@ pub(super) struct Balance {
     before: [f64; WORKS],
     work: [f64; WORKS],
     impacts: f64,
+    /// What blows at rigid end stops took.
+    blows: f64,
     drift: f64,
     scale: f64,
+    /// Largest |E|: what round-off is a part of.
+    largest: f64,
+    /// Kinetic energy of all mass at one size of the mechanism per second.
+    unit: f64,
     kinetic: f64,
     next: f64,
     counts: Counts,
@@ -58,9 +71,13 @@ impl Balance {
     {
         let [kinetic, e] = energy(system, node);
         match begins {
-            Begins::Run => (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic),
+            Begins::Run => {
+                let (mass, _) = system.dynamics.first_moment();
+                self.unit = 0.5 * mass * system.dynamics.mechanism.size().powi(2);
+                (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic);
+            }
             // the drift so far is not known apart from it, and begins anew
-            Begins::Parameters => self.impacts = e - self.start - self.done(),
+            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows,
             Begins::Rests => {}
         }
         self.before = self.work;
@@ -69,7 +86,7 @@ impl Balance {
         }
     }
 
-    /// Work of drivers, loads and dampers so far, J.
+    /// Work of drivers, loads, dampers and end stops that give way so far, J.
     fn done(&self) -> f64 {
         self.work.iter().sum()
     }
@@ -97,14 +114,15 @@ impl Balance {
             *work = before + now;
         }
         let [kinetic, e] = energy(system, node);
-        let off = e - self.start - self.done() - self.impacts;
+        let off = e - self.start - self.done() - self.impacts - self.blows;
+        self.largest = self.largest.max(e.abs());
         self.drift = self.drift.max(off.abs());
         let largest = self.work.iter().fold(kinetic.max((e - kinetic - self.start + self.kinetic).abs()), |m, w| m.max(w.abs()));
         self.scale = self.scale.max(largest);
     }
 
-    /// Energy that an impact took, from the sides before and after it.
-    pub(super) fn jump<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, [before, after]: [&Node; 2])
+    /// Energy that a blow took, from the sides before and after it; `crossed` are the roots that were met: end stops, or events.
+    pub(super) fn jump<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, [before, after]: [&Node; 2], crossed: &[usize])
     where
         G: Space<S = f64>,
         D: Space<S = Dual<LANES>>,
@@ -112,7 +130,8 @@ impl Balance {
         if before.state.v != after.state.v {
             let [_, e0] = energy(system, before);
             let [_, e1] = energy(system, after);
-            self.impacts += e1 - e0;
+            let events = crossed.iter().any(|root| matches!(system.roots.get(*root), Some(Root::Event(_))));
+            *if events { &mut self.impacts } else { &mut self.blows } += e1 - e0;
         }
     }
 
@@ -135,8 +154,8 @@ impl Balance {
         }
     }
 
-    /// The certificate without the residuals of rows, and what a reader should know.
-    pub(super) fn finish(self, plan: &Plan) -> (Certificate, Vec<Finding>) {
+    /// The certificate without the residuals of rows, and what a reader should know of the study at `place`.
+    pub(super) fn finish(self, plan: &Plan, place: &str) -> (Certificate, Vec<Finding>) {
         let march = March {
             schemes: self.schemes.join(", "),
             tolerance: match plan.settings.control {
@@ -148,18 +167,45 @@ impl Balance {
             drivers: self.work[0],
             loads: self.work[1],
             dampers: self.work[2],
+            stops: self.work[3] + self.blows,
             impacts: self.impacts,
             widest_gap: self.widest_gap,
             velocity: 0.0,
             counts: self.counts,
         };
-        let findings = self.bridged.iter().take(20).map(|t| Finding {
+        let crossed = self.bridged.iter().take(20).map(|t| Finding {
             code: "singular-position",
             message: format!("a singular position was crossed near t = {t:.6} s"),
             path: "joints".into(),
         });
-        (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings.collect())
+        let findings = crossed.chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
+        (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings)
     }
+}
+
+/// That the balance of energy lacks more than the tolerance explains, or with a fixed step more than a part that shows.
+///
+/// Speeds are wrong by a part of themselves and of the size s of the mechanism a second, whichever is larger, so that a slow motion
+/// with the energy E may lack m v δv ~ δ √(E ½ m s²/s²).
+fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<Finding> {
+    let (part, help) = match march.tolerance {
+        Some(tolerance) => ((TOLERANCES * tolerance).clamp(LEAST, MOST), "ask for a smaller `tolerance`"),
+        None => (MOST, "take a shorter `step`, or a scheme of higher order"),
+    };
+    let slow = if march.tolerance.is_some() { (march.energy_scale * unit).sqrt() } else { 0.0 };
+    let allowed = f64::max(part * march.energy_scale.max(slow), ROUNDING * f64::EPSILON * largest);
+    (march.energy_drift > allowed).then(|| Finding {
+        code: "energy",
+        message: format!(
+            "the balance of energy lacks {:.2e} J, {:.1e} of the {:.3e} J that move (more than {:.1e} of them is not explained by {}): {help}, and compare with another integrator by `--verify`",
+            march.energy_drift,
+            march.energy_drift / march.energy_scale,
+            march.energy_scale,
+            part,
+            march.tolerance.map_or("a step that is short enough".to_owned(), |t| format!("a tolerance of {t:.0e}")),
+        ),
+        path: place.to_owned(),
+    })
 }
 
 /// Largest residuals over the rows of a run.

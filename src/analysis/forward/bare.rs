@@ -76,6 +76,6 @@ pub(super) fn bare<G: Space<S = f64>>(
     chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
     chart.mechanical().columns(&node.state.modes, &mut columns);
     columns.truncate(ids.len());
-    let drift = balance.finish(plan).0.march.map_or(0.0, |m| m.energy_drift);
+    let drift = balance.finish(plan, &study.place).0.march.map_or(0.0, |m| m.energy_drift);
     Ok(Bare { t: node.state.t, columns, energy_drift: drift, residuals, counts: run.engine.counts, stopped })
 }

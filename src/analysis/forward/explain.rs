@@ -244,6 +244,7 @@ pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G
 /// That bodies without mass or inertia leave the accelerations open.
 pub(in crate::analysis) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
     if let Some((body, how)) = unresisted(mechanism, start) {
+        let has_mass = mechanism.bodies.iter().any(|b| b.name == body && crate::scalar::Scalar::value(b.mass.mass) > 0.0);
         return Some(Failure::Study {
             code: "singular-mass",
             message: format!(
@@ -251,7 +252,14 @@ pub(in crate::analysis) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>,
                 if how == "turn" { "inertia" } else { "mass" }
             ),
             place: format!("bodies.{body}"),
-            help: "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into(),
+            help: if how == "turn" && has_mass {
+                "give it an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `ball: { radius: 1 cm, mass: 1 kg }`; a point mass, which \
+                 needs none, is a body with `mass` alone on which nothing but forces, springs, `distance` joints and (in space `spherical`, \
+                 in the plane `revolute`) joints at its origin act"
+                    .into()
+            } else {
+                "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into()
+            },
         });
     }
     let bare = |body: usize| crate::scalar::Scalar::value(mechanism.bodies[body].mass.mass) <= 0.0;

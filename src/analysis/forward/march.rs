@@ -107,7 +107,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
     };
     flow.findings.extend(explain::not_unique(eras, &flow.open));
     let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
-    let (certificate, mut findings) = balance.finish(plan);
+    let (certificate, mut findings) = balance.finish(plan, &study.place);
     unresolved.dedup_by(|a, b| a.path == b.path);
     findings.append(&mut unresolved);
     trajectory.finish();
@@ -264,7 +264,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 let counted = self.happened(&mut chart, &run);
                 std::mem::swap(&mut last, &mut node);
                 chart.whole(run.node(), &mut node);
-                self.balance.jump(chart.mechanical(), [&last, &node]);
+                self.balance.jump(chart.mechanical(), [&last, &node], run.crossed());
                 if progress == Progress::Stopped {
                     break self.stopped_by(&mut chart, &last, &counted);
                 }

@@ -24,14 +24,14 @@ use super::extremum::{Extremes, extrema};
 use super::functional::Functionals;
 use super::motion::Rows;
 use super::numbers::Sources;
-use super::outcome::{Certificate, Failure, Finding, Outcome, Resolution};
+use super::outcome::{Certificate, Failure, Finding, March, Outcome, Resolution};
 use super::resolve;
 use super::run::{Watched, in_variable, unresolved};
 use super::scene;
 use super::undefined::{Gap, blank};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
-use crate::model::{Dimensions, Forward, Model, Study};
+use crate::model::{Dimensions, Forward, Model, Study, WORKS};
 use crate::scalar::Dual;
 use eras::Eras;
 use march::Recorded;
@@ -91,7 +91,9 @@ where
     events.retain(|e| e.at <= to);
     let stopped = undefined.as_ref().map(|u| u.message.clone()).or(stopped);
     let tables = &eras.first().mechanism.tables;
-    let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &[] }.numbers(stopped.is_none());
+    let works = certificate.march.as_ref().map_or([f64::NAN; WORKS.len()], March::works);
+    let numbers =
+        Sources { model, study, parameters, tables, functionals: &functionals, results: &[], works: &works }.numbers(stopped.is_none());
     let undefined = undefined.or(numbers.undefined);
     let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
     let certificate = Certificate { resolved: Some(resolution), ..balance::residuals(&mut trajectory, &rows, certificate) };

@@ -96,8 +96,8 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     outputs: Vec<f64>,
 }
 
-/// Powers whose work is integrated: of drivers, of loads and motors, of dampers and friction.
-pub(super) const WORKS: usize = 3;
+/// Powers whose work is integrated: of drivers, of loads and motors, of dampers and friction, of end stops that give way.
+pub(super) const WORKS: usize = 4;
 
 impl<'m, G, D> Mechanical<'m, G, D>
 where
@@ -359,7 +359,7 @@ where
         self.dynamics.mechanism.displace(q, u);
     }
 
-    /// Power of drivers −λᵀν, of loads and motors, of dampers: what changes the energy, W.
+    /// Power of drivers −λᵀν, of loads and motors, of dampers, of end stops beside what they store: what changes the energy, W.
     fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
         let _ = a;
         self.kinematics(&at);
@@ -368,23 +368,24 @@ where
         let m = self.dynamics.mechanism;
         let work = &self.dynamics.work;
         w[0] = -work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
-        w[1] = 0.0;
-        w[2] = 0.0;
+        w[1..].fill(0.0);
         for node in &m.nodes {
             let gravity = G::dot(m.gravity, work.twists[node.body].v) * work.inertias[node.body].m
                 + G::dot(m.gravity, G::turn(work.twists[node.body].w, work.inertias[node.body].h));
             w[1] += work.applied[node.body].power(work.twists[node.body]) - gravity;
         }
-        for (effort, size) in m.efforts.iter().zip(&work.efforts) {
+        w[1] -= self.dynamics.field_power();
+        for (i, (effort, size)) in m.efforts.iter().zip(&work.efforts).enumerate() {
             let rate = self.dynamics.extent_rate(effort.along);
             match effort.law {
                 EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => w[2] -= damping * rate * rate,
+                EffortLaw::Drive { .. } if m.buffers.iter().any(|buffer| buffer.effort == i) => {}
                 EffortLaw::Drive { .. } => w[1] += size * rate,
                 EffortLaw::Friction { .. } => w[2] += size * rate,
             }
         }
         for [done, stored] in self.dynamics.buffer_powers() {
-            (w[1], w[2]) = (w[1] - done, w[2] + done + stored);
+            w[3] += done + stored;
         }
     }
 

@@ -106,7 +106,8 @@ where
     let scenes = drawn.iter().take(DRAWN).enumerate();
     let scenes = scenes.map(|(i, x)| (format!("mode-{}", i + 1), picture::picture(&mechanism, &held, pose, x))).collect();
     let results: Vec<f64> = (0..study.results.len()).map(|i| frequencies.get(i).copied().unwrap_or(f64::NAN)).collect();
-    let numbers = Sources { model, study, parameters, tables: &mechanism.tables, functionals: &[], results: &results }.numbers(true);
+    let numbers =
+        Sources { model, study, parameters, tables: &mechanism.tables, functionals: &[], results: &results, works: &[] }.numbers(true);
     report.findings.extend(numbers.findings);
     Ok(Outcome {
         stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),

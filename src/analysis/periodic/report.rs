@@ -108,7 +108,7 @@ impl Regime<'_> {
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];
         let tables = &eras.mechanism.tables;
-        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results }.numbers(true);
+        let numbers = Sources { model, study, parameters, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         let trajectory = &mut lap.trajectory;
         let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
         let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();

@@ -5,7 +5,7 @@ use super::super::{Attached, Body};
 use super::Builder;
 use crate::expression::{Id, Table, TableError};
 use crate::geometry::{MassProperties, Space};
-use crate::model::{PointAt, PointRef, Shape};
+use crate::model::{PointAt, PointRef, Shape, roll_pitch_yaw};
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
@@ -129,6 +129,13 @@ impl<G: Space> Builder<'_, G> {
             self.fault("no-length", place, format!("{what} {x} m"), "more than 0 m", Some("give a positive length".into()));
         }
         x
+    }
+
+    /// The axes of a point in its body, if they are not those of the body; a matrix.
+    pub(super) fn axes_of(&mut self, point: PointRef) -> Option<[[f64; 3]; 3]> {
+        let body = &self.model.bodies[point.body];
+        let rpy = body.points[point.point].rpy?;
+        Some(roll_pitch_yaw(rpy.map(|angle| self.number(angle, &body.place))))
     }
 
     /// A named point: its body and place in the body frame.

@@ -6,8 +6,14 @@ use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, Pull, 
 use super::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{ClutchLaw, CouplingKind, JointKind, Law, LoadOn, Motion, Quantity, REST_SPEED, SpringLaw, SpringOn, Sticking};
+use crate::model::{
+    Attraction, AttractionLaw, ClutchLaw, CouplingKind, JointKind, Law, LoadOn, Motion, PointRef, Quantity, REST_SPEED, SpringLaw,
+    SpringOn, Sticking,
+};
 use crate::scalar::Scalar;
+
+/// The point of a body that is its centre of mass.
+const COM: usize = 1;
 
 impl<G: Space> Builder<'_, G> {
     /// Rows: cut joints, couplings, drivers.
@@ -38,6 +44,9 @@ impl<G: Space> Builder<'_, G> {
         }
         for index in 0..self.model.clutches.len() {
             self.clutch(index);
+        }
+        for attraction in &self.model.attractions {
+            self.attraction(attraction);
         }
     }
 
@@ -199,7 +208,7 @@ impl<G: Space> Builder<'_, G> {
                 [(limit.from, 1.0), (limit.to, -1.0)].into_iter().filter_map(|(end, sense)| Some((self.number(end?, &place), sense)));
             let ends = ends.collect();
             let stiffness = self.number(limit.stiffness, &place);
-            self.mechanism.buffers.push(Buffer { effort, gauge, ends, stiffness });
+            self.mechanism.buffers.push(Buffer { joint: index, effort, gauge, ends, stiffness });
         }
         if let Some(stops) = joint.stops
             && let Some(gauge) = self.coordinate(index, &joint.place)
@@ -332,7 +341,8 @@ impl<G: Space> Builder<'_, G> {
                         .collect()
                 };
                 let (force, torque) = (outputs(force), outputs(torque));
-                self.mechanism.pulls.push(Pull { body, at, force, torque, frame: *frame });
+                let axes = self.axes_of(*frame).map(|axes| G::rotation(&axes, 0.0));
+                self.mechanism.pulls.push(Pull { body, at, force, torque, frame: frame.body, axes, potential: None });
             }
             &LoadOn::Joint { joint, effort } => {
                 if let Some(gauge) = self.coordinate(joint, &load.place) {
@@ -340,6 +350,38 @@ impl<G: Space> Builder<'_, G> {
                 }
             }
         }
+    }
+
+    /// The weight of a body in a field of gravity, m g at its centre of mass.
+    fn attraction(&mut self, attraction: &Attraction) {
+        let point = PointRef { body: attraction.body, point: COM };
+        let (body, at) = self.at(point);
+        let mass = self.mechanism.bodies[body].mass.mass.value();
+        if mass == 0.0 {
+            return;
+        }
+        let mass = self.pool.constant(mass);
+        let output = |builder: &mut Self, per_mass: Id| {
+            let value = builder.pool.mul(mass, per_mass);
+            builder.force.push(Output { value, place: "gravity".to_owned() });
+            builder.force.len() - 1
+        };
+        let (field, potential) = match &attraction.law {
+            AttractionLaw::Field(field) => (field.clone(), None),
+            AttractionLaw::Potential(potential) => {
+                let slopes = (0..G::VECTOR).filter_map(|axis| self.slope(*potential, Quantity::Point { at: point, axis, order: 0 }));
+                (slopes.collect::<Vec<_>>().into_iter().map(|slope| self.pool.neg(slope)).collect(), Some(output(self, *potential)))
+            }
+        };
+        let force = field.into_iter().map(|g| output(self, g)).collect();
+        self.mechanism.pulls.push(Pull { body, at, force, torque: Vec::new(), frame: 0, axes: None, potential });
+    }
+
+    /// The partial derivative of an expression by a quantity.
+    fn slope(&mut self, id: Id, by: Quantity) -> Option<Id> {
+        let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
+        let inputs = &self.inputs;
+        self.pool.rate(id, &mut |_, input| Some(if inputs.get(input as usize) == Some(&by) { one } else { zero })).ok()
     }
 
     fn motor(&mut self, index: usize) {

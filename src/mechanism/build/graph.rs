@@ -4,6 +4,7 @@ use super::super::gauge::Measured;
 use super::super::joint::{self, Shape};
 use super::super::tree::{self, Branch, Edge, Step};
 use super::super::{Joint, Node, Row, RowKind, RowOwner};
+use super::particle::particles;
 use super::{Builder, Coordinates, along};
 use crate::expression::Id;
 use crate::geometry::{Pose, Space};
@@ -21,6 +22,7 @@ impl<G: Space> Builder<'_, G> {
             return;
         }
         let bodies = self.model.bodies.len();
+        self.particles = particles(self.model, self.planar);
         let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j)).collect();
         let spanned = tree::span(bodies, &edges);
         let (branches, footings) = match coordinates {
@@ -40,7 +42,7 @@ impl<G: Space> Builder<'_, G> {
                 rows: 0..0,
                 freedom: shape.freedom(self.planar),
                 facing: shape.facing::<G>(self.planar),
-                turns: shape.turns::<G>(self.planar),
+                turns: shape.turns::<G>(self.planar).filter(|_| !self.joins_particle(index)),
             });
         }
         for branch in branches {
@@ -84,8 +86,14 @@ impl<G: Space> Builder<'_, G> {
             || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
         let freedom = self.shapes[joint].freedom(self.planar);
         let rank = if driven { 0 } else { 1 + freedom };
-        let cut = self.honour_cuts && is_cut(j);
+        let cut = self.honour_cuts && is_cut(j) || self.joins_particle(joint);
         Edge { a: j.a.body, b: j.b.body, rank: (!cut && self.shapes[joint].spans()).then_some(rank) }
+    }
+
+    /// Whether one of the bodies of a joint is a point mass without a rotation.
+    fn joins_particle(&self, joint: usize) -> bool {
+        let j = &self.model.joints[joint];
+        self.particles[j.a.body] || self.particles[j.b.body]
     }
 
     /// Axes, alignment and sizes of a joint as numbers.
@@ -138,6 +146,16 @@ impl<G: Space> Builder<'_, G> {
             _ => 0.0,
         };
         let zero = self.optional(joint.zero, place);
+        // all above is in the axes of the two points, which coincide where the coordinate is 0 and neither `to` nor `rpy` is given
+        let [first, other] = [joint.a, joint.b].map(|point| self.axes_of(point));
+        if let Some(axes) = first {
+            triad = triad.map(|x| joint::apply(&axes, x));
+            align = joint::multiply(&axes, &align);
+        }
+        if let Some(axes) = other {
+            align = joint::multiply(&align, &joint::transpose(&axes));
+            second = joint::apply(&axes, second);
+        }
         Shape { kind: joint.kind.clone(), pa: numbers(pa), pb: numbers(pb), triad, align, second, pitch, length, zero }
     }
 
@@ -159,7 +177,7 @@ impl<G: Space> Builder<'_, G> {
         let (shape, reversed) = match branch.joint {
             Some((j, reversed)) => (&self.shapes[j], reversed),
             None => {
-                free = free_shape(footing);
+                free = free_shape(footing, self.particles[branch.body]);
                 (&free, false)
             }
         };
@@ -202,6 +220,8 @@ impl<G: Space> Builder<'_, G> {
         let shape = self.shapes[index].clone();
         let joint = &self.mechanism.joints[index];
         let measures = match joint.tree {
+            // a coordinate that would be counted from a body without a rotation
+            None if self.joins_particle(index) && shape.spans() => vec![],
             None => {
                 let windings = &mut self.mechanism.windings;
                 shape.slots::<G>(self.planar, || {
@@ -276,10 +296,10 @@ pub(super) fn is_cut(joint: &model::Joint) -> bool {
 }
 
 /// The free joint of a body's own, from a place on the ground.
-fn free_shape(pa: [f64; 3]) -> Shape {
+fn free_shape(pa: [f64; 3], particle: bool) -> Shape {
     let z = [0.0, 0.0, 1.0];
     Shape {
-        kind: JointKind::Free,
+        kind: if particle { JointKind::Particle } else { JointKind::Free },
         pa,
         pb: [0.0; 3],
         triad: joint::triad(z),

@@ -66,6 +66,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 windings: 0,
             },
             shapes: vec![],
+            particles: vec![],
             slots: vec![],
             slot_measures: vec![],
             pool: model.pool.clone(),
@@ -174,7 +175,7 @@ impl<'m, G: Space> Builder<'m, G> {
         match quantity {
             Quantity::Time => Some(Leaf::Time),
             Quantity::Stretch { spring, order } if order < 2 => Some(Leaf::Stretch { spring, order }),
-            Quantity::Spin { body, axis, order: 1 } => Some(Leaf::Spin { body, axis }),
+            Quantity::Spin { body, axis, order: 1, own } => Some(Leaf::Spin { body, axis, own }),
             Quantity::State(state) => Some(Leaf::State(state)),
             Quantity::Bristle { joint } => self.mechanism.bristles[joint].map(Leaf::State),
             _ => self.gauge_of(quantity).map(|(gauge, order)| Leaf::Gauge { gauge, order }),

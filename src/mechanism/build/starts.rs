@@ -3,8 +3,9 @@
 use super::super::joint::{apply, axis_rotation, dot, transpose, unit};
 use super::super::{Asked, Orientation, Start};
 use super::Builder;
+use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::{Quantity, StartValue};
+use crate::model::{Quantity, StartValue, axis_angle, roll_pitch_yaw};
 
 impl<G: Space> Builder<'_, G> {
     /// The asked start values; after all gauges of rows and forces.
@@ -14,11 +15,16 @@ impl<G: Space> Builder<'_, G> {
             let place = start.place.as_str();
             let name = start.name.clone();
             match &start.value {
-                StartValue::Rotation { axis, angle } => self.rotation(index, axis, *angle, &name),
+                StartValue::Rotation { axis, angle } => self.rotation(index, axis, *angle),
+                StartValue::RollPitchYaw(angles) => {
+                    let matrix = roll_pitch_yaw(angles.map(|angle| self.number(angle, place)));
+                    let (axis, angle) = axis_angle(&matrix);
+                    self.orientation(index, axis, matrix, angle);
+                }
                 StartValue::Number(id) => {
                     let value = self.number(*id, place);
                     let asked = match start.quantity {
-                        Quantity::Spin { body, axis, order: 1 } => Some(Asked::Spin { body, axis }),
+                        Quantity::Spin { body, axis, order: 1, own } => Some(Asked::Spin { body, axis, own }),
                         quantity => match self.gauge_of(quantity) {
                             Some((gauge, order)) if order < 2 => Some(Asked::Gauge { gauge, order }),
                             _ => None,
@@ -41,15 +47,13 @@ impl<G: Space> Builder<'_, G> {
         }
     }
 
-    /// An orientation as a matrix.
-    fn rotation(&mut self, index: usize, axis: &[crate::expression::Id], angle: crate::expression::Id, name: &str) {
-        let start = &self.model.start[index];
-        let (place, guess) = (start.place.clone(), start.guess);
-        let Quantity::Quaternion { body, .. } = start.quantity else { return };
-        let axis = self.triple(axis, &place);
-        let angle = self.number(angle, &place);
+    /// A rotation about an axis as an orientation.
+    fn rotation(&mut self, index: usize, axis: &[Id], angle: Id) {
+        let place = self.model.start[index].place.as_str();
+        let axis = self.triple(axis, place);
+        let angle = self.number(angle, place);
         if dot(axis, axis) == 0.0 {
-            self.fault("no-direction", &place, "the axis is zero".into(), "a direction", Some("for example `axis: [0, 0, 1]`".into()));
+            self.fault("no-direction", place, "the axis is zero".into(), "a direction", Some("for example `axis: [0, 0, 1]`".into()));
             return;
         }
         // R = T R_z Tᵀ with T taking z to the axis
@@ -63,8 +67,16 @@ impl<G: Space> Builder<'_, G> {
         };
         let columns = [0, 1, 2].map(column);
         let matrix = std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]));
+        self.orientation(index, unit(axis), matrix, angle);
+    }
+
+    /// An orientation, with its unit axis and angle.
+    fn orientation(&mut self, index: usize, axis: [f64; 3], matrix: [[f64; 3]; 3], angle: f64) {
+        let start = &self.model.start[index];
+        let Quantity::Quaternion { body, .. } = start.quantity else { return };
         let asked = Asked::Orientation(self.mechanism.orientations.len());
-        self.mechanism.orientations.push(Orientation { body, axis: unit(axis), matrix });
-        self.mechanism.starts.push(Start { name: name.to_string(), asked, value: angle, guess, place });
+        self.mechanism.orientations.push(Orientation { body, axis, matrix });
+        let (name, place) = (start.name.clone(), start.place.clone());
+        self.mechanism.starts.push(Start { name, asked, value: angle, guess: start.guess, place });
     }
 }

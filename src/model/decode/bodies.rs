@@ -2,7 +2,8 @@
 
 use super::Decoder;
 use crate::expression::{Dimension, Id};
-use crate::model::entities::{Attached, Body, Point, PointAt, PointRef, Shape};
+use crate::model::bodies::{Attached, Body, Point, PointAt, Shape};
+use crate::model::entities::PointRef;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
@@ -12,14 +13,44 @@ use crate::model::shape::clip;
 use crate::model::suggest;
 
 /// Names of quantities of a body, which no point may have.
-pub(crate) const QUANTITIES: [&str; 22] = [
-    "x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az", "speed", "a", "angle", "omega", "alpha", "rotation", "wx", "wy", "wz", "qw", "qx",
-    "qy", "qz",
+pub(crate) const QUANTITIES: [&str; 32] = [
+    "x",
+    "y",
+    "z",
+    "vx",
+    "vy",
+    "vz",
+    "ax",
+    "ay",
+    "az",
+    "speed",
+    "a",
+    "angle",
+    "omega",
+    "alpha",
+    "rotation",
+    "rpy",
+    "wx",
+    "wy",
+    "wz",
+    "qw",
+    "qx",
+    "qy",
+    "qz",
+    "alphax",
+    "alphay",
+    "alphaz",
+    "wx_own",
+    "wy_own",
+    "wz_own",
+    "alphax_own",
+    "alphay_own",
+    "alphaz_own",
 ];
 
 impl<'n> Decoder<'n> {
     pub(super) fn bodies(&mut self) {
-        let mut points = vec![Point { name: "origin".to_owned(), at: PointAt::Origin }, Point { name: "com".to_owned(), at: PointAt::Com }];
+        let mut points = vec![Point::of_shape("origin", PointAt::Origin), Point::of_shape("com", PointAt::Com)];
         self.points(self.root.get("ground"), &At::ROOT.key("ground"), &mut points);
         self.world.model.bodies.push(Body {
             name: "ground".to_owned(),
@@ -56,10 +87,10 @@ impl<'n> Decoder<'n> {
                 }
             }
         }
-        let mut points = vec![Point { name: "origin".to_owned(), at: PointAt::Origin }, Point { name: "com".to_owned(), at: PointAt::Com }];
+        let mut points = vec![Point::of_shape("origin", PointAt::Origin), Point::of_shape("com", PointAt::Com)];
         if node.get("bar").is_some() {
-            points.push(Point { name: "start".to_owned(), at: PointAt::Start });
-            points.push(Point { name: "end".to_owned(), at: PointAt::End });
+            points.push(Point::of_shape("start", PointAt::Start));
+            points.push(Point::of_shape("end", PointAt::End));
         }
         self.points(node.get("points"), &at.key("points"), &mut points);
         let attached = self.attached(name, node, at, &points);
@@ -180,9 +211,19 @@ impl<'n> Decoder<'n> {
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("for example `P{name}`"));
             }
-            let position = self.space_vector(Some(value), &here, Dimension::LENGTH);
+            let (position, rpy) = if value.is_map() {
+                let rpy_at = here.key("rpy");
+                if value.get("rpy").is_some() && self.world.components() == 2 {
+                    let fault = self.fault("spatial-only", &rpy_at, "`rpy` does not exist in the plane", "a point `[x, y]`");
+                    fault.spot = Spot::Key;
+                }
+                let position = self.space_vector(value.get("at"), &here.key("at"), Dimension::LENGTH);
+                (position, value.get("rpy").and_then(|rpy| self.roll_pitch_yaw(rpy, &rpy_at)))
+            } else {
+                (self.space_vector(Some(value), &here, Dimension::LENGTH), None)
+            };
             // a faulty point exists all the same, so that its users are not blamed
-            points.push(Point { name: name.to_owned(), at: position.map_or(PointAt::Origin, PointAt::Given) });
+            points.push(Point { name: name.to_owned(), at: position.map_or(PointAt::Origin, PointAt::Given), rpy });
         }
     }
 

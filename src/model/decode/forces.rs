@@ -2,7 +2,7 @@
 
 use super::Decoder;
 use crate::expression::{Dimension, Id};
-use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
+use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor, PointRef};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
@@ -253,22 +253,12 @@ impl<'n> Decoder<'n> {
         let components = self.world.components();
         let force = self.load_vector(node, "force", at, Dimension::FORCE, components);
         let torque = self.load_vector(node, "torque", at, Dimension::TORQUE, if components == 2 { 1 } else { 3 });
-        let frame_at = at.key("frame");
+        let world = PointRef { body: 0, point: 0 };
         let frame = match node.get("frame").and_then(Node::text) {
-            None | Some("world" | "ground") => 0,
-            Some(text) => match self.world.names.get(text) {
-                Some(Entity::Body(i)) => *i,
-                _ => {
-                    let bodies = self.world.known(|entity| matches!(entity, Entity::Body(_)));
-                    let near = suggest::nearest(text, bodies.iter().copied()).map(|near| format!("did you mean `{near}`?"));
-                    let list = suggest::known(bodies.iter().copied()).unwrap_or_default();
-                    let message = format!("unknown body `{}`", clip(text));
-                    self.fault("unknown-body", &frame_at, message, format!("`world` or one of the bodies {list}")).help = near;
-                    0
-                }
-            },
+            None | Some("world" | "ground") => Some(world),
+            Some(_) => self.point(node.get("frame"), &at.key("frame")),
         };
-        Some(LoadOn::Point { at: point?, force: force?, torque: torque?, frame })
+        Some(LoadOn::Point { at: point?, force: force?, torque: torque?, frame: frame? })
     }
 
     /// Components of a load; empty if the key is missing.

@@ -3,11 +3,11 @@
 use super::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::contacts::{Bristle, Friction, Pressure, Sticking};
+use crate::model::coordinates::Coordinate;
 use crate::model::entities::JointKind;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
-use crate::model::quantities::Coordinate;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::Quantity;

@@ -2,12 +2,12 @@
 
 use super::Decoder;
 use crate::expression::{Dimension, Id};
+use crate::model::coordinates::{Coordinate, coordinates};
 use crate::model::entities::{Joint, JointKind, PointRef};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
-use crate::model::quantities::{Coordinate, coordinates};
 use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;
@@ -57,7 +57,13 @@ impl<'n> Decoder<'n> {
         let to = self.direction(node.get("to"), &at.key("to"));
         let effort = single.map_or(Dimension::TORQUE, Coordinate::effort);
         let rate = single.map_or(Dimension::ANGULAR_SPEED, |c| c.dimension(1));
-        let rpy = self.roll_pitch_yaw(node, at);
+        let rpy_at = at.key("rpy");
+        if node.get("rpy").is_some() && node.get("to").is_some() {
+            let fault = self.fault("two-kinds", &rpy_at, "`rpy` beside `to`", "only one of `to`, `rpy`");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove one of the two".to_owned());
+        }
+        let rpy = node.get("rpy").and_then(|rpy| self.roll_pitch_yaw(rpy, &rpy_at));
         let zero = self.coordinate(node, "zero", at, single);
         let damping = self.of(node, "damping", at, effort.div(rate));
         let friction = node.get("friction").and_then(|inner| self.friction((name, &kind), inner, &at.key("friction"), single));
@@ -69,17 +75,10 @@ impl<'n> Decoder<'n> {
         Some(Joint { name, kind, a, b, axis, to, rpy, zero, damping, limit, friction, stops, cut, place })
     }
 
-    /// `rpy`: three angles, instead of `to`.
-    fn roll_pitch_yaw(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<[Id; 3]> {
-        let here = at.key("rpy");
-        let items = node.get("rpy")?.items();
-        if node.get("to").is_some() {
-            let fault = self.fault("two-kinds", &here, "`rpy` beside `to`", "only one of `to`, `rpy`");
-            fault.spot = Spot::Key;
-            fault.help = Some("remove one of the two".to_owned());
-        }
-        let angles: Vec<Option<Id>> =
-            items.iter().enumerate().map(|(i, item)| self.number(Some(Node::Plain(item)), &here.index(i), Want::Angle)).collect();
+    /// `rpy`: three angles.
+    pub(super) fn roll_pitch_yaw(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<[Id; 3]> {
+        let items = node.items().iter().enumerate();
+        let angles: Vec<Option<Id>> = items.map(|(i, item)| self.number(Some(Node::Plain(item)), &at.index(i), Want::Angle)).collect();
         match angles[..] {
             [Some(roll), Some(pitch), Some(yaw)] => Some([roll, pitch, yaw]),
             _ => None,

@@ -3,12 +3,12 @@
 use super::studies::Offer;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
+use crate::model::coordinates::Coordinate;
 use crate::model::entities::LoadOn;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
-use crate::model::quantities::Coordinate;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::shape::clip;
@@ -232,6 +232,11 @@ impl<'n> Decoder<'n> {
 
     fn balance(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Offer)> {
         let move_at = at.key("move");
+        if !self.world.model.attractions.is_empty() {
+            let message = "a balance in a field of gravity, where weights depend on the places that are looked for";
+            self.fault("gravity-field", at, message, "gravity that is the same everywhere").spot = Spot::Key;
+            return None;
+        }
         let mut moved = Vec::new();
         let mut results: Vec<(String, Dimension)> = Vec::new();
         let mut sound = true;

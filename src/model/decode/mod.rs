@@ -9,6 +9,7 @@ mod dynamics;
 mod events;
 mod forces;
 mod friction;
+mod gravity;
 mod joints;
 mod kinds;
 mod measures;
@@ -95,6 +96,7 @@ impl<'n> Decoder<'n> {
             parameters: Vec::new(),
             tables: Vec::new(),
             gravity: Vec::new(),
+            attractions: Vec::new(),
             bodies: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),
@@ -128,8 +130,8 @@ impl<'n> Decoder<'n> {
         let mut decoder = Self { layers, root, pool: Pool::new(), world, faults, checks: Vec::new(), parsed };
         decoder.parameters();
         decoder.tables();
-        decoder.gravity();
         decoder.bodies();
+        decoder.gravity();
         decoder.joints();
         // drivers and motors need no measure, measures may need them
         decoder.drivers();
@@ -370,14 +372,6 @@ impl<'n> Decoder<'n> {
         let ids = self.space_vector(node, at, Dimension::NONE)?;
         self.check(Rule::Direction, &ids, at);
         Some(ids)
-    }
-
-    fn gravity(&mut self) {
-        let at = At::ROOT.key("gravity");
-        let node = self.root.get("gravity");
-        let given = self.space_vector(node, &at, Dimension::ACCELERATION);
-        let zero = self.pool.constant(0.0);
-        self.world.model.gravity = given.unwrap_or_else(|| vec![zero; self.world.components()]);
     }
 
     /// The finished model, with the checks of its study beside its own.

@@ -10,7 +10,7 @@ use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::scope::{Allow, Reach};
 use crate::model::study::{Expectation, Scalar, Tolerance};
-use crate::model::vocabulary::Quantity;
+use crate::model::vocabulary::{Quantity, WORKS};
 
 /// Outside of functionals a scalar may use parameters and other numbers of the whole study.
 const SCALAR: Allow = Allow { what: "a scalar", ..Allow::CONSTANT };
@@ -38,6 +38,16 @@ impl<'n> Decoder<'n> {
         for (i, (name, dimension)) in results.iter().enumerate() {
             let id = self.world.input(&mut self.pool, Quantity::Result(i));
             frame.results.push((name.clone(), Symbol { id, dimension: *dimension }));
+        }
+        // names that the file gives come first
+        if frame.offer.word == "dynamics" {
+            let names = &self.world.names;
+            let free = |name: &str| entries.iter().all(|(known, _)| *known != name) && !names.contains_key(name);
+            let works: Vec<(usize, &str)> = WORKS.into_iter().enumerate().filter(|(_, name)| free(name)).collect();
+            for (i, name) in works {
+                let id = self.world.input(&mut self.pool, Quantity::Work(i));
+                frame.results.push((name.to_owned(), Symbol { id, dimension: Dimension::ENERGY }));
+            }
         }
         let find = |name: &str| entries.iter().position(|(known, _)| *known == name);
         let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, find)).collect();

@@ -13,12 +13,33 @@ use crate::model::scope::{Allow, Local};
 use crate::model::suggest;
 use crate::model::vocabulary::Quantity;
 
+/// What the value of a start is written as.
+#[derive(Clone, Copy)]
+enum Form {
+    /// One value.
+    Number(Want),
+    /// An axis and an angle.
+    Rotation,
+    /// Roll, pitch and yaw.
+    Angles,
+}
+
+impl Form {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number, a quantity or an expression",
+            Self::Rotation => "`{ axis: [x, y, z], angle: ... }`",
+            Self::Angles => "`[roll, pitch, yaw]`",
+        }
+    }
+}
+
 impl<'n> Decoder<'n> {
     pub(super) fn start(&mut self) {
         let section = At::ROOT.key("start");
         for (path, node) in self.section("start") {
             let at = section.key(path);
-            let Some((quantity, want)) = self.start_quantity(path, &at) else { continue };
+            let Some((quantity, form)) = self.start_quantity(path, &at) else { continue };
             if let Some(other) = self.world.model.start.iter().find(|s| s.quantity == quantity) {
                 let message = format!("this quantity is given already, in `{}`", other.place);
                 let fault = self.fault("duplicate-start", &at, message, "one value for a quantity");
@@ -26,9 +47,11 @@ impl<'n> Decoder<'n> {
                 fault.help = Some("remove one of the two".to_owned());
                 continue;
             }
-            let value = match want {
-                Some(want) if !node.is_map() => self.start_number(node, &at, want).map(|(id, guess)| (StartValue::Number(id), guess)),
-                None if node.is_map() => {
+            let value = match form {
+                Form::Number(want) if !node.is_map() && !node.is_list() => {
+                    self.start_number(node, &at, want).map(|(id, guess)| (StartValue::Number(id), guess))
+                }
+                Form::Rotation if node.is_map() => {
                     let axis_at = at.key("axis");
                     let axis = self.vector(node.get("axis"), &axis_at, Dimension::NONE);
                     if let Some(axis) = &axis {
@@ -37,12 +60,16 @@ impl<'n> Decoder<'n> {
                     let angle = node.get("angle").and_then(|angle| self.start_number(angle, &at.key("angle"), Want::Angle));
                     axis.zip(angle).map(|(axis, (angle, guess))| (StartValue::Rotation { axis, angle }, guess))
                 }
-                Some(_) => {
-                    self.fault("wrong-type", &at, "a map", "a number, a quantity or an expression");
-                    None
-                }
-                None => {
-                    self.fault("wrong-type", &at, "one value", "`{ axis: [x, y, z], angle: ... }`");
+                Form::Angles if node.is_list() => self.start_angles(node, &at),
+                form => {
+                    let found = if node.is_map() {
+                        "a map"
+                    } else if node.is_list() {
+                        "a list"
+                    } else {
+                        "one value"
+                    };
+                    self.fault("wrong-type", &at, found, form.words());
                     None
                 }
             };
@@ -69,12 +96,27 @@ impl<'n> Decoder<'n> {
         Some((lowered.id, true))
     }
 
+    /// Roll, pitch and yaw, all of them guesses or none.
+    fn start_angles(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(StartValue, bool)> {
+        let items = node.items().iter().enumerate();
+        let angles: Vec<Option<(Id, bool)>> =
+            items.map(|(i, item)| self.start_number(Node::Plain(item), &at.index(i), Want::Angle)).collect();
+        let [Some((roll, guess)), Some((pitch, second)), Some((yaw, third))] = angles[..] else { return None };
+        if guess != second || guess != third {
+            let message = "a guess beside an exact angle";
+            self.fault("wrong-start", at, message, "`~` in front of all three angles, or of none").help =
+                Some("an orientation is exact or a guess as a whole".to_owned());
+            return None;
+        }
+        Some((StartValue::RollPitchYaw([roll, pitch, yaw]), guess))
+    }
+
     /// What of a body a start may give, and which of it a wrong word may mean.
     fn of_body_at_start(&self, head: &str, rest: &str) -> Option<(String, Option<String>)> {
         let Some(Entity::Body(_)) = self.world.names.get(head) else { return None };
         let known: &[&str] = match self.world.components() {
             2 => &["x", "y", "angle", "vx", "vy", "omega"],
-            _ => &["x", "y", "z", "rotation", "vx", "vy", "vz", "wx", "wy", "wz"],
+            _ => &["x", "y", "z", "rotation", "rpy", "vx", "vy", "vz", "wx", "wy", "wz", "wx_own", "wy_own", "wz_own"],
         };
         if rest.is_empty() || rest.contains('.') {
             return None;
@@ -84,20 +126,21 @@ impl<'n> Decoder<'n> {
         Some((format!("what a start can give of a body: {list}"), near))
     }
 
-    /// The quantity that a key names, and what its value must be; `None` for a rotation. The fault is reported.
-    fn start_quantity(&mut self, path: &str, at: &At<'_, '_>) -> Option<(Quantity, Option<Want>)> {
+    /// The quantity that a key names, and what its value must be. The fault is reported.
+    fn start_quantity(&mut self, path: &str, at: &At<'_, '_>) -> Option<(Quantity, Form)> {
         const EXPECTED: &str = "a position or velocity of a joint or body, as `O.angle`, `S.velocity`, `crank.x`";
         let (head, rest) = path.split_once('.').unwrap_or((path, ""));
         if let Some(Entity::Body(body)) = self.world.names.get(head)
-            && rest == "rotation"
+            && matches!(rest, "rotation" | "rpy")
         {
             if self.world.components() == 2 {
-                let fault = self.fault("spatial-only", at, "`rotation` does not exist in the plane", EXPECTED);
+                let fault = self.fault("spatial-only", at, format!("`{rest}` does not exist in the plane"), EXPECTED);
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("write `{head}.angle`"));
                 return None;
             }
-            return Some((Quantity::Quaternion { body: *body, component: 0 }, None));
+            let form = if rest == "rpy" { Form::Angles } else { Form::Rotation };
+            return Some((Quantity::Quaternion { body: *body, component: 0 }, form));
         }
         let found = match self.world.quantity(&mut self.pool, path) {
             Ok(found) => found,
@@ -117,10 +160,10 @@ impl<'n> Decoder<'n> {
                 | Quantity::Angle { order: 0 | 1, body: 1.. }
                 | Quantity::Spin { order: 1, body: 1.., .. } => {
                     let angle = dimension == Dimension::NONE;
-                    return Some((quantity, Some(if angle { Want::Angle } else { Want::Of(dimension) })));
+                    return Some((quantity, Form::Number(if angle { Want::Angle } else { Want::Of(dimension) })));
                 }
                 Quantity::Point { at: point, order: 0 | 1, .. } if point.body > 0 && point.point == 0 => {
-                    return Some((quantity, Some(Want::Of(dimension))));
+                    return Some((quantity, Form::Number(Want::Of(dimension))));
                 }
                 Quantity::Point { at: point, .. } if point.body > 0 && point.point > 0 => {
                     refused(format!("`{path}` belongs to a point; only a body's origin can be given"))

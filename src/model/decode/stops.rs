@@ -3,9 +3,9 @@
 use super::Decoder;
 use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::{Limit, Stops};
+use crate::model::coordinates::Coordinate;
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
-use crate::model::quantities::Coordinate;
 use crate::model::rules::Rule;
 use crate::model::vocabulary::Quantity;
 

@@ -183,6 +183,13 @@ pub(super) fn named(draft: &Draft<'_>, find: impl Fn(&str, bool) -> Option<usize
     found
 }
 
+/// Every path of an expression, as often as it stands there.
+pub(super) fn paths_of(expr: &Expr) -> Vec<String> {
+    let mut found = Vec::new();
+    paths(expr, false, &mut |path, _| found.push(path.to_owned()));
+    found
+}
+
 /// Every path of an expression, and whether a rate is taken of it. Its height is bounded by the parser.
 fn paths(expr: &Expr, in_rate: bool, f: &mut impl FnMut(&str, bool)) {
     match &expr.kind {

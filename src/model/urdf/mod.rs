@@ -18,7 +18,7 @@ mod write;
 
 pub(crate) use guard::is_robot;
 pub(crate) use notes::Notes;
-pub use rotation::roll_pitch_yaw;
+pub use rotation::{axis_angle, roll_pitch_yaw};
 pub use write::{Import, Imported, import};
 
 use super::fault::Fault;

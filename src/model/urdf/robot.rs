@@ -219,15 +219,10 @@ impl Checks<'_> {
         }
         let Some(limit) = element(node, "limit") else {
             let word = if data.joint_type == JointType::Revolute { "revolute" } else { "prismatic" };
-            let fault = self.fault("missing-limit", opening(node), format!("`{name}` is {word} and has no `<limit>`"), "`<limit>`");
-            fault.help = Some(
-                match data.joint_type {
-                    JointType::Revolute => {
-                        "add `<limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>`, or make it `continuous`"
-                    }
-                    _ => "add `<limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>`",
-                }
-                .to_owned(),
+            self.notes.about(
+                "joints without the `<limit>` that a URDF gives them, read as free of limits: {}",
+                format!("{} ({word})", data.name),
+                opening(node).start,
             );
             return;
         };

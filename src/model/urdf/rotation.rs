@@ -30,7 +30,8 @@ pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
 ///
 /// Of the four forms of a quaternion's components by the matrix the one with the largest divisor is taken
 /// (Shepperd 1978, "Quaternion from rotation matrix").
-pub(super) fn axis_angle(r: &Matrix) -> ([f64; 3], f64) {
+#[must_use]
+pub fn axis_angle(r: &[[f64; 3]; 3]) -> ([f64; 3], f64) {
     let trace = r[0][0] + r[1][1] + r[2][2];
     let diagonal = [trace, r[0][0], r[1][1], r[2][2]];
     let largest = (0..4).max_by(|&i, &k| diagonal[i].total_cmp(&diagonal[k])).unwrap_or(0);

@@ -1,0 +1,56 @@
+//! The coordinates of joints: their names, and what they are measured in.
+
+use super::entities::JointKind;
+use crate::expression::Dimension;
+
+/// A coordinate of a joint.
+#[derive(Debug)]
+pub(crate) struct Coordinate {
+    /// Its name, that of its rate and that of its second rate.
+    pub(crate) names: [&'static str; 3],
+    /// Its number in the joint.
+    pub(crate) slot: usize,
+    /// Angle or length.
+    pub(crate) angle: bool,
+}
+
+pub(super) const fn angle(names: [&'static str; 3], slot: usize) -> Coordinate {
+    Coordinate { names, slot, angle: true }
+}
+pub(super) const fn length(names: [&'static str; 3], slot: usize) -> Coordinate {
+    Coordinate { names, slot, angle: false }
+}
+
+pub(super) const ANGLE: [&str; 3] = ["angle", "omega", "alpha"];
+pub(super) const POSITION: [&str; 3] = ["position", "velocity", "acceleration"];
+
+/// The coordinates of a joint that have names.
+pub(crate) fn coordinates(kind: &JointKind) -> &'static [Coordinate] {
+    const HINGE: &[Coordinate] = &[angle(ANGLE, 0)];
+    const SLIDE: &[Coordinate] = &[length(POSITION, 0)];
+    const CYLINDER: &[Coordinate] = &[angle(ANGLE, 0), length(POSITION, 1)];
+    const CROSS: &[Coordinate] = &[angle(["angle1", "omega1", "alpha1"], 0), angle(["angle2", "omega2", "alpha2"], 1)];
+    const PLANE: &[Coordinate] = &[length(["x", "vx", "ax"], 0), length(["y", "vy", "ay"], 1), angle(ANGLE, 2)];
+    match kind {
+        JointKind::Revolute | JointKind::Screw { .. } => HINGE,
+        JointKind::Slider => SLIDE,
+        JointKind::Cylindrical => CYLINDER,
+        JointKind::Universal { .. } => CROSS,
+        JointKind::Planar => PLANE,
+        JointKind::PinInSlot | JointKind::Fixed | JointKind::Distance { .. } | JointKind::Spherical => &[],
+        JointKind::Free | JointKind::Particle => &[],
+    }
+}
+
+impl Coordinate {
+    /// Dimension of its rate of this order.
+    pub(crate) fn dimension(&self, order: usize) -> Dimension {
+        let base = if self.angle { Dimension::ANGLE } else { Dimension::LENGTH };
+        base.div(Dimension::TIME.pow(order as i32))
+    }
+
+    /// Dimension of the generalised force that works on it.
+    pub(crate) fn effort(&self) -> Dimension {
+        if self.angle { Dimension::TORQUE } else { Dimension::FORCE }
+    }
+}
