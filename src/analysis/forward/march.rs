@@ -1,6 +1,7 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
 use super::balance::Balance;
+use super::contradiction;
 use super::explain;
 use super::pace::Pace;
 use super::setup::Plan;
@@ -332,7 +333,11 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
                 break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt));
             }
-            self.balance.step(chart.mechanical(), &node, self.plan.until);
+            if self.balance.step(chart.mechanical(), &node, self.plan.until)
+                && let Some(told) = contradiction::told(chart.mechanical(), era.start.size, node.state.t)
+            {
+                break After::Stopped(told);
+            }
             if happened {
                 let counted = self.happened(&mut chart, &run);
                 std::mem::swap(&mut last, &mut node);
