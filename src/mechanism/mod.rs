@@ -18,7 +18,7 @@ pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_un
 pub use force::{
     Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
 };
-pub use gauge::{Along, Gauge, Measured, Reading};
+pub use gauge::{Along, Gauge, Measured, Placed, Reading};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
@@ -141,7 +141,7 @@ pub struct Mechanism<G: Space> {
     pub position_program: StagedProgram,
     /// Drifts of the functions.
     pub velocity_program: StagedProgram,
-    /// Driver laws: f, f', f'' of each.
+    /// Laws of time with their first two rates: f, f', f'' of each driver, then rests of springs that move.
     pub time_program: StagedProgram,
     /// Forces of loads, springs with laws and motors.
     pub force_program: StagedProgram,
@@ -156,7 +156,7 @@ pub struct Mechanism<G: Space> {
     /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`]) and of
     /// winding numbers (they follow).
     pub switches: usize,
-    /// Number of winding numbers.
+    /// Number of winding numbers; the signs of quaternions are counted among them.
     pub windings: usize,
 }
 
@@ -190,6 +190,16 @@ impl<G: Space> Mechanism<G> {
         let offset = G::S::constant(at);
         let label = String::new();
         self.rows.push(Row { kind, owner: RowOwner::Stop(stop), label, offset, anchored: false, angular });
+    }
+
+    /// Whether a row holds something at a place that time moves: that of a driver, or of a coupling with time in it.
+    #[must_use]
+    pub fn is_moved(&self, row: &Row<G>) -> bool {
+        match row.kind {
+            RowKind::Driver { .. } => true,
+            RowKind::Function(f) => self.functions[f].by_time.is_some(),
+            RowKind::Gauge(_) | RowKind::Ratio { .. } => false,
+        }
     }
 
     /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].

@@ -372,7 +372,7 @@ impl<'a> World<'a> {
                 return Ok(Found::Leaf(Quantity::Spin { body, axis, order: 1 }, Dimension::ANGULAR_SPEED));
             }
             if let Some(component) = ["qw", "qx", "qy", "qz"].iter().position(|name| *name == rest) {
-                return Ok(Found::Leaf(Quantity::Quaternion { body, component }, Dimension::NONE));
+                return Ok(Found::Leaf(Quantity::Quaternion { body, component, order: 0 }, Dimension::NONE));
             }
             if ANGLE.contains(&rest) {
                 let help = Some("an angle belongs to a joint, as `J.angle`; a body has `wx wy wz` and `qw qx qy qz`".to_owned());

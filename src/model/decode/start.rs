@@ -97,7 +97,7 @@ impl<'n> Decoder<'n> {
                 fault.help = Some(format!("write `{head}.angle`"));
                 return None;
             }
-            return Some((Quantity::Quaternion { body: *body, component: 0 }, None));
+            return Some((Quantity::Quaternion { body: *body, component: 0, order: 0 }, None));
         }
         let found = match self.world.quantity(&mut self.pool, path) {
             Ok(found) => found,
