@@ -351,6 +351,13 @@ fn what_moves_the_same_thing_differently_is_told() {
             assert!(why.contains("contradict each other") && (why.contains("`one`") || why.contains("`two`")), "{settings}: {why}");
         }
     }
+    // driven motion, where the rows have no driver that could be one too many
+    let moved = part[0].replace("} }", "}, turn: { zero: B.angle + 60 deg } }");
+    for kind in ["inverse", "kinematics"] {
+        let studies = format!("studies: {{ k: {{ {kind}: {{ over: 1 s, samples: 10 }}, columns: [A.position] }} }}");
+        let why = refused(&cart(&moved, &studies), "k");
+        assert!(why.contains("contradict each other") && (why.contains("`one`") || why.contains("`two`")), "{kind}: {why}");
+    }
     // redundant ones that agree go on
     for moved in rows("1 m*(1 - cos(t/(1 s)))", "2 m*sin(t/(2 s))^2") {
         let found = study(&cart(&moved, &dynamics(1.0, "tolerance: 1e-10", "A.position")), "d");

@@ -267,6 +267,12 @@ fn observe<G: Space<S = f64>>(
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
+        if let Some(row) = motion.path.open {
+            return format!(
+                "{name} cannot go beyond {at:.6}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
+                mechanism.name_of_row(row)
+            );
+        }
         let mover = if mechanism.drives.is_empty() { "coupling" } else { "driver" };
         let unit = if clock.is_driver() && drives_angle(mechanism) {
             (180.0 / std::f64::consts::PI, "deg")
@@ -419,7 +425,7 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
             path: "joints".into(),
         });
     }
-    if let Some(t) = motion.path.dead.iter().flatten().next() {
+    if let (Some(t), None) = (motion.path.dead.iter().flatten().next(), motion.path.open) {
         out.push(Finding {
             code: "dead-point",
             message: format!("the motion ends at a dead point at t = {} s", t.0),
