@@ -28,11 +28,15 @@ pub struct Driven<'m, G: Space> {
     pub reactions: Reactions<G>,
     /// Size of the correction that Newton made in all, largest component in units of `unit`.
     pub correction: f64,
+    /// The row that Newton's method left open although it converged: rows contradict each other.
+    pub open: Option<usize>,
     solver: Solver,
     /// The solver where friction depends on reactions.
     rubbing: Option<Box<Rubbing>>,
     /// 1 for angles, one by the size of the mechanism for lengths (nv).
     unit: Vec<f64>,
+    /// The same for residuals (rows).
+    row_unit: Vec<f64>,
     delta: Vec<f64>,
     rhs: Vec<f64>,
     scratch: Vec<f64>,
@@ -60,6 +64,8 @@ enum Solver {
 
 /// A correction below this leaves an error below round-off, and moves everything linearly to within round-off.
 const QUADRATIC: f64 = 1e-8;
+/// Residual, in rad and sizes, of rows that are not met.
+const OPEN: f64 = 1e-6;
 /// Newton steps before a position counts as not reached.
 const STEPS: usize = 12;
 
@@ -97,6 +103,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             Solver::Redundant { kkt: Box::new(kkt), metric, probe }
         };
         let unit = super::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size.recip() }).collect();
+        let row_unit = mechanism.rows.iter().map(|row| if row.angular { 1.0 } else { start.size.recip() }).collect();
         let reactions = dynamics.reactions();
         Self {
             dynamics,
@@ -106,9 +113,11 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             lambda: vec![0.0; rows],
             reactions,
             correction: 0.0,
+            open: None,
             solver,
             rubbing,
             unit,
+            row_unit,
             delta: vec![0.0; nv],
             rhs: vec![0.0; rows],
             scratch: vec![0.0; rows],
@@ -146,11 +155,15 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     /// Newton's method; `place` evaluates a position, or one that a small displacement has led to.
     fn newton(&mut self, mut place: impl FnMut(&mut Dynamics<'m, G>, &[f64], Option<&[f64]>)) -> Result<(), NotReached> {
         self.correction = 0.0;
+        self.open = None;
         let mut last = f64::INFINITY;
         for step in 0..STEPS {
             if last < QUADRATIC {
                 place(&mut self.dynamics, &self.q, Some(&self.delta));
-                return self.factor();
+                let left = self.dynamics.work.phi.iter().zip(&self.row_unit).map(|(phi, unit)| phi.abs() * unit);
+                let most = left.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+                self.open = most.filter(|(_, left)| *left > OPEN).map(|(row, _)| row);
+                return if self.open.is_some() { Err(NotReached) } else { self.factor() };
             }
             place(&mut self.dynamics, &self.q, None);
             self.factor()?;

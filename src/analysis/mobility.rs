@@ -19,6 +19,8 @@ pub struct Mobility {
     pub left: usize,
     /// Rank of all rows.
     pub rank: usize,
+    /// Whether time moves one of the couplings.
+    pub moved: bool,
     /// Rows that depend on others, in words.
     pub redundant: Vec<String>,
 }
@@ -37,6 +39,7 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
         freedom: free.mobility(),
         left: driven.mobility(),
         rank: driven.rank,
+        moved: mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row)),
         redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),
     }
 }
@@ -79,7 +82,8 @@ pub(super) fn drivers_fit<G: Space<S = f64>>(
         return Err(Failure::Study {
             code: "over-constrained",
             message: format!(
-                "{drivers} drivers ({}) for a mechanism of {} degree{} of freedom",
+                "{drivers} driver{} ({}) for a mechanism of {} degree{} of freedom",
+                plural(drivers),
                 names.join(", "),
                 m.freedom,
                 plural(m.freedom)

@@ -4,7 +4,7 @@ use super::undefined::Gap;
 use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
-use crate::mechanism::{EffortLaw, Mechanism, RowOwner};
+use crate::mechanism::{EffortLaw, Measured, Mechanism, RowOwner};
 use crate::model::{Model, Quantity};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
@@ -39,10 +39,6 @@ enum Source<G: Space> {
         axis: usize,
         order: usize,
         own: bool,
-    },
-    Quaternion {
-        body: usize,
-        component: usize,
     },
     Gauge {
         gauge: usize,
@@ -186,7 +182,13 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::Point { at, axis, order } => Source::Point { body: at.body, at: m.bodies[at.body].points[at.point].1, axis, order },
         Quantity::Angle { body, order } => Source::Angle { body, order },
         Quantity::Spin { body, axis, order, own } => Source::Spin { body, axis, order, own },
-        Quantity::Quaternion { body, component } => Source::Quaternion { body, component },
+        Quantity::Quaternion { body, component, order } => {
+            let is = |measured| matches!(measured, Measured::Quaternion { component: k, .. } if k == component);
+            match m.gauges.iter().position(|g| g.b == body && is(g.measured)) {
+                Some(gauge) => Source::Gauge { gauge, order },
+                None => Source::Given(f64::NAN),
+            }
+        }
         Quantity::Joint { joint, slot, order } => match m.joints[joint].slots.get(slot) {
             Some(&gauge) => Source::Gauge { gauge, order },
             None => Source::Given(f64::NAN),
@@ -233,7 +235,7 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
 impl<G: Space<S = f64>> Source<G> {
     fn needs_forces(&self) -> bool {
         match *self {
-            Self::Time | Self::State(_) | Self::Quaternion { .. } | Self::Given(_) | Self::Kinetic | Self::Potential => false,
+            Self::Time | Self::State(_) | Self::Given(_) | Self::Kinetic | Self::Potential => false,
             Self::SpringEnergy(_) | Self::Momentum(_) => false,
             Self::Point { order, .. }
             | Self::Angle { order, .. }
@@ -265,12 +267,6 @@ impl<G: Space<S = f64>> Source<G> {
                 let spin = if order == 1 { w.twists[body].w } else { r.accelerations[body].w };
                 G::spin_component(d.in_axes(body, own, spin), axis)
             }
-            Self::Quaternion { body, component } => {
-                let r = w.places[body].r;
-                let matrix = nalgebra::Matrix3::from_fn(|i, k| G::entry(r, i, k));
-                let unit = nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
-                [unit.w, unit.i, unit.j, unit.k][component]
-            }
             Self::Gauge { gauge, order } => gauge_order(d, gauge, order, a),
             Self::Force { joint, axis } => G::component(r.joints[joint].f, axis),
             Self::Moment { joint, axis } => {
@@ -280,14 +276,11 @@ impl<G: Space<S = f64>> Source<G> {
             }
             Self::DriverEffort(k) => r.drives[k],
             Self::DriverPower(k) => r.drives[k] * w.readings[m.drives[k].gauge].rate,
-            Self::Stretch { spring, order } => {
-                let stretch = m.stretches[spring];
-                match order {
-                    0 => d.extent(stretch.of) - stretch.rest,
-                    1 => d.extent_rate(stretch.of),
-                    _ => d.extent_acceleration(stretch.of, a),
-                }
-            }
+            Self::Stretch { spring, order } => match order {
+                0 => d.stretch(spring),
+                1 => d.stretch_rate(spring),
+                _ => d.stretch_acceleration(spring, a),
+            },
             Self::SpringForce(effort) => -w.efforts[effort],
             Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
             Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),

@@ -34,6 +34,8 @@ pub struct Path {
     pub nodes: Vec<Node>,
     /// Dead points at the two ends, if the range was not reached there: time and coordinates.
     pub dead: [Option<DeadPoint>; 2],
+    /// A row that cannot be met with the others behind the end of the path, if that is why it ends.
+    pub open: Option<usize>,
     /// What is undefined behind the end of the path, if that is why it ends.
     pub gap: Option<Gap>,
 }
@@ -91,17 +93,18 @@ impl Path {
         if behind.t != ahead.t {
             nodes.insert(0, behind.clone());
         }
-        let (mut dead, mut gap) = ([None, None], None);
+        let (mut dead, mut open, mut gap) = ([None, None], None, None);
         match end {
             End::Reached => {}
             End::Dead(point) => dead[1] = Some(point),
+            End::Open(row, point) => (dead[1], open) = (Some(point), Some(row)),
             End::Undefined(what) => gap = Some(what),
         }
         if dead[1].is_some() {
             let (back, end) = march(driven, modes, &behind, -to)?;
             match end {
                 End::Reached => {}
-                End::Dead(point) => dead[0] = Some(point),
+                End::Dead(point) | End::Open(_, point) => dead[0] = Some(point),
                 // what lies behind the start is of no interest
                 End::Undefined(_) => {}
             }
@@ -113,7 +116,7 @@ impl Path {
         } else if to < 0.0 {
             nodes.reverse();
         }
-        Ok(Self { nodes, dead, gap })
+        Ok(Self { nodes, dead, open, gap })
     }
 
     /// Time of the node that is farthest from 0.
@@ -183,6 +186,7 @@ fn around_reach<G: Space<S = f64>>(driven: &Driven<'_, G>, v: &[f64], to: f64) -
 enum End {
     Reached,
     Dead(DeadPoint),
+    Open(usize, DeadPoint),
     Undefined(Gap),
 }
 
@@ -221,6 +225,10 @@ fn march<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], start
                 if h.abs() < SHORTEST * to.abs() {
                     if let Some(law) = driven.dynamics.undefined(modes) {
                         return Ok((nodes, End::Undefined(Gap::Law(law))));
+                    }
+                    if let Some(row) = driven.open {
+                        let end = End::Open(row, (last.t, last.q.clone()));
+                        return Ok((nodes, end));
                     }
                     let end = fold(driven, modes, last, to.signum()).unwrap_or_else(|| (last.t, last.q.clone()));
                     return Ok((nodes, End::Dead(end)));

@@ -215,8 +215,7 @@ fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<f64> {
 fn timed<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> bool {
     let in_time = |ids: &[Id]| model.pool.inputs_of(ids).iter().any(|&i| model.inputs[i as usize] == Quantity::Time);
     let events: Vec<Id> = model.events.iter().flat_map(|e| [e.when].into_iter().chain(e.restitution.map(|r| r.e))).collect();
-    let programs = mechanism.programs();
-    // the first of them are the laws of drivers
-    let leaves = programs[1..].iter().flat_map(|p| &p.fills);
-    !mechanism.drives.is_empty() || leaves.into_iter().any(|(_, leaf)| matches!(leaf, Leaf::Time)) || in_time(&events)
+    let leaves = mechanism.programs().into_iter().flat_map(|p| &p.fills).any(|(_, leaf)| matches!(leaf, Leaf::Time));
+    // a driver without a program moves at a constant speed
+    !mechanism.drives.is_empty() || leaves || in_time(&events)
 }

@@ -268,13 +268,20 @@ fn observe<G: Space<S = f64>>(
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
+        if let Some(row) = motion.path.open {
+            return format!(
+                "{name} cannot go beyond {at:.6}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
+                mechanism.name_of_row(row)
+            );
+        }
+        let mover = if mechanism.drives.is_empty() { "coupling" } else { "driver" };
         let unit = if clock.is_driver() && drives_angle(mechanism) {
             (180.0 / std::f64::consts::PI, "deg")
         } else {
             (1.0, if clock.is_driver() { "m" } else { "s" })
         };
         format!(
-            "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the driver cannot move them on",
+            "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the {mover} cannot move them on",
             at.max(clock.value(motion.ends[0])) * unit.0,
             unit.1,
             at.min(clock.value(motion.ends[0])) * unit.0,
@@ -419,7 +426,7 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
             path: "joints".into(),
         });
     }
-    if let Some(t) = motion.path.dead.iter().flatten().next() {
+    if let (Some(t), None) = (motion.path.dead.iter().flatten().next(), motion.path.open) {
         out.push(Finding {
             code: "dead-point",
             message: format!("the motion ends at a dead point at t = {} s", t.0),
@@ -443,7 +450,7 @@ fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Ce
         let d = &motion.driven;
         let w = &d.dynamics.work;
         certificate.constraint = w.phi.iter().fold(certificate.constraint, |m, p| m.max(p.abs()));
-        // dT/dt = Σ (I A + V×*I V)·V must be the power of what is applied, of efforts and of drivers
+        // dT/dt = Σ (I A + V×*I V)·V must be the power of what is applied, of efforts and of rows
         let m = d.dynamics.mechanism;
         let (mut change, mut applied, mut size) = (0.0, 0.0, 0.0);
         for node in &m.nodes {
@@ -459,12 +466,13 @@ fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Ce
             change += rotor.inertia * r.rate * m.gauges[rotor.gauge].acceleration(r, &w.columns, &d.a);
         }
         for (effort, e) in m.efforts.iter().zip(&w.efforts) {
-            let power = e * d.dynamics.extent_rate(effort.along);
+            let power = e * d.dynamics.swept(effort.along);
             applied += power;
             size += power.abs();
         }
-        for (drive, e) in m.drives.iter().zip(&d.reactions.drives) {
-            let power = e * w.readings[drive.gauge].rate;
+        // rows that move with time
+        for (nu, lambda) in w.nu.iter().zip(&d.lambda) {
+            let power = -(lambda * nu);
             applied += power;
             size += power.abs();
         }

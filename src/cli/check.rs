@@ -89,7 +89,7 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
         };
         out.push(format!("{them}: give it a joint, or say in `start` where it begins"));
     }
-    if m.freedom == 0 {
+    if m.freedom == 0 && !m.moved {
         out.push("the mechanism has no freedom: it is a structure at its start".into());
     }
     out

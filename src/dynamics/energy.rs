@@ -2,7 +2,7 @@
 
 use super::Dynamics;
 use crate::geometry::{Force, Motion, Space};
-use crate::mechanism::{Effort, EffortLaw};
+use crate::mechanism::EffortLaw;
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
@@ -82,22 +82,34 @@ impl<G: Space> Dynamics<'_, G> {
         })
     }
 
-    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫ F ds by Gauss-Legendre on 32 panels for a law.
+    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫₀ˢ F ds by Gauss-Legendre on 32 panels for a law, at fixed time.
     #[must_use]
     pub fn spring_energy(&mut self, spring: usize, modes: &mut [i32]) -> G::S {
         let m = self.mechanism;
-        let stretch = m.stretches[spring];
-        let s = self.extent(stretch.of) - stretch.rest;
-        let effort: Effort<G> = m.efforts[m.spring_efforts[spring]].clone();
-        match effort.law {
+        let s = self.stretch(spring);
+        match m.efforts[m.spring_efforts[spring]].law {
             EffortLaw::Linear { stiffness, preload, .. } => (stiffness * s).scale(0.5) * s + preload * s,
-            EffortLaw::Law { output, preload, .. } => self.law_energy(spring, output, s, modes) + preload * s,
+            EffortLaw::Law { output, .. } => self.over_stretch(spring, output, modes),
             EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => G::S::default(),
         }
     }
 
-    /// ∫₀ˢ F ds of a spring's law.
-    fn law_energy(&mut self, spring: usize, output: usize, s: G::S, modes: &mut [i32]) -> G::S {
+    /// Power that time puts in through a spring, W: its force works on what moves by time alone, and what it stores changes where its
+    /// law does, −τ ∂s/∂t + ∂U/∂t. After [`Dynamics::loads`].
+    #[must_use]
+    pub fn spring_power(&mut self, spring: usize, modes: &mut [i32]) -> G::S {
+        let effort = self.mechanism.spring_efforts[spring];
+        let by_time = self.extent_by_time(self.mechanism.stretches[spring].of) - self.moving_rest(spring, 1);
+        let power = -(self.work.efforts[effort] * by_time);
+        match self.mechanism.efforts[effort].law {
+            EffortLaw::Law { output, timed: true, .. } => power + self.over_stretch(spring, output + 2, modes),
+            _ => power,
+        }
+    }
+
+    /// ∫₀ˢ of an output of the force program over the stretch s of a spring.
+    fn over_stretch(&mut self, spring: usize, output: usize, modes: &mut [i32]) -> G::S {
+        let s = self.stretch(spring);
         const NODES: [(f64, f64); 3] = [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
         const PANELS: usize = 32;
         let program = &self.mechanism.force_program;

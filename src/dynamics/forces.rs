@@ -135,7 +135,7 @@ impl<G: Space> Dynamics<'_, G> {
                 EffortLaw::Linear { stiffness, rest, damping, preload } => {
                     -(stiffness * (self.extent(effort.along) - rest) + preload) - damping * self.extent_rate(effort.along)
                 }
-                EffortLaw::Law { output, damping, preload } => -(outputs[output] + preload) - damping * self.extent_rate(effort.along),
+                EffortLaw::Law { spring, output, .. } => -outputs[output] - outputs[output + 1] * self.stretch_rate(spring),
                 EffortLaw::Drive { output } | EffortLaw::Friction { output, pressing: None } => outputs[output],
                 EffortLaw::Friction { .. } => G::S::default(),
             };

@@ -5,17 +5,17 @@
 //! (Featherstone 2008, equation 5.7 in world coordinates).
 
 use super::{Dynamics, Workspace};
-use crate::geometry::{Motion, Pose, Space};
-use crate::mechanism::{Leaf, RowKind, RowOwner, StagedProgram, Step, StretchOf};
+use crate::geometry::{Motion, Pose, Quaternion, Space};
+use crate::mechanism::{Leaf, Placed, RowKind, RowOwner, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
-    /// Driver laws f, f', f'' and ν, which is f' in the rows of drivers and 0 elsewhere, at time `t`, s.
+    /// Laws of time with their rates, and ν of the drivers, which is f', at time `t`, s.
     pub fn time(&mut self, t: G::S, modes: &[i32]) {
         let m = self.mechanism;
         let w = &mut self.work;
         self.t = t;
-        if m.drives.iter().any(|d| d.speed.is_none()) {
+        if m.drives.iter().any(|d| d.speed.is_none()) || m.stretches.iter().any(|s| s.moving.is_some()) {
             for &(input, _) in &m.time_program.fills {
                 w.inputs[input] = t;
             }
@@ -31,7 +31,7 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// Poses, columns, gauges, Φ and G at the coordinates `q` (nq); after [`Dynamics::time`].
+    /// Poses, columns, gauges, Φ, G and ν at the coordinates `q` (nq); after [`Dynamics::time`].
     pub fn position(&mut self, q: &[G::S], modes: &[i32]) {
         self.place_bodies(q);
         self.placed(q, modes);
@@ -73,12 +73,38 @@ impl<G: Space> Dynamics<'_, G> {
     /// Gauges, functions and rows once bodies are in place.
     fn placed(&mut self, q: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
-        for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut self.work.readings) {
-            let reference = &self.work.references[m.group_between(gauge.a, gauge.b)];
-            gauge.position((&self.work.places, reference), q, &self.work.columns, &modes[m.switches..], reading);
+        if self.needs_quaternions {
+            self.quaternions(q);
+        }
+        let Workspace { places, quaternions, columns, references, readings, .. } = &mut self.work;
+        let placed = Placed { places, quaternions, q, columns, windings: &modes[m.switches..] };
+        for (gauge, reading) in m.gauges[..self.active].iter().zip(readings) {
+            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], reading);
         }
         self.functions(modes);
         self.rows();
+    }
+
+    /// Quaternions of the bodies along the tree, if there is a gauge of one.
+    pub(super) fn quaternions(&mut self, q: &[G::S]) {
+        let (m, w) = (self.mechanism, &mut self.work);
+        if w.quaternions.is_empty() {
+            return;
+        }
+        for (node, [before, after]) in m.nodes.iter().zip(&w.turned) {
+            let mut turned = w.quaternions[node.parent].multiply(*before);
+            for step in &m.steps[node.steps.clone()] {
+                turned = match *step {
+                    Step::Axis { u, turns: true, q: i, .. } => turned.multiply(Quaternion::hinge::<G>(u, q[i])),
+                    Step::Axis { .. } => turned,
+                    Step::Ball { q: i, reversed, .. } => {
+                        let turn = Quaternion::unit([q[i], q[i + 1], q[i + 2], q[i + 3]]);
+                        turned.multiply(if reversed { turn.inverse() } else { turn })
+                    }
+                };
+            }
+            w.quaternions[node.body] = turned.multiply(*after);
+        }
     }
 
     /// Reference points, poses and columns alone.
@@ -143,13 +169,13 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// Φ and G from the gauges; entries outside of the pattern stay 0.
+    /// Φ and G from the gauges, and ν of functions of time; entries outside of the pattern stay 0.
     pub(super) fn rows(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;
-        let Workspace { readings, columns, functions, motions, phi, g, held, .. } = &mut self.work;
-        for (i, (row, phi)) in m.rows.iter().zip(phi.iter_mut()).enumerate() {
-            let g = &mut g[i * nv..(i + 1) * nv];
+        let Workspace { readings, columns, functions, motions, phi, g, nu, held, .. } = &mut self.work;
+        for (index, (row, phi)) in m.rows.iter().zip(phi.iter_mut()).enumerate() {
+            let g = &mut g[index * nv..(index + 1) * nv];
             let offset = if let RowOwner::Contact(contact) = row.owner { held[contact] } else { row.offset };
             match row.kind {
                 RowKind::Gauge(i) => {
@@ -169,6 +195,9 @@ impl<G: Space> Dynamics<'_, G> {
                 RowKind::Function(f) => {
                     let function = &m.functions[f];
                     *phi = functions[function.value] - offset;
+                    if let Some(by_time) = function.by_time {
+                        nu[index] = -functions[by_time];
+                    }
                     g.fill(G::S::default());
                     for (i, &gauge) in function.gauges.iter().enumerate() {
                         let slope = functions[function.value + 1 + i];
@@ -231,9 +260,9 @@ impl<G: Space> Dynamics<'_, G> {
             Leaf::Gauge { gauge, order: 0 } => w.readings[gauge].x,
             Leaf::Gauge { gauge, order: 1 } => w.readings[gauge].rate,
             Leaf::Gauge { gauge, .. } => w.readings[gauge].drift,
-            Leaf::Stretch { spring, order: 0 } => self.extent(self.mechanism.stretches[spring].of) - self.mechanism.stretches[spring].rest,
-            Leaf::Stretch { spring, .. } => self.extent_rate(self.mechanism.stretches[spring].of),
             Leaf::Spin { body, axis, own } => G::spin_component(self.in_axes(body, own, w.twists[body].w), axis),
+            Leaf::Stretch { spring, order: 0 } => self.stretch(spring),
+            Leaf::Stretch { spring, .. } => self.stretch_rate(spring),
             Leaf::State(state) => w.z[state],
         }
     }
@@ -256,6 +285,19 @@ impl<G: Space> Dynamics<'_, G> {
     /// ẋ of a gauge or function.
     #[must_use]
     pub fn extent_rate(&self, of: StretchOf) -> G::S {
+        self.swept(of) + self.extent_by_time(of)
+    }
+
+    /// ∂x/∂t of a gauge or function, in a fixed position.
+    #[must_use]
+    pub fn extent_by_time(&self, of: StretchOf) -> G::S {
+        let by_time = if let StretchOf::Function(f) = of { self.mechanism.functions[f].by_time } else { None };
+        by_time.map_or(G::S::default(), |output| self.work.functions[output])
+    }
+
+    /// The rate of a gauge or function by the motion of the bodies alone: what an effort along it works on.
+    #[must_use]
+    pub fn swept(&self, of: StretchOf) -> G::S {
         match of {
             StretchOf::Gauge(i) => self.work.readings[i].rate,
             StretchOf::Function(f) => {
@@ -301,6 +343,30 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
+    /// Stretch x − rest of a spring.
+    #[must_use]
+    pub fn stretch(&self, spring: usize) -> G::S {
+        let stretch = self.mechanism.stretches[spring];
+        self.extent(stretch.of) - stretch.rest - self.moving_rest(spring, 0)
+    }
+
+    /// Rate of the stretch of a spring.
+    #[must_use]
+    pub fn stretch_rate(&self, spring: usize) -> G::S {
+        self.extent_rate(self.mechanism.stretches[spring].of) - self.moving_rest(spring, 1)
+    }
+
+    /// Second rate of the stretch of a spring, from the accelerations a (nv).
+    #[must_use]
+    pub fn stretch_acceleration(&self, spring: usize, a: &[G::S]) -> G::S {
+        self.extent_acceleration(self.mechanism.stretches[spring].of, a) - self.moving_rest(spring, 2)
+    }
+
+    /// A rest that moves, or its rate of an order up to 2; 0 of one that does not.
+    pub(super) fn moving_rest(&self, spring: usize, order: usize) -> G::S {
+        self.mechanism.stretches[spring].moving.map_or(G::S::default(), |output| self.work.motions[output + order])
+    }
+
     /// World position of a point of a body, m.
     #[must_use]
     pub fn point(&self, body: usize, at: G::Vector) -> G::Vector {
@@ -334,11 +400,12 @@ impl<G: Space> Dynamics<'_, G> {
     /// Reads the gauges that no row or force needs (joint coordinates for output); after the velocity stage.
     pub fn watch(&mut self, q: &[G::S], v: &[G::S], modes: &[i32]) {
         let m = self.mechanism;
-        let w = &mut self.work;
-        for (gauge, reading) in m.gauges.iter().zip(&mut w.readings).skip(self.active) {
-            let reference = &w.references[m.group_between(gauge.a, gauge.b)];
-            gauge.position((&w.places, reference), q, &w.columns, &modes[m.switches..], reading);
-            gauge.velocity(&w.places, &w.twists, &w.bias, v, reading);
+        self.quaternions(q);
+        let Workspace { places, quaternions, columns, references, readings, twists, bias, .. } = &mut self.work;
+        let placed = Placed { places, quaternions, q, columns, windings: &modes[m.switches..] };
+        for (gauge, reading) in m.gauges.iter().zip(readings).skip(self.active) {
+            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], reading);
+            gauge.velocity(places, twists, bias, v, reading);
         }
     }
 }

@@ -26,7 +26,7 @@ pub use tangent::{LANES, Linearizer, Point, RowTangent, pattern};
 pub use workspace::Workspace;
 
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Measured, Mechanism};
 use crate::scalar::Scalar;
 
 /// An evaluator with its scratch; one per thread.
@@ -40,13 +40,17 @@ pub struct Dynamics<'m, G: Space> {
     pub t: G::S,
     /// Gauges that rows and forces need; the others are read by [`Dynamics::watch`].
     active: usize,
+    /// Whether quaternions are among those.
+    needs_quaternions: bool,
 }
 
 impl<'m, G: Space> Dynamics<'m, G> {
     /// An evaluator for a mechanism.
     #[must_use]
     pub fn new(mechanism: &'m Mechanism<G>) -> Self {
-        Self { mechanism, work: Workspace::new(mechanism), t: G::S::constant(0.0), active: mechanism.active_gauges }
+        let active = mechanism.active_gauges;
+        let needs_quaternions = mechanism.gauges[..active].iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
+        Self { mechanism, work: Workspace::new(mechanism), t: G::S::constant(0.0), active, needs_quaternions }
     }
 
     /// All stages up to M, f, Φ, G, ν and γ.

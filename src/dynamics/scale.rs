@@ -12,7 +12,7 @@
 
 use super::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Gauge, Measured, RowKind, RowOwner, Step};
+use crate::mechanism::{Gauge, Measured, RowKind, Step};
 use grashof_solvers::kkt::natural_row_scale;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
@@ -65,11 +65,11 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         natural_row_scale(&entries, &natural, metric)
     }
 
-    /// Large displacements (nv each) along motions that the rows leave but for drivers, which move with time.
+    /// Large displacements (nv each) along motions that the rows leave but for those that time moves.
     fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
         let m = self.mechanism;
         let passive = m.rows.iter().zip(self.work.g.chunks_exact(m.nv.max(1)).zip(scale));
-        let passive = passive.filter(|(row, _)| !matches!(row.owner, RowOwner::Driver(_)));
+        let passive = passive.filter(|(row, _)| !m.is_moved(row));
         let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
         let rank = Rank::new(&g.concat(), metric, &scale, RANK_TOLERANCE);
         let (n, unit) = (rank.mobility(), m.units());
@@ -157,6 +157,7 @@ impl Sizes {
             Measured::Coordinate { along, .. } => return put(along.v, 1.0),
             Measured::Slide { pa, pb, .. } | Measured::Distance { pa, pb } => [0.0, 1.0, f64::max(reach(gauge.a, pa), reach(gauge.b, pb))],
             Measured::Dot { .. } | Measured::Angle => [1.0, 0.0, 0.0],
+            Measured::Quaternion { .. } => [0.5, 0.0, 0.0],
             Measured::Turn { e1, e2, f, .. } => {
                 // θ̇ is the rate of the part of f in the plane, over its length
                 let f = G::rotate(places[gauge.b].r, f);

@@ -2,7 +2,7 @@
 
 use super::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::StagedProgram;
+use crate::mechanism::{Measured, StagedProgram};
 
 impl<G: Space<S = f64>> Dynamics<'_, G> {
     /// Sets the modes of a program's switches from its inputs at the state evaluated last.
@@ -18,6 +18,23 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         self.t = t;
         self.switch(&self.mechanism.time_program, modes);
         self.time(t, modes);
+    }
+
+    /// Takes the signs of quaternions so that w ≥ 0 at the position evaluated last, and evaluates that anew if one changes.
+    pub fn take_signs(&mut self, q: &[f64], modes: &mut [i32]) {
+        self.quaternions(q);
+        let mut changed = false;
+        for gauge in &self.mechanism.gauges {
+            if let Measured::Quaternion { sign, .. } = gauge.measured {
+                let mode = &mut modes[self.mechanism.switches + sign];
+                let taken = self.work.quaternions[gauge.b].sign();
+                changed |= *mode != taken;
+                *mode = taken;
+            }
+        }
+        if changed {
+            self.position(q, modes);
+        }
     }
 
     /// Takes the modes of functions of position at the position evaluated last, and evaluates those functions and the rows anew.

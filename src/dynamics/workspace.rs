@@ -1,16 +1,16 @@
 //! The scratch of one evaluator, grouped by the stage that fills it. Sized once; no evaluation allocates.
 
-use crate::geometry::{Force, Inertia, Motion, Pose, Space};
-use crate::mechanism::{Mechanism, Reading, StagedProgram};
+use crate::geometry::{Force, Inertia, Motion, Pose, Quaternion, Space};
+use crate::mechanism::{Measured, Mechanism, Reading, StagedProgram};
 use crate::scalar::Scalar;
 
 /// What evaluations leave behind, for the state that was evaluated last.
 #[derive(Clone, Debug)]
 pub struct Workspace<G: Space> {
     // ---- time: written by `Dynamics::time`
-    /// f, f', f'' of each driver (3 × drivers).
+    /// Laws of time with their first two rates: f, f', f'' of each driver, rests of springs that move.
     pub motions: Vec<G::S>,
-    /// ν (rows): f' in the rows of drivers, else 0.
+    /// ν (rows): f' in the rows of drivers; from `Dynamics::position` on −e_t in those of functions of time; else 0.
     pub nu: Vec<G::S>,
 
     // ---- position: written by `Dynamics::position`
@@ -20,13 +20,17 @@ pub struct Workspace<G: Space> {
     pub places: Vec<Pose<G>>,
     /// Unit twist of each velocity column in the world (nv).
     pub columns: Vec<Motion<G>>,
+    /// Unit quaternion of each body, if there is a gauge of one; where no row or force needs it written by `Dynamics::watch` alone.
+    pub quaternions: Vec<Quaternion<G::S>>,
+    /// Those of the frames before and behind the joint of each node.
+    pub(super) turned: Vec<[Quaternion<G::S>; 2]>,
     /// Small displacement of each body, in [`Dynamics::nudge`](super::Dynamics::nudge).
     pub(super) moved: Vec<Motion<G>>,
     /// Where each contact is held, rad or m: written by the caller before `position`, if a row holds it.
     pub held: Vec<G::S>,
     /// Gauge readings; `x` and `wrench` from here on.
     pub readings: Vec<Reading<G>>,
-    /// Functions and their partial derivatives (outputs of the position program).
+    /// Functions and their partial derivatives by gauges and time (outputs of the position program).
     pub functions: Vec<G::S>,
     /// Φ (rows).
     pub phi: Vec<G::S>,
@@ -86,11 +90,18 @@ impl<G: Space> Workspace<G> {
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
         let programs = mechanism.programs();
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
+        let needs_quaternions = mechanism.gauges.iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
+        let turned = mechanism.nodes.iter().filter(|_| needs_quaternions).map(|node| {
+            let after = node.after.map_or_else(Quaternion::identity, |pose| Quaternion::of_rotation::<G>(pose.r));
+            [Quaternion::of_rotation::<G>(node.before.r), after]
+        });
         Self {
             motions: zeros(mechanism.time_program.outputs),
             references: vec![G::Vector::default(); mechanism.groups.len()],
             places: vec![Pose::identity(); bodies],
             columns: vec![Motion::default(); nv],
+            quaternions: vec![Quaternion::identity(); if needs_quaternions { bodies } else { 0 }],
+            turned: turned.collect(),
             moved: vec![Motion::default(); bodies],
             held: zeros(mechanism.contacts.len()),
             readings: vec![Reading::default(); mechanism.gauges.len()],

@@ -7,10 +7,12 @@
 //! in `x_wb * x_bc` (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2).
 
 mod planar;
+mod quaternion;
 mod spatial;
 mod twist;
 
 pub use planar::{Planar, Turn};
+pub use quaternion::Quaternion;
 pub use spatial::Spatial;
 pub use twist::{Force, Inertia, MassProperties, Motion, Pose};
 

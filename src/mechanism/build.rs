@@ -82,7 +82,7 @@ pub fn build_beside<G: Space>(model: &Model, parameters: &[f64], coordinates: Co
     builder.impacts();
     builder.gauges_of_programs();
     builder.mechanism.active_gauges = builder.mechanism.gauges.len();
-    builder.remaining_slots();
+    builder.remaining_gauges();
     builder.starts();
     builder.finish()
 }
@@ -104,7 +104,7 @@ pub fn build_uncut<G: Space>(model: &Model, parameters: &[f64]) -> Result<Mechan
     builder.constraints();
     builder.gauges_of_programs();
     builder.mechanism.active_gauges = builder.mechanism.gauges.len();
-    builder.remaining_slots();
+    builder.remaining_gauges();
     builder.starts();
     builder.finish()
 }
@@ -130,6 +130,8 @@ struct Builder<'m, G: Space> {
     slots: Vec<Vec<Option<usize>>>,
     /// Measured quantities of cut joints' slots.
     slot_measures: Vec<Vec<Measured<G>>>,
+    /// Sign of the quaternion of each body, once something needs it.
+    signs: Vec<Option<usize>>,
     pool: Pool,
     inputs: Vec<Quantity>,
     tables: Arc<[Table]>,
@@ -206,7 +208,12 @@ impl<G: Space> Builder<'_, G> {
     }
 
     /// The gauges that nothing needed, for start values and outputs.
-    fn remaining_slots(&mut self) {
+    fn remaining_gauges(&mut self) {
+        for input in 0..self.model.inputs.len() {
+            if let quantity @ Quantity::Quaternion { .. } = self.model.inputs[input] {
+                self.gauge_of(quantity);
+            }
+        }
         for joint in 0..self.shapes.len() {
             let slots: Vec<usize> = (0..self.slot_measures[joint].len()).filter_map(|s| self.slot(joint, s)).collect();
             self.mechanism.joints[joint].slots = slots;

@@ -102,8 +102,10 @@ pub struct Drive {
 pub struct Stretch<G: Space> {
     /// What is measured.
     pub of: StretchOf,
-    /// Free length or rest angle.
+    /// Free length or rest angle; 0 if it moves.
     pub rest: G::S,
+    /// Output of the time program that is a rest that moves; its first two rates follow.
+    pub moving: Option<usize>,
 }
 
 /// What a spring or an effort works along.
@@ -138,14 +140,14 @@ pub enum EffortLaw<G: Space> {
         /// Force at zero stretch.
         preload: G::S,
     },
-    /// −(output + preload) − d ẋ: a spring with a law.
+    /// −F − d ṡ: a spring whose force F by the stretch s is given by a program, with what is constant in it.
     Law {
-        /// Output of the force program.
+        /// The spring.
+        spring: usize,
+        /// Output of the force program that is F; d follows, and ∂F/∂t at fixed s if time is in it.
         output: usize,
-        /// d.
-        damping: G::S,
-        /// Force at zero stretch.
-        preload: G::S,
+        /// Whether time is in F.
+        timed: bool,
     },
     /// +output: a load or motor on a joint.
     Drive {
@@ -290,7 +292,7 @@ pub struct Pull<G: Space> {
 
 impl<G: Space> Stretch<G> {
     pub(super) fn lift<D: Scalar>(&self, constant: impl Fn(G::S) -> D) -> Stretch<G::Lift<D>> {
-        Stretch { of: self.of, rest: constant(self.rest) }
+        Stretch { of: self.of, rest: constant(self.rest), moving: self.moving }
     }
 }
 
@@ -300,7 +302,7 @@ impl<G: Space> Effort<G> {
             EffortLaw::Linear { stiffness, rest, damping, preload } => {
                 EffortLaw::Linear { stiffness: c(stiffness), rest: c(rest), damping: c(damping), preload: c(preload) }
             }
-            EffortLaw::Law { output, damping, preload } => EffortLaw::Law { output, damping: c(damping), preload: c(preload) },
+            EffortLaw::Law { spring, output, timed } => EffortLaw::Law { spring, output, timed },
             EffortLaw::Drive { output } => EffortLaw::Drive { output },
             EffortLaw::Friction { output, pressing } => EffortLaw::Friction { output, pressing },
         };

@@ -19,9 +19,10 @@
 //! | dot | u·w, u in a, w in b | (w×u, 0) | (ω_a×u̇)·w + 2u̇·ẇ + u·(ω_b×ẇ) |
 //! | angle (planar) | difference of angles | (1, 0) | 0 |
 //! | turn (spatial) | atan2(f·e₂, f·e₁) + 2πk, e in a, f in b | of both dots | of both dots |
+//! | quaternion (spatial) | a component of the body's unit quaternion Q | that of ½ (0, ω) ∘ Q | −¼ \|ω\|² x |
 //! | coordinate | a tree coordinate q_k | that of its axis | 0 |
 
-use crate::geometry::{Force, Motion, Pose, Space};
+use crate::geometry::{Force, Motion, Pose, Quaternion, Space};
 use crate::scalar::Scalar;
 
 /// A coordinate axis of a tree joint: which coordinate, and whether it turns or slides.
@@ -76,6 +77,13 @@ pub enum Measured<G: Space> {
         /// Index of its winding number.
         winding: usize,
     },
+    /// Spatial: a component (w, x, y, z) of the unit quaternion of b in the world; `sign` is the mode that tells which of the two it is.
+    Quaternion {
+        /// Which component.
+        component: usize,
+        /// Index of its sign among the winding numbers, one for each body.
+        sign: usize,
+    },
     /// A coordinate of the tree, with the joint's point of b.
     Coordinate {
         /// Which, and how it moves.
@@ -115,26 +123,35 @@ pub struct Reading<G: Space> {
     pub drift: G::S,
 }
 
+/// Where the bodies of a mechanism are, as gauges see them.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a, G: Space> {
+    /// Pose of each body, from the reference point of its group.
+    pub places: &'a [Pose<G>],
+    /// Unit quaternion of each body, if a gauge needs them.
+    pub quaternions: &'a [Quaternion<G::S>],
+    /// Tree coordinates (nq).
+    pub q: &'a [G::S],
+    /// Columns (nv).
+    pub columns: &'a [Motion<G>],
+    /// Winding numbers.
+    pub windings: &'a [i32],
+}
+
 impl<G: Space> Gauge<G> {
-    /// Whether it counts in rad; else in m. Cosines, which only rows hold, count as angles.
+    /// Whether it counts in rad; else in m. Cosines and components of quaternions count as angles.
     pub fn turns(&self) -> bool {
         match self.measured {
             Measured::Coordinate { along, .. } => along.turns,
             Measured::Slide { .. } | Measured::Distance { .. } => false,
-            Measured::Dot { .. } | Measured::Angle | Measured::Turn { .. } => true,
+            Measured::Dot { .. } | Measured::Angle | Measured::Turn { .. } | Measured::Quaternion { .. } => true,
         }
     }
 
-    /// x and W from the poses (`places[body]`, from the `reference` point of the group), the tree coordinates `q` and columns `s`.
+    /// x and W from where the bodies are, about the `reference` point of the group.
     #[inline(always)]
-    pub fn position(
-        &self,
-        (places, reference): (&[Pose<G>], &G::Vector),
-        q: &[G::S],
-        s: &[Motion<G>],
-        windings: &[i32],
-        out: &mut Reading<G>,
-    ) {
+    pub fn position(&self, placed: Placed<'_, G>, reference: &G::Vector, out: &mut Reading<G>) {
+        let Placed { places, quaternions, q, columns: s, windings } = placed;
         let place = |body: usize| if body == 0 { Pose::translation(-*reference) } else { places[body] };
         let (xa, xb) = (place(self.a), place(self.b));
         match self.measured {
@@ -178,6 +195,13 @@ impl<G: Space> Gauge<G> {
                 // θ̇ = (c ṡ − s ċ)/(c² + s²)
                 let k = G::S::constant(1.0) / (c * c + s * s);
                 out.wrench = Force::couple((G::moment(f, e2) * c - G::moment(f, e1) * s) * k);
+            }
+            Measured::Quaternion { component, sign } => {
+                let unit = quaternions[self.b].signed(windings[sign]);
+                out.x = unit.0[component];
+                let slope = unit.slope(component);
+                let axis = |k: usize| G::spin(std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })) * slope[k];
+                out.wrench = Force::couple(axis(0) + axis(1) + axis(2));
             }
         }
     }
@@ -224,6 +248,8 @@ impl<G: Space> Gauge<G> {
                 // θ̈ = (c s̈ − s c̈)/r² − 2 θ̇ (c ċ + s ṡ)/r²
                 out.drift = (c * dds - s * ddc) * k - two * rate * (c * dc + s * ds) * k;
             }
+            // Q̈ = ½ (0, α) ∘ Q + ½ (0, ω) ∘ Q̇ and (0, ω) ∘ (0, ω) = −|ω|²
+            Measured::Quaternion { .. } => out.drift = -(G::dot_spin(vb.w, vb.w) * out.x).scale(0.25),
         }
         out.rate = out.wrench.power(vb - va);
         // the bodies accelerate by their bias even at a = 0
@@ -260,6 +286,7 @@ impl<G: Space> Gauge<G> {
             Measured::Dot { u, w } => Measured::Dot { u: v(u), w: v(w) },
             Measured::Angle => Measured::Angle,
             Measured::Turn { e1, e2, f, winding } => Measured::Turn { e1: v(e1), e2: v(e2), f: v(f), winding },
+            Measured::Quaternion { component, sign } => Measured::Quaternion { component, sign },
             Measured::Coordinate { along, pb } => Measured::Coordinate { along, pb: v(pb) },
         };
         Gauge { a: self.a, b: self.b, measured, shift: self.shift, columns: self.columns.clone() }

@@ -20,7 +20,7 @@ pub use contact::{Contact, ContactLaw};
 pub use force::{
     Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
 };
-pub use gauge::{Along, Gauge, Measured, Reading};
+pub use gauge::{Along, Gauge, Measured, Placed, Reading};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use row::{Function, Row, RowKind, RowOwner};
@@ -147,7 +147,7 @@ pub struct Mechanism<G: Space> {
     pub position_program: StagedProgram,
     /// Drifts of the functions.
     pub velocity_program: StagedProgram,
-    /// Driver laws: f, f', f'' of each.
+    /// Laws of time with their first two rates: f, f', f'' of each driver, then rests of springs that move.
     pub time_program: StagedProgram,
     /// Forces of loads, springs with laws and motors.
     pub force_program: StagedProgram,
@@ -162,7 +162,7 @@ pub struct Mechanism<G: Space> {
     /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`] and what one-way clutches do) and of
     /// winding numbers (they follow).
     pub switches: usize,
-    /// Number of winding numbers.
+    /// Number of winding numbers; the signs of quaternions are counted among them.
     pub windings: usize,
 }
 
@@ -236,6 +236,16 @@ impl<G: Space> Mechanism<G> {
     pub fn held(&self) -> impl Iterator<Item = (usize, usize)> {
         let contact = |row: &Row<G>| if let RowOwner::Contact(contact) = row.owner { Some(contact) } else { None };
         self.rows.iter().enumerate().filter_map(move |(i, row)| Some((contact(row)?, i)))
+    }
+
+    /// Whether a row holds something at a place that time moves: that of a driver, or of a coupling with time in it.
+    #[must_use]
+    pub fn is_moved(&self, row: &Row<G>) -> bool {
+        match row.kind {
+            RowKind::Driver { .. } => true,
+            RowKind::Function(f) => self.functions[f].by_time.is_some(),
+            RowKind::Gauge(_) | RowKind::Ratio { .. } => false,
+        }
     }
 
     /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].

@@ -5,7 +5,7 @@
 //! | gauge | x − target | 0 | −c |
 //! | driver | x − anchor − f(t) | f' | f'' − c |
 //! | ratio | x₂ − anchor − ratio x₁ | 0 | −(c₂ − ratio c₁) |
-//! | function | e(x) | 0 | −(Σ e_i c_i + Σ e_ik ẋ_i ẋ_k) |
+//! | function | e(x, t) | −e_t | −(Σ e_i c_i + Σ e_ik ẋ_i ẋ_k + 2 Σ e_it ẋ_i + e_tt) |
 //!
 //! A row that holds a contact has its target in the state, not in the mechanism: it is where the contact came to rest.
 
@@ -69,14 +69,16 @@ pub enum RowOwner {
     Contact(usize),
 }
 
-/// An expression e of gauges, with its derivatives as outputs of the position and velocity programs.
+/// An expression e of gauges and time, with its derivatives as outputs of the position and velocity programs.
 #[derive(Clone, Debug)]
 pub struct Function {
     /// The gauges it depends on.
     pub gauges: Vec<usize>,
     /// Output of the position program that is e; the partial derivatives by the gauges follow it.
     pub value: usize,
-    /// Output of the velocity program that is Σ e_i c_i + Σ e_ik ẋ_i ẋ_k.
+    /// Output of the position program that is e_t, the derivative by time at fixed gauges; none if time is not in it.
+    pub by_time: Option<usize>,
+    /// Output of the velocity program that is ë at a = 0, with the terms of time: Σ e_i c_i + Σ e_ik ẋ_i ẋ_k + 2 Σ e_it ẋ_i + e_tt.
     pub drift: usize,
 }
 

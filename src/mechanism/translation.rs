@@ -64,7 +64,7 @@ impl<G: Space<S = f64>> Mechanism<G> {
                 Measured::Coordinate { along, .. } => held.extend(roots.iter().flatten().filter(|(v, _)| *v == along.v).map(|(_, d)| *d)),
                 Measured::Slide { n, .. } if gauge.a == 0 => held.push(components::<G>(n)),
                 Measured::Slide { .. } | Measured::Distance { .. } => return None,
-                Measured::Dot { .. } | Measured::Angle | Measured::Turn { .. } => {}
+                Measured::Dot { .. } | Measured::Angle | Measured::Turn { .. } | Measured::Quaternion { .. } => {}
             }
         }
         let free = complement::<G>(&held);

@@ -333,7 +333,7 @@ impl<'a> World<'a> {
                 }
             }
             if let Some(component) = ["qw", "qx", "qy", "qz"].iter().position(|name| *name == rest) {
-                return Ok(Found::Leaf(Quantity::Quaternion { body, component }, Dimension::NONE));
+                return Ok(Found::Leaf(Quantity::Quaternion { body, component, order: 0 }, Dimension::NONE));
             }
             if ANGLE.contains(&rest) {
                 let help = Some(

@@ -286,7 +286,7 @@ static COUPLING: Table = Table {
     fields: &[
         may("gear", List(&JOINT_NAME, Size::Exactly(2)), "The second joint turns `ratio` times as far as the first."),
         may("rack", List(&JOINT_NAME, Size::Exactly(2)), "The slider moves `radius` times as far as the pinion turns: [pinion, slider]."),
-        may("zero", Formula("an expression of positions"), "An expression of positions that stays 0."),
+        may("zero", Formula("an expression of positions and `t`"), "An expression of positions and `t` that stays 0."),
         may("ratio", NUMBER, "Of a gear."),
         may("radius", LENGTH, "Of a pinion."),
     ],
@@ -350,11 +350,11 @@ static SPRING: Table = Table {
         may("joint", JOINT_NAME, "The joint whose coordinate it acts on."),
         may(
             "stretch",
-            Formula("an expression of positions"),
-            "Any expression of positions; the force is minus the gradient of the energy.",
+            Formula("an expression of positions and `t`"),
+            "Any expression of positions and `t`; the force is minus the gradient of the energy.",
         ),
         may("stiffness", STIFFNESS, "Force by stretch."),
-        may("force", Formula("a table, or an expression of `stretch`"), "Law of the force, instead of `stiffness`."),
+        may("force", Formula("a table, or an expression of `stretch` and `t`"), "Law of the force, instead of `stiffness`."),
         may("length", LENGTH, "Free length."),
         may("rest", COORDINATE, "Rest angle or rest position."),
         may("damping", DAMPING, "Force by rate of stretch; 0 if silent."),

@@ -16,8 +16,8 @@ pub enum Quantity {
     Angle { body: usize, order: usize },
     /// Spatial: component of a body's angular velocity (`order` 1) or acceleration (2), in world axes or in its `own`, rad/s, rad/s².
     Spin { body: usize, axis: usize, order: usize, own: bool },
-    /// Spatial: component of a body's unit quaternion (w, x, y, z).
-    Quaternion { body: usize, component: usize },
+    /// Spatial: component of a body's unit quaternion (w, x, y, z), or its rates, 1/s, 1/s².
+    Quaternion { body: usize, component: usize, order: usize },
     /// The one coordinate of a joint (angle or position, second body relative to first) or its rates; `slot` counts the axes of a joint with several (cylindrical: 0 angle, 1 position).
     Joint { joint: usize, slot: usize, order: usize },
     /// Reaction: force (`axis` 0 to 2) of the first-named body on the second, world axes, at the joint, N.
@@ -110,10 +110,11 @@ impl Quantity {
             Self::Point { order, .. }
             | Self::Angle { order, .. }
             | Self::Spin { order, .. }
+            | Self::Quaternion { order, .. }
             | Self::Joint { order, .. }
             | Self::Stretch { order, .. }
             | Self::Com { order, .. } => by_order(order),
-            Self::Quaternion { .. } | Self::SpringEnergy { .. } | Self::Potential => Known::Position,
+            Self::SpringEnergy { .. } | Self::Potential => Known::Position,
             Self::SpringForce { .. }
             | Self::MotorTorque { .. }
             | Self::Kinetic
@@ -167,6 +168,7 @@ impl Quantity {
             Self::Angle { body, order: order @ 0..2 } => Self::Angle { body, order: order + 1 },
             // along its own axes too, d(Rᵀω)/dt = Rᵀω̇ − Rᵀ(ω × ω) = Rᵀω̇
             Self::Spin { body, axis, order: 1, own } => Self::Spin { body, axis, order: 2, own },
+            Self::Quaternion { body, component, order: order @ 0..2 } => Self::Quaternion { body, component, order: order + 1 },
             Self::Joint { joint, slot, order: order @ 0..2 } => Self::Joint { joint, slot, order: order + 1 },
             Self::Stretch { spring, order: order @ 0..2 } => Self::Stretch { spring, order: order + 1 },
             Self::Com { axis, order: order @ 0..2 } => Self::Com { axis, order: order + 1 },

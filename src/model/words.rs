@@ -78,7 +78,10 @@ impl Model {
             Quantity::Spin { body: k, axis: a, order, own } => {
                 format!("{}.{}{}{}", body(k), if order == 1 { "w" } else { "alpha" }, axis(a), if own { "_own" } else { "" })
             }
-            Quantity::Quaternion { body: k, component } => format!("{}.q{}", body(k), ["w", "x", "y", "z"].get(component).unwrap_or(&"?")),
+            Quantity::Quaternion { body: k, component, order } => {
+                let name = format!("{}.q{}", body(k), ["w", "x", "y", "z"].get(component).unwrap_or(&"?"));
+                (0..order).fold(name, |name, _| format!("rate({name})"))
+            }
             Quantity::Joint { joint: k, slot, order } => {
                 let names = self.joints.get(k).and_then(|j| coordinates(&j.kind).iter().find(|c| c.slot == slot)).map(|c| c.names);
                 format!("{}.{}", joint(k), names.and_then(|n| n.get(order).copied()).unwrap_or("?"))

@@ -10,7 +10,7 @@ fn power_in_is_the_rate_of_kinetic_energy() {
         s.evaluate(&mut d);
         let w = &d.work;
         let mut power: f64 = (1..m.bodies.len()).map(|b| w.applied[b].power(w.twists[b])).sum();
-        power += m.efforts.iter().zip(&w.efforts).map(|(e, size)| size * d.extent_rate(e.along)).sum::<f64>();
+        power += m.efforts.iter().zip(&w.efforts).map(|(e, size)| size * d.swept(e.along)).sum::<f64>();
         power -= product(&w.g, &s.v).iter().zip(&s.lambda).map(|(x, l)| x * l).sum::<f64>();
         let energy = |s: &State| {
             let mut d = Dynamics::new(m);
@@ -55,18 +55,21 @@ fn gravity_and_springs_take_from_their_energies() {
         };
         let mut d = Dynamics::new(m);
         s.evaluate(&mut d);
+        let mut modes = s.modes.clone();
+        let by_time: Vec<f64> = (0..m.stretches.len()).map(|i| d.spring_power(i, &mut modes)).collect();
         let w = &d.work;
         let mut power = vec![0.0];
         for b in 1..m.bodies.len() {
             power[0] -= G::dot(m.gravity, w.twists[b].v * w.inertias[b].m + G::turn(w.twists[b].w, w.inertias[b].h));
         }
-        for &effort in &m.spring_efforts {
+        for (i, &effort) in m.spring_efforts.iter().enumerate() {
             let damping = match m.efforts[effort].law {
-                EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => damping,
+                EffortLaw::Linear { damping, .. } => damping,
+                EffortLaw::Law { output, .. } => w.force_outputs[output + 1],
                 EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => 0.0,
             };
-            let rate = d.extent_rate(m.efforts[effort].along);
-            power.push(-(w.efforts[effort] + damping * rate) * rate);
+            // what the bodies and time put in, less what damping takes
+            power.push(by_time[i] - w.efforts[effort] * d.swept(m.efforts[effort].along) - damping * d.stretch_rate(i).powi(2));
         }
         close("V̇", &slope(H, |e| potential(&s.after(m, e))), &power, DIFFERENCE);
     }

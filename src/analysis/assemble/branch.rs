@@ -12,7 +12,6 @@ use super::explain::short;
 use super::norm;
 use crate::analysis::least_squares::{Level, left_open};
 use crate::geometry::Space;
-use crate::mechanism::RowOwner;
 
 /// Part by which a branch must be better than the other to be chosen.
 const BETTER: f64 = 1e-6;
@@ -144,7 +143,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn beside(&mut self, q: &[f64], v: &[f64]) -> Option<Vec<f64>> {
         let speed = v.iter().zip(&self.metric).map(|(v, d)| v.abs() * d.sqrt()).fold(0.0, f64::max);
         let m = self.dynamics.mechanism;
-        self.rows = (0..m.rows.len()).filter(|r| !m.rows[*r].anchored && !matches!(m.rows[*r].owner, RowOwner::Driver(_))).collect();
+        self.rows = (0..m.rows.len()).filter(|r| !m.rows[*r].anchored && !m.is_moved(&m.rows[*r])).collect();
         self.held = Held::Nothing;
         let mut beside = q.to_vec();
         m.retract(&mut beside, &v.iter().map(|v| BESIDE * v / speed).collect::<Vec<_>>());

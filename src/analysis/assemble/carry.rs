@@ -34,6 +34,7 @@ fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[
     let mut modes = to.modes();
     other.follow_time(0.0, &mut modes);
     other.position(&q, &modes);
+    other.take_signs(&q, &mut modes);
     other.follow_position(&mut modes);
     for node in &to.nodes {
         let relative = dynamics.work.twists[node.body] - dynamics.work.twists[node.parent];

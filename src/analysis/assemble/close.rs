@@ -61,6 +61,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     pub(super) fn evaluate(&mut self, q: &[f64]) {
         let zeros = vec![0.0; self.dynamics.mechanism.nv];
         self.dynamics.position(q, &self.modes);
+        self.dynamics.take_signs(q, &mut self.modes);
         self.dynamics.follow_position(&mut self.modes);
         self.dynamics.velocity(&zeros, &self.modes);
         self.dynamics.watch(q, &zeros, &self.modes);

@@ -121,22 +121,25 @@ impl<G: Space<S = f64>> System<'_, G> {
         let missed = format!("missed by {} {}", short(*x), held.map_or_else(|| unit_of_rate(m, i), |s| unit(m, s.asked)));
         let missed = missed.trim_end();
         let (freedom, drivers) = (self.freedom(q), m.drives.len());
+        let moved = m.rows.iter().filter(|row| m.is_moved(row)).count();
         if held.is_none() && freedom < drivers {
             return Some(AssemblyFault {
                 code: "over-constrained",
                 message: format!(
-                    "{drivers} drivers for a mechanism of {freedom} degree{} of freedom: {what} is {missed} at the start",
+                    "{drivers} driver{} for a mechanism of {freedom} degree{} of freedom: {what} is {missed} at the start",
+                    if drivers == 1 { "" } else { "s" },
                     if freedom == 1 { "" } else { "s" }
                 ),
                 place: "drivers".into(),
                 help: "remove drivers until there are as many as degrees of freedom".into(),
             });
         }
-        if exact.is_empty() && drivers == 1 {
+        if exact.is_empty() && moved == 1 {
+            let mover = if drivers == 1 { "driver" } else { "coupling" };
             return Some(AssemblyFault {
                 code: "dead-point",
                 message: format!(
-                    "the start is a dead point, where the links are in a line and no finite velocity moves the driver on: {what} is {missed}"
+                    "the start is a dead point, where the links are in a line and no finite velocity moves the {mover} on: {what} is {missed}"
                 ),
                 place: "start".into(),
                 help: "start beside it, by another exact value, or drive another joint".into(),
@@ -144,11 +147,15 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         Some(AssemblyFault {
             code: "start-cannot-hold",
-            message: format!("the start velocities contradict each other or the drivers: {what} is {missed}"),
+            message: match (held, exact.is_empty()) {
+                (None, true) => format!("drivers and couplings contradict each other in their velocities at the start: {what} is {missed}"),
+                _ => format!("the start velocities contradict each other or the drivers: {what} is {missed}"),
+            },
             place: held.map_or_else(|| "start".into(), |s| s.place.clone()),
-            help: match held {
-                Some(_) => "put `~` before it, or remove it: drivers and other exact values fix it already".into(),
-                None => "put `~` before one of the velocities, or remove it".into(),
+            help: match (held, exact.is_empty()) {
+                (Some(_), _) => "put `~` before it, or remove it: drivers and other exact values fix it already".into(),
+                (None, true) => "remove one of those that hold the same motion, or let them agree".into(),
+                (None, false) => "put `~` before one of the velocities, or remove it".into(),
             },
         })
     }

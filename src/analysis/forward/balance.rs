@@ -91,18 +91,19 @@ impl Balance {
         self.work.iter().sum()
     }
 
-    /// Looks at the energy of a node, if it is time to.
-    pub(super) fn step<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, until: f64)
+    /// Looks at the energy of a node, if it is time to; whether it has, which leaves the system at the node.
+    pub(super) fn step<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, until: f64) -> bool
     where
         G: Space<S = f64>,
         D: Space<S = Dual<LANES>>,
     {
         let t = node.state.t;
         if t < self.next && t < until {
-            return;
+            return false;
         }
         self.next = t + until / LOOKS;
         self.look(system, node);
+        true
     }
 
     fn look<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node)

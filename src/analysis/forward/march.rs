@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::chart::{Charted, chart};
+use super::contradiction;
 use super::eras::{Eras, Holds};
 use super::explain;
 use super::pace::Pace;
@@ -259,7 +260,11 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
                 break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt));
             }
-            self.balance.step(chart.mechanical(), &node, self.plan.until);
+            if self.balance.step(chart.mechanical(), &node, self.plan.until)
+                && let Some(told) = contradiction::told(chart.mechanical(), era.start.size, node.state.t)
+            {
+                break After::Stopped(told);
+            }
             if happened {
                 let counted = self.happened(&mut chart, &run);
                 std::mem::swap(&mut last, &mut node);

@@ -6,6 +6,7 @@
 pub(in crate::analysis) mod balance;
 mod bare;
 mod chart;
+mod contradiction;
 pub(in crate::analysis) mod eras;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;

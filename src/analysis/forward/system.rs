@@ -89,6 +89,8 @@ pub(in crate::analysis) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Du
     loosened: bool,
     a: Vec<f64>,
     lambda: Vec<f64>,
+    /// Modes while energies are asked.
+    modes: Vec<i32>,
     inputs: Vec<f64>,
     registers: Vec<f64>,
     /// Roots of one program, and all outputs of the observer.
@@ -216,6 +218,7 @@ where
             a: vec![0.0; nv],
             lambda: vec![0.0; rows],
             size: start.size,
+            modes: mechanism.modes(),
             near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
             rests: Vec::with_capacity(2 * mechanism.stops.len()),
             struck: Vec::with_capacity(mechanism.stops.len()),
@@ -359,15 +362,18 @@ where
         self.dynamics.mechanism.displace(q, u);
     }
 
-    /// Power of drivers −λᵀν, of loads and motors, of dampers, of end stops beside what they store: what changes the energy, W.
+    /// Power of drivers and of all else that moves with time, −λᵀν for rows; of loads and motors; of dampers; of end stops beside what
+    /// they store: what changes the energy, W.
     fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
         let _ = a;
         self.kinematics(&at);
         self.dynamics.loads(at.modes);
         self.dynamics.rub(lambda);
         let m = self.dynamics.mechanism;
+        self.modes.copy_from_slice(&at.modes[..m.switches + m.windings]);
+        let by_springs: f64 = (0..m.stretches.len()).map(|spring| self.dynamics.spring_power(spring, &mut self.modes)).sum();
         let work = &self.dynamics.work;
-        w[0] = -work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
+        w[0] = by_springs - work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
         w[1..].fill(0.0);
         for node in &m.nodes {
             let gravity = G::dot(m.gravity, work.twists[node.body].v) * work.inertias[node.body].m
@@ -378,8 +384,11 @@ where
         for (i, (effort, size)) in m.efforts.iter().zip(&work.efforts).enumerate() {
             let rate = self.dynamics.extent_rate(effort.along);
             match effort.law {
-                EffortLaw::Linear { damping, .. } | EffortLaw::Law { damping, .. } => w[2] -= damping * rate * rate,
                 EffortLaw::Drive { .. } if m.buffers.iter().any(|buffer| buffer.effort == i) => {}
+                EffortLaw::Linear { damping, .. } => w[2] -= damping * rate * rate,
+                EffortLaw::Law { spring, output, .. } => {
+                    w[2] -= work.force_outputs[output + 1] * self.dynamics.stretch_rate(spring).powi(2)
+                }
                 EffortLaw::Drive { .. } => w[1] += size * rate,
                 EffortLaw::Friction { .. } => w[2] += size * rate,
             }

@@ -103,13 +103,7 @@ impl<G: Space> Builder<'_, G> {
             Motion::Position(f) => f,
             Motion::Rise { by, during, law } => self.rise(t, by, during, law),
         };
-        let output = self.time.len();
-        let mut order = f;
-        for _ in 0..3 {
-            self.time.push(Output { value: order, place: place.to_owned() });
-            let Some(next) = self.rate_by_time(order, place) else { return };
-            order = next;
-        }
+        let Some(output) = self.law_of_time(f, place) else { return };
         let speed = match driver.motion {
             Motion::Speed(speed) => Some(self.number(speed, place)),
             _ => None,
@@ -125,6 +119,17 @@ impl<G: Space> Builder<'_, G> {
             angular: turns,
         });
         self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row: self.mechanism.rows.len() - 1, output, speed, turns });
+    }
+
+    /// The output of the time program that is an expression of time; its first two rates follow.
+    fn law_of_time(&mut self, f: Id, place: &str) -> Option<usize> {
+        let output = self.time.len();
+        let mut order = f;
+        for _ in 0..3 {
+            self.time.push(Output { value: order, place: place.to_owned() });
+            order = self.rate_by_time(order, place)?;
+        }
+        Some(output)
     }
 
     /// by · law(τ), τ = t/during held in [0, 1].
@@ -167,22 +172,49 @@ impl<G: Space> Builder<'_, G> {
             SpringOn::Stretch(id) => self.function_of(id, place).map(StretchOf::Function),
         };
         let Some(along) = along else { return };
-        let [rest, damping, preload] = [spring.rest, spring.damping, spring.preload].map(|x| self.optional(x, place));
-        let (damping, preload) = (G::S::constant(damping), G::S::constant(preload));
-        let law = match spring.law {
-            SpringLaw::Force(id) => {
-                self.force.push(Output { value: id, place: place.to_owned() });
-                EffortLaw::Law { output: self.force.len() - 1, damping, preload }
+        let moving = spring.rest.filter(|rest| self.is_timed(*rest));
+        let rest = if moving.is_some() { 0.0 } else { self.optional(spring.rest, place) };
+        let moving = match moving {
+            Some(rest) => {
+                let Some(output) = self.law_of_time(rest, place) else { return };
+                Some(output)
             }
-            SpringLaw::Stiffness(id) => {
-                let stiffness = G::S::constant(self.number(id, place));
-                EffortLaw::Linear { stiffness, rest: G::S::constant(rest), damping, preload }
-            }
-            SpringLaw::None => EffortLaw::Linear { stiffness: G::S::constant(0.0), rest: G::S::constant(rest), damping, preload },
+            None => None,
         };
-        self.mechanism.stretches.push(Stretch { of: along, rest: G::S::constant(rest) });
+        let stiffness = if let SpringLaw::Stiffness(id) = spring.law { Some(id) } else { None };
+        let varies = [stiffness, spring.damping, spring.preload].into_iter().flatten().any(|id| self.is_timed(id));
+        let law = if varies || moving.is_some() || matches!(spring.law, SpringLaw::Force(_)) {
+            self.spring_law(index)
+        } else {
+            let [stiffness, damping, preload] =
+                [stiffness, spring.damping, spring.preload].map(|x| G::S::constant(self.optional(x, place)));
+            EffortLaw::Linear { stiffness, rest: G::S::constant(rest), damping, preload }
+        };
+        self.mechanism.stretches.push(Stretch { of: along, rest: G::S::constant(rest), moving });
         self.mechanism.spring_efforts.push(self.mechanism.efforts.len());
         self.mechanism.efforts.push(Effort { along, law });
+    }
+
+    /// A spring by a program: its force by the stretch with what is constant in it, its damping, and where time is in the force its
+    /// derivative by that.
+    fn spring_law(&mut self, index: usize) -> EffortLaw<G> {
+        let spring = &self.model.springs[index];
+        let zero = self.pool.constant(0.0);
+        let force = match spring.law {
+            SpringLaw::Force(id) => id,
+            SpringLaw::Stiffness(stiffness) => {
+                let stretch = self.input(Quantity::Stretch { spring: index, order: 0 });
+                self.pool.mul(stiffness, stretch)
+            }
+            SpringLaw::None => zero,
+        };
+        let force = self.pool.add(force, spring.preload.unwrap_or(zero));
+        let t = self.pool.inputs_of(&[force]).into_iter().find(|&input| self.inputs[input as usize] == Quantity::Time);
+        let by_time = t.and_then(|t| self.slope(force, t));
+        let output = self.force.len();
+        let outputs = [Some(force), Some(spring.damping.unwrap_or(zero)), by_time];
+        self.force.extend(outputs.into_iter().flatten().map(|value| Output { value, place: spring.place.clone() }));
+        EffortLaw::Law { spring: index, output, timed: by_time.is_some() }
     }
 
     fn joint_damping(&mut self, index: usize) {
@@ -369,7 +401,7 @@ impl<G: Space> Builder<'_, G> {
         let (field, potential) = match &attraction.law {
             AttractionLaw::Field(field) => (field.clone(), None),
             AttractionLaw::Potential(potential) => {
-                let slopes = (0..G::VECTOR).filter_map(|axis| self.slope(*potential, Quantity::Point { at: point, axis, order: 0 }));
+                let slopes = (0..G::VECTOR).filter_map(|axis| self.slope_by(*potential, Quantity::Point { at: point, axis, order: 0 }));
                 (slopes.collect::<Vec<_>>().into_iter().map(|slope| self.pool.neg(slope)).collect(), Some(output(self, *potential)))
             }
         };
@@ -378,10 +410,11 @@ impl<G: Space> Builder<'_, G> {
     }
 
     /// The partial derivative of an expression by a quantity.
-    fn slope(&mut self, id: Id, by: Quantity) -> Option<Id> {
-        let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
-        let inputs = &self.inputs;
-        self.pool.rate(id, &mut |_, input| Some(if inputs.get(input as usize) == Some(&by) { one } else { zero })).ok()
+    fn slope_by(&mut self, id: Id, by: Quantity) -> Option<Id> {
+        match self.inputs.iter().position(|quantity| *quantity == by) {
+            Some(input) => self.slope(id, input as u32),
+            None => Some(self.pool.constant(0.0)),
+        }
     }
 
     fn motor(&mut self, index: usize) {

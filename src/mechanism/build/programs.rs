@@ -69,6 +69,7 @@ impl<'m, G: Space> Builder<'m, G> {
             particles: vec![],
             slots: vec![],
             slot_measures: vec![],
+            signs: vec![None; model.bodies.len()],
             pool: model.pool.clone(),
             inputs: model.inputs.clone(),
             tables: Arc::from([]),
@@ -192,6 +193,14 @@ impl<'m, G: Space> Builder<'m, G> {
                 Some((self.shared_gauge(body, measured), order))
             }
             Quantity::Angle { body, order } => Some((self.shared_gauge(body, Measured::Angle), order)),
+            Quantity::Quaternion { body, component, order } => {
+                let windings = &mut self.mechanism.windings;
+                let sign = *self.signs[body].get_or_insert_with(|| {
+                    *windings += 1;
+                    *windings - 1
+                });
+                Some((self.shared_gauge(body, Measured::Quaternion { component, sign }), order))
+            }
             _ => None,
         }
     }
@@ -219,56 +228,68 @@ impl<'m, G: Space> Builder<'m, G> {
         rate.ok()
     }
 
-    /// An expression of gauges with its partial derivatives and its second rate at a = 0.
+    /// An expression of gauges and time with its partial derivatives and its second rate at a = 0.
     pub(super) fn function_of(&mut self, id: Id, place: &str) -> Option<usize> {
-        let inputs = self.pool.inputs_of(&[id]);
-        let mut gauges = Vec::new();
-        for &input in &inputs {
+        let (mut gauges, mut of_gauges, mut time) = (Vec::new(), Vec::new(), None);
+        for input in self.pool.inputs_of(&[id]) {
             let quantity = self.inputs[input as usize];
             match self.gauge_of(quantity) {
-                Some((gauge, 0)) => gauges.push(gauge),
+                Some((gauge, 0)) => {
+                    gauges.push(gauge);
+                    of_gauges.push(input);
+                }
+                _ if quantity == Quantity::Time => time = Some(input),
                 _ => {
-                    self.fault(
-                        "not-a-position",
-                        place,
-                        format!("the expression uses `{}`", self.model.name_of(quantity)),
-                        "coordinates of points, planar angles and coordinates of joints alone",
-                        self.instead(quantity),
-                    );
+                    let message = format!("the expression uses `{}`", self.model.name_of(quantity));
+                    let expected = "`t`, coordinates and quaternions of bodies and coordinates of joints alone";
+                    let help = matches!(quantity, Quantity::Com { .. })
+                        .then(|| "write it by those of the bodies, as `(m1*a.com.x + m2*b.com.x)/(m1 + m2)`".to_owned());
+                    self.fault("not-a-position", place, message, expected, help);
                     return None;
                 }
             }
         }
-        let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
         let value = self.position.len();
         let output = |value: Id| Output { value, place: place.to_owned() };
         self.position.push(output(id));
-        for &wanted in &inputs {
-            let slope = self.pool.rate(id, &mut |_, input| Some(if input == wanted { one } else { zero }));
-            self.position.push(output(slope.ok()?));
+        for wanted in of_gauges {
+            let slope = self.slope(id, wanted)?;
+            self.position.push(output(slope));
         }
+        let by_time = match time {
+            Some(time) => {
+                let slope = self.slope(id, time)?;
+                self.position.push(output(slope));
+                Some(self.position.len() - 1)
+            }
+            None => None,
+        };
         let first = self.rate_of(id)?;
         let second = self.rate_of(first)?;
         self.velocity.push(output(second));
-        Some(self.function(Function { gauges, value, drift: self.velocity.len() - 1 }))
+        Some(self.function(Function { gauges, value, by_time, drift: self.velocity.len() - 1 }))
     }
 
-    /// What to write where a quantity cannot stand in an expression of positions.
-    fn instead(&self, quantity: Quantity) -> Option<String> {
-        match quantity {
-            Quantity::Time => Some("let a driver move a body without mass as `t` says, and use its position".into()),
-            Quantity::Quaternion { .. } => {
-                Some("write directions by points of the body: the difference of two points at 1 m from each other is a unit vector".into())
-            }
-            _ => None,
-        }
+    /// The derivative of an expression by one of its inputs, the others fixed.
+    pub(super) fn slope(&mut self, id: Id, wanted: u32) -> Option<Id> {
+        let (zero, one) = (self.pool.constant(0.0), self.pool.constant(1.0));
+        self.pool.rate(id, &mut |_, input| Some(if input == wanted { one } else { zero })).ok()
     }
 
-    /// The time rate of an expression of positions and velocities.
+    /// Whether time is in an expression.
+    pub(super) fn is_timed(&self, id: Id) -> bool {
+        self.pool.inputs_of(&[id]).iter().any(|&input| self.inputs[input as usize] == Quantity::Time)
+    }
+
+    /// The time rate of an expression of positions, velocities and time.
     fn rate_of(&mut self, id: Id) -> Option<Id> {
         let mut inputs = std::mem::take(&mut self.inputs);
         let rate = self.pool.rate(id, &mut |pool, input| {
-            let next = next_order(*inputs.get(input as usize)?)?;
+            let quantity = *inputs.get(input as usize)?;
+            if quantity == Quantity::Time {
+                return Some(pool.constant(1.0));
+            }
+            let next = next_order(quantity)?;
             let index = inputs.iter().position(|q| *q == next).unwrap_or_else(|| {
                 inputs.push(next);
                 inputs.len() - 1
@@ -290,6 +311,7 @@ fn next_order(quantity: Quantity) -> Option<Quantity> {
     Some(match quantity {
         Quantity::Point { at, axis, order } => Quantity::Point { at, axis, order: order + 1 },
         Quantity::Angle { body, order } => Quantity::Angle { body, order: order + 1 },
+        Quantity::Quaternion { body, component, order } => Quantity::Quaternion { body, component, order: order + 1 },
         Quantity::Joint { joint, slot, order } => Quantity::Joint { joint, slot, order: order + 1 },
         _ => return None,
     })

@@ -172,11 +172,7 @@ impl<'n> Decoder<'n> {
 
     /// A value of a joint's coordinate: an angle or a length.
     pub(super) fn coordinate(&mut self, node: Node<'n>, key: &'n str, at: &At<'_, 'n>, coordinate: Option<&Coordinate>) -> Option<Id> {
-        let want = match coordinate {
-            Some(c) if !c.angle => Want::Of(Dimension::LENGTH),
-            _ => Want::Angle,
-        };
-        self.number(node.get(key), &at.key(key), want)
+        self.number(node.get(key), &at.key(key), wanted_of(coordinate))
     }
 
     /// The joint that a text names, by its index in the model; the fault is reported.
@@ -219,5 +215,13 @@ impl<'n> Decoder<'n> {
         if let Some(id) = id {
             self.check(rule, &[id], &at.key(key));
         }
+    }
+}
+
+/// What a value of a coordinate must be.
+pub(super) fn wanted_of(coordinate: Option<&Coordinate>) -> Want {
+    match coordinate {
+        Some(c) if !c.angle => Want::Of(Dimension::LENGTH),
+        _ => Want::Angle,
     }
 }

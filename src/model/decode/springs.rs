@@ -1,5 +1,6 @@
 //! Springs: what they measure and their laws.
 
+use super::joints::wanted_of;
 use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::entities::{Spring, SpringLaw, SpringOn};
@@ -7,8 +8,12 @@ use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local, Reach};
-use crate::model::vocabulary::Quantity;
+use crate::model::vocabulary::{Known, Quantity};
+
+/// What the numbers of a spring may use.
+const TIMED: Allow = Allow { what: "a spring", ..Allow::DRIVER };
 
 impl<'n> Decoder<'n> {
     /// Enters springs so that measures may name them; what they measure by an expression is filled in with the measures.
@@ -55,17 +60,18 @@ impl<'n> Decoder<'n> {
             let force = Dimension::ENERGY.div(stretch);
             let stiffness = force.div(stretch);
             let rest = match self.world.model.springs[index].on {
-                SpringOn::Between(..) => self.size(node.get(rest), &at.key(rest), stretch, "the free length"),
+                SpringOn::Between(..) => self.timed(node, rest, &at, Want::Of(stretch), Rule::NotNegative("the free length")),
                 SpringOn::Joint(joint) => {
-                    let coordinate = self.world.single(joint);
-                    self.coordinate(node, rest, &at, coordinate)
+                    let want = wanted_of(self.world.single(joint));
+                    self.timed(node, rest, &at, want, Rule::Finite)
                 }
-                SpringOn::Stretch(_) => self.of(node, rest, &at, stretch),
+                SpringOn::Stretch(_) => self.timed(node, rest, &at, Want::Of(stretch), Rule::Finite),
             };
-            let damping = self.of(node, "damping", &at, stiffness.mul(Dimension::TIME));
-            let preload = self.of(node, "preload", &at, force);
+            let mut number = |key: &'n str, dimension| self.timed(node, key, &at, Want::Of(dimension), Rule::Finite);
+            let damping = number("damping", stiffness.mul(Dimension::TIME));
+            let preload = number("preload", force);
             let law = if node.get("stiffness").is_some() {
-                self.of(node, "stiffness", &at, stiffness).map(SpringLaw::Stiffness)
+                number("stiffness", stiffness).map(SpringLaw::Stiffness)
             } else if let Some(law) = node.get("force") {
                 self.spring_law(index, law, &at.key("force"), stretch, force).map(SpringLaw::Force)
             } else {
@@ -81,12 +87,21 @@ impl<'n> Decoder<'n> {
         }
     }
 
-    /// A table by its name, or an expression of `stretch`.
+    /// A number of a spring, which may change with time; the rule is for one that does not.
+    fn timed(&mut self, node: Node<'n>, key: &'n str, at: &At<'_, 'n>, want: Want, rule: Rule) -> Option<Id> {
+        let (id, reach) = self.value(node.get(key), &at.key(key), want, TIMED)?;
+        if reach.level == Known::Constant {
+            self.check(rule, &[id], &at.key(key));
+        }
+        Some(id)
+    }
+
+    /// A table by its name, or an expression of `stretch` and `t`.
     fn spring_law(&mut self, spring: usize, node: Node<'n>, at: &At<'_, 'n>, stretch: Dimension, force: Dimension) -> Option<Id> {
         let id = self.world.input(&mut self.pool, Quantity::Stretch { spring, order: 0 });
         let symbol = Symbol { id, dimension: stretch };
         let mut local = Local { symbols: vec![("stretch", Some((symbol, Reach::CONSTANT)))], functionals: None };
-        let allow = Allow { what: "a law of `stretch`", ..Allow::CONSTANT };
+        let allow = Allow { what: "a law of `stretch`", ..TIMED };
         let table = node.text().filter(|text| matches!(self.world.names.get(text), Some(Entity::Table(_))));
         let (lowered, _) = match table {
             Some(table) => self.lower(&format!("{table}(stretch)"), Origin::Value(table, 0), at, allow, &mut local)?,

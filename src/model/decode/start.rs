@@ -140,7 +140,7 @@ impl<'n> Decoder<'n> {
                 return None;
             }
             let form = if rest == "rpy" { Form::Angles } else { Form::Rotation };
-            return Some((Quantity::Quaternion { body: *body, component: 0 }, form));
+            return Some((Quantity::Quaternion { body: *body, component: 0, order: 0 }, form));
         }
         let found = match self.world.quantity(&mut self.pool, path) {
             Ok(found) => found,

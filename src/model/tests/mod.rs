@@ -192,7 +192,7 @@ fn space_has_its_own_quantities() {
     let rotation = &model.start[1];
     assert_eq!(
         (rotation.name.as_str(), rotation.quantity, rotation.guess),
-        ("b.rotation", Quantity::Quaternion { body: 2, component: 0 }, true)
+        ("b.rotation", Quantity::Quaternion { body: 2, component: 0, order: 0 }, true)
     );
     assert!(matches!(rotation.value, StartValue::Rotation { .. }));
     assert_eq!(model.start[3].quantity, Quantity::Joint { joint: 0, slot: 0, order: 0 });
