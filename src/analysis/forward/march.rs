@@ -1,6 +1,7 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
 use super::balance::Balance;
+use super::chart::Charted;
 use super::explain;
 use super::pace::Pace;
 use super::setup::Plan;
@@ -17,10 +18,9 @@ use crate::analysis::undefined::{assembled, in_state};
 use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Coordinates, Measured, Mechanism, RowOwner, build};
+use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::{Model, Study};
 use crate::scalar::Dual;
-use grashof_solvers::minimal::Minimal;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 use std::cell::OnceCell;
 
@@ -69,46 +69,6 @@ impl<G: Space<S = f64>> Eras<G> {
         let lifted = mechanism.lift();
         let next = Self { mechanism, lifted, parameters: parameters.to_vec(), start: self.start.clone(), next: OnceCell::new() };
         Ok(self.next.get_or_init(|| Box::new(next)))
-    }
-}
-
-/// The system that is integrated: with all coordinates, or with independent ones alone.
-pub(super) enum Charted<'m, G: Space<S = f64>> {
-    Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
-    Minimal(Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>),
-}
-
-impl<'m, G: Space<S = f64>> Charted<'m, G> {
-    pub(super) fn system(&mut self) -> &mut dyn System {
-        match self {
-            Self::Whole(system) => &mut **system,
-            Self::Minimal(system) => &mut **system,
-        }
-    }
-
-    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
-        match self {
-            Self::Whole(system) => system,
-            Self::Minimal(system) => system.inner_mut(),
-        }
-    }
-
-    pub(super) fn reduced(&self, state: &State) -> State {
-        match self {
-            Self::Whole(_) => state.clone(),
-            Self::Minimal(system) => system.reduced(state),
-        }
-    }
-
-    /// The node in all coordinates.
-    pub(super) fn whole(&mut self, node: &Node, out: &mut Node) {
-        match self {
-            Self::Whole(_) => out.copy_from(node),
-            Self::Minimal(system) => {
-                // what cannot be closed has been refused by the integrator before
-                let _ = system.whole(node, out);
-            }
-        }
     }
 }
 
@@ -161,6 +121,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         resting: Vec::new(),
         begins: Begins::Run,
         set_from: ids.len(),
+        sound: 0.0,
         undefined: None,
     };
     let mut era = eras;
@@ -205,37 +166,6 @@ pub(in crate::analysis) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) 
     state
 }
 
-/// The system in the coordinates of the study; independent are the joint coordinates with an exact value in `start` that no driver
-/// moves.
-pub(super) fn chart<'m, G: Space<S = f64>>(
-    study: &Study,
-    plan: &Plan,
-    system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
-    era: &Eras<G>,
-    state: &State,
-) -> Result<Charted<'m, G>, Failure> {
-    if !plan.minimal {
-        return Ok(Charted::Whole(Box::new(system)));
-    }
-    explain::charted(study, &era.start, state)?;
-    // a joint that rests on a stop may be the one that was asked for: then others are
-    let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
-    let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
-    let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
-        Measured::Coordinate { along, .. } => Some(along.v),
-        _ => None,
-    };
-    let driven = |v: &usize| era.mechanism.drives.iter().any(|d| velocity(d.gauge) == Some(*v));
-    let independent: Vec<usize> = asked
-        .filter_map(|s| match s.asked {
-            Asked::Gauge { gauge, order: 0 } => velocity(gauge).filter(|v| !driven(v)),
-            _ => None,
-        })
-        .collect();
-    let minimal = Minimal::new(system, state, &independent);
-    minimal.map(|m| Charted::Minimal(Box::new(m))).map_err(|why| explain::no_chart(study, &why))
-}
-
 /// What an era begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Begins {
@@ -272,6 +202,8 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
+    /// The best quality of charts so far.
+    sound: f64,
     /// What has no value, if that has stopped the run.
     undefined: Option<Undefined>,
 }
@@ -282,10 +214,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
-        let mut chart = chart(self.study, self.plan, system, era, state)?;
-        let start = chart.reduced(state);
-        let begun = Integration::new(chart.system(), self.plan.settings, &start);
-        let mut run = match begun {
+        let mut chart = Charted::new(self.study, self.plan, system, era, state, &mut self.sound)?;
+        let mut run = match chart.run(self.plan.settings, state) {
             Ok(run) => run,
             Err(halt) if first => {
                 let at = [&state.q[..], &state.v, &state.z];
@@ -338,9 +268,20 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 std::mem::swap(&mut last, &mut node);
                 chart.whole(run.node(), &mut node);
                 self.balance.jump(chart.mechanical(), [&last, &node]);
-                if progress == Progress::Stopped {
+                // the last roots are those of the coordinates themselves
+                let own = run.crossed().iter().all(|root| *root >= chart.mechanical().roots.len());
+                if progress == Progress::Stopped && !(own && chart.turns(&node.state, true)) {
                     break self.stopped_by(&mut chart, &last, &counted);
                 }
+                self.trajectory.piece(&node);
+            }
+            if progress == Progress::Stopped || progress != Progress::End && chart.turns(&node.state, false) {
+                self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));
+                run = match chart.run(self.plan.settings, &node.state) {
+                    Ok(run) => run,
+                    Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+                };
+                chart.whole(run.node(), &mut node);
                 self.trajectory.piece(&node);
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
@@ -360,10 +301,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
 
     /// Why a run cannot go on, with the joints and drivers that lock.
     fn explain(&self, era: &Eras<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
-        let locked = match chart {
-            Charted::Whole(system) => explain::locked(&era.mechanism, halt, &run.dependence(&mut **system)),
-            Charted::Minimal(_) => None,
-        };
+        let locked = if chart.is_whole() { explain::locked(&era.mechanism, halt, &run.dependence(chart.system())) } else { None };
         locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
     }
 
@@ -373,7 +311,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         if here.is_some() {
             return here;
         }
-        let (Charted::Whole(system), Some(beyond)) = (chart, run.beyond()) else { return None };
+        let beyond = run.beyond().filter(|_| chart.is_whole())?;
+        let system = chart.mechanical();
         let dims = system.dims();
         system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
         explain::undefined(self.model, self.study, system, &beyond.modes, t)
@@ -388,12 +327,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         dense: &mut Dense,
         [last, node]: [&Node; 2],
     ) -> Result<(), Halt> {
-        let system = match chart {
-            Charted::Whole(system) => {
-                self.trajectory.step(run.dense(&mut **system)?, node.state.t, true);
-                return Ok(());
-            }
-            Charted::Minimal(system) => system,
+        let Charted::Minimal { system, bridging: false } = chart else {
+            self.trajectory.step(run.dense(chart.system())?, node.state.t, true);
+            return Ok(());
         };
         // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
         let parts = if self.plan.fixed_step().is_some() { 1 } else { PARTS };
