@@ -5,7 +5,7 @@
 
 use crate::closed_form::crank_rocker::{CrankRocker, Load, Parameters};
 use crate::closed_form::plane::{Vector, add, cross, dot, normal, scale, sub};
-use grashof_solvers::{At, Dims, Effect, Pattern, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{At, Dims, Effect, Pattern, Span, Stage, State, System, Tangent, Terms};
 
 /// What turns the crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,11 +199,11 @@ impl System for ByHand {
         qdot.copy_from_slice(v);
     }
 
-    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+    fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
         q[0] += delta[0];
     }
 
-    fn displace(&self, q: &mut [f64], u: &[f64]) {
+    fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
         q[0] += u[0];
     }
 

@@ -128,19 +128,14 @@ impl Dense {
     /// Hermite's quintic of q.
     fn quintic(&mut self, system: &dyn System, from: &Node, to: &Node, h: f64) {
         let (nq, n) = (self.dims.q, self.dims.q + self.dims.v + self.dims.z);
-        let (sum, rest) = self.rates.split_at_mut(nq);
+        let (scratch, rest) = self.rates.split_at_mut(nq);
         let (rate0, rest) = rest.split_at_mut(nq);
         let (rate1, rest) = rest.split_at_mut(nq);
         let (second0, second1) = rest.split_at_mut(nq);
         for (node, rate, second) in [(from, rate0, second0), (to, rate1, second1)] {
             let s = &node.state;
             system.rate(s.t, &s.q, &s.v, rate);
-            // N is affine in q, so Ṅ v = N(q + q̇) v − N(q) v
-            sum.iter_mut().zip(&s.q).zip(&*rate).for_each(|((x, q), r)| *x = q + r);
-            system.rate(s.t, sum, &s.v, second);
-            second.iter_mut().zip(&*rate).for_each(|(x, r)| *x -= r);
-            system.rate(s.t, &s.q, &node.a, sum);
-            second.iter_mut().zip(&*sum).for_each(|(x, r)| *x += r);
+            system.second_rate(s.t, &s.q, [&s.v, &node.a], rate, scratch, second);
         }
         for i in 0..nq {
             let (q0, q1) = (from.state.q[i], to.state.q[i]);

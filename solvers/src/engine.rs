@@ -9,7 +9,7 @@
 
 use crate::friction::Friction;
 use crate::kkt::{Kkt, ROUND_OFF};
-use crate::{At, Common, Dims, Stage, State, System, Terms};
+use crate::{At, Common, Dims, Span, Stage, State, System, Terms};
 
 mod norm;
 mod projection;
@@ -158,8 +158,8 @@ pub struct Engine {
     shares: Vec<bool>,
     /// 1/√(G D⁻¹ Gᵀ) of each row (m): Φ times this is a mass-weighted way.
     pub row_unit: Vec<f64>,
-    /// Whether the rows were independent at the start: else σ says nothing of singular positions.
-    pub independent: bool,
+    /// Redundant rows, whose σ are zero all along: singular is where one more becomes so.
+    pub redundant: usize,
     /// How much Φ changes when the coordinates move by their size, by the scale of each row (m); round-off is 1e-11 of it.
     row_reach: Vec<f64>,
     delta: Vec<f64>,
@@ -191,7 +191,7 @@ impl Engine {
             shares: (0..dims.v).map(|k| pattern.common.iter().flatten().any(|(shared, _)| *shared == k)).collect(),
             common: pattern.common.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),
-            independent: true,
+            redundant: 0,
             row_reach: pattern.g_scale.iter().map(|g| (g / inverse).sqrt()).collect(),
             delta: vec![0.0; dims.v],
             mu: vec![0.0; dims.rows()],
@@ -349,7 +349,7 @@ impl Engine {
             for (i, d) in self.delta.iter_mut().enumerate() {
                 *d = h * node.state.v[i] + 0.5 * h * h * node.a[i];
             }
-            system.retract(&mut scratch.state.q, &self.delta);
+            system.retract(Span { end: scratch.state.t, length: h }, &mut scratch.state.q, &self.delta);
             scratch.state.v.iter_mut().zip(&node.a).for_each(|(v, a)| *v += h * a);
             scratch.state.z.iter_mut().zip(&node.zdot).for_each(|(z, r)| *z += h * r);
             self.accelerate(system, scratch)?;

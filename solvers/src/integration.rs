@@ -8,7 +8,7 @@ use crate::dense_output::Dense;
 use crate::engine::{Control, Engine, Node, Why};
 use crate::scheme::{Level, Scheme};
 use crate::schemes::{self, Method};
-use crate::{State, System};
+use crate::{Sigma, State, System};
 use foresight::Foresight;
 use resolve::{NODES, Resolver};
 pub use zeno::Zeno;
@@ -102,7 +102,7 @@ pub struct Integration {
     sigma: f64,
     /// Largest σ so far: how far from singular this mechanism can be.
     largest_sigma: f64,
-    sigma_row: Vec<f64>,
+    weakest: Sigma,
     last: Node,
     node: Node,
     trial: Node,
@@ -177,7 +177,7 @@ impl Integration {
             schemes: Vec::with_capacity(8),
             sigma: 1.0,
             largest_sigma: 1.0,
-            sigma_row: vec![0.0; dims.rows()],
+            weakest: Sigma::new(dims.rows()),
             engine,
             settings,
             last: node.clone(),
@@ -469,10 +469,10 @@ impl Integration {
         if !scheme.completes() {
             self.engine.accelerate(system, &mut self.trial)?;
         }
-        if self.bridge.is_none() || !self.engine.independent {
+        if self.bridge.is_none() {
             return Ok(true);
         }
-        let sigma = self.engine.kkt.smallest_singular_value(&mut self.sigma_row);
+        let sigma = self.weakest.follow(&mut self.engine, 1);
         if !explicit && sigma < self.bridge_at() && self.begins_bridge(system, h, true)? {
             return Ok(false);
         }

@@ -14,7 +14,7 @@
 
 use crate::engine::{Node, Why};
 use crate::kkt::row_scale;
-use crate::{Ahead, At, Common, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::{Ahead, At, Common, Dims, Effect, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 use loops::Loops;
 use std::cell::RefCell;
 
@@ -22,6 +22,14 @@ mod loops;
 
 /// Part of the best quality below which the chart is changed, unless the caller knows better.
 const POOR: f64 = 0.1;
+
+/// Part that the best quality in a position must have of the best one at the start: below, a singular position is near, where every chart
+/// degenerates, and above this many times that it is left behind.
+const SINGULAR: f64 = 0.1;
+const BEHIND: f64 = 2.0;
+
+/// Part of the quality at the start below which the best one is looked for.
+const WATCHED: f64 = 0.3;
 
 /// Why a system has no minimal coordinates of this kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,11 +44,14 @@ pub enum Refused {
 ///
 /// q is the whole q of the inner system, v its independent velocities, λ the multipliers of its velocity-level rows. The chart (which
 /// velocities are independent) stands behind the inner modes in [`State::modes`], so that evaluations stay pure; the last root
-/// function watches it, and its crossing chooses another one and restarts the scheme. Its quality is the smallest singular value of
-/// diag(g_scale)^−½ G_d D_d^−½; see [`Minimal::change_chart_at`].
+/// function but one watches it, and its crossing chooses another one and restarts the scheme. Its quality is the smallest singular value
+/// of diag(g_scale)^−½ G_d D_d^−½; see [`Minimal::change_chart_at`].
 ///
-/// [`retract`](System::retract) and [`displace`](System::displace) are told neither time nor modes: they use those of the last
-/// evaluation. Where rows depend on time that changes the guess, no more.
+/// In a singular position there are no independent velocities that determine the others. The last root function stops a run near one;
+/// the caller goes on with the inner system in whole coordinates, until [`Minimal::enter`] finds the place passed.
+///
+/// [`retract`](System::retract), [`displace`](System::displace) and the rates are told no modes: they use those of the last
+/// evaluation.
 ///
 /// Forces f_λ that depend on the reactions are those of the accelerations that the state has with them: the whole equations are
 /// solved at each evaluation, and f_λ counts among the forces here.
@@ -54,9 +65,12 @@ pub struct Minimal<S> {
     dims: Dims,
     inner: Dims,
     pattern: Pattern,
-    /// Quality of the chart at the start, and the part of the best one below which the chart is changed.
+    /// Quality of the chart at the start and of the best one there, and the part of the best one below which the chart is changed.
     quality: f64,
+    best: f64,
     poor: f64,
+    /// Whether a run was stopped near a singular position.
+    singular: bool,
     /// M P (nv × n), and rows or columns of products with P.
     product: Vec<f64>,
     row: Vec<f64>,
@@ -71,17 +85,19 @@ impl<S: System> Minimal<S> {
         let of_inner = inner.dims();
         let mut loops = Loops::new(inner, start, independent).ok_or(Refused::Dependent)?;
         let n = loops.independent.len();
-        let dims = Dims { v: n, holonomic: 0, modes: of_inner.modes + n, roots: of_inner.roots + 1, ..of_inner };
+        let dims = Dims { v: n, holonomic: 0, modes: of_inner.modes + n, roots: of_inner.roots + 2, ..of_inner };
         let modes: Vec<i32> = start.modes.iter().copied().chain(loops.independent.iter().map(|&i| i as i32)).collect();
         let v: Vec<f64> = loops.independent.iter().map(|&i| start.v[i]).collect();
         if !loops.reach(At { t: start.t, q: &start.q, v: &v, z: &start.z, modes: &modes, live: &start.live }) {
             return Err(Refused::Open);
         }
         let quality = loops.quality();
+        let best = loops.best_quality();
         let product = vec![0.0; of_inner.v * n.max(of_inner.z)];
         let row = vec![0.0; of_inner.v];
         let pattern = Pattern::dense(dims);
-        let mut minimal = Self { loops: RefCell::new(loops), dims, inner: of_inner, pattern, quality, poor: POOR, product, row };
+        let mut minimal =
+            Self { loops: RefCell::new(loops), dims, inner: of_inner, pattern, quality, best, poor: POOR, singular: false, product, row };
         minimal.scale(At { t: start.t, q: &start.q, v: &v, z: &start.z, modes: &modes, live: &start.live });
         Ok(minimal)
     }
@@ -104,8 +120,9 @@ impl<S: System> Minimal<S> {
         p.roots_by_reactions = inner.roots_by_reactions;
         p.timed = inner.timed.clone();
         p.rough = inner.rough.clone();
-        p.rough.push(self.inner.roots);
-        p.acting.clone_from(&inner.acting);
+        let own = [self.inner.roots, self.inner.roots + 1];
+        p.rough.extend(own);
+        p.acting = inner.acting.iter().copied().chain(own).collect();
     }
 
     /// Changes the chart at this part of the quality of the best chart there is, instead of 0.1; not before it has fallen to three
@@ -117,6 +134,25 @@ impl<S: System> Minimal<S> {
     /// none is better, and the chart stays.
     pub fn change_chart_at(&mut self, part: f64) {
         self.poor = part;
+    }
+
+    /// Whether a run was stopped near a singular position.
+    pub fn is_singular(&self) -> bool {
+        self.singular
+    }
+
+    /// The best quality at the start, or another one if that is greater: the measure of singular positions. By it the start may be near
+    /// one itself.
+    pub fn sound(&mut self, other: f64) -> f64 {
+        self.singular = self.best < BEHIND * SINGULAR * other;
+        self.best = self.best.max(other);
+        self.best
+    }
+
+    /// Takes the best chart at a state of the inner system; false near a singular position.
+    pub fn enter(&mut self, inner: &State) -> bool {
+        self.singular = self.loops.get_mut().enter(inner) < BEHIND * SINGULAR * self.best;
+        !self.singular
     }
 
     /// The inner system.
@@ -296,21 +332,33 @@ impl<S: System> System for Minimal<S> {
     }
 
     fn rate(&self, t: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        let mut loops = self.loops.borrow_mut();
-        let loops = &mut *loops;
+        let loops = &mut *self.loops.borrow_mut();
+        loops.velocity(t, q, v);
+        loops.inner.rate(t, q, &loops.state.v, qdot);
+    }
+
+    fn lift(&self, t: f64, q: &[f64], u: &[f64], change: &mut [f64]) {
+        let loops = &mut *self.loops.borrow_mut();
         loops.at_time(t);
         loops.position(q);
-        loops.spread(v);
-        loops.full.iter_mut().zip(&loops.drift).for_each(|(x, p)| *x += p);
-        loops.inner.rate(t, q, &loops.full, qdot);
+        loops.spread(u);
+        loops.inner.lift(t, q, &loops.full, change);
     }
 
-    fn retract(&self, q: &mut [f64], delta: &[f64]) {
-        self.loops.borrow_mut().moved(q, delta, false);
+    fn second_rate(&self, t: f64, q: &[f64], [v, a]: [&[f64]; 2], qdot: &[f64], scratch: &mut [f64], out: &mut [f64]) {
+        let loops = &mut *self.loops.borrow_mut();
+        loops.velocity(t, q, v);
+        loops.evaluate(Stage::Velocity);
+        loops.accelerate(a);
+        loops.inner.second_rate(t, q, [&loops.state.v, &loops.a], qdot, scratch, out);
     }
 
-    fn displace(&self, q: &mut [f64], u: &[f64]) {
-        self.loops.borrow_mut().moved(q, u, true);
+    fn retract(&self, span: Span, q: &mut [f64], delta: &[f64]) {
+        self.loops.borrow_mut().retract(span, q, delta);
+    }
+
+    fn displace(&self, span: Span, q: &mut [f64], u: &[f64]) {
+        self.loops.borrow_mut().displace(span, q, u);
     }
 
     fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
@@ -342,12 +390,19 @@ impl<S: System> System for Minimal<S> {
         if !own.is_empty() {
             loops.inner.roots(loops.state.at(), &loops.a, &loops.lambda, own);
         }
-        chart[0] = if closed {
-            let spare = loops.quality() / self.quality - 3.0 * self.poor;
-            if spare > 0.0 { spare } else { loops.relative_quality() - self.poor }
-        } else {
-            -self.poor
-        };
+        if !closed {
+            chart.copy_from_slice(&[-self.poor, -SINGULAR]);
+            return;
+        }
+        let own = loops.quality();
+        let spare = own / self.quality - 3.0 * self.poor;
+        if spare > 0.0 && own > WATCHED * self.best {
+            chart.copy_from_slice(&[spare, own / self.best - SINGULAR]);
+            return;
+        }
+        let best = loops.best_quality();
+        let relative = if best > 0.0 { own / best } else { 1.0 };
+        chart.copy_from_slice(&[if spare > 0.0 { spare } else { relative - self.poor }, best.max(own) / self.best - SINGULAR]);
     }
 
     fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
@@ -357,6 +412,10 @@ impl<S: System> System for Minimal<S> {
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
         let loops = self.loops.get_mut();
         loops.reach(state.at());
+        if root > self.inner.roots {
+            self.singular = true;
+            return Effect::Stop;
+        }
         if root == self.inner.roots {
             loops.choose_anew();
             let chart = &mut state.modes[self.inner.modes..];

@@ -23,7 +23,7 @@
 use crate::engine::{Engine, Why};
 use crate::matrix::{Blocks, Coefficients, Matrix};
 use crate::scheme::Level;
-use crate::{At, Dims, Stage, State, System};
+use crate::{At, Dims, Span, Stage, State, System};
 
 /// How displacements act on q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,8 @@ pub enum Place {
 pub struct Implicit<'a> {
     /// Time of the stage, s.
     pub t: f64,
+    /// Time between q̂ and q, s: c_v of [`Place::Displace`].
+    pub span: f64,
     /// q̂.
     pub q: &'a [f64],
     /// d̂; not read by [`Place::Displace`].
@@ -170,16 +172,13 @@ impl Newton {
             self.forget();
         }
         self.kept.copy_from(x);
-        loop {
-            match self.iterate(system, engine, stage, x, state) {
-                Ok(()) => return Ok(()),
-                Err(why) if self.fresh => return Err(why),
-                Err(_) => {
-                    self.forget();
-                    x.copy_from(&self.kept);
-                }
-            }
+        let tried = self.iterate(system, engine, stage, x, state);
+        if tried.is_ok() || self.fresh {
+            return tried;
         }
+        self.forget();
+        x.copy_from(&self.kept);
+        self.iterate(system, engine, stage, x, state)
     }
 
     fn iterate(
@@ -344,18 +343,19 @@ fn place(system: &dyn System, engine: &Engine, stage: &Implicit<'_>, x: &Unknown
         *z = hat + stage.c.z * r;
     }
     state.q.copy_from_slice(stage.q);
+    let span = Span { end: stage.t, length: stage.span };
     match stage.place {
         Place::Retract => {
             for (i, d) in d.iter_mut().enumerate() {
                 *d = stage.d[i] + stage.c.q * x.a[i] + x.w[i];
             }
-            system.retract(&mut state.q, d);
+            system.retract(span, &mut state.q, d);
         }
         Place::Displace => {
             for (i, d) in d.iter_mut().enumerate() {
                 *d = stage.c.v * state.v[i] + x.w[i];
             }
-            system.displace(&mut state.q, d);
+            system.displace(span, &mut state.q, d);
         }
     }
 }

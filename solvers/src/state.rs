@@ -99,6 +99,22 @@ pub struct At<'a> {
     pub live: &'a [f64],
 }
 
+/// The time that a displacement takes. Positions that rows prescribe by time move on their own in it, and are those of its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Its end, s.
+    pub end: f64,
+    /// Its length, s.
+    pub length: f64,
+}
+
+impl Span {
+    /// No time at all: a displacement to a neighbour at the same time, s.
+    pub fn at(t: f64) -> Self {
+        Self { end: t, length: 0.0 }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! What an integrator asks of a mechanical system.
 
-use crate::{At, Dims, Pattern, State};
+use crate::{At, Dims, Pattern, Span, State};
 
 /// How much of [`Terms`] is wanted; each stage includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -158,11 +158,29 @@ pub trait System {
     /// q̇ = N(q) v (nq); where loops are closed inside of a system, the part that time prescribes as well.
     fn rate(&self, t: f64, q: &[f64], v: &[f64], qdot: &mut [f64]);
 
-    /// q := q ⊕ δ, the motion by the finite displacement δ (nv) in the frame of v; the norm of a quaternion is kept.
-    fn retract(&self, q: &mut [f64], delta: &[f64]);
+    /// N(q) u (nq): the change of q along u (nv) at a fixed time. Where nothing is prescribed by time that is the rate, which is the
+    /// default.
+    fn lift(&self, t: f64, q: &[f64], u: &[f64], change: &mut [f64]) {
+        self.rate(t, q, u, change);
+    }
 
-    /// q := the solution of q = q̂ + N(q) u, where `q` comes in as q̂ and u = c_v v (nv): the closed form of an implicit step.
-    fn displace(&self, q: &mut [f64], u: &[f64]);
+    /// q̈ = N a + Ṅ v (nq) at the rates `qdot` that belong to v; `scratch` has nq entries. The default is that of an N which is affine
+    /// in q, so that Ṅ v = N(q + q̇) v − N(q) v.
+    fn second_rate(&self, t: f64, q: &[f64], [v, a]: [&[f64]; 2], qdot: &[f64], scratch: &mut [f64], out: &mut [f64]) {
+        scratch.iter_mut().zip(q).zip(qdot).for_each(|((x, q), r)| *x = q + r);
+        self.lift(t, scratch, v, out);
+        out.iter_mut().zip(qdot).for_each(|(x, r)| *x -= r);
+        self.lift(t, q, a, scratch);
+        out.iter_mut().zip(&*scratch).for_each(|(x, r)| *x += r);
+    }
+
+    /// q := q ⊕ δ, the motion by the finite displacement δ (nv) in the frame of v, and by what time prescribes over the span; the norm
+    /// of a quaternion is kept.
+    fn retract(&self, span: Span, q: &mut [f64], delta: &[f64]);
+
+    /// q := the solution of q = q̂ + N(q) u, where `q` comes in as q̂ and u = c_v v (nv), with what time prescribes over the span c_v:
+    /// the closed form of an implicit step.
+    fn displace(&self, span: Span, q: &mut [f64], u: &[f64]);
 
     /// Powers (W) whose integrals are the work of the energy balance.
     fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]);

@@ -26,7 +26,7 @@ fn factorisations_and_solutions_allocate_nothing() {
             kkt.set_scale(&metric, &scale);
             kkt.factor(&matrix, &matrix).unwrap();
             kkt.solve(&f, &gamma, &mut a, &mut lambda);
-            kkt.smallest_singular_value(&mut left);
+            kkt.smallest_singular_values(&mut left, &mut [0.0]);
         });
         assert_eq!(info.count_total, 0, "order {n}");
     }

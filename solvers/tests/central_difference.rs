@@ -2,7 +2,9 @@
 
 mod problems;
 
-use grashof_solvers::{At, Control, Dims, Effect, Integration, Method, Pattern, Progress, Settings, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{
+    At, Control, Dims, Effect, Integration, Method, Pattern, Progress, Settings, Span, Stage, State, System, Tangent, Terms,
+};
 use problems::*;
 
 fn settings(h: f64, other: f64) -> Settings {
@@ -64,11 +66,11 @@ impl System for Driven {
         qdot[0] = v[0];
     }
 
-    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+    fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
         q[0] += delta[0];
     }
 
-    fn displace(&self, q: &mut [f64], u: &[f64]) {
+    fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
         q[0] += u[0];
     }
 

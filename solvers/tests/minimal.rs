@@ -2,7 +2,7 @@
 
 mod problems;
 
-use grashof_solvers::{Control, Integration, Method, Minimal, Node, Progress, Settings, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Control, Integration, Method, Minimal, Node, Progress, Settings, Span, Stage, State, System, Tangent, Terms};
 use problems::*;
 
 const TRAPEZOIDAL: Method = Method::Newmark { displacement: 0.25, velocity: 0.5 };
@@ -75,7 +75,7 @@ fn agrees(problem: impl Problem + Clone, independent: &[usize]) {
     let mut terms = Terms::new(system.dims());
     system.terms(node.state.at(), Stage::Dynamics, &mut terms);
     let (mut elsewhere, mut again) = (node.state.clone(), Terms::new(system.dims()));
-    system.retract(&mut elsewhere.q, &vec![0.01; node.state.v.len()]);
+    system.retract(Span::at(elsewhere.t), &mut elsewhere.q, &vec![0.01; node.state.v.len()]);
     elsewhere.t += 0.02;
     system.terms(elsewhere.at(), Stage::Dynamics, &mut again);
     system.terms(node.state.at(), Stage::Dynamics, &mut again);
@@ -113,7 +113,7 @@ fn the_tangent_is_that_of_the_residual_at_rest() {
     system.tangent(start.at(), &[0.0], &[], &mut tangent);
     let mut side = |sign: f64| {
         let (mut s, mut r) = (start.clone(), [0.0]);
-        system.retract(&mut s.q, &[sign * 1e-5]);
+        system.retract(Span::at(s.t), &mut s.q, &[sign * 1e-5]);
         system.residual(s.at(), &[0.0], &[], &mut r);
         r[0]
     };
@@ -275,4 +275,45 @@ fn nothing_allocates() {
         }
     });
     assert_eq!(info.count_total, 0);
+}
+
+/// A row of four bars with noise in its constraints turns fully: in independent coordinates, and over its flat positions in all.
+#[test]
+fn flat_positions_are_bridged_in_all_coordinates() {
+    for (method, tol, least) in
+        [(Method::Dop853, 1e-10, 1e-7), (Method::Radau5, 1e-8, 1e-5), (Method::Bdf { order: None }, 1e-8, 1e-4), (TRAPEZOIDAL, 1e-5, 1e-2)]
+    {
+        for n in [1, 3] {
+            let probe = NFourBar::new(n, 0.0);
+            let (mut system, start) = minimal(NFourBar::new(n, 1e-15), &[]);
+            let energy = probe.energy(&probe.start());
+            let (mut whole, mut drift, mut bridges) = (Node::new(probe.dims()), 0.0_f64, 0);
+            let mut run = Integration::new(&mut system, tolerance(method, tol), &start).unwrap();
+            loop {
+                let progress = run.advance(&mut system, 5.0).unwrap();
+                system.whole(run.node(), &mut whole).unwrap();
+                drift = drift.max((probe.energy(&whole.state) - energy).abs());
+                if progress == Progress::End {
+                    break;
+                }
+                if progress != Progress::Stopped {
+                    continue;
+                }
+                assert!(system.is_singular());
+                bridges += 1;
+                let mut over = Integration::new(system.inner_mut(), tolerance(Method::Dop853, tol), &whole.state).unwrap();
+                while !system.enter(&over.node().state) {
+                    assert_eq!(over.advance(system.inner_mut(), 5.0).unwrap(), Progress::Step);
+                }
+                let behind = system.reduced(&over.node().state);
+                run = Integration::new(&mut system, tolerance(method, tol), &behind).unwrap();
+            }
+            let turns = (probe.angles(&whole.state.q)[0] - NFourBar::exact(n, 5.0)[0]) / std::f64::consts::TAU;
+            println!("{method:?} {n}: {drift:e} J, {bridges} bridges, {:e}", turns - turns.round());
+            assert!(
+                bridges > 1 && drift < least * (4 * n + 1) as f64 && (turns - turns.round()).abs() < least,
+                "{method:?} {n}: {drift:e} {turns}"
+            );
+        }
+    }
 }

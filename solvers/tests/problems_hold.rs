@@ -4,7 +4,7 @@ mod problems;
 #[path = "problems/references.rs"]
 mod references;
 
-use grashof_solvers::{At, Dims, Effect, Sparsity, Stage, State, Tangent, Terms};
+use grashof_solvers::{At, Dims, Effect, Span, Sparsity, Stage, State, Tangent, Terms};
 use problems::*;
 
 /// Step of the differences, as a part of the scale: 4e-21 of the seventh derivative lost, 1e-13 of round-off.
@@ -72,7 +72,7 @@ fn probe(mut problem: Box<dyn Problem>, chart: Box<dyn Problem>, seed: usize) ->
     let fast = if problem.name().contains("Andrews") { 1e3 } else { 1.0 };
     let (dims, mut state) = (problem.dims(), problem.start());
     state.t = 0.37;
-    problem.retract(&mut state.q, &random(dims.v, seed).iter().map(|x| 0.3 * x).collect::<Vec<_>>());
+    problem.retract(Span::at(state.t), &mut state.q, &random(dims.v, seed).iter().map(|x| 0.3 * x).collect::<Vec<_>>());
     state.v.iter_mut().zip(random(dims.v, seed + 10)).for_each(|(v, x)| *v += fast * x);
     state.z = random(dims.z, seed + 20);
     let mut modes = state.modes.clone();
@@ -92,7 +92,7 @@ impl Probe {
     fn later(&self, e: f64, a: &[f64], zdot: &[f64]) -> State {
         let mut state = self.state.clone();
         let delta: Vec<f64> = self.state.v.iter().map(|v| e * v).collect();
-        self.problem.retract(&mut state.q, &delta);
+        self.problem.retract(Span::at(state.t), &mut state.q, &delta);
         state.t += e;
         state.v.iter_mut().zip(a).for_each(|(v, a)| *v += e * a);
         state.z.iter_mut().zip(zdot).for_each(|(z, d)| *z += e * d);
@@ -147,7 +147,7 @@ fn an_implicit_displacement_solves_its_equation() {
     for p in probes() {
         let u = random(p.dims().v, 5);
         let (mut q, mut step) = (p.state.q.clone(), vec![0.0; p.dims().q]);
-        p.problem.displace(&mut q, &u);
+        p.problem.displace(Span::at(p.state.t), &mut q, &u);
         p.problem.rate(p.state.t, &q, &u, &mut step);
         close(p.problem.name(), &minus(&q, &step), &p.state.q, 1e-15);
     }
@@ -210,7 +210,7 @@ fn tangents_are_the_derivatives_of_the_residual() {
         check(&tangent.k, &tangent.z_q, dims.v, H, &|state, j, e| {
             let mut delta = vec![0.0; dims.v];
             delta[j] = e;
-            p.chart.retract(&mut state.q, &delta);
+            p.chart.retract(Span::at(state.t), &mut state.q, &delta);
         });
         check(&tangent.c, &tangent.z_v, dims.v, H * (1.0 + largest(&now.v)), &|state, j, e| state.v[j] += e);
         check(&tangent.r_z, &tangent.z_z, dims.z, H, &|state, j, e| state.z[j] += e);

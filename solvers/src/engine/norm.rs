@@ -55,7 +55,7 @@ impl Engine {
 #[cfg(test)]
 mod tests {
     use crate::engine::{Control, Engine};
-    use crate::{At, Dims, Effect, Pattern, Stage, State, System, Tangent, Terms};
+    use crate::{At, Dims, Effect, Pattern, Span, Stage, State, System, Tangent, Terms};
 
     struct Bodies {
         pattern: Pattern,
@@ -73,8 +73,8 @@ mod tests {
         fn residual(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
         fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut Tangent) {}
         fn rate(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn retract(&self, _: &mut [f64], _: &[f64]) {}
-        fn displace(&self, _: &mut [f64], _: &[f64]) {}
+        fn retract(&self, _: Span, _: &mut [f64], _: &[f64]) {}
+        fn displace(&self, _: Span, _: &mut [f64], _: &[f64]) {}
         fn power(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
         fn modes(&mut self, _: At<'_>, _: &mut [i32]) {}
         fn roots(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}

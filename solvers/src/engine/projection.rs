@@ -2,7 +2,7 @@
 
 use super::{Engine, Node, Why, largest, reach};
 use crate::kkt::ROUND_OFF;
-use crate::{Stage, State, System};
+use crate::{Span, Stage, State, System};
 
 /// Steps of Newton's method in a projection.
 const PROJECTIONS: usize = 12;
@@ -101,7 +101,7 @@ impl Engine {
                 *r = -phi;
             }
             self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
-            system.retract(&mut state.q, &self.delta);
+            system.retract(Span::at(state.t), &mut state.q, &self.delta);
             let size = self.delta.iter().zip(&self.size_v).fold(0.0, |m, (d, s)| f64::max(m, d.abs() / s));
             if size < SQUARE_ENOUGH {
                 return Ok(());

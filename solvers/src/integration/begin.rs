@@ -1,8 +1,8 @@
 //! The begin of a run: a consistent node, its modes, the first step.
 
 use super::Integration;
-use crate::System;
 use crate::engine::{Control, Node, Why};
+use crate::{Span, System};
 
 impl Integration {
     /// The first node, its modes, the first step.
@@ -11,13 +11,16 @@ impl Integration {
         self.relative.copy_from_slice(&self.node.state.v);
         self.engine.shared(&self.node.state.v, |k, speed| self.relative[k] = speed);
         self.choose_modes(system)?;
-        // the first vector is arbitrary
-        self.sigma = (0..6).fold(1.0, |_, _| self.engine.kkt.smallest_singular_value(&mut self.sigma_row));
-        self.engine.independent = self.sigma > 1e-4;
+        let pattern = system.pattern();
+        self.sigma = self.weakest.begin(&mut self.engine, &pattern.metric, &pattern.g_scale);
         self.largest_sigma = self.sigma.min(1.0);
         self.h = self.first_step(system)?;
         self.turn = 0;
         self.scheme.restart(system, &mut self.engine, &self.node, self.h)?;
+        if let Some(bridge) = &mut self.bridge {
+            // makes room for what it needs
+            bridge.restart(system, &mut self.engine, &self.node, self.h)?;
+        }
         self.last.copy_from(&self.node);
         Ok(())
     }
@@ -49,7 +52,7 @@ impl Integration {
         for ((d, v), a) in self.row.iter_mut().zip(&state.v).zip(&*a) {
             *d = h * (v + 0.5 * h * a);
         }
-        system.retract(&mut state.q, &self.row);
+        system.retract(Span { end: state.t, length: h }, &mut state.q, &self.row);
         state.v.iter_mut().zip(&*a).for_each(|(v, a)| *v += h * a);
         state.z.iter_mut().zip(&*zdot).for_each(|(z, r)| *z += h * r);
     }

@@ -139,7 +139,7 @@ impl Lu {
     /// well separated.
     pub fn smallest_singular_value(&self, steps: usize, left: &mut [f64], right: &mut [f64]) -> f64 {
         if normalize(left) == 0.0 {
-            start(left);
+            start(left, 0);
             normalize(left);
         }
         let mut sigma = 0.0;
@@ -159,9 +159,11 @@ impl Lu {
     }
 }
 
-/// A first guess of a singular vector: uneven in size and sign, so that neither equal nor opposite rows are orthogonal to it.
-pub(super) fn start(x: &mut [f64]) {
-    x.iter_mut().enumerate().for_each(|(i, x)| *x = 2.0 * (0.75 + 0.618 * i as f64).fract() - 1.0);
+/// A first guess of a singular vector, the `number`th of several: uneven in size and sign, so that neither equal nor opposite rows are
+/// orthogonal to it; but for the first one nor are rows whose second differences vanish, as those of parallel links do.
+pub(super) fn start(x: &mut [f64], number: usize) {
+    let (slope, bend) = (0.618 + 0.7549 * number as f64, 0.5537 * number as f64);
+    x.iter_mut().zip(0_u32..).for_each(|(x, i)| *x = 2.0 * (0.75 + (slope + bend * f64::from(i)) * f64::from(i)).fract() - 1.0);
 }
 
 /// Scales a vector to unit length; its length before.

@@ -310,29 +310,37 @@ impl Kkt {
         }
     }
 
-    /// Estimate of σ, the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½, by one inverse iteration on the factorisation;
-    /// 1 for independent rows, 0 in a singular position, infinite without rows.
+    /// Estimates of the smallest singular values σ of diag(G D⁻¹ Gᵀ)^−½ G D^−½, the smallest first, by one inverse iteration on the
+    /// factorisation; 1 for independent rows, 0 in a singular position and for each redundant row.
     ///
-    /// `row` (m) keeps the vector from call to call (zeros at first): the combination of scaled rows that is nearest to
-    /// dependence. M stands in the place of D, and E hides what is below 1e-4; a factor of about 2 is what to expect.
-    pub fn smallest_singular_value(&mut self, row: &mut [f64]) -> f64 {
-        let nv = self.nv;
-        if self.rows == 0 {
-            return f64::INFINITY;
-        }
+    /// `vectors` (as many as `sigma` × m) keeps the vectors from call to call (zeros at first): the combinations of scaled rows that are
+    /// nearest to dependence, orthonormal. M stands in the place of D, and E hides what is below 1e-4; a factor of about 2 is what to
+    /// expect.
+    pub fn smallest_singular_values(&mut self, vectors: &mut [f64], sigma: &mut [f64]) {
+        let (nv, m) = (self.nv, self.rows);
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let mut length = norm(row);
-        if !(length > 0.0 && length < f64::INFINITY) {
-            dense::start(row);
-            length = norm(row);
+        for (k, sigma) in sigma.iter_mut().enumerate() {
+            let (before, rest) = vectors.split_at_mut(k * m);
+            let row = &mut rest[..m];
+            let mut length = norm(row);
+            if !(length > 0.0 && length < f64::INFINITY) {
+                dense::start(row, k);
+                length = norm(row);
+            }
+            // λ' = −(G M⁻¹ Gᵀ + E)⁻¹ λ, so |λ| / |λ'| tends to σ² + E
+            self.x[..nv].fill(0.0);
+            self.x[nv..].iter_mut().zip(&*row).for_each(|(x, y)| *x = y / length);
+            self.apply(0);
+            let grown = &mut self.x[nv..];
+            // twice is enough
+            for other in before.chunks_exact(m).chain(before.chunks_exact(m)) {
+                let along = dense::dot(other, grown);
+                grown.iter_mut().zip(other).for_each(|(x, y)| *x -= along * y);
+            }
+            let size = norm(grown);
+            row.iter_mut().zip(grown).for_each(|(y, x)| *y = *x / size);
+            *sigma = (size.recip() - REGULARIZATION).max(0.0).sqrt();
         }
-        // λ' = −(G M⁻¹ Gᵀ + E)⁻¹ λ, so |λ| / |λ'| tends to σ² + E
-        self.x[..nv].fill(0.0);
-        self.x[nv..].iter_mut().zip(&*row).for_each(|(x, y)| *x = y / length);
-        self.apply(0);
-        let grown = norm(&self.x[nv..]);
-        row.iter_mut().zip(&self.x[nv..]).for_each(|(y, x)| *y = x / grown);
-        (grown.recip() - REGULARIZATION).max(0.0).sqrt()
     }
 }
 

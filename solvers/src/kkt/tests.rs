@@ -189,10 +189,29 @@ fn nearness_to_a_singular_position_is_estimated() {
         let mut kkt = Kkt::new(3, 2);
         kkt.scale(&mass, &g, &[0; 3]);
         kkt.factor(&mass, &g).unwrap();
-        let mut row = [0.0; 2];
-        kkt.smallest_singular_value(&mut row);
-        let estimate = kkt.smallest_singular_value(&mut row);
+        let (mut row, mut estimate) = ([0.0; 2], [0.0]);
+        (0..2).for_each(|_| kkt.smallest_singular_values(&mut row, &mut estimate));
+        let [estimate] = estimate;
         assert!(estimate / sigma > 0.99 && estimate / sigma < 2.0, "{estimate:e} for {sigma:e}");
+    }
+}
+
+#[test]
+fn redundant_rows_do_not_hide_a_singular_position() {
+    // two rows that become parallel, and three combinations of them
+    for angle in [1.0_f64, 0.3, 0.03, 0.003] {
+        let rows = [[1.0, 0.0, 0.0], [angle.cos(), angle.sin(), 0.0]];
+        let combined = |a: f64, b: f64| [0, 1, 2].map(|j| a * rows[0][j] + b * rows[1][j]);
+        let g = [combined(0.6, 0.0), rows[0], combined(0.3, -0.8), rows[1], combined(-0.5, 0.5)].concat();
+        let mass = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let mut kkt = Kkt::new(3, 5);
+        kkt.set_scale(&[1.0; 3], &[1.0; 5]);
+        kkt.factor(&mass, &g).unwrap();
+        let mut exact = crate::svd::Svd::new(&DMatrix::from_row_slice(5, 3, &g)).values;
+        exact.sort_by(f64::total_cmp);
+        let (mut vectors, mut sigma) = ([0.0; 20], [0.0; 4]);
+        (0..4).for_each(|_| kkt.smallest_singular_values(&mut vectors, &mut sigma));
+        assert!(sigma[..3].iter().all(|x| *x < 1e-6) && (sigma[3] / exact[exact.len() - 2] - 1.0).abs() < 1e-2, "{sigma:?} {exact:?}");
     }
 }
 

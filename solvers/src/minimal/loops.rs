@@ -1,6 +1,6 @@
 //! The loops of a mechanism: which velocities are independent, how the others follow, how positions are closed.
 
-use crate::{At, Dims, Friction, Kkt, Lu, Stage, State, System, Tangent, Terms};
+use crate::{At, Dims, Friction, Kkt, Lu, Span, Stage, State, System, Tangent, Terms};
 
 /// Most Newton steps of a closing.
 const CLOSINGS: usize = 12;
@@ -10,6 +10,10 @@ const CLOSED: f64 = 1e-13;
 
 /// A correction below this (in units of size) leaves a residual of its square.
 const SQUARE_ENOUGH: f64 = 1e-8;
+
+/// Sweeps of a displacement where N is not constant, and the change that needs no further one.
+const SWEEPS: usize = 6;
+const SWEPT: f64 = 1e-13;
 
 /// Pivot of the scaled rows, and part of the largest pivot, below which a row depends on the others.
 const RANK_TOLERANCE: f64 = 1e-8;
@@ -37,6 +41,9 @@ pub(super) struct Loops<S> {
     pub(super) state: State,
     /// The guess of which `state.q` is the closed position.
     guess: Vec<f64>,
+    /// q̂ of a displacement, and where its last sweep has come to (nq).
+    hat: Vec<f64>,
+    before: Vec<f64>,
     /// Whether G, its factors and P belong to `guess` at `state.t`.
     known: bool,
     /// Terms of the inner system.
@@ -92,6 +99,8 @@ impl<S: System> Loops<S> {
             size,
             state: start.clone(),
             guess: start.q.clone(),
+            hat: start.q.clone(),
+            before: start.q.clone(),
             known: false,
             terms,
             tangent: Tangent::new(dims),
@@ -171,15 +180,22 @@ impl<S: System> Loops<S> {
         self.known = false;
     }
 
-    /// Quality in parts of that of the chart that would be chosen anew at the position closed last.
-    pub(super) fn relative_quality(&mut self) -> f64 {
-        let own = self.quality();
+    /// Quality of the chart that would be chosen anew at the position closed last; 0 where rank is lost.
+    pub(super) fn best_quality(&mut self) -> f64 {
         self.keep();
         let full = self.choose(&[], self.lu.order()) == self.lu.order();
-        let best = if full && self.factor() { self.quality() } else { own };
+        let best = if full && self.factor() { self.quality() } else { 0.0 };
         self.restore();
         self.factor();
-        own / best
+        best
+    }
+
+    /// Takes the best chart at a state of the inner system; its quality, 0 where rank is lost.
+    pub(super) fn enter(&mut self, inner: &State) -> f64 {
+        self.state.copy_from(inner);
+        self.inner.terms(self.state.at(), Stage::Velocity, &mut self.terms);
+        self.choose_anew();
+        if self.factor() { self.quality() } else { 0.0 }
     }
 
     /// Puts the present choice aside.
@@ -274,7 +290,7 @@ impl<S: System> Loops<S> {
             if size >= 2.0 * last || !size.is_finite() {
                 return false;
             }
-            self.inner.retract(&mut self.state.q, &self.full);
+            self.inner.retract(Span::at(self.state.t), &mut self.state.q, &self.full);
             (last, done) = (size, size < SQUARE_ENOUGH);
         }
         false
@@ -325,10 +341,22 @@ impl<S: System> Loops<S> {
     /// The state of the inner system: v = P v_i + p₀ after [`Loops::take`] and [`Loops::position`]; false if it cannot be closed.
     pub(super) fn reach(&mut self, at: At<'_>) -> bool {
         self.take(at);
-        let closed = self.position(at.q);
-        self.spread(at.v);
+        self.velocity(at.t, at.q, at.v)
+    }
+
+    /// v = P v_i + p₀ at a closed position; false if it cannot be closed.
+    pub(super) fn velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        self.at_time(t);
+        let closed = self.position(q);
+        self.spread(v);
         self.state.v.iter_mut().zip(&self.full).zip(&self.drift).for_each(|((v, x), p)| *v = x + p);
         closed
+    }
+
+    /// a = P a_i + ṗ after [`Loops::evaluate`].
+    pub(super) fn accelerate(&mut self, a: &[f64]) {
+        self.spread(a);
+        self.a.iter_mut().zip(&self.full).zip(&self.bend).for_each(|((a, x), p)| *a = x + p);
     }
 
     /// P x into `full`.
@@ -373,8 +401,7 @@ impl<S: System> Loops<S> {
     /// Gᵀλ = f − M a has one solution with the independent rows, and where others are redundant that of least λᵀEλ.
     pub(super) fn react(&mut self, a: &[f64], lambda: &[f64]) {
         let (nv, h) = (self.dims.v, self.dims.holonomic);
-        self.spread(a);
-        self.a.iter_mut().zip(&self.full).zip(&self.bend).for_each(|((a, x), p)| *a = x + p);
+        self.accelerate(a);
         let rows = self.terms.mass.chunks_exact(nv.max(1)).zip(&self.terms.force);
         for ((r, (row, f)), rub) in self.full.iter_mut().zip(rows).zip(&self.rubbing) {
             *r = f + rub - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
@@ -407,18 +434,45 @@ impl<S: System> Loops<S> {
         self.lu.smallest_singular_value(3, &mut self.left[..r], &mut self.rhs[..r])
     }
 
-    /// q := what closes from `q` moved by P δ.
-    pub(super) fn moved(&mut self, q: &mut [f64], delta: &[f64], displace: bool) {
-        self.position(q);
+    /// P δ + p₀ · length at the position closed last, into `full`.
+    fn way(&mut self, delta: &[f64], length: f64) {
         self.spread(delta);
-        if displace {
-            self.inner.displace(q, &self.full);
-        } else {
-            self.inner.retract(q, &self.full);
-        }
-        if self.position(q) {
+        self.full.iter_mut().zip(&self.drift).for_each(|(x, p)| *x += length * p);
+    }
+
+    /// q := what closes from it; false if nothing does.
+    fn closed(&mut self, q: &mut [f64]) -> bool {
+        let closed = self.position(q);
+        if closed {
             q.copy_from_slice(&self.state.q);
             self.guess.copy_from_slice(q);
+        }
+        closed
+    }
+
+    /// q := what closes from q ⊕ (P δ + p₀ · length), at the end of the span.
+    pub(super) fn retract(&mut self, span: Span, q: &mut [f64], delta: &[f64]) {
+        self.at_time(span.end);
+        self.position(q);
+        self.way(delta, span.length);
+        self.inner.retract(span, q, &self.full);
+        self.closed(q);
+    }
+
+    /// q := what closes from the solution of q = q̂ + N(q) (P u + p₀ · length), at the end of the span, with P and p₀ there: a closing
+    /// moves the independent ones of three turns about a point with the dependent ones, so it must have nothing to do in the end.
+    pub(super) fn displace(&mut self, span: Span, q: &mut [f64], u: &[f64]) {
+        self.at_time(span.end);
+        self.hat.copy_from_slice(q);
+        self.position(q);
+        for _ in 0..if self.dims.q > self.dims.v { SWEEPS } else { 1 } {
+            self.way(u, span.length);
+            self.before.copy_from_slice(q);
+            q.copy_from_slice(&self.hat);
+            self.inner.displace(span, q, &self.full);
+            if !self.closed(q) || self.before.iter().zip(&*q).all(|(b, q)| (b - q).abs() <= SWEPT * (1.0 + q.abs())) {
+                return;
+            }
         }
     }
 }

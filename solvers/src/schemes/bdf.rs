@@ -146,6 +146,7 @@ impl Bdf {
         let (v, z) = rest.split_at(nv);
         let stage = Implicit {
             t: from.state.t + h,
+            span: c,
             q,
             d: &[],
             v,

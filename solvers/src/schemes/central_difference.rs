@@ -24,7 +24,7 @@ use crate::integration::Settings;
 use crate::matrix::Coefficients;
 use crate::newton::{Implicit, Newton, Place, Unknown};
 use crate::scheme::{Level, Scheme};
-use crate::{Stage, State, System};
+use crate::{Span, Stage, State, System};
 
 /// Central differences.
 pub(super) struct CentralDifference {
@@ -94,7 +94,7 @@ impl CentralDifference {
             engine.kkt.solve(&self.zeros, &self.rows, &mut self.step, &mut self.mu);
             self.next.iter_mut().zip(&self.step).for_each(|(d, s)| *d += s);
             to.q.copy_from_slice(&from.q);
-            system.retract(&mut to.q, &self.next);
+            system.retract(Span { end: to.t, length: to.t - from.t }, &mut to.q, &self.next);
             let size = self.step.iter().zip(&engine.size_v).fold(0.0, |m, (d, s)| f64::max(m, d.abs() / s));
             if size < SQUARE_ENOUGH {
                 return Ok(());
@@ -117,7 +117,7 @@ impl CentralDifference {
         let s = &mut to.state;
         s.copy_from(&from.state);
         s.t = from.state.t + h;
-        system.retract(&mut s.q, &self.next);
+        system.retract(Span { end: s.t, length: h }, &mut s.q, &self.next);
         self.close(system, engine, &from.state, s)?;
         self.accelerations(system, engine, from, h, to)
     }
@@ -135,6 +135,7 @@ impl CentralDifference {
         self.x.w.fill(0.0);
         let stage = Implicit {
             t: to.state.t,
+            span: 0.0,
             q: &self.q,
             d: &self.zeros,
             v: &self.v,

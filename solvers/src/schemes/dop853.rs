@@ -198,10 +198,10 @@ impl Dop853 {
 }
 
 impl Scheme for Dop853 {
-    fn restart(&mut self, _: &mut dyn System, _: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
+    fn restart(&mut self, _: &mut dyn System, engine: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
         self.rejected = false;
         self.stiffness.forget();
-        self.crossing.forget();
+        self.crossing.forget(engine);
         Ok(())
     }
 

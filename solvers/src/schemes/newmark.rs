@@ -235,8 +235,8 @@ impl Newmark {
         let p = self.parameters;
         let c = Coefficients { q: h * h * p.beta * p.slope(), v: h * p.gamma * p.slope(), z: h * p.gamma * p.slope() };
         let [d, v, z] = &self.hats;
-        let stage =
-            Implicit { t: from.state.t + h, q: &from.state.q, d, v, z, c, place: Place::Retract, level: self.level, follow: self.follow };
+        let (level, follow) = (self.level, self.follow);
+        let stage = Implicit { t: from.state.t + h, span: h, q: &from.state.q, d, v, z, c, place: Place::Retract, level, follow };
         to.state.copy_from(&from.state);
         self.newton.solve(system, engine, &stage, &mut self.x, &mut to.state)?;
         if self.level == Level::Acceleration {

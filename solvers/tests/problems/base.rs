@@ -111,11 +111,11 @@ macro_rules! vectors {
             qdot.copy_from_slice(v);
         }
 
-        fn retract(&self, q: &mut [f64], delta: &[f64]) {
+        fn retract(&self, _: grashof_solvers::Span, q: &mut [f64], delta: &[f64]) {
             q.iter_mut().zip(delta).for_each(|(q, d)| *q += d);
         }
 
-        fn displace(&self, q: &mut [f64], u: &[f64]) {
+        fn displace(&self, _: grashof_solvers::Span, q: &mut [f64], u: &[f64]) {
             q.iter_mut().zip(u).for_each(|(q, u)| *q += u);
         }
     };

@@ -2,7 +2,7 @@
 
 use super::base::{Base, Problem, clear, diagonal, scaled};
 use super::quaternion::{self as quat, cross, gyroscopic, multiplied, rotation, skew, turned, turned_back};
-use grashof_solvers::{At, Dims, Effect, Pattern, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{At, Dims, Effect, Pattern, Span, Stage, State, System, Tangent, Terms};
 
 /// Gravity (m/s²), in −z.
 const GRAVITY: f64 = 9.81;
@@ -39,11 +39,11 @@ macro_rules! attitude {
             quat::rate(q, v, qdot);
         }
 
-        fn retract(&self, q: &mut [f64], delta: &[f64]) {
+        fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
             quat::retract(q, delta);
         }
 
-        fn displace(&self, q: &mut [f64], u: &[f64]) {
+        fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
             quat::displace(q, u);
         }
     };
@@ -299,12 +299,12 @@ impl System for HeavyTopCartesian {
         quat::rate(&q[3..], &v[3..], &mut qdot[3..]);
     }
 
-    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+    fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
         (0..3).for_each(|i| q[i] += delta[i]);
         quat::retract(&mut q[3..], &delta[3..]);
     }
 
-    fn displace(&self, q: &mut [f64], u: &[f64]) {
+    fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
         (0..3).for_each(|i| q[i] += u[i]);
         quat::displace(&mut q[3..], &u[3..]);
     }

@@ -143,9 +143,20 @@ impl Balance {
         D: Space<S = Dual<LANES>>,
     {
         self.look(system, node);
-        for counts in [run.engine.counts, inner] {
-            self.counts += counts;
-        }
+        self.counts += inner;
+        self.spent(run);
+    }
+
+    /// Goes on from a run to another one, over a bridge that begins at a time, s, or from it.
+    pub(super) fn turn(&mut self, run: &Integration, bridge: Option<f64>) {
+        self.spent(run);
+        self.counts.bridges += usize::from(bridge.is_some());
+        self.bridged.extend(bridge);
+    }
+
+    /// Counts what a run has spent.
+    fn spent(&mut self, run: &Integration) {
+        self.counts += run.engine.counts;
         self.bridged.extend(run.bridged());
         self.widest_gap = self.widest_gap.max(run.widest_gap());
         for name in run.schemes() {

@@ -1,7 +1,7 @@
 //! An integration alone, for measurements: nothing is recorded but its end.
 
 use super::balance::Balance;
-use super::chart::chart;
+use super::chart::Charted;
 use super::eras::Eras;
 use super::explain;
 use super::march::{Begins, begin};
@@ -13,7 +13,7 @@ use crate::analysis::outcome::Failure;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{Model, Study};
-use grashof_solvers::{Control, Counts, Engine, Integration, Node, Progress, Settings, Stage, System};
+use grashof_solvers::{Control, Counts, Engine, Node, Progress, Settings, Stage, System};
 
 /// What an integration alone has come to: nothing is recorded but its end.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,20 +49,30 @@ pub(super) fn bare<G: Space<S = f64>>(
     let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
     let dims = system.dims();
     let state = begin(eras, dims);
-    let mut chart = chart(study, plan, system, eras, &state)?;
+    let mut chart = Charted::new(study, plan, system, eras, &state, &mut 0.0)?;
     let mut node = Node::new(dims);
     let mut balance = Balance::default();
     let settings = Settings { balance: false, ..plan.settings };
-    let start = chart.reduced(&state);
     timer(true);
-    let begun = Integration::new(chart.system(), settings, &start);
-    let mut run = begun.map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
+    let mut run = chart.run(settings, &state).map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
     chart.whole(run.node(), &mut node);
     balance.begin(chart.mechanical(), &node, Begins::Run);
     let stopped = loop {
         match run.advance(chart.system(), plan.until) {
-            Ok(Progress::Step | Progress::Event) => {}
-            Ok(Progress::End | Progress::Stopped) => break None,
+            Ok(Progress::End) => break None,
+            Ok(Progress::Step | Progress::Event) if !chart.is_bridge() => {}
+            Ok(progress) => {
+                chart.whole(run.node(), &mut node);
+                if chart.turns(&node.state, progress == Progress::Stopped) {
+                    balance.turn(&run, chart.is_bridge().then_some(node.state.t));
+                    match chart.run(settings, &node.state) {
+                        Ok(next) => run = next,
+                        Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+                    }
+                } else if progress == Progress::Stopped {
+                    break None;
+                }
+            }
             Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
         }
     };
@@ -76,6 +86,6 @@ pub(super) fn bare<G: Space<S = f64>>(
     chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
     chart.mechanical().columns(&node.state.modes, &mut columns);
     columns.truncate(ids.len());
-    let drift = balance.finish(plan, &study.place).0.march.map_or(0.0, |m| m.energy_drift);
-    Ok(Bare { t: node.state.t, columns, energy_drift: drift, residuals, counts: run.engine.counts, stopped })
+    let (energy_drift, counts) = balance.finish(plan, &study.place).0.march.map_or_else(Default::default, |m| (m.energy_drift, m.counts));
+    Ok(Bare { t: node.state.t, columns, energy_drift, residuals, counts, stopped })
 }

@@ -1,7 +1,7 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
 use super::balance::Balance;
-use super::chart::{Charted, chart};
+use super::chart::Charted;
 use super::contradiction;
 use super::eras::{Eras, Holds};
 use super::explain;
@@ -77,6 +77,7 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
         open: Vec::new(),
         begins: Begins::Run,
         set_from: ids.len(),
+        sound: 0.0,
         undefined: None,
     };
     let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
@@ -99,6 +100,8 @@ pub(in crate::analysis) fn march<'m, G: Space<S = f64>>(
             After::Stopped(why) => break Some(why),
             After::Changed => {
                 met = !flow.met.is_empty();
+                // other rows, other charts
+                flow.sound = 0.0;
                 if flow.begins == Begins::Parameters {
                     let values = swept(study, parameters).into_iter().chain(flow.changed.clone()).collect::<Vec<_>>();
                     present = parameters_with(model, &values);
@@ -168,6 +171,8 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     begins: Begins,
     /// Number of columns: event functions follow them among the outputs.
     set_from: usize,
+    /// The best quality of charts so far.
+    sound: f64,
     /// What has no value, if that has stopped the run.
     undefined: Option<Undefined>,
 }
@@ -210,10 +215,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
-        let mut chart = chart(self.study, self.plan, system, era, state)?;
-        let start = chart.reduced(state);
-        let begun = Integration::new(chart.system(), self.plan.settings, &start);
-        let mut run = match begun {
+        let mut chart = Charted::new(self.study, self.plan, system, era, state, &mut self.sound)?;
+        let mut run = match chart.run(self.plan.settings, state) {
             Ok(run) => run,
             Err(halt) if first => {
                 let at = [&state.q[..], &state.v, &state.z];
@@ -270,9 +273,20 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 std::mem::swap(&mut last, &mut node);
                 chart.whole(run.node(), &mut node);
                 self.balance.jump(chart.mechanical(), [&last, &node], run.crossed());
-                if progress == Progress::Stopped {
+                // the last roots are those of the coordinates themselves
+                let own = run.crossed().iter().all(|root| *root >= chart.mechanical().roots.len());
+                if progress == Progress::Stopped && !(own && chart.turns(&node.state, true)) {
                     break self.stopped_by(&mut chart, &last, &counted);
                 }
+                self.trajectory.piece(&node);
+            }
+            if progress == Progress::Stopped || progress != Progress::End && chart.turns(&node.state, false) {
+                self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));
+                run = match chart.run(self.plan.settings, &node.state) {
+                    Ok(run) => run,
+                    Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+                };
+                chart.whole(run.node(), &mut node);
                 self.trajectory.piece(&node);
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
@@ -292,10 +306,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
 
     /// Why a run cannot go on, with the joints and drivers that lock.
     fn explain(&self, era: &Eras<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
-        let locked = match chart {
-            Charted::Whole(system) => explain::locked(&era.mechanism, halt, &run.dependence(&mut **system)),
-            Charted::Minimal(_) => None,
-        };
+        let locked = if chart.is_whole() { explain::locked(&era.mechanism, halt, &run.dependence(chart.system())) } else { None };
         locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
     }
 
@@ -305,7 +316,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         if here.is_some() {
             return here;
         }
-        let (Charted::Whole(system), Some(beyond)) = (chart, run.beyond()) else { return None };
+        let beyond = run.beyond().filter(|_| chart.is_whole())?;
+        let system = chart.mechanical();
         let dims = system.dims();
         system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
         explain::undefined(self.model, self.study, system, &beyond.modes, t)
@@ -320,12 +332,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         dense: &mut Dense,
         [last, node]: [&Node; 2],
     ) -> Result<(), Halt> {
-        let system = match chart {
-            Charted::Whole(system) => {
-                self.trajectory.step(run.dense(&mut **system)?, node.state.t, true);
-                return Ok(());
-            }
-            Charted::Minimal(system) => system,
+        let Charted::Minimal { system, bridging: false } = chart else {
+            self.trajectory.step(run.dense(chart.system())?, node.state.t, true);
+            return Ok(());
         };
         // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
         let parts = if self.plan.fixed_step().is_some() { 1 } else { PARTS };

@@ -30,7 +30,7 @@ use crate::mechanism::{EffortLaw, Measured, Mechanism, Row, RowOwner};
 use crate::scalar::Dual;
 use ahead::Timed;
 pub(in crate::analysis) use events::Watched;
-use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 use patterns::known_by_rows;
 pub(super) use sticking::Met;
 
@@ -354,11 +354,11 @@ where
         self.dynamics.mechanism.rate(q, v, qdot);
     }
 
-    fn retract(&self, q: &mut [f64], delta: &[f64]) {
+    fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
         self.dynamics.mechanism.retract(q, delta);
     }
 
-    fn displace(&self, q: &mut [f64], u: &[f64]) {
+    fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
         self.dynamics.mechanism.displace(q, u);
     }
 

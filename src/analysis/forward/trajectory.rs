@@ -7,7 +7,7 @@ use crate::analysis::undefined::Gap;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
-use grashof_solvers::{Control, Dense, Engine, Node, Stage, System};
+use grashof_solvers::{Control, Dense, Engine, Node, Sigma, Stage, System};
 
 /// Below this smallest singular value of the scaled rows a position is next to singular: errors of the state are multiplied by its
 /// inverse in velocities, by the square of that in reactions.
@@ -343,12 +343,17 @@ where
     }
 
     fn singular(&mut self, at: f64, piece: usize) -> bool {
+        // what is redundant is so all along, in the begin of the piece as well
+        if self.go(self.pieces[piece].from, piece).is_err() {
+            return true;
+        }
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        let (pattern, mut weakest) = (system.pattern(), Sigma::new(self.node.lambda.len()));
+        weakest.begin(engine, &pattern.metric, &pattern.g_scale);
         if self.go(at, piece).is_err() {
             return true;
         }
-        let kkt = &mut self.eras[self.pieces[piece].era].engine.kkt;
-        let mut row = vec![0.0; self.node.lambda.len()];
-        (0..4).fold(1.0, |_, _| kkt.smallest_singular_value(&mut row)) < SINGULAR
+        weakest.follow(&mut self.eras[self.pieces[piece].era].engine, 4) < SINGULAR
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {

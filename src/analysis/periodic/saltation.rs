@@ -21,7 +21,7 @@ use crate::analysis::linear::spin;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
-use grashof_solvers::{Effect, Engine, Node, State, System};
+use grashof_solvers::{Effect, Engine, Node, Span, State, System};
 use nalgebra::{DMatrix, DVector};
 
 /// Step of the differences, in sizes of the coordinates.
@@ -98,7 +98,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         let (nv, state) = (node.state.v.len(), &mut moved.state);
         let scaled: Vec<f64> = neighbour.x.iter().map(|x| h * x).collect();
         state.t += h * neighbour.time;
-        self.system.retract(&mut state.q, &scaled[..nv]);
+        self.system.retract(Span::at(state.t), &mut state.q, &scaled[..nv]);
         state.v.iter_mut().zip(&scaled[nv..]).for_each(|(v, d)| *v += d);
         state.z.iter_mut().zip(&scaled[2 * nv..]).for_each(|(z, d)| *z += d);
         moved

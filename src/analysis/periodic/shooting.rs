@@ -21,7 +21,7 @@ use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::scalar::Dual;
 use grashof_solvers::svd::Svd;
-use grashof_solvers::{State, System};
+use grashof_solvers::{Span, State, System};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Most steps.
@@ -137,7 +137,7 @@ fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Optio
     let era = tools(&mut lap.trajectory);
     let nv = node.state.v.len();
     let delta = delta.as_slice();
-    era.system.retract(&mut node.state.q, &delta[..nv]);
+    era.system.retract(Span::at(node.state.t), &mut node.state.q, &delta[..nv]);
     node.state.v.iter_mut().zip(&delta[nv..]).for_each(|(v, d)| *v += d);
     node.state.z.iter_mut().zip(&delta[2 * nv..]).for_each(|(z, d)| *z += d);
     era.engine.settle(&mut era.system, &mut node).ok()?;

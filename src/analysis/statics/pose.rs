@@ -20,7 +20,7 @@ use crate::mechanism::{EffortLaw, Measured, Step, StretchOf};
 use crate::scalar::Dual;
 use grashof_solvers::kkt::ROUND_OFF;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
-use grashof_solvers::{Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Span, Stage, State, System, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 
 /// Residual of a closed constraint, in units of the mechanism's size.
@@ -121,7 +121,7 @@ where
     /// The pose behind a displacement `delta` (nv).
     pub(super) fn moved(&mut self, from: &Pose, delta: &[f64]) -> Result<Pose, Lost> {
         let mut q = from.q.clone();
-        self.system.retract(&mut q, delta);
+        self.system.retract(Span::at(self.state.t), &mut q, delta);
         self.at(&q, &from.z, &from.modes)
     }
 
@@ -234,7 +234,7 @@ where
             }
             let wanted: Vec<f64> = self.terms.phi.iter().map(|p| -p).collect();
             let delta = shortest_beyond(round_off, &self.terms.g, &wanted, &self.system.pattern().metric, 0.0);
-            self.system.retract(&mut self.state.q, &delta);
+            self.system.retract(Span::at(self.state.t), &mut self.state.q, &delta);
         }
         // round-off may shrink for ever
         if last <= CLOSED { Ok(()) } else { Err(Lost::Open) }

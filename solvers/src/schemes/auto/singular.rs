@@ -1,7 +1,7 @@
 //! When implicit steps must give way in a singular position; the same limits as in the bridges of the loop.
 
-use crate::Dims;
 use crate::engine::Engine;
+use crate::{Dims, Sigma};
 
 /// Explicit steps that are taken at least.
 const HELD: usize = 10;
@@ -10,9 +10,7 @@ const HELD: usize = 10;
 #[derive(Clone, Debug)]
 pub(super) struct Singular {
     rows: bool,
-    row: Vec<f64>,
-    /// Whether the rows are independent at the start: else σ says nothing.
-    independent: bool,
+    weakest: Sigma,
     sigma: f64,
     /// σ that must be exceeded before implicit steps return.
     enough: f64,
@@ -22,26 +20,26 @@ pub(super) struct Singular {
 impl Singular {
     /// Room for a system.
     pub(super) fn new(dims: Dims) -> Self {
-        Self { rows: dims.holonomic > 0, row: vec![0.0; dims.rows()], independent: true, sigma: 1.0, enough: 0.0, held: 0 }
+        Self { rows: dims.holonomic > 0, weakest: Sigma::new(dims.rows()), sigma: 1.0, enough: 0.0, held: 0 }
     }
 
     /// Looks at the node whose KKT matrix was factored last.
     pub(super) fn begin(&mut self, engine: &mut Engine) {
         if self.rows {
-            self.sigma = engine.kkt.smallest_singular_value(&mut self.row);
-            self.independent = self.sigma > 1e-4;
+            self.weakest.restart(engine);
+            self.sigma = self.weakest.follow(engine, 1);
         }
     }
 
     /// Whether the node factored last lies where implicit steps are no longer trusted.
     pub(super) fn entered(&mut self, engine: &mut Engine) -> bool {
         self.look(engine);
-        self.rows && self.independent && self.sigma < limit(engine)
+        self.rows && self.sigma < limit(engine)
     }
 
     /// Whether a failure of Newton's method may come from a singular position.
     pub(super) fn near(&self) -> bool {
-        self.rows && self.independent && self.sigma < 0.2
+        self.rows && self.sigma < 0.2
     }
 
     /// Begins to hold explicit steps.
@@ -56,7 +54,7 @@ impl Singular {
         }
         self.look(engine);
         self.held = self.held.saturating_sub(1);
-        let holds = self.held > 0 || (self.rows && self.independent && self.sigma < self.enough.max(limit(engine)));
+        let holds = self.held > 0 || (self.rows && self.sigma < self.enough.max(limit(engine)));
         if !holds {
             self.enough = 0.0;
         }
@@ -64,8 +62,8 @@ impl Singular {
     }
 
     fn look(&mut self, engine: &mut Engine) {
-        if self.rows && self.independent {
-            self.sigma = engine.kkt.smallest_singular_value(&mut self.row);
+        if self.rows {
+            self.sigma = self.weakest.follow(engine, 1);
         }
     }
 }

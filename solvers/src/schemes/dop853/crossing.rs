@@ -1,6 +1,6 @@
 //! Explicit steps across a singular position.
 //!
-//! Let σ, the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½, go through zero at a time t_c. Beside the constraints the
+//! Let σ, the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ that is not zero all along, go through zero at a time t_c. Beside the constraints the
 //! equations of index 1 keep σx as it is, x the way of the weak direction, so that ẍ = −2ẋ/(t − t_c): errors of stages, which are
 //! of low order, are amplified by h/|t − t_c|, steps must shrink with the distance, and where σ² < E the force in the weak
 //! direction is missing: some 1e-9 J were lost in each crossing, whatever the tolerance (measured). On the constraints the motion
@@ -14,7 +14,7 @@
 //!   mostly the noise ε of Φ, which becomes εσ̇²/σ³ in accelerations of the weak direction.
 
 use crate::engine::{Engine, Node, Why};
-use crate::{Dims, Stage, System};
+use crate::{Dims, Sigma, Span, Stage, System};
 
 /// Middle of the widest gap between the stages, and parts of it where t_c may lie.
 const MIDDLE: f64 = 7.0 / 15.0;
@@ -49,13 +49,11 @@ pub(super) struct Crossing {
     /// Time and σ of the node, and of the end of the trial.
     here: [f64; 2],
     there: [f64; 2],
-    /// Combination of rows that is nearest to dependence.
-    row: Vec<f64>,
+    weakest: Sigma,
     /// Velocities (nv), and rates of positions (nq).
     shift: Vec<f64>,
     lifted: Vec<f64>,
     column: Vec<f64>,
-    drift: Vec<f64>,
 }
 
 impl Crossing {
@@ -68,11 +66,10 @@ impl Crossing {
             rejected: 0,
             here: [0.0; 2],
             there: [0.0; 2],
-            row: vec![0.0; dims.rows()],
+            weakest: Sigma::new(dims.rows()),
             shift: vec![0.0; dims.v],
             lifted: vec![0.0; dims.v],
             column: vec![0.0; dims.q],
-            drift: vec![0.0; dims.q],
         }
     }
 
@@ -82,7 +79,8 @@ impl Crossing {
     }
 
     /// Forgets the past.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn forget(&mut self, engine: &Engine) {
+        self.weakest.restart(engine);
         (self.place, self.beyond, self.rejected) = (None, f64::NEG_INFINITY, 0);
     }
 
@@ -92,7 +90,7 @@ impl Crossing {
     /// If the system cannot be evaluated there.
     pub(super) fn look(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, h: f64) -> Result<bool, Why> {
         let t = from.state.t;
-        if !engine.independent || self.row.is_empty() || t < self.beyond {
+        if !self.weakest.moves(engine) || t < self.beyond {
             return Ok(false);
         }
         self.node.copy_from(from);
@@ -104,8 +102,9 @@ impl Crossing {
         for ((s, v), a) in self.shift.iter_mut().zip(&from.state.v).zip(&from.a) {
             *s = aside * (v + 0.5 * aside * a);
         }
-        system.retract(&mut self.node.state.q, &self.shift);
         self.node.state.t += aside;
+        let span = Span { end: self.node.state.t, length: aside };
+        system.retract(span, &mut self.node.state.q, &self.shift);
         let ahead = self.sigma(system, engine)?;
         let way = aside * sigma / (sigma - ahead);
         self.here = [t, sigma];
@@ -122,7 +121,7 @@ impl Crossing {
 
     /// σ by the factors at hand.
     fn estimate(&mut self, engine: &mut Engine) -> f64 {
-        (0..ITERATIONS).fold(0.0, |_, _| engine.kkt.smallest_singular_value(&mut self.row))
+        self.weakest.follow(engine, ITERATIONS)
     }
 
     /// The step to take at `t` (s) where `h` is the longest that the error allows: across with t_c in the gap, or up to where the
@@ -172,24 +171,22 @@ impl Crossing {
 
     /// Removes what lies across the constraints from errors e_q (nq) and e_v (nv) at the end of the trial.
     ///
-    /// e_q = N u, and the columns of N(q) = ∂q̇/∂v are orthogonal, so that u = (NᵀN)⁻¹ Nᵀ e_q goes by columns.
+    /// e_q = N u, and the columns of N(q) are orthogonal, so that u = (NᵀN)⁻¹ Nᵀ e_q goes by columns.
     pub(super) fn along(&mut self, system: &dyn System, engine: &mut Engine, e_q: &mut [f64], e_v: &mut [f64]) {
         engine.tangential(e_v);
         let s = &self.node.state;
         self.shift.fill(0.0);
-        system.rate(s.t, &s.q, &self.shift, &mut self.drift);
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         for (j, u) in self.lifted.iter_mut().enumerate() {
             self.shift[j] = 1.0;
-            system.rate(s.t, &s.q, &self.shift, &mut self.column);
+            system.lift(s.t, &s.q, &self.shift, &mut self.column);
             self.shift[j] = 0.0;
-            self.column.iter_mut().zip(&self.drift).for_each(|(c, d)| *c -= d);
             *u = dot(&self.column, e_q) / dot(&self.column, &self.column);
         }
         self.shift.copy_from_slice(&self.lifted);
         engine.tangential(&mut self.lifted);
         self.shift.iter_mut().zip(&self.lifted).for_each(|(s, l)| *s = l - *s);
-        system.rate(s.t, &s.q, &self.shift, &mut self.column);
-        e_q.iter_mut().zip(self.column.iter().zip(&self.drift)).for_each(|(e, (c, d))| *e += c - d);
+        system.lift(s.t, &s.q, &self.shift, &mut self.column);
+        e_q.iter_mut().zip(&self.column).for_each(|(e, c)| *e += c);
     }
 }

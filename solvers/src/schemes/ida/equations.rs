@@ -4,7 +4,7 @@ use super::c::Equations;
 use crate::engine::{Engine, Why};
 use crate::kkt::REGULARIZATION;
 use crate::newton::residual;
-use crate::{Dims, Lu, Stage, State, System, Tangent};
+use crate::{Dims, Lu, Span, Stage, State, System, Tangent};
 
 /// Part of the size of a coordinate by which rows G v − ν are differentiated.
 const NUDGE: f64 = 1e-6;
@@ -155,7 +155,7 @@ impl Lent<'_> {
         for j in 0..nv {
             unit.fill(0.0);
             unit[j] = 1.0;
-            self.system.rate(state.t, &state.q, unit, &mut rate[0]);
+            self.system.lift(state.t, &state.q, unit, &mut rate[0]);
             (0..nq).for_each(|i| n[i * nv + j] = rate[0][i]);
         }
         let product = gram.matrix_mut();
@@ -185,10 +185,10 @@ impl Lent<'_> {
             let nudge = NUDGE * self.engine.size_v[j];
             unit.fill(0.0);
             unit[j] = nudge;
-            self.system.retract(&mut state.q, unit);
+            self.system.retract(Span::at(state.t), &mut state.q, unit);
             self.engine.evaluate(self.system, state.at(), Stage::Velocity);
             unit[j] = -nudge;
-            self.system.retract(&mut state.q, unit);
+            self.system.retract(Span::at(state.t), &mut state.q, unit);
             for (i, (row, nu)) in self.engine.terms.g.chunks_exact(nv).zip(&self.engine.terms.nu).enumerate() {
                 let there = row.iter().zip(&state.v).map(|(g, v)| g * v).sum::<f64>() - nu;
                 bend[i * nv + j] = (there - rows[i]) / nudge;

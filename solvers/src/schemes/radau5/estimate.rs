@@ -100,7 +100,7 @@ impl Estimate {
         for ((d, v), correction) in self.d.iter_mut().zip(&self.v).zip(&self.x) {
             *d = c * v + correction;
         }
-        system.rate(from.state.t, &from.state.q, &self.d, &mut self.rate);
+        system.lift(from.state.t, &from.state.q, &self.d, &mut self.rate);
         self.q.iter_mut().zip(&self.rate).for_each(|(q, r)| *q += r);
         engine.norm(&from.state, &self.q, &self.v, &self.z)
     }

@@ -21,7 +21,7 @@ use crate::engine::{Engine, Node, Why};
 use crate::matrix::{Blocks, Coefficients, Matrix};
 use crate::newton::residual;
 use crate::scheme::Level;
-use crate::{Dims, Stage as Extent, State, System};
+use crate::{Dims, Span, Stage as Extent, State, System};
 use nalgebra::Complex;
 
 /// One stage.
@@ -172,18 +172,19 @@ impl Stages {
         if self.rate > FAST || self.factored != Some(h) {
             self.factored = None;
         }
-        loop {
+        // stages that cannot be evaluated take no tangents: a second trial is the last one all the same
+        for last in [false, true] {
             self.predict(from, h);
-            match self.iterate(system, engine, from, h) {
-                Ok(()) => return Ok(()),
-                Err(why) => {
-                    (self.linearised, self.factored) = (false, None);
-                    if self.fresh {
-                        return Err(why);
-                    }
-                }
+            let tried = self.iterate(system, engine, from, h);
+            if tried.is_ok() {
+                break;
+            }
+            (self.linearised, self.factored) = (false, None);
+            if self.fresh || last {
+                return tried;
             }
         }
+        Ok(())
     }
 
     /// Starts from the parabolas through the derivatives of the last step, or from the derivatives at the begin.
@@ -297,7 +298,8 @@ impl Stages {
         for ((u, v), w) in self.displacement.iter_mut().zip(&stage.state.v).zip(&stage.w) {
             *u = h * A[i][i] * v + w;
         }
-        system.displace(&mut self.place, &self.displacement);
+        let span = Span { end: stage.state.t, length: h * A[i][i] };
+        system.displace(span, &mut self.place, &self.displacement);
         let moved = stage.state.q.iter().zip(&self.place).any(|(q, p)| (q - p).abs() > 4.0 * f64::EPSILON * (1.0 + p.abs()));
         stage.state.q.copy_from_slice(&self.place);
         system.rate(stage.state.t, &stage.state.q, &stage.state.v, &mut stage.rate);
