@@ -65,7 +65,20 @@ pub(super) fn summary(study: &Study, outcome: &Outcome) -> String {
             n => format!(", {n} switches"),
         }
     );
-    head + &march(outcome) + &output::summary(&scalars)
+    head + &march(outcome) + &notes(study, outcome) + &output::summary(&scalars)
+}
+
+/// What a reader should know of a motion, in a line each; all of it is in the JSON.
+fn notes(study: &Study, outcome: &Outcome) -> String {
+    const SHOWN: usize = 5;
+    if !matches!(study.kind, Kind::Dynamics(_) | Kind::Kinematics(_) | Kind::Inverse(_)) {
+        return String::new();
+    }
+    let shown = outcome.findings.iter().take(SHOWN).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
+    match outcome.findings.len().saturating_sub(SHOWN) {
+        0 => shown,
+        more => shown + &format!("  note: {more} more findings stand in `{}.json`\n", study.name),
+    }
 }
 
 fn shown(x: Option<&f64>) -> String {
