@@ -341,7 +341,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 if progress == Progress::Stopped {
                     break self.stopped_by(&mut chart, &last, &counted);
                 }
-                self.trajectory.piece(&node);
+                match chart.mechanical().winds_only(run.crossed()) {
+                    true => self.trajectory.wind(&node),
+                    false => self.trajectory.piece(&node),
+                }
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
                 break After::Stopped(slow.told(self.model, era, self.plan, &node));

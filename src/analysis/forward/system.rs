@@ -208,6 +208,11 @@ where
         }
     }
 
+    /// Whether nothing but windings were crossed, or a chart, whose root stands behind all others.
+    pub(super) fn winds_only(&self, crossed: &[usize]) -> bool {
+        !crossed.is_empty() && crossed.iter().all(|&root| self.roots.get(root).is_none_or(|root| matches!(root, Root::Winding { .. })))
+    }
+
     /// Modes that the mechanism and its columns know.
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;

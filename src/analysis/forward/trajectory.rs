@@ -28,13 +28,14 @@ struct Step {
     count: usize,
     /// Whether a step of the integrator ends here, not a part of one.
     whole: bool,
+    /// Number of its modes.
+    modes: usize,
 }
 
-/// A stretch of the motion without switches: its modes, its parameters.
+/// A stretch of the motion without switches: its parameters. Windings may change on it.
 #[derive(Clone, Debug)]
 struct Piece {
     era: usize,
-    modes: Vec<i32>,
     /// First step and the one behind the last.
     steps: (usize, usize),
     from: f64,
@@ -63,6 +64,8 @@ pub(in crate::analysis) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Du
     pub(in crate::analysis) node: Node,
     steps: Vec<Step>,
     pieces: Vec<Piece>,
+    /// Modes of steps: one list for each piece, and one more for each winding.
+    modes: Vec<Vec<i32>>,
     coefficients: Vec<f64>,
     dense: Dense,
     columns: usize,
@@ -87,6 +90,7 @@ where
             node: Node::new(dims),
             steps: Vec::new(),
             pieces: Vec::new(),
+            modes: Vec::new(),
             coefficients: Vec::new(),
             dense: Dense::new(dims),
             columns,
@@ -107,12 +111,21 @@ where
     /// Begins a piece at a node.
     pub(in crate::analysis) fn piece(&mut self, node: &Node) {
         let (t, n) = (node.state.t, self.steps.len());
-        let modes = node.state.modes[..self.node.state.modes.len()].to_vec();
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
         // an event at the begin of a piece leaves nothing of it
         if self.pieces.last().is_some_and(|p| p.from >= t) {
             self.pieces.pop();
         }
-        self.pieces.push(Piece { era: self.eras.len() - 1, modes, steps: (n, n), from: t, to: t });
+        self.pieces.push(Piece { era: self.eras.len() - 1, steps: (n, n), from: t, to: t });
+    }
+
+    /// Goes on in the present piece behind a node where only the count of an angle's turns changes, which is no switch: the step that
+    /// ends there is a part of one.
+    pub(in crate::analysis) fn wind(&mut self, node: &Node) {
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
+        if let Some(step) = self.steps.last_mut() {
+            step.whole = false;
+        }
     }
 
     /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
@@ -120,7 +133,7 @@ where
         let first = self.coefficients.len();
         let coefficients = dense.coefficients();
         self.coefficients.extend_from_slice(coefficients);
-        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole });
+        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole, modes: self.modes.len() - 1 });
         if let Some(piece) = self.pieces.last_mut() {
             (piece.to, piece.steps.1) = (end, self.steps.len());
         }
@@ -232,7 +245,7 @@ where
         let step = self.steps[self.near];
         self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
         self.dense.evaluate(t, &mut self.node.state);
-        self.node.state.modes.copy_from_slice(&p.modes);
+        self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
         let Era { system, engine } = &mut self.eras[p.era];
         // eras differ in the rows that hold joints on their stops
         self.node.lambda.resize(system.dims().rows(), 0.0);
