@@ -1,6 +1,7 @@
 //! An integration alone, for measurements: nothing is recorded but its end.
 
 use super::balance::Balance;
+use super::depart::depart;
 use super::explain;
 use super::march::{Begins, Eras, begin, chart};
 use super::setup::Plan;
@@ -44,9 +45,12 @@ pub(super) fn bare<G: Space<S = f64>>(
 ) -> Result<Bare, Failure> {
     let (all, watched) = watched(model, ids);
     let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
-    let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
+    let mut system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
     let dims = system.dims();
-    let state = begin(eras, dims);
+    let mut state = begin(eras, dims);
+    if let Some(departure) = depart(eras, &mut system, &state, plan.until) {
+        state = departure.to;
+    }
     let mut chart = chart(study, plan, system, eras, &state)?;
     let mut node = Node::new(dims);
     let mut balance = Balance::default();

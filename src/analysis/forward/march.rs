@@ -1,6 +1,7 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
 use super::balance::Balance;
+use super::depart::depart;
 use super::explain;
 use super::pace::Pace;
 use super::setup::Plan;
@@ -217,7 +218,6 @@ pub(super) fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
-    explain::charted(study, &era.start, state)?;
     // a joint that rests on a stop may be the one that was asked for: then others are
     let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
@@ -278,10 +278,14 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
 
 impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
-    fn era(&mut self, era: &'m Eras<G>, system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
+    fn era(&mut self, era: &'m Eras<G>, mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
+        let departure = if first { depart(era, &mut system, state, self.plan.until) } else { None };
+        if let Some(departure) = &departure {
+            state.copy_from(&departure.to);
+        }
         let mut chart = chart(self.study, self.plan, system, era, state)?;
         let start = chart.reduced(state);
         let begun = Integration::new(chart.system(), self.plan.settings, &start);
@@ -301,8 +305,16 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
         let mut dense = Dense::new(dims);
         chart.whole(run.node(), &mut node);
-        self.trajectory.piece(&node);
-        self.balance.begin(chart.mechanical(), &node, self.begins);
+        match &departure {
+            Some(departure) => {
+                self.balance.begin(chart.mechanical(), &departure.from, self.begins);
+                departure.record(self.trajectory, chart.mechanical(), &mut inner, &mut dense, &node);
+            }
+            None => {
+                self.trajectory.piece(&node);
+                self.balance.begin(chart.mechanical(), &node, self.begins);
+            }
+        }
         // what crosses in the same instant as the event that began this era
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {

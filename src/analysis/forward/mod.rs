@@ -5,6 +5,7 @@
 
 pub(in crate::analysis) mod balance;
 mod bare;
+mod depart;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;
 mod pace;
