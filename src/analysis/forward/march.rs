@@ -218,8 +218,8 @@ pub(super) fn chart<'m, G: Space<S = f64>>(
     if !plan.minimal {
         return Ok(Charted::Whole(Box::new(system)));
     }
-    // a joint that rests on a stop may be the one that was asked for: then others are
-    let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
+    // a joint that rests on a stop, or on the branch of a change point, may be the one that was asked for: then others are
+    let rests = era.start.change.is_some() || era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_)));
     let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
     let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
         Measured::Coordinate { along, .. } => Some(along.v),
