@@ -274,3 +274,48 @@ fn implicit_displacements_solve_their_equation() {
         assert!((q - before - rate).abs() < 1e-15, "{q} is not {before} + {rate}");
     }
 }
+
+/// The turns of a hinge's angle off the tree are counted, and that is no switch: rows, extremes and places where a condition begins
+/// are those of joint coordinates, a switch at a counted half turn among them.
+#[test]
+fn counted_turns_are_no_switches() {
+    let wheel = |settings: &str| {
+        format!(
+            "grashof: 1
+name: wheel
+space: spatial
+gravity: none
+bodies: {{ wheel: {{ mass: 1 kg, inertia: [0.1, 0.1, 0.2] }} }}
+joints: {{ O: {{ revolute: [ground.origin, wheel.origin], axis: [0.6, 0, 0.8] }} }}
+loads: {{ push: {{ joint: O, torque: 0.2 N*m }} }}
+start: {{ O.angle: 0.3 rad, O.omega: 3 rad/s }}
+measures: {{ side: sin(O.angle), passed: \"if(O.angle > 7.5*pi*1 rad, 1, 0)\" }}
+studies:
+  turn:
+    dynamics: {{ until: 6 s, {settings} }}
+    columns: [O.angle, O.omega, side]
+    scalars: {{ lowest: min(side), way: integral(abs(O.omega)), passes: first(passed > 0.5), part: mean(passed) }}
+"
+        )
+    };
+    // the inertia about the axis
+    let alpha = 0.2 / (0.36 * 0.1 + 0.64 * 0.2);
+    let at = |t: f64| 0.3 + 3.0 * t + 0.5 * alpha * t * t;
+    let joint = study(&wheel("every: 0.5 s"), "turn", Coordinates::Joint);
+    for settings in ["every: 0.5 s, coordinates: cartesian", "every: 0.5 s, coordinates: cartesian, integrator: radau5"] {
+        let outcome = study(&wheel(settings), "turn", Coordinates::Joint);
+        assert_eq!((outcome.rows.len(), &outcome.switches), (joint.rows.len(), &joint.switches), "{settings}");
+        for (t, row) in outcome.places.iter().zip(&outcome.rows) {
+            assert!((row[0] - at(*t)).abs() < 1e-6 && (row[2] - at(*t).sin()).abs() < 1e-6, "{settings}, {t}: {row:?}");
+        }
+        for (found, right) in outcome.scalars.iter().zip(&joint.scalars) {
+            assert!((found - right).abs() < 1e-6, "{settings}: {found} {right}");
+        }
+    }
+    // rows at the steps of the scheme alone, angles right on both sides of each half turn
+    let steps = study(&wheel("coordinates: cartesian"), "turn", Coordinates::Joint);
+    assert_eq!(steps.switches.len(), joint.switches.len());
+    // the next half turn is counted three quarters of π from the middle of the last one
+    let behind = |row: &Vec<f64>| (row[0] / std::f64::consts::PI - 0.75).rem_euclid(1.0);
+    assert!(steps.rows.iter().all(|row| behind(row) > 1e-6 && behind(row) < 1.0 - 1e-6), "a row where a half turn was counted");
+}

@@ -9,17 +9,20 @@
 //! the mechanism (Levenberg's damping where a step does not help): once from there, once from where they close best with guesses
 //! held as well, lest coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts. What
 //! is left open after that is as near to the drawn pose as can be, in least squares over the coordinates of all joints
-//! (`nearest.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
-//! on one of these (`branch.rs`).
+//! (`nearest.rs`). Next to a change point positions are moved into it (`sharpen.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
+//! on one of these (`cone.rs`, `branch.rs`).
 
 mod branch;
 mod carry;
 mod close;
+mod cone;
+mod dead;
 mod explain;
 mod found;
 mod nearest;
 mod position;
 mod rotation;
+mod sharpen;
 mod velocity;
 
 use super::outcome::{Failure, Finding};
@@ -27,7 +30,7 @@ use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Coordinates, Mechanism, Step, build, build_uncut, is_uncut};
 use crate::model::Model;
-pub use branch::ChangePoint;
+pub use branch::{Branch, ChangePoint};
 use grashof_solvers::kkt;
 
 /// A consistent start.
@@ -52,7 +55,7 @@ pub struct Assembled {
 impl Assembled {
     /// What a reader should know of the start.
     pub(super) fn findings(&self) -> impl Iterator<Item = Finding> {
-        self.change.iter().map(|change| Finding { code: "change-point", message: change.message.clone(), path: "start".into() })
+        self.change.iter().map(|change| Finding { code: "change-point", message: change.message(), path: "start".into() })
     }
 }
 
@@ -164,4 +167,14 @@ fn joint_metric<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<f64> {
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A fixed sequence in (−1, 1).
+struct Shake(u64);
+
+impl Shake {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
 }

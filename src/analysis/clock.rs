@@ -34,6 +34,12 @@ impl Clock {
         Self { from: 0.0, direction, length: length.abs(), driver: None, speed: Some(direction), end: length }
     }
 
+    /// A part of the same range, from its begin.
+    #[must_use]
+    pub(super) fn part(self, part: f64) -> Self {
+        Self { length: part * self.length, end: part * self.end, ..self }
+    }
+
     /// A range of a driver's coordinate, in the direction in which the driver moves at the start (the other one if the range is
     /// negative). `output` is that of the driver's law, `from` its coordinate at the start.
     ///

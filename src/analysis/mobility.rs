@@ -1,6 +1,6 @@
 //! Degrees of freedom: the Grübler count, the numerical rank, redundant rows, and the Grashof class of four-bars.
 
-use super::assemble::Assembled;
+use super::assemble::{Assembled, ChangePoint};
 use super::outcome::Failure;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -29,7 +29,7 @@ pub struct Mobility {
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
     // in a change point rows lose rank that they have everywhere else
-    let q = start.change.as_ref().map_or(&start.q, |change| &change.beside);
+    let q = start.change.as_ref().and_then(ChangePoint::beside).unwrap_or(&start.q);
     let rows = rows(mechanism, q, &start.modes, &start.metric);
     let free = undriven(mechanism, &rows, &start.metric);
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);

@@ -40,6 +40,7 @@ pub mod root;
 pub mod run;
 mod scene;
 pub mod solve;
+mod standing;
 mod statics;
 pub mod survey;
 pub mod sweep;

@@ -7,6 +7,7 @@ use super::driven::Driven;
 use super::observe::Observer;
 use super::path::{NoPath, Path, SINGULAR};
 use super::resolve::Resolved;
+use super::standing::Standing;
 use super::switching::{Distance, Switching};
 use super::undefined::Gap;
 use crate::geometry::Space;
@@ -31,6 +32,8 @@ pub struct Motion<'m, G: Space<S = f64>> {
     pub clock: Clock,
     /// The path.
     pub path: Path,
+    /// How it begins, if that is at rest in a change point.
+    standing: Option<Standing>,
     /// Progress at both ends.
     pub ends: [f64; 2],
     /// Progress at the ends and at every switch, rising.
@@ -71,12 +74,14 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let mut driven = Driven::new(mechanism, start);
         let switching = Switching::new(mechanism, &observer);
         let mut modes = start.modes.clone();
-        let path = Path::trace(&mut driven, &mut modes, clock.end())?;
+        let standing = Standing::of(start);
+        let path = Path::trace(&mut driven, &mut modes, clock.end(), standing.as_ref())?;
         let mut motion = Self {
             driven,
             observer,
             clock,
             path,
+            standing,
             ends: [0.0, clock.length],
             breaks: vec![],
             lost_switches: vec![],
@@ -140,7 +145,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             None => {
                 let mut q = std::mem::take(&mut self.driven.q);
                 let near = self.path.guess(&self.driven, t, &mut q);
-                self.driven.q = q;
+                let standing = self.standing.as_ref().and_then(|s| s.coordinates(&mut self.driven, &mut self.modes, t));
+                self.driven.q = standing.clone().unwrap_or(q);
                 self.driven.wind(&mut self.modes, &self.path.nodes[near].turns);
                 let reached = match piece {
                     Some(_) => self.driven.position(t, &self.modes),
@@ -151,7 +157,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     if lost.gap.is_some() {
                         return Err(lost);
                     }
-                    let Some(q) = self.smooth(t) else { return Err(lost) };
+                    let Some(q) = standing.or_else(|| self.smooth(t)) else { return Err(lost) };
                     self.singular(t, &q);
                 } else {
                     self.driven.rates(&self.modes);

@@ -8,6 +8,7 @@
 use super::driven::{Driven, NotReached};
 use super::fold::fold;
 use super::hermite::Hermite;
+use super::standing::Standing;
 use super::undefined::Gap;
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Step};
@@ -75,7 +76,12 @@ impl Path {
     ///
     /// # Errors
     /// If the start is a singular position, or the range is endless.
-    pub fn trace<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Result<Self, NoPath> {
+    pub(super) fn trace<G: Space<S = f64>>(
+        driven: &mut Driven<'_, G>,
+        modes: &mut [i32],
+        to: f64,
+        standing: Option<&Standing>,
+    ) -> Result<Self, NoPath> {
         let (q, v) = (driven.q.clone(), driven.v.clone());
         let reached = driven.follow(0.0, modes).is_ok();
         if !reached && let Some(law) = driven.dynamics.undefined(modes) {
@@ -86,7 +92,11 @@ impl Path {
             let start = driven.node(0.0, modes);
             [start.clone(), start]
         } else {
-            around(driven, modes, [&q, &v], to).ok_or(NoPath::SingularStart)?
+            match standing {
+                Some(standing) => standing.around(driven, modes, to),
+                None => around(driven, modes, [&q, &v], to),
+            }
+            .ok_or(NoPath::SingularStart)?
         };
         let [behind, ahead] = ends;
         let (mut nodes, end) = march(driven, modes, &ahead, to)?;

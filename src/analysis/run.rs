@@ -113,7 +113,11 @@ pub(super) fn prepared<G: Space<S = f64>>(
     Ok((mechanism, start))
 }
 
-fn trace<'m, G: Space<S = f64>>(
+/// The motion over the range of a clock.
+///
+/// # Errors
+/// Why it cannot begin.
+pub(super) fn trace<'m, G: Space<S = f64>>(
     (model, study): (&Model, &Study),
     mechanism: &'m Mechanism<G>,
     start: &Assembled,
@@ -320,7 +324,7 @@ fn observe<G: Space<S = f64>>(
 }
 
 /// What is seen of a motion.
-struct Seen {
+pub(super) struct Seen {
     resolved: Resolved,
     extremes: Vec<Option<Extremes>>,
     rows: Rows,
@@ -329,7 +333,7 @@ struct Seen {
 }
 
 /// Resolves a motion: its extremes, rows and functionals.
-fn see<G: Space<S = f64>>(
+pub(super) fn see<G: Space<S = f64>>(
     motion: &mut Motion<'_, G>,
     (model, study, parameters): (&Model, &Study, &[f64]),
     watched: &Watched,

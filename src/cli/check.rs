@@ -1,10 +1,11 @@
 //! `grashof check`: a look at a model before it moves.
 
+use super::run::to_take;
 use super::{Common, code, files, say};
-use grashof::analysis::rehearsal::rehearse;
+use grashof::analysis::rehearsal::{Hindrance, rehearse};
 use grashof::analysis::survey::{Survey, survey};
-use grashof::analysis::sweep::parameters;
-use grashof::model::{Document, Kind};
+use grashof::analysis::sweep::{at, parameters};
+use grashof::model::{Document, Kind, Model};
 use grashof::output::{json_number, json_numbers};
 use serde_json::{Value, json};
 
@@ -48,17 +49,19 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
 }
 
-/// What would keep a study from running; none for a study that varies parameters or needs scalars of others.
+/// What would keep a study from running; none for a study whose parameters others have long to compute.
 fn hindered(document: &Document, study: &str, common: &Common) -> Option<String> {
-    let model = document.model(&files::selection(common, Some(study))?).ok()?;
+    let model = match given(document, study, common) {
+        Ok(model) => model?,
+        Err(hindrance) => return Some(hindrance),
+    };
     let asked = model.study.as_ref()?;
-    if !asked.sweep.is_empty() || asked.solve.is_some() || !asked.take.is_empty() {
-        return None;
+    if let Err(Hindrance { at, failure }) = rehearse(&model, asked) {
+        let at: Vec<String> = at.iter().map(|(name, x)| format!("{name} = {x}")).collect();
+        let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
+        return Some(format!("study `{study}`{at}: {}", failure.reason()));
     }
     let values = parameters(&model);
-    if let Err(failure) = rehearse(&model, asked, &values) {
-        return Some(format!("study `{study}`: {}", failure.reason()));
-    }
     let pulls = !(model.loads.is_empty() && model.springs.is_empty() && model.motors.is_empty());
     if !matches!(asked.kind, Kind::Inverse(_)) || pulls {
         return None;
@@ -66,6 +69,31 @@ fn hindered(document: &Document, study: &str, common: &Common) -> Option<String>
     let massless =
         survey(&model, &values).ok()?.bodies.iter().all(|(_, mass, _, inertia)| *mass == 0.0 && inertia.iter().all(|i| *i == 0.0));
     massless.then(|| format!("study `{study}`: no body has a mass and nothing pulls, so that all forces are zero"))
+}
+
+/// The model of a study with the scalars that it takes from others, if these are quickly computed.
+fn given(document: &Document, study: &str, common: &Common) -> Result<Option<Model>, String> {
+    let model = files::selection(common, Some(study)).and_then(|selection| document.model(&selection).ok());
+    let Some(mut model) = model else { return Ok(None) };
+    let takes = model.study.as_ref().map(|study| study.take.clone()).unwrap_or_default();
+    let mut taken = Vec::new();
+    for take in &takes {
+        let Some(other) = given(document, &take.study, common)? else { return Ok(None) };
+        let Some(asked) = &other.study else { return Ok(None) };
+        if !asked.sweep.is_empty() || asked.solve.is_some() || matches!(asked.kind, Kind::Dynamics(_) | Kind::Periodic(_)) {
+            return Ok(None);
+        }
+        let hindered = |why: &str| format!("study `{study}` takes a scalar of `{}`: {why}", take.study);
+        let outcome = at(&other, asked, Vec::new(), 1, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
+        if let Some(why) = &outcome.stopped {
+            return Err(hindered(why));
+        }
+        taken.push(to_take(asked, &outcome).iter().find(|(name, _)| *name == take.scalar).map_or(f64::NAN, |(_, value)| *value));
+    }
+    if !taken.is_empty() {
+        model.give(&taken);
+    }
+    Ok(Some(model))
 }
 
 /// What is worth a remark about freedom and rows.

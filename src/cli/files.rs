@@ -1,6 +1,6 @@
 //! Reading the model file and naming the place of its results.
 
-use super::interrupt::uncut;
+use super::interrupt::{interrupted, uncut};
 use super::terminal::{fail, tell_report};
 use super::{Common, code, tell};
 use grashof::analysis::outcome::{Failure, Undefined, Unsolved};
@@ -108,9 +108,13 @@ pub(super) fn prepare(directory: &Path, names: &[String], common: &Common) -> Re
     Ok(())
 }
 
-/// Writes the files of a study; what is wrong has been told.
+/// Writes the files of a study, unless it is interrupted; what is wrong has been told.
 pub(super) fn commit(staging: &Staging, directory: &Path, stem: &str, common: &Common) -> Result<(), u8> {
-    let written = uncut(|| staging.commit(directory, stem, common.force)).map_err(|error| unwritable(&error))?;
+    // what was interrupted before keeps what it has come to
+    let keeps = interrupted();
+    let written = uncut(|| staging.commit_unless(directory, stem, common.force, &|| !keeps && interrupted()));
+    let written =
+        written.map_err(|error| if error.cause.kind() == ErrorKind::Interrupted { code::INTERRUPTED } else { unwritable(&error) })?;
     tell_mended(&written.notes, common);
     if common.verbose {
         written.paths.iter().for_each(|path| tell(&format!("wrote {}", path.display())));

@@ -16,6 +16,8 @@ const LOOK: Duration = Duration::from_millis(5);
 const GRACE: Duration = Duration::from_millis(30);
 /// What the watch gives itself to say so.
 const TO_TELL: Duration = Duration::from_millis(50);
+/// What the writing of files is given to clear what it has begun; if the disc is slower, the next run does so.
+const FOR_FILES: Duration = Duration::from_millis(70);
 /// What a motion in time that has heard the signal is given for its rows.
 const FOR_ROWS: Duration = Duration::from_secs(20);
 
@@ -83,7 +85,8 @@ fn watch() {
     let mut told = false;
     loop {
         let keeps = KEEPS.load(Ordering::Relaxed) && HEARD.load(Ordering::Relaxed) && begun.elapsed() < FOR_ROWS;
-        if ENDING.load(Ordering::SeqCst) || (!keeps && UNCUT.load(Ordering::SeqCst) == 0) {
+        let writes = UNCUT.load(Ordering::SeqCst) > 0 && begun.elapsed() < FOR_FILES;
+        if ENDING.load(Ordering::SeqCst) || !(keeps || writes) {
             break;
         }
         if keeps && !std::mem::replace(&mut told, true) {

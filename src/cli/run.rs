@@ -4,8 +4,9 @@ use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, fail, files, say, tell, verify};
+use grashof::analysis::outcome::Outcome;
 use grashof::analysis::sweep::{Run, at};
-use grashof::model::{Document, Model, Selection};
+use grashof::model::{Document, Model, Selection, Study};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -273,10 +274,15 @@ fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Comm
     if let Some(reason) = &outcome.stopped {
         return Err(refuse(&format!("which stopped on its way: {reason}"), "see to that study first", code::NUMERICAL));
     }
+    Ok(to_take(study, &outcome))
+}
+
+/// What other studies can take from one.
+pub(super) fn to_take(study: &Study, outcome: &Outcome) -> Vec<(String, f64)> {
     let results = study.results.iter().map(|r| r.name.clone()).zip(outcome.results.iter().copied());
     let own = study.scalars.iter().map(|s| s.name.clone()).zip(outcome.scalars.iter().copied());
     let taken = study.take.iter().map(|t| (t.name.clone(), t.value));
-    Ok(results.chain(own).chain(taken).collect())
+    results.chain(own).chain(taken).collect()
 }
 
 /// A parameter that is set from outside although the study varies it.

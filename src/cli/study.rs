@@ -83,7 +83,12 @@ impl Job<'_> {
             Err(failure) => return Finished::nothing(self.explain(&failure)),
         };
         if !self.common.quiet {
-            solved.iter().flat_map(|s| &s.findings).for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
+            let of_start = outcome.findings.iter().filter(|f| f.code == "change-point");
+            solved
+                .iter()
+                .flat_map(|s| &s.findings)
+                .chain(of_start)
+                .for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
         }
         let mut code = code::DONE;
         if let Some(reason) = &outcome.stopped {

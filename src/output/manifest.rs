@@ -147,7 +147,7 @@ impl Manifest {
             let text = serde_json::to_string_pretty(self).map_err(io::Error::other)?;
             // one that a killed run has left
             let _ = fs::remove_file(&new);
-            put(&new, text.as_bytes())?;
+            put(&new, text.as_bytes(), &|| false)?;
             fs::rename(&new, &path)
         };
         write().map_err(|cause| {
@@ -171,9 +171,20 @@ impl Manifest {
     }
 }
 
-/// Writes a file that must not be there yet, through to the disc; links are not followed.
-pub(super) fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Bytes that are written between two questions whether to stop.
+const PART: usize = 1 << 20;
+
+/// Writes a file that must not be there yet, through to the disc; links are not followed. `stop` is asked on the way.
+///
+/// # Errors
+/// The system's reason; [`io::ErrorKind::Interrupted`] if it was to stop.
+pub(super) fn put(path: &Path, bytes: &[u8], stop: &dyn Fn() -> bool) -> io::Result<()> {
     let mut file = File::create_new(path)?;
-    file.write_all(bytes)?;
+    for part in bytes.chunks(PART) {
+        if stop() {
+            return Err(io::ErrorKind::Interrupted.into());
+        }
+        file.write_all(part)?;
+    }
     file.sync_all()
 }

@@ -81,12 +81,20 @@ impl Staging {
     /// The path and the system's reason. The directory is then as it was before; only if a rename fails halfway, which the checks
     /// before it leave to a failing disc, the record names what is missing, and the next run brings it.
     pub fn commit(&self, directory: &Path, study: &str, force: bool) -> Result<Written, WriteError> {
+        self.commit_unless(directory, study, force, &|| false)
+    }
+
+    /// As [`Staging::commit`]; `stop` is asked until all files lie there under temporary names.
+    ///
+    /// # Errors
+    /// As there; [`ErrorKind::Interrupted`] if it was to stop.
+    pub fn commit_unless(&self, directory: &Path, study: &str, force: bool, stop: &dyn Fn() -> bool) -> Result<Written, WriteError> {
         if let Some((name, _)) = self.files.iter().find(|(name, _)| !is_plain(name)) {
             return Err(failed(&directory.join(name), io::Error::new(ErrorKind::InvalidInput, "not a plain file name")));
         }
         let missing = directory.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
         let made: Vec<PathBuf> = missing.map(Path::to_owned).collect();
-        let written = self.write(directory, study, force);
+        let written = self.write(directory, study, force, stop);
         if written.is_err() {
             // the innermost first; one that is not empty stays
             made.iter().for_each(|path| _ = fs::remove_dir(path));
@@ -94,7 +102,7 @@ impl Staging {
         written
     }
 
-    fn write(&self, directory: &Path, study: &str, force: bool) -> Result<Written, WriteError> {
+    fn write(&self, directory: &Path, study: &str, force: bool, stop: &dyn Fn() -> bool) -> Result<Written, WriteError> {
         if let Some(file) = directory.ancestors().find(|path| path.is_file()) {
             return Err(failed(file, io::Error::new(ErrorKind::NotADirectory, "a file is in the way of the directory")));
         }
@@ -111,7 +119,7 @@ impl Staging {
         manifest.writing = Some(writing.clone());
         manifest.store(directory)?;
         for (name, bytes) in &self.files {
-            if let Err(cause) = put(&writing.temporary(directory, name), bytes) {
+            if let Err(cause) = put(&writing.temporary(directory, name), bytes, stop) {
                 writing.clear(directory);
                 // the first error is the one the user needs
                 before.put_back(directory);

@@ -35,7 +35,7 @@ impl Scratch {
         let writing = Writing { study: "a".into(), set: set_of(&marks), suffix: ".new-0.0".into(), files: marks };
         manifest.writing = Some(writing.clone());
         manifest.store(&self.0).unwrap();
-        files.iter().for_each(|(name, text)| put(&writing.temporary(&self.0, name), text.as_bytes()).unwrap());
+        files.iter().for_each(|(name, text)| put(&writing.temporary(&self.0, name), text.as_bytes(), &|| false).unwrap());
         for (name, _) in &files[..renamed] {
             fs::rename(writing.temporary(&self.0, name), self.0.join(name)).unwrap();
         }
@@ -186,5 +186,29 @@ fn a_record_that_lies_reaches_nothing_outside_and_nobody_s_own() {
         assert!(again.is_ok(), "{text}");
         let own = [scratch.text("mine"), fs::read_to_string(out.join("a-mine.csv")).unwrap()];
         assert_eq!(own, ["own", "own"], "{text}");
+    }
+}
+
+/// A writing that is to stop leaves what stood there, and no temporary files.
+#[test]
+fn a_stopped_writing_leaves_the_files_before() {
+    let scratch = Scratch::new("stopped");
+    staged(&[("a.csv", "old"), ("a.json", "old")]).commit(&scratch.0, "a", false).unwrap();
+    let before = scratch.names();
+    let long = "x".repeat(5 << 20);
+    for after in 0..7 {
+        let asked = std::cell::Cell::new(0);
+        let stop = || {
+            asked.set(asked.get() + 1);
+            asked.get() > after
+        };
+        let error = staged(&[("a.csv", &long), ("a-new.svg", "new")]).commit_unless(&scratch.0, "a", false, &stop).err();
+        if after < 6 {
+            assert_eq!(error.map(|e| e.cause.kind()), Some(std::io::ErrorKind::Interrupted), "{after}");
+            assert_eq!((scratch.names(), scratch.text("a.csv")), (before.clone(), "old".to_owned()));
+        } else {
+            assert!(error.is_none());
+            assert_eq!(scratch.text("a.csv").len(), long.len());
+        }
     }
 }

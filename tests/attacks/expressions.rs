@@ -5,6 +5,7 @@ use crate::formula::{Formula, Trace, names};
 use crate::{cases, seeded, tell};
 use grashof::mechanism::Coordinates;
 use std::fmt::Write;
+use std::panic::catch_unwind;
 
 /// Names of a formula; the first is the time in s.
 const NAMES: usize = 4;
@@ -63,7 +64,7 @@ fn expressions_are_what_a_second_evaluator_says() {
         if batch.is_empty() {
             continue;
         }
-        let outcome = study(&text, "move", Coordinates::Joint);
+        let outcome = catch_unwind(|| study(&text, "move", Coordinates::Joint)).unwrap_or_else(|_| panic!("it does not run:\n{text}"));
         for row in &outcome.rows {
             for (i, f) in batch.iter().enumerate() {
                 let Some((right, trace)) = at(f, row[0], &given) else { continue };

@@ -119,6 +119,8 @@ impl Formula {
                     '-' => a - b,
                     '*' => a * b,
                     '/' => a / b,
+                    // NaN to the power of 0 is 1 for IEEE 754, and undefined here
+                    _ if a.is_nan() => a,
                     _ => a.powf(b),
                 }
             }

@@ -202,6 +202,12 @@ studies:
   swing: { dynamics: { until: 0.1 s, every: 10 ms } }
 ";
     let four_bar = model();
+    let swing = |more: &str| {
+        let text = pendulum
+            .replace("bodies:", "parameters: { mass: 1 kg }\nbodies:")
+            .replace("lower: { bar: { length: 1 m, mass: 1 kg", "lower: { bar: { length: 1 m, mass: mass");
+        text.replace("10 ms }", &format!("10 ms }}, {more}"))
+    };
     for (name, text, finding, runs) in [
         ("sound", pendulum.to_owned(), "", true),
         ("massless", pendulum.replace("lower: { bar: { length: 1 m, mass: 1 kg } }", "lower: { bar: { length: 1 m } }"), "`lower`", false),
@@ -213,6 +219,28 @@ studies:
         ),
         ("free", pendulum.replace("  Q: { revolute: [upper.end, lower.start] }\n", "").replace("Q.angle", "lower.angle"), "", true),
         ("loose", four_bar.replace("joints:\n", "  rod: { bar: { length: 1 m } }\njoints:\n"), "`rod`", false),
+        ("swept", swing("sweep: { mass: [-1 kg, 1 kg] }"), "", true),
+        ("swept-in-vain", swing("sweep: { mass: [-1 kg, -2 kg] }"), "mass = -1", false),
+        (
+            "solved",
+            swing("scalars: { end: last(P.angle) }, solve: { vary: mass, between: [1 kg, 2 kg], target: { end: -1 deg } }"),
+            "",
+            false,
+        ),
+        (
+            "solved-in-vain",
+            swing("scalars: { end: last(P.angle) }, solve: { vary: mass, between: [-2 kg, -1 kg], target: { end: -1 deg } }"),
+            "mass = -2",
+            false,
+        ),
+        (
+            "undefined",
+            pendulum
+                .replace("studies:", "measures: { root: sqrt(Q.angle - 1 rad) }\nstudies:")
+                .replace("10 ms }", "10 ms }, columns: [root]"),
+            "root",
+            false,
+        ),
         ("weightless", four_bar.replace(", mass: 3 kg", "").replace(", mass: 6 kg", ""), "no body has a mass", true),
     ] {
         let file = format!("{name}.yaml");

@@ -2,7 +2,7 @@
 //! poses, so that nothing is searched.
 
 use super::rotation::{self, spin};
-use super::{Begun, ChangePoint, anchor};
+use super::{Begun, anchor};
 use crate::dynamics::Dynamics;
 use crate::geometry::{Pose, Space, basis};
 use crate::mechanism::{Measured, Mechanism, Node, Step};
@@ -12,8 +12,13 @@ use std::f64::consts::PI;
 pub(super) fn carry<G: Space<S = f64>>(from: &Mechanism<G>, begun: &Begun, to: &mut Mechanism<G>) -> Begun {
     let (q, v, modes) = carried(from, [&begun.q, &begun.v], &begun.modes, to);
     let change = begun.change.as_ref().map(|change| {
-        let beside = carried(from, [&change.beside, &begun.v], &begun.modes, to).0;
-        ChangePoint { beside, message: change.message.clone() }
+        change.carried(
+            |q, v| {
+                let (q, v, _) = carried(from, [q, v], &begun.modes, to);
+                (q, v)
+            },
+            &begun.q,
+        )
     });
     anchor(to, &q, &modes);
     Begun { q, v, modes, change }

@@ -16,6 +16,8 @@ pub(super) struct System<'a, G: Space<S = f64>> {
     pub(super) modes: Vec<i32>,
     /// Rows asked at position level: those not anchored by the start.
     pub(super) rows: Vec<usize>,
+    /// Values that rows are held at instead of 0, in rad and sizes (rows, or none).
+    pub(super) ahead: Vec<f64>,
     /// Which start values must hold.
     pub(super) held: Held,
     /// What the start values are held at.
@@ -55,7 +57,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         };
         let targets = mechanism.starts.iter().map(|s| target(s.asked, s.value)).collect();
         let (size, metric) = (mechanism.size(), joint_metric(mechanism));
-        Self { dynamics, modes, rows, held: Held::Exact, targets, size, metric }
+        Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, targets, size, metric }
     }
 
     pub(super) fn evaluate(&mut self, q: &[f64]) {
@@ -86,8 +88,8 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         r.clear();
         jacobian.clear();
         for &row in &self.rows {
-            let scale = if m.rows[row].angular { 1.0 } else { 1.0 / self.size };
-            r.push(w.phi[row] * scale);
+            let scale = self.row_scale(row);
+            r.push(w.phi[row] * scale - self.ahead.get(row).copied().unwrap_or(0.0));
             jacobian.extend(w.g[row * m.nv..(row + 1) * m.nv].iter().map(|x| x * scale));
         }
         if self.held != Held::Nothing {
@@ -123,6 +125,10 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                 _ => {}
             }
         }
+    }
+
+    pub(super) fn row_scale(&self, row: usize) -> f64 {
+        if self.dynamics.mechanism.rows[row].angular { 1.0 } else { 1.0 / self.size }
     }
 
     /// Lengths are measured by the size of the mechanism, angles by themselves.

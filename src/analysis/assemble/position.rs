@@ -2,8 +2,7 @@
 
 use super::AssemblyFault;
 use super::close::{CONVERGED, Held, System};
-use super::norm;
-use super::rotation;
+use super::{Shake, norm, rotation};
 use crate::analysis::least_squares::shortest;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
@@ -70,6 +69,7 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
     }
     system.look_around(&guessed, &mut q);
     system.settle(&mut q);
+    system.sharpen(&mut q);
     snap(mechanism, &mut q);
     system.evaluate(&q);
     Ok((q, system.modes))
@@ -242,15 +242,5 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// A displacement of at most this size, in rad and sizes.
     fn shaken(&self, shake: &mut Shake, size: f64) -> Vec<f64> {
         self.metric.iter().map(|metric| shake.next() * size / metric.sqrt()).collect()
-    }
-}
-
-/// A fixed sequence in (−1, 1).
-struct Shake(u64);
-
-impl Shake {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 }

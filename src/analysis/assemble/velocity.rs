@@ -7,7 +7,6 @@ use super::explain::{short, unit, unit_of_rate};
 use crate::analysis::least_squares::{Level, in_turn};
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Mechanism, Start};
-use grashof_solvers::kkt::ROUND_OFF;
 
 /// Velocities (nv) at an assembled position, and what it is if branches cross there.
 ///
@@ -32,14 +31,17 @@ pub(super) fn velocity<G: Space<S = f64>>(
     let mut v = in_turn(&levels, &system.metric, zeros);
     // once more takes the last digits
     v = in_turn(&levels, &system.metric, v);
+    let change = system.change(q, &v, &levels);
+    if let Ok(Some((v, point))) = change {
+        return Ok((v, Some(point)));
+    }
     if let Some(fault) = system.contradiction(q, &v) {
         return Err(fault);
     }
-    let [holds, ..] = &levels;
-    Ok(match system.branch(q, &v, holds) {
-        Some((v, point)) => (v, Some(point)),
-        None => (v, None),
-    })
+    match change {
+        Err(branches) => Err(system.blocked(&branches)),
+        Ok(_) => Ok((v, None)),
+    }
 }
 
 impl<G: Space<S = f64>> System<'_, G> {
@@ -64,14 +66,10 @@ impl<G: Space<S = f64>> System<'_, G> {
 
     /// Rows of constraints and drivers, then exact values of velocity level.
     fn what_holds(&self) -> Level {
-        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let mut level = Level::default();
-        for ((row, g), nu) in m.rows.iter().zip(w.g.chunks_exact(m.nv.max(1))).zip(&w.nu) {
-            level.row(g, *nu, if row.angular { 1.0 } else { 1.0 / self.size });
-        }
-        let natural = self.dynamics.natural_length(&self.metric);
-        let scaled = m.rows.iter().zip(natural).map(|(row, x)| if row.angular { x } else { x / self.size });
-        level.round_off = ROUND_OFF * scaled.fold(0.0, f64::max);
+        let rows: Vec<usize> = (0..self.dynamics.mechanism.rows.len()).collect();
+        let (a, round_off) = self.scaled(&rows);
+        let b = rows.iter().map(|&r| self.dynamics.work.nu[r] * self.row_scale(r)).collect();
+        let mut level = Level { a, b, round_off };
         self.rates(false, &mut level);
         level
     }
@@ -100,7 +98,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// What velocities leave open, if anything.
-    fn contradiction(&self, q: &[f64], v: &[f64]) -> Option<AssemblyFault> {
+    fn contradiction(&mut self, q: &[f64], v: &[f64]) -> Option<AssemblyFault> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         let missing = |row: &[f64], b: f64| b - row.iter().zip(v).map(|(a, v)| a * v).sum::<f64>();
         let exact: Vec<(&Start, Vec<f64>)> =
@@ -134,16 +132,8 @@ impl<G: Space<S = f64>> System<'_, G> {
                 help: "remove drivers until there are as many as degrees of freedom".into(),
             });
         }
-        if exact.is_empty() && moved == 1 {
-            let mover = if drivers == 1 { "driver" } else { "coupling" };
-            return Some(AssemblyFault {
-                code: "dead-point",
-                message: format!(
-                    "the start is a dead point, where the links are in a line and no finite velocity moves the {mover} on: {what} is {missed}"
-                ),
-                place: "start".into(),
-                help: "start beside it, by another exact value, or drive another joint".into(),
-            });
+        if exact.is_empty() && (moved == 1 || moved == drivers) {
+            return Some(self.dead_point(q, &format!("{what} is {missed}")));
         }
         Some(AssemblyFault {
             code: "start-cannot-hold",

@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::chart::Charted;
+use super::depart::depart;
 use super::eras::Eras;
 use super::explain;
 use super::march::{Begins, begin};
@@ -46,9 +47,12 @@ pub(super) fn bare<G: Space<S = f64>>(
 ) -> Result<Bare, Failure> {
     let (all, watched) = watched(model, ids);
     let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
-    let system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
+    let mut system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
     let dims = system.dims();
-    let state = begin(eras, dims);
+    let mut state = begin(eras, dims);
+    if let Some(departure) = depart(eras, &mut system, &state, plan.until) {
+        state = departure.to;
+    }
     let mut chart = Charted::new(study, plan, system, eras, &state, &mut 0.0)?;
     let mut node = Node::new(dims);
     let mut balance = Balance::default();

@@ -44,9 +44,9 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
         if !plan.minimal {
             return Ok(Self::Whole(Box::new(system)));
         }
-        explain::charted(study, &era.start, state)?;
-        // a joint that rests on a stop or sticks may be the one that was asked for: then others are
-        let rests = era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_) | RowOwner::Contact(_)));
+        // a joint that rests on a stop, sticks or stands in a change point may be the one that was asked for: then others are
+        let rests = era.start.change.is_some()
+            || era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_) | RowOwner::Contact(_)));
         let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
         let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
             Measured::Coordinate { along, .. } => Some(along.v),

@@ -12,7 +12,7 @@ use crate::mechanism::{BuildFault, Contact, Mechanism};
 use crate::model::{Model, Parameter, Study};
 use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
-use grashof_solvers::{Control, Halt, State, Why};
+use grashof_solvers::{Control, Halt, Why};
 
 /// Why a run has stopped on its way.
 pub(super) fn halt<G, D>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G, D>, plan: &Plan, halt: &Halt) -> String
@@ -302,20 +302,4 @@ pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
         place: format!("{}.coordinates", study.place),
         help: help.into(),
     }
-}
-
-/// Refuses minimal coordinates in a change point at t = 0, where independent ones do not determine the others.
-///
-/// # Errors
-/// If it is one.
-pub(super) fn charted(study: &Study, start: &Assembled, state: &State) -> Result<(), Failure> {
-    if start.change.is_none() || state.t != 0.0 {
-        return Ok(());
-    }
-    Err(Failure::Study {
-        code: "change-point",
-        message: "the start is a change point, where independent coordinates do not determine the others".into(),
-        place: format!("{}.coordinates", study.place),
-        help: "write `coordinates: joint`, or start beside it".into(),
-    })
 }

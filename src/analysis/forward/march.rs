@@ -3,6 +3,7 @@
 use super::balance::Balance;
 use super::chart::Charted;
 use super::contradiction;
+use super::depart::depart;
 use super::eras::{Eras, Holds};
 use super::explain;
 use super::pace::Pace;
@@ -211,10 +212,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
     }
 
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
-    fn era(&mut self, era: &'m Eras<G>, system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
+    fn era(&mut self, era: &'m Eras<G>, mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
+        let departure = if first { depart(era, &mut system, state, self.plan.until) } else { None };
+        if let Some(departure) = &departure {
+            state.copy_from(&departure.to);
+        }
         let mut chart = Charted::new(self.study, self.plan, system, era, state, &mut self.sound)?;
         let mut run = match chart.run(self.plan.settings, state) {
             Ok(run) => run,
@@ -232,8 +237,16 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
         let mut dense = Dense::new(dims);
         chart.whole(run.node(), &mut node);
-        self.trajectory.piece(&node);
-        self.balance.begin(chart.mechanical(), &node, self.begins);
+        match &departure {
+            Some(departure) => {
+                self.balance.begin(chart.mechanical(), &departure.from, self.begins);
+                departure.record(self.trajectory, chart.mechanical(), &mut inner, &mut dense, &node);
+            }
+            None => {
+                self.trajectory.piece(&node);
+                self.balance.begin(chart.mechanical(), &node, self.begins);
+            }
+        }
         // what crosses in the same instant as the event that began this era
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {
@@ -278,7 +291,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 if progress == Progress::Stopped && !(own && chart.turns(&node.state, true)) {
                     break self.stopped_by(&mut chart, &last, &counted);
                 }
-                self.trajectory.piece(&node);
+                match chart.mechanical().winds_only(run.crossed()) {
+                    true => self.trajectory.wind(&node),
+                    false => self.trajectory.piece(&node),
+                }
             }
             if progress == Progress::Stopped || progress != Progress::End && chart.turns(&node.state, false) {
                 self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));

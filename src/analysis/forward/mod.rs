@@ -7,6 +7,7 @@ pub(in crate::analysis) mod balance;
 mod bare;
 mod chart;
 mod contradiction;
+mod depart;
 pub(in crate::analysis) mod eras;
 pub(in crate::analysis) mod explain;
 pub(in crate::analysis) mod march;

@@ -20,13 +20,14 @@ mod ahead;
 mod contact;
 mod events;
 mod patterns;
+mod power;
 mod sticking;
 
 use crate::analysis::contact::PASSED;
 use crate::analysis::observe::Observer;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
 use crate::geometry::Space;
-use crate::mechanism::{EffortLaw, Measured, Mechanism, Row, RowOwner};
+use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
 use crate::scalar::Dual;
 use ahead::Timed;
 pub(in crate::analysis) use events::Watched;
@@ -236,6 +237,11 @@ where
         }
     }
 
+    /// Whether nothing but windings were crossed, or a chart, whose root stands behind all others.
+    pub(super) fn winds_only(&self, crossed: &[usize]) -> bool {
+        !crossed.is_empty() && crossed.iter().all(|&root| self.roots.get(root).is_none_or(|root| matches!(root, Root::Winding { .. })))
+    }
+
     /// Modes that the mechanism and its columns know.
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
@@ -362,40 +368,8 @@ where
         self.dynamics.mechanism.displace(q, u);
     }
 
-    /// Power of drivers and of all else that moves with time, −λᵀν for rows; of loads and motors; of dampers; of end stops beside what
-    /// they store: what changes the energy, W.
-    fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
-        let _ = a;
-        self.kinematics(&at);
-        self.dynamics.loads(at.modes);
-        self.dynamics.rub(lambda);
-        let m = self.dynamics.mechanism;
-        self.modes.copy_from_slice(&at.modes[..m.switches + m.windings]);
-        let by_springs: f64 = (0..m.stretches.len()).map(|spring| self.dynamics.spring_power(spring, &mut self.modes)).sum();
-        let work = &self.dynamics.work;
-        w[0] = by_springs - work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
-        w[1..].fill(0.0);
-        for node in &m.nodes {
-            let gravity = G::dot(m.gravity, work.twists[node.body].v) * work.inertias[node.body].m
-                + G::dot(m.gravity, G::turn(work.twists[node.body].w, work.inertias[node.body].h));
-            w[1] += work.applied[node.body].power(work.twists[node.body]) - gravity;
-        }
-        w[1] -= self.dynamics.field_power();
-        for (i, (effort, size)) in m.efforts.iter().zip(&work.efforts).enumerate() {
-            let rate = self.dynamics.extent_rate(effort.along);
-            match effort.law {
-                EffortLaw::Drive { .. } if m.buffers.iter().any(|buffer| buffer.effort == i) => {}
-                EffortLaw::Linear { damping, .. } => w[2] -= damping * rate * rate,
-                EffortLaw::Law { spring, output, .. } => {
-                    w[2] -= work.force_outputs[output + 1] * self.dynamics.stretch_rate(spring).powi(2)
-                }
-                EffortLaw::Drive { .. } => w[1] += size * rate,
-                EffortLaw::Friction { .. } => w[2] += size * rate,
-            }
-        }
-        for [done, stored] in self.dynamics.buffer_powers() {
-            w[3] += done + stored;
-        }
+    fn power(&mut self, at: At<'_>, _: &[f64], lambda: &[f64], w: &mut [f64]) {
+        self.powers(&at, lambda, w);
     }
 
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {

@@ -28,13 +28,14 @@ struct Step {
     count: usize,
     /// Whether a step of the integrator ends here, not a part of one.
     whole: bool,
+    /// Number of its modes.
+    modes: usize,
 }
 
-/// A stretch of the motion without switches: its modes, its parameters.
+/// A stretch of the motion without switches: its parameters. Windings may change on it.
 #[derive(Clone, Debug)]
 struct Piece {
     era: usize,
-    modes: Vec<i32>,
     /// Where contacts are held.
     live: Vec<f64>,
     /// First step and the one behind the last.
@@ -66,6 +67,8 @@ pub(in crate::analysis) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Du
     pub(in crate::analysis) node: Node,
     steps: Vec<Step>,
     pieces: Vec<Piece>,
+    /// Modes of steps: one list for each piece, and one more for each winding.
+    modes: Vec<Vec<i32>>,
     coefficients: Vec<f64>,
     dense: Dense,
     columns: usize,
@@ -92,6 +95,7 @@ where
             node: Node::new(dims),
             steps: Vec::new(),
             pieces: Vec::new(),
+            modes: Vec::new(),
             coefficients: Vec::new(),
             dense: Dense::new(dims),
             columns,
@@ -115,13 +119,22 @@ where
     /// Begins a piece at a node.
     pub(in crate::analysis) fn piece(&mut self, node: &Node) {
         let (t, n) = (node.state.t, self.steps.len());
-        let modes = node.state.modes[..self.node.state.modes.len()].to_vec();
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
         // an event at the begin of a piece leaves nothing of it
         if self.pieces.last().is_some_and(|p| p.from >= t) {
             self.pieces.pop();
         }
         let live = node.state.live.clone();
-        self.pieces.push(Piece { era: self.current, modes, live, steps: (n, n), from: t, to: t });
+        self.pieces.push(Piece { era: self.current, live, steps: (n, n), from: t, to: t });
+    }
+
+    /// Goes on in the present piece behind a node where only the count of an angle's turns changes, which is no switch: the step that
+    /// ends there is a part of one.
+    pub(in crate::analysis) fn wind(&mut self, node: &Node) {
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
+        if let Some(step) = self.steps.last_mut() {
+            step.whole = false;
+        }
     }
 
     /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
@@ -129,7 +142,7 @@ where
         let first = self.coefficients.len();
         let coefficients = dense.coefficients();
         self.coefficients.extend_from_slice(coefficients);
-        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole });
+        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole, modes: self.modes.len() - 1 });
         if let Some(piece) = self.pieces.last_mut() {
             (piece.to, piece.steps.1) = (end, self.steps.len());
         }
@@ -241,7 +254,7 @@ where
         let step = self.steps[self.near];
         self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
         self.dense.evaluate(t, &mut self.node.state);
-        self.node.state.modes.copy_from_slice(&p.modes);
+        self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
         self.node.state.live.copy_from_slice(&p.live);
         let Era { system, engine, .. } = &mut self.eras[p.era];
         // eras differ in the rows that hold joints on their stops
@@ -251,8 +264,11 @@ where
         }
         // the end of a whole step is the scheme's own
         let own = t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h;
-        let done = if own { engine.accelerate(system, &mut self.node) } else { engine.settle(system, &mut self.node) };
-        done.map_err(|_| off)?;
+        // next to a singular position a state may not be moved to the constraints: there it counts as it is
+        if own || engine.settle(system, &mut self.node).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+            engine.accelerate(system, &mut self.node).map_err(|_| off)?;
+        }
         let Node { state, a, lambda, .. } = &self.node;
         system.observe(&state.at(), a, lambda);
         Ok(())

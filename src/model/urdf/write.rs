@@ -126,12 +126,21 @@ fn text(s: &str) -> String {
         && !s.starts_with("- ")
         && s.trim() == s
         && (s.contains(|c: char| " ./*(".contains(c)) && s.parse::<f64>().is_err() || super::names::plain(s));
-    if plain { s.to_owned() } else { serde_json::Value::from(s).to_string() }
+    if plain {
+        return s.to_owned();
+    }
+    let quoted = serde_json::Value::from(s).to_string();
+    quoted.chars().map(|c| if printable(c) { c.to_string() } else { format!("\\u{:04x}", u32::from(c)) }).collect()
+}
+
+/// Whether YAML takes a character as it stands, and not for the end of a line (YAML 1.2.2, section 5.1).
+fn printable(c: char) -> bool {
+    !c.is_control() && !matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
 /// A text without line ends, for comments.
 fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    text.chars().map(|c| if printable(c) { c } else { ' ' }).collect()
 }
 
 /// Time, coordinates of joints and energies.
@@ -180,6 +189,7 @@ mod tests {
             "~",
             "1:2",
             "0.5",
+            "a\u{7f}b\u{1}\u{85}\u{9b}c\u{2028}\u{feff}\u{ffff}\u{1f600}",
         ] {
             let read: Value = serde_yaml::from_str(&format!("k: {}", text(s))).unwrap();
             assert_eq!(read.get("k").and_then(Value::as_str), Some(s), "{}", text(s));
