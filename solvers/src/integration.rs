@@ -18,6 +18,7 @@ mod bridge;
 mod events;
 mod foresight;
 mod resolve;
+mod work;
 mod zeno;
 
 /// How a run is to be computed.
@@ -146,6 +147,8 @@ pub struct Integration {
     /// Velocities at the start without those in common (nv).
     relative: Vec<f64>,
     power: Vec<f64>,
+    /// Halvings of steps for their work so far.
+    halvings: usize,
     work: Vec<f64>,
     zeno: Zeno,
     /// Why there is no motion beyond the node.
@@ -209,7 +212,8 @@ impl Integration {
             crossed: Vec::with_capacity(dims.roots),
             row: vec![0.0; dims.v],
             relative: vec![0.0; dims.v],
-            power: vec![0.0; dims.work],
+            power: vec![0.0; work::NODES * dims.work],
+            halvings: 0,
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
             halted: None,

@@ -1,4 +1,4 @@
-//! Events of a run: roots located on the continuous solution, crossings, impacts, and the work between.
+//! Events of a run: roots located on the continuous solution, crossings, impacts.
 
 use super::resolve::{BESIDE, BETWEEN, COARSE, COARSE_GAP, GAP, NODES, Resolver, Verdict, is_far};
 use super::zeno::PILE;
@@ -326,34 +326,6 @@ impl Integration {
         }
         // implicit schemes have followed the modes themselves
         self.engine.counts.stepped_over += usize::from(self.node.state.modes != self.last.state.modes);
-        Ok(())
-    }
-
-    /// Adds ∫ power dt over the last step by Lobatto's rule with five nodes, exact to degree seven (Abramowitz & Stegun 25.4.32).
-    pub(super) fn balance(&mut self, system: &mut dyn System) -> Result<(), Why> {
-        if !self.settings.balance || self.engine.dims.work == 0 {
-            return Ok(());
-        }
-        self.interpolate(system)?;
-        let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
-        self.work.copy_from_slice(&self.last.state.work);
-        let inner = 0.5 - 0.5 * (3.0_f64 / 7.0).sqrt();
-        let (end, side, middle) = (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0);
-        for (theta, weight) in [(0.0, end), (inner, side), (0.5, middle), (1.0 - inner, side), (1.0, end)] {
-            if theta == 0.0 {
-                system.power(self.last.state.at(), &self.last.a, &self.last.lambda, &mut self.power);
-            } else if theta == 1.0 {
-                system.power(self.node.state.at(), &self.node.a, &self.node.lambda, &mut self.power);
-            } else {
-                self.trial.state.modes.copy_from_slice(&self.last.state.modes);
-                self.trial.state.live.copy_from_slice(&self.last.state.live);
-                self.dense.evaluate(t + theta * h, &mut self.trial.state);
-                self.engine.accelerate(system, &mut self.trial)?;
-                system.power(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.power);
-            }
-            self.work.iter_mut().zip(&self.power).for_each(|(w, p)| *w += weight * h * p);
-        }
-        self.node.state.work.copy_from_slice(&self.work);
         Ok(())
     }
 }

@@ -1,0 +1,85 @@
+//! Work over a step: the integral of the powers along its continuous solution.
+//!
+//! Lobatto's rule with five nodes is exact to degree seven (Abramowitz & Stegun 25.4.32); Simpson's, over three of the same nodes, to
+//! degree three. Where the two are apart by a part d, the first is off by about d^(9/5), the ratio of their orders. That is below the
+//! tolerance where the step follows a motion; where drivers leave nothing to integrate a step may span whole turns, and is halved.
+
+use super::Integration;
+use crate::System;
+use crate::engine::Why;
+use std::ops::Range;
+
+/// Halvings of a step.
+const MOST_HALVINGS: usize = 12;
+
+/// Halvings that a run may make at its begin, and steps to a further one: powers that are noise are not worth many.
+const FREE: usize = 500;
+const STEPS_TO_A_HALVING: usize = 20;
+
+/// Of the rules over a part of a step.
+pub(super) const NODES: usize = 5;
+
+impl Integration {
+    /// Adds ∫ power dt over the last step.
+    pub(super) fn balance(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        if !self.settings.balance || self.engine.dims.work == 0 {
+            return Ok(());
+        }
+        self.interpolate(system)?;
+        let h = self.node.state.t - self.last.state.t;
+        self.work.copy_from_slice(&self.last.state.work);
+        let apart = 3.0 * if self.engine.is_fixed() { 1e-8 } else { self.engine.tolerance() }.powf(5.0 / 9.0);
+        let inner = 0.5 - 0.5 * (3.0_f64 / 7.0).sqrt();
+        let (end, side, middle) = (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0);
+        let (places, weights) = ([0.0, inner, 0.5, 1.0 - inner, 1.0], [end, side, middle, side, end]);
+        let count = self.work.len();
+        let mut parts = [(0.0, 1.0); MOST_HALVINGS + 2];
+        let mut left = 1;
+        while left > 0 {
+            left -= 1;
+            let (from, width) = parts[left];
+            for (node, place) in places.iter().enumerate() {
+                self.powers(system, from + place * width, node * count..(node + 1) * count)?;
+            }
+            let at = |node: usize, k: usize| self.power[node * count + k];
+            let (mut off, mut size): (f64, f64) = (0.0, 0.0);
+            for k in 0..count {
+                let lobatto: f64 = (0..NODES).map(|node| weights[node] * at(node, k)).sum();
+                let simpson = (at(0, k) + 4.0 * at(2, k) + at(4, k)) / 6.0;
+                off = off.max((lobatto - simpson).abs());
+                size = size.max((0..NODES).map(|node| weights[node] * at(node, k).abs()).sum());
+            }
+            let affordable = self.halvings < FREE + self.engine.counts.steps / STEPS_TO_A_HALVING;
+            if off > apart * size && left < MOST_HALVINGS && affordable {
+                self.halvings += 1;
+                let half = 0.5 * width;
+                (parts[left], parts[left + 1]) = ((from + half, half), (from, half));
+                left += 2;
+                continue;
+            }
+            for (node, weight) in weights.iter().enumerate() {
+                let powers = &self.power[node * count..(node + 1) * count];
+                self.work.iter_mut().zip(powers).for_each(|(w, p)| *w += weight * width * h * p);
+            }
+        }
+        self.node.state.work.copy_from_slice(&self.work);
+        Ok(())
+    }
+
+    /// Powers at the place θ of the last step, into a part of `power`.
+    fn powers(&mut self, system: &mut dyn System, theta: f64, part: Range<usize>) -> Result<(), Why> {
+        let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
+        if theta == 0.0 {
+            system.power(self.last.state.at(), &self.last.a, &self.last.lambda, &mut self.power[part]);
+        } else if theta == 1.0 {
+            system.power(self.node.state.at(), &self.node.a, &self.node.lambda, &mut self.power[part]);
+        } else {
+            self.trial.state.modes.copy_from_slice(&self.last.state.modes);
+            self.trial.state.live.copy_from_slice(&self.last.state.live);
+            self.dense.evaluate(t + theta * h, &mut self.trial.state);
+            self.engine.accelerate(system, &mut self.trial)?;
+            system.power(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.power[part]);
+        }
+        Ok(())
+    }
+}
