@@ -37,13 +37,23 @@ pub(super) struct Bounded {
 const PATIENCE: usize = 10;
 
 /// Changes in all: many more than are ever needed, few enough to end.
-const MOST_CHANGES: usize = 10_000;
+const MOST_CHANGES: usize = 500;
 
-/// Added to the diagonal of A in parts of it, so that forces that only their sum determines share it.
-const SHARED: f64 = 1e-12;
+/// Added to the diagonal of A in parts of it, so that forces of which only the sum is determined share it.
+const SHARED: f64 = 1e-7;
 
 /// The forces and their places; none where no places fit.
+///
+/// Dependent contacts may go round in a circle; a diagonal that is a little larger makes the solution unique.
 pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded]) -> Option<(DVector<f64>, Vec<Place>)> {
+    search(a, b, all).or_else(|| {
+        let mut unique = a.clone();
+        (0..all.len()).for_each(|i| unique[(i, i)] *= 1.0 + SHARED);
+        search(&unique, b, all)
+    })
+}
+
+fn search(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded]) -> Option<(DVector<f64>, Vec<Place>)> {
     let mut places: Vec<Place> = all.iter().map(|x| x.place).collect();
     let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
     for _ in 0..MOST_CHANGES {
@@ -87,7 +97,8 @@ fn forces(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], places: &[Place])
         return Some(f);
     }
     let right = a * &f + b;
-    let block = DMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])] * if i == j { 1.0 + SHARED } else { 1.0 });
+    let share = if independent(a, &free).len() < free.len() { SHARED } else { 0.0 };
+    let block = DMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])] * if i == j { 1.0 + share } else { 1.0 });
     let solved = block.lu().solve(&DVector::from_fn(free.len(), |i, _| -right[free[i]]))?;
     free.iter().zip(solved.iter()).for_each(|(i, x)| f[*i] = *x);
     Some(f)

@@ -68,7 +68,9 @@ fn stick_slip_has_the_period_of_its_closed_form() {
     let a = (fs - fk) / k;
     let slips = 2.0 * (std::f64::consts::PI - (a * w / v).atan()) / w;
     let sticks = 2.0 * a / v;
-    let events: Vec<f64> = outcome.switches.iter().map(|i| outcome.places[*i]).collect();
+    let mut events: Vec<f64> = outcome.switches.iter().map(|i| outcome.places[*i]).collect();
+    // six times the Stribeck speed is passed at once
+    events.dedup_by(|later, first| *later - *first < 1e-3);
     assert!(events.len() >= 8, "{events:?}");
     for pair in events.chunks_exact(2).skip(1) {
         close("a slip", pair[1] - pair[0], slips, 1e-4);

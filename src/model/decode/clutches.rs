@@ -92,7 +92,9 @@ impl<'n> Decoder<'n> {
         let (largest, at_rest) = (largest?, at_rest?);
         let rate = self.world.slip(&mut self.pool, index, 1);
         let level = match (at_rest, speed) {
-            (Some(at_rest), Some(speed)) => self.falling(largest, at_rest, (rate, speed)).0,
+            (Some(at_rest), Some(speed)) => {
+                self.falling(largest, at_rest, (rate, speed), &format!("the Stribeck speed of clutch `{name}`")).0
+            }
             _ => largest,
         };
         let (share, sense) = self.share(rate, node.get("stick_speed").is_some(), stick, &format!("clutch `{name}`"));

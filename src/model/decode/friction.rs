@@ -1,7 +1,7 @@
 //! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
 
 use super::Decoder;
-use crate::expression::{Dimension, Id};
+use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::{Bristle, Friction, Pressure, Sticking};
 use crate::model::coordinates::Coordinate;
 use crate::model::entities::JointKind;
@@ -11,6 +11,9 @@ use crate::model::merge::Node;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::Quantity;
+
+/// Speeds of Stribeck up to which the higher friction at rest counts.
+const SEEN: f64 = 6.0;
 
 /// What a friction is measured in, and how much of it resists a motion.
 struct Level {
@@ -99,14 +102,15 @@ impl<'n> Decoder<'n> {
         if let (Some(highest), Some(speed)) = (highest, speed) {
             let rate = self.own(1);
             let above;
-            (resists, above) = self.falling(coulomb, highest, (rate, speed));
+            (resists, above) = self.falling(coulomb, highest, (rate, speed), "the Stribeck speed of a joint");
             self.check_key(Rule::NotNegative("`static` less `coulomb`"), Some(above), at, "static");
         }
         Some(Level { coefficient, dimension, coulomb, resists })
     }
 
-    /// coulomb + (static − coulomb) exp(−(x'/speed)²), and static − coulomb.
-    pub(super) fn falling(&mut self, coulomb: Id, highest: Id, (rate, speed): (Id, Id)) -> (Id, Id) {
+    /// coulomb + (static − coulomb) exp(−(x'/speed)²), and static − coulomb. Beyond six times the speed the exponential is below the
+    /// rounding and is left out: the switch there keeps steps from passing the whole of it unseen.
+    pub(super) fn falling(&mut self, coulomb: Id, highest: Id, (rate, speed): (Id, Id), text: &str) -> (Id, Id) {
         let p = &mut self.pool;
         let above = p.sub(highest, coulomb);
         let part = p.div(rate, speed);
@@ -114,6 +118,9 @@ impl<'n> Decoder<'n> {
         let exponent = p.neg(square);
         let falling = p.exp(exponent);
         let more = p.mul(above, falling);
+        let (zero, end) = (p.constant(0.0), p.constant(SEEN * SEEN));
+        let near = p.compare(Compare::Less, square, end, text);
+        let more = p.choose(near, more, zero);
         (p.add(coulomb, more), above)
     }
 

@@ -27,14 +27,18 @@ const BLOW: f64 = 10.0;
 const DETERMINED: f64 = 1e-10;
 
 /// Part of the accelerations at hand that counts as none.
-const NO_ACCELERATION: f64 = 1e-10;
+const NO_ACCELERATION: f64 = 1e-8;
 
 /// Inertial forces in parts of the largest force that count as none.
 const STILL: f64 = 1e-9;
 
 /// Solutions in which normal forces are taken from the one before, and the part of the forces that they may still change.
 const MOST_ROUNDS: usize = 500;
-const SETTLED: f64 = 1e-12;
+const SETTLED: f64 = 1e-10;
+
+/// Rounds after which only a part of each change is taken: normal forces may go round in a circle.
+const PATIENCE: usize = 40;
+const PART: f64 = 0.3;
 
 /// A contact that stopped, or gave way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -240,9 +244,10 @@ where
 
         let mut lambda = free.lambda.clone();
         let mut forces = DVector::zeros(n);
-        let mut places: Vec<Place> = resting.iter().map(|&c| begins(c)).collect();
+        let begin: Vec<Place> = resting.iter().map(|&c| begins(c)).collect();
+        let mut places = begin.clone();
         let mut last: Vec<f64> = Vec::new();
-        for _ in 0..MOST_ROUNDS {
+        for round in 0..MOST_ROUNDS {
             let rubs: Vec<f64> =
                 rubbing.iter().map(|(size, pressing, _)| size * self.dynamics.pressing_force(*pressing, &lambda)).collect();
             let caps: Vec<f64> = resting.iter().map(|&c| self.most(&m.contacts[c], &lambda)).collect();
@@ -258,7 +263,9 @@ where
                 .map(|&i| Bounded {
                     low: if m.contacts[resting[i]].is_one_way() { 0.0 } else { -caps[i] },
                     high: caps[i],
-                    place: places[i],
+                    // where a contact that gives way stands must not depend on normal forces that are not yet right; later on one of
+                    // several solutions is kept
+                    place: if round < PATIENCE { begin[i] } else { places[i] },
                     force: slack,
                     acceleration: NO_ACCELERATION * size(i),
                 })
@@ -270,11 +277,13 @@ where
             for (k, &i) in movable.iter().enumerate() {
                 (forces[i], places[i]) = (f[k], found[k]);
             }
-            lambda.copy_from_slice(&free.lambda);
+            let part = if round < PATIENCE { 1.0 } else { PART };
+            let before = std::mem::replace(&mut lambda, free.lambda.clone());
             let all = rubbing.iter().map(|(_, _, r)| r).zip(rubs.iter().copied()).chain(responses.iter().zip(forces.iter().copied()));
             for (response, f) in all {
                 lambda.iter_mut().zip(&response.lambda).for_each(|(l, r)| *l += f * r);
             }
+            lambda.iter_mut().zip(&before).for_each(|(l, before)| *l = before + part * (*l - before));
             let now: Vec<f64> = rubs.iter().copied().chain(caps.iter().copied().filter(|c| c.is_finite())).collect();
             let largest = now.iter().fold(slack, |m, x| m.max(x.abs()));
             let stays = last.len() == now.len() && now.iter().zip(&last).all(|(x, y)| (x - y).abs() <= SETTLED * largest);
