@@ -152,7 +152,7 @@ pub struct March {
 }
 
 impl March {
-    /// The works by [`WORKS`](crate::model::WORKS), J.
+    /// The works by [`WORKS`], J.
     #[must_use]
     pub fn works(&self) -> [f64; WORKS.len()] {
         [self.drivers, self.loads, self.dampers, self.stops, self.impacts]
