@@ -13,6 +13,8 @@ use crate::{At, Common, Dims, Span, Stage, State, System, Terms};
 
 mod norm;
 mod projection;
+#[cfg(test)]
+pub(crate) mod shape;
 
 /// A state with what follows from it.
 #[derive(Clone, Debug, PartialEq)]

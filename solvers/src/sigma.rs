@@ -98,34 +98,8 @@ impl Sigma {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{At, Control, Dims, Effect, Pattern, Span, Stage, State, System, Tangent, Terms};
-
-    /// Rows that are given.
-    struct Rows {
-        pattern: Pattern,
-        dims: Dims,
-    }
-
-    impl System for Rows {
-        fn dims(&self) -> Dims {
-            self.dims
-        }
-        fn pattern(&self) -> &Pattern {
-            &self.pattern
-        }
-        fn terms(&mut self, _: At<'_>, _: Stage, _: &mut Terms) {}
-        fn residual(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut Tangent) {}
-        fn rate(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn retract(&self, _: Span, _: &mut [f64], _: &[f64]) {}
-        fn displace(&self, _: Span, _: &mut [f64], _: &[f64]) {}
-        fn power(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn modes(&mut self, _: At<'_>, _: &mut [i32]) {}
-        fn roots(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn cross(&mut self, _: usize, _: &mut State, _: &mut [f64]) -> Effect {
-            Effect::Record
-        }
-    }
+    use crate::engine::shape::Shape;
+    use crate::{Control, Dims, Pattern};
 
     /// Two pairs of rows that do not know each other, with the sines of the angles in each, and one of them twice more.
     fn rows(first: f64, second: f64) -> Vec<f64> {
@@ -147,7 +121,7 @@ mod tests {
     fn what_moves_is_followed_from_group_to_group() {
         let dims = Dims { q: 4, v: 4, holonomic: 6, ..Dims::default() };
         let pattern = Pattern { metric: vec![1.0; 4], g_scale: vec![1.0; 6], ..Pattern::dense(dims) };
-        let system = Rows { pattern, dims };
+        let system = Shape { pattern, dims };
         let mut engine = Engine::new(&system, Control::Tolerance(1e-8));
         let mut weakest = Sigma::new(6);
         factored(&mut engine, &rows(0.5, 0.8));
@@ -166,7 +140,7 @@ mod tests {
     fn a_singular_start_counts_rows_until_they_move() {
         let dims = Dims { q: 4, v: 4, holonomic: 6, ..Dims::default() };
         let pattern = Pattern { metric: vec![1.0; 4], g_scale: vec![1.0; 6], ..Pattern::dense(dims) };
-        let system = Rows { pattern, dims };
+        let system = Shape { pattern, dims };
         let mut engine = Engine::new(&system, Control::Tolerance(1e-8));
         let mut weakest = Sigma::new(6);
         factored(&mut engine, &rows(0.0, 0.8));

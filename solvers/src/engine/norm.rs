@@ -54,34 +54,9 @@ impl Engine {
 
 #[cfg(test)]
 mod tests {
+    use crate::engine::shape::Shape;
     use crate::engine::{Control, Engine};
-    use crate::{At, Dims, Effect, Pattern, Span, Stage, State, System, Tangent, Terms};
-
-    struct Bodies {
-        pattern: Pattern,
-        dims: Dims,
-    }
-
-    impl System for Bodies {
-        fn dims(&self) -> Dims {
-            self.dims
-        }
-        fn pattern(&self) -> &Pattern {
-            &self.pattern
-        }
-        fn terms(&mut self, _: At<'_>, _: Stage, _: &mut Terms) {}
-        fn residual(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut Tangent) {}
-        fn rate(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn retract(&self, _: Span, _: &mut [f64], _: &[f64]) {}
-        fn displace(&self, _: Span, _: &mut [f64], _: &[f64]) {}
-        fn power(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn modes(&mut self, _: At<'_>, _: &mut [i32]) {}
-        fn roots(&mut self, _: At<'_>, _: &[f64], _: &[f64], _: &mut [f64]) {}
-        fn cross(&mut self, _: usize, _: &mut State, _: &mut [f64]) -> Effect {
-            Effect::Record
-        }
-    }
+    use crate::{Dims, Pattern, State};
 
     /// Two bodies along x and y that move together, and a turn.
     fn engine() -> Engine {
@@ -89,7 +64,7 @@ mod tests {
         let half = 0.5_f64.sqrt();
         let common = (0..4).map(|k| (k, [if k % 2 == 0 { half } else { 0.0 }, if k % 2 == 1 { half } else { 0.0 }, 0.0]));
         let pattern = Pattern { common: vec![common.collect()], ..Pattern::dense(dims) };
-        Engine::new(&Bodies { pattern, dims }, Control::Tolerance(1e-6))
+        Engine::new(&Shape { pattern, dims }, Control::Tolerance(1e-6))
     }
 
     #[test]
