@@ -98,11 +98,15 @@ impl Auto {
         tried
     }
 
+    /// Whether stability bounds the explicit steps, as the last one shows.
+    fn bound(&self) -> bool {
+        self.explicit.product() > 0.5 * BORDER
+    }
+
     /// What follows from the explicit steps so far.
     fn judge_explicit(&mut self, engine: &mut Engine) {
         let held = self.singular.holds(engine);
-        let bound = self.explicit.product() > 0.5 * BORDER;
-        let tired = self.ledger.explicit_step(bound);
+        let tired = self.ledger.explicit_step(self.bound());
         if !held && (self.explicit.stiff() || tired) {
             self.spectrum.radius = self.explicit.fastest();
             self.change = true;
@@ -116,10 +120,9 @@ impl Scheme for Auto {
         self.change = false;
         if engine.is_fixed() {
             self.on = h * self.spectrum.search(system, engine, node)? > BORDER;
-        } else if !self.on && self.chatter.restarts(node.state.t) && !self.singular.holds(engine) {
-            // a difference may reach to where the forces have no value: what is known by then is enough
-            let radius = self.spectrum.search(system, engine, node).unwrap_or(self.spectrum.radius);
-            self.change = radius > 0.0 && self.chatter.within(BORDER / radius);
+        } else if !self.on && self.chatter.restarts(self.bound()) && !self.singular.holds(engine) {
+            self.spectrum.radius = self.explicit.fastest();
+            self.change = true;
         }
         self.ledger.begin(engine, node.state.t);
         self.active().restart(system, engine, node, h)

@@ -2,16 +2,12 @@
 //! beside it (friction below a small stick speed) is thrown across it by each explicit step, and no sequence of steps between two
 //! switches is long enough to be seen to be stiff.
 
-/// Restarts looked at.
+/// Restarts in a row behind steps that stability bounds.
 const MANY: usize = 8;
-
-/// Mean time between them, in times that an explicit step may be stable.
-const STEPS: f64 = 8.0;
 
 /// The last restarts of an explicit scheme.
 #[derive(Clone, Debug)]
 pub(super) struct Chatter {
-    times: [f64; MANY],
     count: usize,
     /// Restarts to wait for before the next trial: twice as many each time.
     wait: usize,
@@ -19,25 +15,32 @@ pub(super) struct Chatter {
 
 impl Default for Chatter {
     fn default() -> Self {
-        Self { times: [0.0; MANY], count: 0, wait: MANY }
+        Self { count: 0, wait: MANY }
     }
 }
 
 impl Chatter {
-    /// Takes a restart at a time; whether enough of them have happened to be worth the spectrum.
-    pub(super) fn restarts(&mut self, t: f64) -> bool {
-        self.times.rotate_right(1);
-        self.times[0] = t;
-        self.count += 1;
-        self.count >= self.wait
-    }
-
-    /// Whether the last restarts lie within explicit steps of the length `stable`; then the count begins anew.
-    pub(super) fn within(&mut self, stable: f64) -> bool {
-        let within = self.times[0] - self.times[MANY - 1] < STEPS * stable * MANY as f64;
-        if within {
+    /// Takes a restart behind a step that stability has bound, or not; whether there were enough in a row for a trial, with which the
+    /// count begins anew.
+    pub(super) fn restarts(&mut self, bound: bool) -> bool {
+        self.count = if bound { self.count + 1 } else { 0 };
+        let enough = self.count >= self.wait;
+        if enough {
             (self.count, self.wait) = (0, 2 * self.wait);
         }
-        within
+        enough
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_trial_waits_for_twice_as_many_restarts_in_a_row() {
+        let mut chatter = Chatter::default();
+        let trials: Vec<usize> = (1..=60).filter(|_| chatter.restarts(true)).collect();
+        assert_eq!(trials, [8, 24, 56]);
+        (0..64).for_each(|k| assert!(!chatter.restarts(k % 10 < 9)));
     }
 }
