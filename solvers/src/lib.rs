@@ -46,6 +46,6 @@ pub use minimal::Minimal;
 pub use scheme::{Level, Scheme};
 pub use schemes::Method;
 pub use sigma::Sigma;
-pub use sparsity::{Common, Pattern, Sparsity};
+pub use sparsity::{Common, Pattern, Power, Sparsity};
 pub use state::{At, Dims, Span, State};
 pub use system::{Ahead, Effect, Stage, System, Tangent, Terms};

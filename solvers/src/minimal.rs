@@ -14,7 +14,7 @@
 
 use crate::engine::{Node, Why};
 use crate::kkt::row_scale;
-use crate::{Ahead, At, Common, Dims, Effect, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::{Ahead, At, Common, Dims, Effect, Pattern, Power, Span, Sparsity, Stage, State, System, Tangent, Terms};
 use loops::Loops;
 use std::cell::RefCell;
 
@@ -117,6 +117,7 @@ impl<S: System> Minimal<S> {
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
         let place = |k: usize| loops.independent.iter().position(|i| *i == k);
         p.common = inner.common.iter().map(|common| restricted(common, place)).collect();
+        p.power = inner.power;
         p.roots_by_reactions = inner.roots_by_reactions;
         p.timed = inner.timed.clone();
         p.rough = inner.rough.clone();
@@ -365,7 +366,11 @@ impl<S: System> System for Minimal<S> {
         if w.is_empty() {
             return;
         }
-        if !self.react(at, a, lambda) {
+        let reached = match self.pattern.power {
+            Power::Reactions => self.react(at, a, lambda),
+            Power::Zero | Power::State => self.loops.get_mut().reach(at),
+        };
+        if !reached {
             return w.fill(f64::NAN);
         }
         let Loops { inner, state, a, lambda, .. } = self.loops.get_mut();

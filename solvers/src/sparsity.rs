@@ -66,6 +66,17 @@ impl Sparsity {
 /// vectors (nv each); the velocities of two common translations differ.
 pub type Common = Vec<(usize, [f64; 3])>;
 
+/// What powers are functions of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Power {
+    /// Nothing: they are zero, the energy stays as it is.
+    Zero,
+    /// t, q, v and z.
+    State,
+    /// The reactions, too, which take a solution of the accelerations.
+    Reactions,
+}
+
 /// Patterns of all blocks of a system, and the scales of its equations; both taken once, at assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
@@ -99,6 +110,8 @@ pub struct Pattern {
     pub size_v: Vec<f64>,
     /// Translations of bodies that nothing holds in place: a constant velocity of all of them is no motion that errors are measured by.
     pub common: Vec<Common>,
+    /// What the powers of [`System::power`](crate::System::power) are functions of.
+    pub power: Power,
     /// Whether root functions read a and λ; else they are functions of t, q, v and z alone, which saves a solution at each look.
     pub roots_by_reactions: bool,
     /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
@@ -129,6 +142,7 @@ impl Pattern {
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],
             common: Vec::new(),
+            power: Power::Reactions,
             roots_by_reactions: false,
             acting: Vec::new(),
             timed: Vec::new(),

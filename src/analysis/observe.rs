@@ -17,6 +17,18 @@ pub struct Observer<G: Space> {
     modes: Vec<i32>,
     /// The expressions, and whether each may be undefined.
     ids: Vec<(Id, bool)>,
+    needs: Needs,
+}
+
+/// How far a state must be evaluated for a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Needs {
+    /// To positions, velocities and states.
+    Velocities,
+    /// To inertias in world axes and the laws of springs as well: energies and momenta.
+    Inertias,
+    /// To accelerations, reactions or applied forces.
+    Forces,
 }
 
 /// Where the value of a quantity is read; everything is resolved to indices and vectors.
@@ -90,9 +102,11 @@ impl<G: Space<S = f64>> Observer<G> {
     #[must_use]
     pub fn new(model: &Model, mechanism: &Mechanism<G>, parameters: &[f64], ids: &[Id]) -> Self {
         let program = model.pool.program(ids, parameters, &mechanism.tables);
-        let fills = program.inputs().iter().map(|&i| (i as usize, source(mechanism, model.inputs[i as usize]))).collect();
+        let fills: Vec<(usize, Source<G>)> =
+            program.inputs().iter().map(|&i| (i as usize, source(mechanism, model.inputs[i as usize]))).collect();
         let may = |id: &Id| model.study.as_ref().is_some_and(|study| study.undefined.contains(id));
         Self {
+            needs: fills.iter().map(|(_, source)| source.needs()).max().unwrap_or(Needs::Velocities),
             ids: ids.iter().map(|id| (*id, may(id))).collect(),
             fills,
             inputs: vec![f64::NAN; model.inputs.len()],
@@ -111,10 +125,16 @@ impl<G: Space<S = f64>> Observer<G> {
         }
     }
 
-    /// Whether a quantity needs more than positions, velocities and states: accelerations, reactions or applied forces.
+    /// How far a state must be evaluated for all quantities.
+    #[must_use]
+    pub fn needs(&self) -> Needs {
+        self.needs
+    }
+
+    /// Whether a quantity needs accelerations, reactions or applied forces.
     #[must_use]
     pub fn needs_forces(&self) -> bool {
-        self.fills.iter().any(|(_, source)| source.needs_forces())
+        self.needs == Needs::Forces
     }
 
     /// Whether a switch of the columns does.
@@ -233,17 +253,21 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
 }
 
 impl<G: Space<S = f64>> Source<G> {
-    fn needs_forces(&self) -> bool {
+    fn needs(&self) -> Needs {
         match *self {
-            Self::Time | Self::State(_) | Self::Given(_) | Self::Kinetic | Self::Potential => false,
-            Self::SpringEnergy(_) | Self::Momentum(_) => false,
+            Self::Time | Self::State(_) | Self::Given(_) => Needs::Velocities,
             Self::Point { order, .. }
             | Self::Angle { order, .. }
             | Self::Spin { order, .. }
             | Self::Gauge { order, .. }
             | Self::Stretch { order, .. }
-            | Self::Com { order, .. } => order > 1,
-            _ => true,
+                if order < 2 =>
+            {
+                Needs::Velocities
+            }
+            Self::Com { order, .. } if order < 2 => Needs::Inertias,
+            Self::Kinetic | Self::Potential | Self::SpringEnergy(_) | Self::Momentum(_) => Needs::Inertias,
+            _ => Needs::Forces,
         }
     }
 

@@ -40,6 +40,10 @@ const ROUND_OFF: f64 = 64.0;
 /// Places of a range, as parts of it, where round-off is measured first.
 const MEASURED: [f64; 3] = [0.1178, 0.4337, 0.7963];
 
+/// So many stretches are worth a trial of how narrow panels must be, which halves them so many times at most.
+const MANY: usize = 30;
+const DEEPEST: usize = 4;
+
 /// Repeated evaluations lie this part of the range apart.
 const APART: f64 = 1e-11;
 
@@ -118,22 +122,35 @@ struct Waiting {
     depth: usize,
 }
 
-/// Resolves a curve that is evaluated on `stretches` (from, to, piece) first; see [`resolve`].
+/// Resolves a curve that is evaluated on `stretches` (from, to, piece) first, or on parts of them; see [`resolve`].
 ///
 /// # Errors
 /// As there.
 pub(super) fn on<C: Curve>(curve: &mut C, stretches: &[(f64, f64, usize)], breaks: &[f64], width: f64) -> Result<Resolved, C::Error> {
-    let range = breaks.last().zip(breaks.first()).map_or(0.0, |(to, from)| to - from);
-    let mut panels = Vec::with_capacity(stretches.len());
+    let Some(mut work) = Work::new(curve, breaks, width)? else { return Ok(Resolved::default()) };
+    let depth = work.try_some(stretches)?;
+    let mut panels = Vec::with_capacity(stretches.len() << depth);
+    let mut parts = Vec::with_capacity(1 << depth);
     for &(from, to, piece) in stretches {
-        match Panel::of(curve, from, to, piece) {
-            Ok(panel) => panels.push(panel),
-            // next to a dead point, where steps have become short, places can no longer be reached
-            Err(_) if to - from < NEXT_TO * range => {}
-            Err(lost) => return Err(lost),
+        parts.clear();
+        parts.push((from, to));
+        for _ in 0..depth {
+            for i in (0..parts.len()).rev() {
+                let (from, to) = parts[i];
+                let middle = work.curve.middle(from, to, piece);
+                parts.splice(i..=i, [(from, middle), (middle, to)]);
+            }
+        }
+        for &(from, to) in &parts {
+            match Panel::of(work.curve, from, to, piece) {
+                Ok(panel) => panels.push(panel),
+                // next to a dead point, where steps have become short, places can no longer be reached
+                Err(_) if to - from < NEXT_TO * work.range => {}
+                Err(lost) => return Err(lost),
+            }
         }
     }
-    resolve(curve, panels, breaks, width)
+    work.resolve(panels)
 }
 
 /// Resolves a curve that is evaluated on `panels` already, to `width` of each column's size.
@@ -141,43 +158,7 @@ pub(super) fn on<C: Curve>(curve: &mut C, stretches: &[(f64, f64, usize)], break
 /// # Errors
 /// If the curve cannot be evaluated somewhere.
 pub(super) fn resolve<C: Curve>(curve: &mut C, panels: Vec<Panel>, breaks: &[f64], width: f64) -> Result<Resolved, C::Error> {
-    let columns = curve.columns();
-    let [Some(from), Some(to)] = [breaks.first(), breaks.last()].map(|b| b.copied()) else { return Ok(Resolved::default()) };
-    let mut work = Work {
-        curve,
-        basis: Basis::new(),
-        range: to - from,
-        breaks,
-        width,
-        size: vec![0.0; columns],
-        noise: vec![0.0; columns],
-        open: vec![None; columns],
-        evaluations: panels.len() * NODES,
-    };
-    let most = MOST_EVALUATIONS.max(4 * work.evaluations);
-    for part in MEASURED {
-        let at = from + part * (to - from);
-        let piece = breaks.partition_point(|b| *b <= at).clamp(1, breaks.len() - 1) - 1;
-        if at - breaks[piece] > 4.0 * APART * work.range && breaks[piece + 1] - at > 4.0 * APART * work.range {
-            work.measure(at, piece)?;
-        }
-    }
-    let mut level: Vec<Waiting> = panels.into_iter().map(|panel| Waiting { panel, depth: 0 }).collect();
-    level.iter().for_each(|w| work.sized(&w.panel));
-    let mut done = Vec::new();
-    while !level.is_empty() {
-        let mut next = Vec::new();
-        for waiting in level {
-            match work.halve(waiting, most)? {
-                Ok(halves) => next.extend(halves),
-                Err(panel) => done.push(panel),
-            }
-        }
-        level = next;
-    }
-    done.sort_by(|a, b| (a.piece, a.from).partial_cmp(&(b.piece, b.from)).unwrap_or(std::cmp::Ordering::Equal));
-    work.doubt(&mut done);
-    work.finish(done)
+    Work::new(curve, breaks, width)?.map_or_else(|| Ok(Resolved::default()), |work| work.resolve(panels))
 }
 
 struct Work<'a, C: Curve> {
@@ -193,7 +174,81 @@ struct Work<'a, C: Curve> {
     evaluations: usize,
 }
 
-impl<C: Curve> Work<'_, C> {
+impl<'a, C: Curve> Work<'a, C> {
+    /// With the round-off of columns; none without a range.
+    fn new(curve: &'a mut C, breaks: &'a [f64], width: f64) -> Result<Option<Self>, C::Error> {
+        let columns = curve.columns();
+        let [Some(&from), Some(&to)] = [breaks.first(), breaks.last()] else { return Ok(None) };
+        let mut work = Self {
+            curve,
+            basis: Basis::new(),
+            range: to - from,
+            breaks,
+            width,
+            size: vec![0.0; columns],
+            noise: vec![0.0; columns],
+            open: vec![None; columns],
+            evaluations: 0,
+        };
+        for part in MEASURED {
+            let at = from + part * (to - from);
+            let piece = breaks.partition_point(|b| *b <= at).clamp(1, breaks.len() - 1) - 1;
+            if at - breaks[piece] > 4.0 * APART * work.range && breaks[piece + 1] - at > 4.0 * APART * work.range {
+                work.measure(at, piece)?;
+            }
+        }
+        Ok(Some(work))
+    }
+
+    /// How often stretches are halved until they are resolved: the middle one of what some of many take.
+    fn try_some(&mut self, stretches: &[(f64, f64, usize)]) -> Result<usize, C::Error> {
+        if stretches.len() < MANY {
+            return Ok(0);
+        }
+        let mut tried = Vec::with_capacity(MEASURED.len());
+        for part in MEASURED {
+            let (from, to, piece) = stretches[(part * stretches.len() as f64) as usize];
+            // what cannot be evaluated is met again where it matters
+            let Ok(panel) = Panel::of(self.curve, from, to, piece) else { return Ok(0) };
+            self.evaluations += NODES;
+            self.sized(&panel);
+            tried.push(panel);
+        }
+        let mut depths = [0; MEASURED.len()];
+        for (mut panel, depth) in tried.into_iter().zip(&mut depths) {
+            while *depth < DEEPEST && !self.resolved(&panel) {
+                let middle = self.curve.middle(panel.from, panel.to, panel.piece);
+                let Ok(half) = Panel::of(self.curve, panel.from, middle, panel.piece) else { return Ok(0) };
+                self.evaluations += NODES;
+                (panel, *depth) = (half, *depth + 1);
+            }
+        }
+        depths.sort_unstable();
+        Ok(depths[depths.len() / 2])
+    }
+
+    /// Halves panels until they are resolved.
+    fn resolve(mut self, panels: Vec<Panel>) -> Result<Resolved, C::Error> {
+        self.evaluations += panels.len() * NODES;
+        let most = MOST_EVALUATIONS.max(4 * self.evaluations);
+        let mut level: Vec<Waiting> = panels.into_iter().map(|panel| Waiting { panel, depth: 0 }).collect();
+        level.iter().for_each(|w| self.sized(&w.panel));
+        let mut done = Vec::new();
+        while !level.is_empty() {
+            let mut next = Vec::new();
+            for waiting in level {
+                match self.halve(waiting, most)? {
+                    Ok(halves) => next.extend(halves),
+                    Err(panel) => done.push(panel),
+                }
+            }
+            level = next;
+        }
+        done.sort_by(|a, b| (a.piece, a.from).partial_cmp(&(b.piece, b.from)).unwrap_or(std::cmp::Ordering::Equal));
+        self.doubt(&mut done);
+        self.finish(done)
+    }
+
     /// Takes the values of a panel into the sizes of columns.
     fn sized(&mut self, panel: &Panel) {
         for row in panel.values.chunks_exact(self.size.len().max(1)) {

@@ -390,3 +390,39 @@ studies: {{ run: {{ dynamics: {{ until: 2 s, every: 0.1 s, {scheme} }}, columns:
     }
     verdict.give("ball");
 }
+
+/// An event happens where its quantity has the value in the columns: energies, momenta and the centre of mass as well, for which
+/// inertias must be known in world axes.
+#[test]
+fn events_by_energies_are_met_where_they_are() {
+    let run = |asked: &str, events: &str| {
+        done(&format!(
+            "gravity: [0, -9.81 m/s^2]
+bodies:
+  a: {{ mass: 2 kg, inertia: 0.1 kg m^2, com: [0.5, 0], points: {{ end: [1, 0] }} }}
+  b: {{ mass: 2 kg, inertia: 0.1 kg m^2, com: [0.5, 0] }}
+joints: {{ O: {{ revolute: [ground, a.origin] }}, A: {{ revolute: [a.end, b.origin] }} }}
+springs: {{ s: {{ between: [ground, b.com], force: 3 N/m*stretch + 20 N/m^3*stretch^3, length: 1.2 m }} }}
+start: {{ O.angle: 0 deg, A.angle: 30 deg }}
+events: {{ {events} }}
+studies:
+  run: {{ dynamics: {{ until: 0.3 s, every: 10 ms, tolerance: 1e-10 }}, columns: [time, {asked}] }}
+"
+        ))
+        .1
+    };
+    let mut verdict = Verdict::default();
+    for asked in ["energy.kinetic", "energy.potential", "s.energy", "momentum.x", "com.vy", "com.x"] {
+        let value = run(asked, "").rows.iter().find(|row| (row[0] - 0.17).abs() < 1e-12).unwrap()[1];
+        let unit = match asked {
+            "momentum.x" => "kg m/s",
+            "com.vy" => "m/s",
+            "com.x" => "m",
+            _ => "J",
+        };
+        let met = doubled(&run(asked, &format!("there: {{ when: {asked} - ({value} {unit}) }}")));
+        let nearest = met.iter().copied().min_by(|x, y| (x - 0.17).abs().total_cmp(&(y - 0.17).abs())).unwrap_or(f64::NAN);
+        verdict.close(&format!("event by {asked}"), "s", nearest, 0.17, 1e-8);
+    }
+    verdict.give("the times of events");
+}

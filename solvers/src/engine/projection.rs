@@ -41,19 +41,28 @@ impl Engine {
         self.solve(system, state.at(), a, lambda, zdot)
     }
 
-    /// Moves a state to the constraints; leaves terms and factors of the state reached.
+    /// Moves a state to the constraints, without its accelerations.
     ///
     /// # Errors
     /// If the constraints cannot be closed from here, or the KKT matrix is singular.
     pub fn project(&mut self, system: &mut dyn System, state: &mut State) -> Result<(), Why> {
-        self.project_within(system, state, 0.0)
+        if self.dims.rows() > 0 { self.project_on(system, state, Stage::Velocity).map(drop) } else { Ok(()) }
     }
 
+    /// Moves a state to the constraints; leaves terms and factors of the state reached.
     fn project_within(&mut self, system: &mut dyn System, state: &mut State, slack: f64) -> Result<(), Why> {
-        let rows = self.dims.rows() > 0;
         // a correction of v is to be expected unless it may be neglected
-        let exact = rows && slack == 0.0;
-        let stage = if exact { Stage::Velocity } else { Stage::Dynamics };
+        let exact = self.dims.rows() > 0 && slack == 0.0;
+        let size = self.project_on(system, state, if exact { Stage::Velocity } else { Stage::Dynamics })?;
+        if exact || size.is_nan() || size > slack {
+            self.evaluate(system, state.at(), Stage::Dynamics);
+        }
+        Ok(())
+    }
+
+    /// Moves a state to the constraints, evaluating it to a stage before velocities are corrected; the largest correction of them in
+    /// units of size.
+    fn project_on(&mut self, system: &mut dyn System, state: &mut State, stage: Stage) -> Result<f64, Why> {
         // far from zero, positions cannot be closed any better
         let rounded = self.rounding(&state.q);
         if self.dims.holonomic > 0 {
@@ -74,7 +83,7 @@ impl Engine {
         self.factor()?;
         let mut size = 0.0;
         for _ in 0..REPEATED {
-            if !rows || !self.velocity_correction(&state.v) {
+            if self.dims.rows() == 0 || !self.velocity_correction(&state.v) {
                 break;
             }
             for ((v, d), s) in state.v.iter_mut().zip(&self.delta).zip(&self.size_v) {
@@ -82,10 +91,7 @@ impl Engine {
                 *v += d;
             }
         }
-        if exact || size.is_nan() || size > slack {
-            self.evaluate(system, state.at(), Stage::Dynamics);
-        }
-        Ok(())
+        Ok(size)
     }
 
     /// Newton's method on Φ = 0 from a state that was evaluated last; the factors stay those of the first position.

@@ -5,8 +5,8 @@
 //! tolerance where the step follows a motion; where drivers leave nothing to integrate a step may span whole turns, and is halved.
 
 use super::Integration;
-use crate::System;
 use crate::engine::Why;
+use crate::{Power, System};
 use std::ops::Range;
 
 /// Halvings of a step.
@@ -16,13 +16,17 @@ const MOST_HALVINGS: usize = 12;
 const FREE: usize = 500;
 const STEPS_TO_A_HALVING: usize = 20;
 
+/// Part of the powers of all forces, those included that store energy, that is round-off of their differences.
+const NOISE: f64 = 1e-13;
+
 /// Of the rules over a part of a step.
 pub(super) const NODES: usize = 5;
 
 impl Integration {
     /// Adds ∫ power dt over the last step.
     pub(super) fn balance(&mut self, system: &mut dyn System) -> Result<(), Why> {
-        if !self.settings.balance || self.engine.dims.work == 0 {
+        let of = system.pattern().power;
+        if !self.settings.balance || of == Power::Zero {
             return Ok(());
         }
         self.interpolate(system)?;
@@ -33,6 +37,8 @@ impl Integration {
         let (end, side, middle) = (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0);
         let (places, weights) = ([0.0, inner, 0.5, 1.0 - inner, 1.0], [end, side, middle, side, end]);
         let count = self.work.len();
+        let forces = self.engine.terms.force.iter().zip(&self.node.state.v);
+        let noise = NOISE * forces.map(|(f, v)| (f * v).abs()).sum::<f64>();
         let mut parts = [(0.0, 1.0); MOST_HALVINGS + 2];
         let mut left = 1;
         while left > 0 {
@@ -50,7 +56,7 @@ impl Integration {
                 size = size.max((0..NODES).map(|node| weights[node] * at(node, k).abs()).sum());
             }
             let affordable = self.halvings < FREE + self.engine.counts.steps / STEPS_TO_A_HALVING;
-            if off > apart * size && left < MOST_HALVINGS && affordable {
+            if off > (apart * size).max(noise) && left < MOST_HALVINGS && affordable {
                 self.halvings += 1;
                 let half = 0.5 * width;
                 (parts[left], parts[left + 1]) = ((from + half, half), (from, half));
@@ -77,7 +83,9 @@ impl Integration {
             self.trial.state.modes.copy_from_slice(&self.last.state.modes);
             self.trial.state.live.copy_from_slice(&self.last.state.live);
             self.dense.evaluate(t + theta * h, &mut self.trial.state);
-            self.engine.accelerate(system, &mut self.trial)?;
+            if system.pattern().power == Power::Reactions {
+                self.engine.accelerate(system, &mut self.trial)?;
+            }
             system.power(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.power[part]);
         }
         Ok(())

@@ -24,7 +24,7 @@ mod power;
 mod sticking;
 
 use crate::analysis::contact::PASSED;
-use crate::analysis::observe::Observer;
+use crate::analysis::observe::{Needs, Observer};
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
@@ -194,6 +194,7 @@ where
             size_q,
             size_v: size,
             common: mechanism.translations(),
+            power: power::depends(mechanism),
             roots_by_reactions: observer.switches_by_forces()
                 || (!events.is_empty() && observer.needs_forces())
                 || mechanism.sides().next().is_some()
@@ -270,14 +271,21 @@ where
         self.observer.columns(modes, out);
     }
 
+    /// Evaluates a state without accelerations and reads the columns' quantities, of which none needs them.
+    pub(in crate::analysis) fn glance(&mut self, at: &At<'_>) {
+        self.kinematics(at);
+        if self.observer.needs() == Needs::Inertias {
+            self.dynamics.loads(at.modes);
+        }
+        let own = self.own(at.modes);
+        let Self { dynamics, observer, reactions, a, .. } = self;
+        observer.read(dynamics, [at.q, at.v, a], reactions, own);
+    }
+
     /// The observer's inputs at a state; accelerations only if they are needed, by an own solution where none are given.
     fn look(&mut self, at: &At<'_>, given: Option<(&[f64], &[f64])>) {
         if !self.pattern.roots_by_reactions {
-            self.kinematics(at);
-            let own = self.own(at.modes);
-            let Self { dynamics, observer, reactions, a, .. } = self;
-            observer.read(dynamics, [at.q, at.v, a], reactions, own);
-            return;
+            return self.glance(at);
         }
         if let Some((a, lambda)) = given {
             return self.observe(at, a, lambda);

@@ -242,6 +242,36 @@ where
     /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
     /// the constraints.
     pub(in crate::analysis) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let own = self.take(t, piece)?;
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        // next to a singular position a state may not be moved to the constraints: there it counts as it is
+        if own || engine.settle(system, &mut self.node).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+            engine.accelerate(system, &mut self.node).map_err(|_| Off { at: t, gap: None })?;
+        }
+        let Node { state, a, lambda, .. } = &self.node;
+        system.observe(&state.at(), a, lambda);
+        Ok(())
+    }
+
+    /// As [`Trajectory::go`], but without accelerations where no column needs them.
+    fn glance(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let era = self.pieces.get(piece).map_or(0, |p| p.era);
+        if self.eras[era].system.observer.needs_forces() {
+            return self.go(t, piece);
+        }
+        let own = self.take(t, piece)?;
+        let Era { system, engine, .. } = &mut self.eras[era];
+        if !own && engine.project(system, &mut self.node.state).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+        }
+        system.glance(&self.node.state.at());
+        Ok(())
+    }
+
+    /// The state at `t` on a piece as the integrator's continuous solution has it; whether it is the end of a step, which is the
+    /// integrator's own.
+    fn take(&mut self, t: f64, piece: usize) -> Result<bool, Off> {
         let off = Off { at: t, gap: None };
         let Some(p) = self.pieces.get(piece) else { return Err(off) };
         let (low, high) = p.steps;
@@ -262,16 +292,7 @@ where
         if self.follow {
             engine.follow_modes(system, &mut self.node.state);
         }
-        // the end of a whole step is the scheme's own
-        let own = t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h;
-        // next to a singular position a state may not be moved to the constraints: there it counts as it is
-        if own || engine.settle(system, &mut self.node).is_err() {
-            self.dense.evaluate(t, &mut self.node.state);
-            engine.accelerate(system, &mut self.node).map_err(|_| off)?;
-        }
-        let Node { state, a, lambda, .. } = &self.node;
-        system.observe(&state.at(), a, lambda);
-        Ok(())
+        Ok(t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h)
     }
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
@@ -296,7 +317,7 @@ where
 {
     /// Columns at `t` on a piece.
     fn columns_at(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        self.go(t, piece)?;
+        self.glance(t, piece)?;
         let n = self.columns;
         out.copy_from_slice(&self.outputs(piece)[..n]);
         let observer = &self.eras[self.pieces[piece].era].system.observer;

@@ -3,9 +3,27 @@
 use super::Mechanical;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
-use crate::mechanism::EffortLaw;
+use crate::mechanism::{EffortLaw, Mechanism, RowKind};
 use crate::scalar::Dual;
-use grashof_solvers::At;
+use grashof_solvers::{At, Power};
+
+/// What the powers of a mechanism are functions of.
+pub(super) fn depends<G: Space<S = f64>>(m: &Mechanism<G>) -> Power {
+    let moves = |kind: RowKind| match kind {
+        RowKind::Driver { .. } => true,
+        RowKind::Function(function) => m.functions[function].by_time.is_some(),
+        RowKind::Gauge(_) | RowKind::Ratio { .. } => false,
+    };
+    let by_reactions = |law: &EffortLaw<G>| matches!(law, EffortLaw::Friction { pressing: Some(_), .. });
+    if m.rows.iter().any(|row| moves(row.kind)) || m.efforts.iter().any(|effort| by_reactions(&effort.law)) {
+        return Power::Reactions;
+    }
+    let stores = |law: &EffortLaw<G>| matches!(law, EffortLaw::Linear { damping, .. } if *damping == 0.0);
+    let conserves = m.pulls.iter().all(|pull| pull.potential.is_some())
+        && m.efforts.iter().all(|effort| stores(&effort.law))
+        && m.stretches.iter().all(|stretch| stretch.moving.is_none());
+    if conserves { Power::Zero } else { Power::State }
+}
 
 impl<G, D> Mechanical<'_, G, D>
 where
