@@ -16,10 +16,14 @@ mod extremes;
 mod files;
 #[path = "attacks/formula.rs"]
 mod formula;
+#[path = "attacks/friction.rs"]
+mod friction;
 #[path = "attacks/kills.rs"]
 mod kills;
 #[path = "attacks/mechanisms.rs"]
 mod mechanisms;
+#[path = "attacks/motion.rs"]
+mod motion;
 
 use dice::Dice;
 

@@ -4,6 +4,8 @@
 mod bristles;
 #[path = "friction/closed_forms.rs"]
 mod closed_forms;
+#[path = "friction/clutches.rs"]
+mod clutches;
 mod common;
 #[path = "friction/equivalence.rs"]
 mod equivalence;
@@ -16,6 +18,14 @@ use grashof::analysis::outcome::{Certificate, Failure, March, Outcome};
 use grashof::analysis::run::run;
 use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
+
+/// Settings of every scheme in all coordinates, each with the tolerance of its results.
+fn forms() -> impl Iterator<Item = (String, f64)> {
+    let of = |settings: &'static str, tolerance| {
+        ["joint", "cartesian", "minimal"].map(|coordinates| (format!("{settings}, coordinates: {coordinates}"), tolerance))
+    };
+    closed_forms::SCHEMES.into_iter().flat_map(move |(settings, tolerance)| of(settings, tolerance))
+}
 
 /// A study of a text, or why it failed.
 fn tried(text: &str, name: &str) -> Result<Outcome, Failure> {

@@ -9,7 +9,7 @@ use crate::engine::{Control, Engine, Node, Why};
 use crate::scheme::{Level, Scheme};
 use crate::schemes::{self, Method};
 use crate::{Sigma, State, System};
-use foresight::Foresight;
+use foresight::{Foresight, shortest};
 use resolve::{NODES, Resolver};
 pub use zeno::Zeno;
 
@@ -17,6 +17,7 @@ mod begin;
 mod bridge;
 mod events;
 mod foresight;
+mod repeat;
 mod resolve;
 mod work;
 mod zeno;
@@ -104,6 +105,8 @@ pub struct Integration {
     /// Largest σ so far: how far from singular this mechanism can be.
     largest_sigma: f64,
     weakest: Sigma,
+    /// What was proposed before a step was made again to end behind an early event: the step and the width of `resolved`, s.
+    repeated: Option<(f64, Option<f64>)>,
     last: Node,
     node: Node,
     trial: Node,
@@ -213,6 +216,7 @@ impl Integration {
             row: vec![0.0; dims.v],
             relative: vec![0.0; dims.v],
             power: vec![0.0; work::NODES * dims.work],
+            repeated: None,
             halvings: 0,
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
@@ -352,9 +356,8 @@ impl Integration {
         {
             // multiples of the step, without the sum of its rounding; a step cut short begins a new count
             let multiple = self.origin + self.turn as f64 * h;
-            if !ends {
-                self.node.state.t = multiple;
-            } else if (until - multiple).abs() > 1e-6 * h {
+            self.node.state.t = multiple;
+            if ends && (until - multiple).abs() > 1e-6 * h {
                 (self.turn, self.origin) = (0, until);
             }
         }
@@ -368,8 +371,10 @@ impl Integration {
     /// Looks for roots within the last step, and ends it at the first or where it ends.
     fn finish(&mut self, system: &mut dyn System, ends: bool) -> Result<Progress, Why> {
         match self.crossing(system)? {
+            Some((theta, root)) if self.is_early(system, theta, root) => self.repeat(system, theta),
             Some((theta, root)) => self.event(system, theta, root, ends),
             None => {
+                self.repeated = None;
                 if !self.settings.locate {
                     self.march_across(system)?;
                 }
@@ -484,11 +489,6 @@ impl Integration {
         self.largest_sigma = self.largest_sigma.max(sigma);
         Ok(true)
     }
-}
-
-/// A step that is too short to be made at `t` on the way to `until`, s.
-fn shortest(t: f64, until: f64) -> f64 {
-    4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3)
 }
 
 /// The scheme that steps.

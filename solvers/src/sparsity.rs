@@ -117,6 +117,8 @@ pub struct Pattern {
     /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
     /// events, and of contacts whose crossing gives a blow.
     pub acting: Vec<usize>,
+    /// Roots behind which forces follow other laws: a step that reaches far beyond one is made again.
+    pub forceful: Vec<usize>,
     /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
     pub timed: Vec<usize>,
     /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
@@ -145,6 +147,7 @@ impl Pattern {
             power: Power::Reactions,
             roots_by_reactions: false,
             acting: Vec::new(),
+            forceful: Vec::new(),
             timed: Vec::new(),
             rough: Vec::new(),
         }

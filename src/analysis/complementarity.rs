@@ -97,27 +97,57 @@ fn forces(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], places: &[Place])
         return Some(f);
     }
     let right = a * &f + b;
-    let share = if independent(a, &free).len() < free.len() { SHARED } else { 0.0 };
+    let share = if split(a, &free).1.is_some() { SHARED } else { 0.0 };
     let block = DMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])] * if i == j { 1.0 + share } else { 1.0 });
     let solved = block.lu().solve(&DVector::from_fn(free.len(), |i, _| -right[free[i]]))?;
     free.iter().zip(solved.iter()).for_each(|(i, x)| f[*i] = *x);
     Some(f)
 }
 
-/// Those of `wanted` (in this order) whose columns of A are independent.
-pub(super) fn independent(a: &DMatrix<f64>, wanted: &[usize]) -> Vec<usize> {
+/// Moves forces that depend on each other, with the same w, until those between their bounds are independent; which ones were moved to
+/// a bound. The first of `order` stay between.
+pub(super) fn basic(a: &DMatrix<f64>, all: &[Bounded], f: &mut DVector<f64>, places: &mut [Place], order: &[usize]) -> Vec<usize> {
+    let mut moved = Vec::new();
+    loop {
+        let free: Vec<usize> = order.iter().copied().filter(|i| places[*i] == Place::Between).collect();
+        let (kept, Some((dependent, by))) = split(a, &free) else { return moved };
+        // A n = 0
+        let way: Vec<(usize, f64)> = kept.iter().copied().zip(by.iter().map(|x| -x)).chain([(dependent, 1.0)]).collect();
+        let end = |sense: f64| {
+            let reaches = way.iter().filter(|(_, n)| n.abs() > NOTHING).map(|&(i, n)| {
+                let place = if sense * n > 0.0 { Place::High } else { Place::Low };
+                let bound = if place == Place::High { all[i].high } else { all[i].low };
+                ((bound - f[i]) / n, i, place)
+            });
+            reaches.min_by(|x, y| x.0.abs().total_cmp(&y.0.abs()))
+        };
+        let nearest = [end(1.0), end(-1.0)].into_iter().flatten().min_by(|x, y| x.0.abs().total_cmp(&y.0.abs()));
+        let Some((length, i, place)) = nearest.filter(|(length, ..)| length.is_finite()) else { return moved };
+        way.iter().for_each(|(k, n)| f[*k] += length * n);
+        places[i] = place;
+        moved.push(i);
+    }
+}
+
+/// Part of a unit way that is none.
+const NOTHING: f64 = 1e-9;
+
+/// Those of `wanted` (in this order) whose columns of A are independent, up to the first one that is not, with what it is the sum of.
+fn split(a: &DMatrix<f64>, wanted: &[usize]) -> (Vec<usize>, Option<(usize, DVector<f64>)>) {
     /// Part of a diagonal entry of A that is left of a dependent one.
     const DEPENDENT: f64 = 1e-9;
     let mut kept: Vec<usize> = Vec::new();
     for &i in wanted {
         let block = DMatrix::from_fn(kept.len(), kept.len(), |r, c| a[(kept[r], kept[c])]);
         let side = DVector::from_fn(kept.len(), |r, _| a[(kept[r], i)]);
-        let explained = if kept.is_empty() { Some(0.0) } else { block.lu().solve(&side).map(|x| x.dot(&side)) };
-        if explained.is_some_and(|explained| a[(i, i)] - explained > DEPENDENT * a[(i, i)]) {
-            kept.push(i);
+        let none = DVector::zeros(kept.len());
+        let by = if kept.is_empty() { none } else { block.lu().solve(&side).unwrap_or(none) };
+        if a[(i, i)] - by.dot(&side) <= DEPENDENT * a[(i, i)] {
+            return (kept, Some((i, by)));
         }
+        kept.push(i);
     }
-    kept
+    (kept, None)
 }
 
 #[cfg(test)]
@@ -154,8 +184,41 @@ mod tests {
     #[test]
     fn two_brakes_on_one_shaft_share_and_one_of_them_is_enough() {
         let a = DMatrix::from_element(2, 2, 1.0);
-        let (f, places) = solve(&a, &DVector::from_element(2, -3.0), &[bounded(-2.0, 2.0); 2]).unwrap();
+        let all = [bounded(-2.0, 2.0); 2];
+        let (mut f, mut places) = solve(&a, &DVector::from_element(2, -3.0), &all).unwrap();
         assert!((f[0] - 1.5).abs() < 1e-3 && (f[1] - 1.5).abs() < 1e-3 && places == [Place::Between; 2]);
-        assert_eq!(independent(&a, &[1, 0]), [1]);
+        // the first of the order is held by what the other leaves at its bound
+        assert_eq!(basic(&a, &all, &mut f, &mut places, &[1, 0]).len(), 1);
+        assert!((f[0] + f[1] - 3.0).abs() < 1e-6 && places.contains(&Place::High) && places.contains(&Place::Between));
+    }
+
+    #[test]
+    fn dependent_forces_move_to_bounds_without_moving_anything_else() {
+        let mut seed = 7_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
+        };
+        for case in 0..500 {
+            let (n, rank) = (2 + case % 6, 1 + case % 2);
+            let root = DMatrix::from_fn(n, rank, |_, _| random());
+            let a = &root * root.transpose();
+            let all: Vec<Bounded> = (0..n).map(|i| if i % 4 == 3 { bounded(0.0, f64::INFINITY) } else { bounded(-0.7, 0.7) }).collect();
+            let inside = DVector::from_fn(n, |i, _| if i % 4 == 3 { 0.3 } else { 0.5 * random() });
+            let b = -(&a * &inside);
+            let (mut f, mut places) = (inside, vec![Place::Between; n]);
+            let order: Vec<usize> = (0..n).rev().collect();
+            basic(&a, &all, &mut f, &mut places, &order);
+            assert!((&a * &f + &b).amax() < 1e-9, "case {case}");
+            assert!(places.iter().filter(|p| **p == Place::Between).count() <= rank, "case {case}: {places:?}");
+            for (i, x) in all.iter().enumerate() {
+                let at = match places[i] {
+                    Place::Low => f[i] - x.low,
+                    Place::High => f[i] - x.high,
+                    Place::Between => 0.0,
+                };
+                assert!(at.abs() < 1e-9 && f[i] > x.low - 1e-9 && f[i] < x.high + 1e-9, "case {case}: {f} {places:?}");
+            }
+        }
     }
 }

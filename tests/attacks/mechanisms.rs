@@ -2,12 +2,10 @@
 //!
 //! All bodies lie on the ground's frame as drawn, so that every joint is closed at coordinate 0, loops included.
 
-use crate::common::{columns, model};
+use crate::common::columns;
 use crate::dice::Dice;
+use crate::motion::{apart, moved};
 use crate::{between, cases, seeded, tell};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::{run::run, sweep};
-use grashof::mechanism::Coordinates;
 use std::fmt::Write;
 
 /// A body on its joint, in space; a plane mechanism leaves out z.
@@ -158,31 +156,6 @@ impl Link {
     }
 }
 
-/// The motion, or why there is none.
-fn moved(text: &str) -> Result<Outcome, String> {
-    let model = model(text, Some("move"));
-    let study = model.study.clone().expect("the study");
-    let outcome = run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false).map_err(|f| f.reason().to_owned())?;
-    match outcome.stopped {
-        Some(reason) => Err(reason),
-        None => Ok(outcome),
-    }
-}
-
-/// Rows at the asked instants; a located switch has further ones.
-fn asked(outcome: &Outcome) -> Vec<&Vec<f64>> {
-    let near = |k: u32| outcome.rows.iter().find(|r| (r[0] - 0.1 * f64::from(k)).abs() < 1e-12).expect("a row at each instant");
-    (0..=4).map(near).collect()
-}
-
-/// The largest difference of two motions of the same columns, by the size of each column.
-fn apart(a: &Outcome, b: &Outcome) -> f64 {
-    let (a, b) = (asked(a), asked(b));
-    let size = |c: usize| a.iter().fold(1.0_f64, |m, r| m.max(r[c].abs()));
-    let off = |c: usize| a.iter().zip(&b).map(move |(x, y)| (x[c] - y[c]).abs()).fold(0.0, f64::max);
-    (0..a[0].len()).map(|c| off(c) / size(c)).fold(0.0, f64::max)
-}
-
 const TIGHT: &str = ", integrator: dop853, tolerance: 1e-11";
 
 /// What may be changed without changing the motion.
@@ -226,7 +199,7 @@ fn coordinates_space_and_schemes_do_not_matter() {
         for (name, twin) in &twins {
             match (&first, moved(twin)) {
                 (Ok(a), Ok(b)) => {
-                    let off = apart(a, &b);
+                    let off = apart(a, &b, 0.1);
                     worst = worst.max(off);
                     if off > 1e-6 {
                         find(format!("{name} is off by {off:e}"), twin);

@@ -226,6 +226,7 @@ impl Integration {
     /// the rest of the step is kept for the next advance.
     pub(super) fn event(&mut self, system: &mut dyn System, theta: f64, root: usize, ends: bool) -> Result<Progress, Why> {
         let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
+        let repeated = self.repeated.take();
         self.ahead.copy_from(&self.node);
         if theta < 1.0 {
             self.interpolate(system)?;
@@ -277,6 +278,11 @@ impl Integration {
             return Ok(Progress::Event);
         }
         self.bridging = None;
+        // what bound the step was the event, not the error
+        if let Some((h, resolved)) = repeated {
+            self.h = h;
+            self.resolved = [self.resolved, resolved].into_iter().flatten().reduce(f64::min);
+        }
         let longest = self.longest_gap();
         self.limit_growth(GROWTH * longest);
         if let Err(why) = self.scheme.restart(system, &mut self.engine, &self.node, self.h) {

@@ -1,6 +1,6 @@
 //! Switches of time alone: known before the step that would pass them.
 
-use super::{Integration, shortest};
+use super::Integration;
 use crate::engine::{Node, Why};
 use crate::{Ahead, System};
 
@@ -75,4 +75,9 @@ impl Integration {
             _ => None,
         }
     }
+}
+
+/// A step that is too short to be made at `t` on the way to `until`, s.
+pub(super) fn shortest(t: f64, until: f64) -> f64 {
+    4.0 * f64::EPSILON * t.abs().max(until.abs() * 1e-3)
 }

@@ -201,6 +201,7 @@ where
                 || !held.is_empty()
                 || !contacts.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
+            forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
         };

@@ -78,12 +78,14 @@ impl Spectrum {
     fn iterate(&mut self, system: &mut dyn System, engine: &mut Engine, node: &Node, iterations: usize) -> Result<(), Why> {
         self.flow.begin(system, node, &mut self.y, &mut self.rate);
         let State { t, live, .. } = &node.state;
+        let mut last = None;
         for _ in 0..iterations {
             let length = self.length(&self.direction);
             if !(length > 0.0 && length < f64::INFINITY) {
                 break;
             }
-            let step = REACH / length;
+            // velocities go no farther than coordinates, each in their own sizes: forces may be steep
+            let step = REACH / length.max(self.weighted(&self.direction, 1.0));
             for ((x, y), d) in self.near.iter_mut().zip(&self.y).zip(&self.direction) {
                 *x = y + step * d;
             }
@@ -92,7 +94,15 @@ impl Spectrum {
                 *x = (*x - r) / step;
             }
             let grown = self.length(&self.difference);
-            self.radius = grown / length;
+            // positions and velocities of an oscillation change places: what two differences do is its square, in whatever units
+            let growth = grown / length;
+            last = match last.take() {
+                None => Some(growth),
+                Some(before) => {
+                    self.radius = f64::sqrt(before * growth);
+                    None
+                }
+            };
             if grown > 0.0 {
                 // of unit length: a direction that is followed for a whole run would overflow
                 self.difference.iter_mut().for_each(|x| *x /= grown);
@@ -104,7 +114,10 @@ impl Spectrum {
 
     /// Length in sizes; a velocity counts 1/radius, which makes both parts of the fastest oscillation the same.
     fn length(&self, x: &[f64]) -> f64 {
-        let weight = if self.radius > 0.0 { self.radius.recip() } else { 1.0 };
+        self.weighted(x, if self.radius > 0.0 { self.radius.recip() } else { 1.0 })
+    }
+
+    fn weighted(&self, x: &[f64], weight: f64) -> f64 {
         let [first, last] = self.speeds;
         let square = |(i, (x, s)): (usize, (&f64, &f64))| {
             let x = x / s * if i >= first && i < last { weight } else { 1.0 };

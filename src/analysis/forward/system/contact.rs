@@ -12,6 +12,11 @@ impl Root {
     pub(super) fn acts(self) -> bool {
         matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Slides(_) | Self::Holds { .. } | Self::Event(_))
     }
+
+    /// Whether forces follow other laws behind it.
+    pub(super) fn is_forceful(self) -> bool {
+        !matches!(self, Self::Column { .. } | Self::Winding { .. } | Self::Event(_))
+    }
 }
 
 impl<G, D> Mechanical<'_, G, D>

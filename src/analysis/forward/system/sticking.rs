@@ -6,7 +6,7 @@
 //! reactions, they are taken from the solution before, until they stay.
 
 use super::{Mechanical, Root};
-use crate::analysis::complementarity::{Bounded, Place, independent, solve};
+use crate::analysis::complementarity::{Bounded, Place, basic, solve};
 use crate::dynamics::{LANES, slack};
 use crate::geometry::Space;
 use crate::mechanism::{Contact, ContactLaw, EffortLaw, StretchOf};
@@ -150,30 +150,30 @@ where
         let rates: Vec<f64> = m.contacts.iter().map(|c| self.dynamics.extent_rate(c.along)).collect();
         let sense_of = |c: usize| met.iter().find(|x| x.contact == c).map(|x| x.sense);
         let at_rest = |c: usize| {
-            let contact = &m.contacts[c];
-            let slow = |rate: f64| rate <= 2.0 * self.rest(contact);
-            let stopped = sense_of(c).is_some() && rates[c].abs() <= STOPPED * self.rest(contact);
-            slow(rates[c].abs()) || held.contains(&c) || stopped
+            let slow = |times: f64| rates[c].abs() <= times * self.rest(&m.contacts[c]);
+            slow(2.0) || held.contains(&c) || sense_of(c).is_some() && slow(STOPPED)
         };
         let resting: Vec<usize> = (0..m.contacts.len()).filter(|c| at_rest(*c)).collect();
         let before: Vec<i32> = m.contacts.iter().map(|c| modes[c.mode]).collect();
         let slides = |c: usize| !m.contacts[c].is_one_way() && !resting.contains(&c);
         let senses: Vec<i32> = (0..m.contacts.len()).map(|c| if slides(c) { rates[c].signum() as i32 } else { 0 }).collect();
         m.slide(&senses, &mut modes);
-        let gamma = Gamma::OfMotion;
-        let decided = self.balance_of(&At { modes: &modes, ..state.at() }, gamma, &resting, |c| match sense_of(c) {
+        let begins = |c: usize| match sense_of(c) {
             Some(1) => Place::Low,
             Some(-1) => Place::High,
             None if !held.contains(&c) && before[c] > 0 => Place::Low,
             None if !held.contains(&c) && before[c] < 0 => Place::High,
             _ => Place::Between,
-        })?;
-        let Balanced { a, places, determined, .. } = decided;
-        let mut out = Decided { senses, ..Decided::default() };
-        let mut stays = Vec::new();
+        };
+        let found = self.balance_of(&At { modes: &modes, ..state.at() }, true, &resting, held, begins)?;
+        let mut out = Decided { senses, open: found.moved.iter().map(|i| resting[*i]).collect(), ..Decided::default() };
         for (i, &c) in resting.iter().enumerate() {
-            match (m.contacts[c].is_one_way(), determined[i], places[i]) {
-                (true, None, Place::Between) => stays.push(i),
+            match (m.contacts[c].is_one_way(), found.determined[i], found.places[i]) {
+                // one that has just given way carries no more than it can, to round-off: it is not held once more
+                (false, None, Place::Between) if found.spent[i] != 0 && sense_of(c) == Some(found.spent[i]) => {
+                    out.senses[c] = found.spent[i];
+                }
+                (_, None, Place::Between) => out.held.push(c),
                 (true, ..) => {}
                 (_, Some(sense), _) => {
                     out.senses[c] = sense;
@@ -183,15 +183,8 @@ where
                 }
                 (_, None, Place::Low) => out.senses[c] = 1,
                 (_, None, Place::High) => out.senses[c] = -1,
-                (_, None, Place::Between) => stays.push(i),
             }
         }
-        // those that were held before stay so
-        stays.sort_by_key(|i| !held.contains(&resting[*i]));
-        let rows = independent(&a, &stays);
-        out.open.extend(stays.iter().filter(|i| !rows.contains(i)).map(|i| resting[*i]));
-        out.held = rows.iter().map(|i| resting[*i]).collect();
-        out.held.sort_unstable();
         Some(out)
     }
 
@@ -201,14 +194,21 @@ where
         let all: Vec<usize> = (0..m.contacts.len()).collect();
         let mut modes = state.modes.clone();
         m.slide(&vec![0; m.contacts.len()], &mut modes);
-        let found = self.balance_of(&At { modes: &modes, ..state.at() }, Gamma::None, &all, |_| Place::Between)?;
+        let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &all, &[], |_| Place::Between)?;
         let held = all.into_iter().filter(|c| found.determined[*c].is_none() && found.places[*c] == Place::Between);
-        let held: Vec<usize> = held.collect();
-        found.rests.then(|| independent(&found.a, &held))
+        found.rests.then(|| held.collect())
     }
 
-    /// Solves for the forces of resting contacts.
-    fn balance_of(&mut self, at: &At<'_>, gamma: Gamma, resting: &[usize], begins: impl Fn(usize) -> Place) -> Option<Balanced> {
+    /// Solves for the forces of resting contacts. Drivers are `driven` on, or stand still; `first` are held rather than others where
+    /// contacts depend on each other.
+    fn balance_of(
+        &mut self,
+        at: &At<'_>,
+        driven: bool,
+        resting: &[usize],
+        first: &[usize],
+        begins: impl Fn(usize) -> Place,
+    ) -> Option<Balanced> {
         let m = self.dynamics.mechanism;
         self.kinematics(at);
         self.dynamics.forces(at.modes);
@@ -217,7 +217,7 @@ where
         self.kkt.factor(&w.mass, &w.g).ok()?;
         let mut free = Response { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()] };
         let none = vec![0.0; m.rows.len()];
-        let gamma = if gamma == Gamma::OfMotion { &w.gamma } else { &none };
+        let gamma = if driven { &w.gamma } else { &none };
         self.kkt.solve(&w.force, gamma, &mut free.a, &mut free.lambda);
         let gradients: Vec<Vec<f64>> = resting.iter().map(|&c| self.gradient(m.contacts[c].along)).collect();
         let responses: Vec<Response> = gradients.iter().map(|g| self.response(g)).collect();
@@ -272,7 +272,10 @@ where
                 .collect();
             let block = DMatrix::from_fn(movable.len(), movable.len(), |i, j| a[(movable[i], movable[j])]);
             let side = DVector::from_fn(movable.len(), |i, _| b[movable[i]]);
-            let (f, found) = solve(&block, &side, &bounded)?;
+            let (mut f, mut found) = solve(&block, &side, &bounded)?;
+            let mut order: Vec<usize> = (0..movable.len()).collect();
+            order.sort_by_key(|i| !first.contains(&resting[movable[*i]]));
+            let moved = basic(&block, &bounded, &mut f, &mut found, &order);
             forces.fill(0.0);
             for (k, &i) in movable.iter().enumerate() {
                 (forces[i], places[i]) = (f[k], found[k]);
@@ -298,7 +301,10 @@ where
                     accelerations.iter_mut().zip(&response.a).for_each(|(x, r)| *x += f * r);
                 }
                 let inertial = accelerations.iter().zip(&self.pattern.metric).fold(0.0, |m, (x, d)| f64::max(m, (x * d).abs()));
-                return Some(Balanced { a, places, determined, rests: inertial <= STILL * largest });
+                let moved = moved.into_iter().map(|k| movable[k]).collect();
+                let spent = |i: usize| i32::from(forces[i] <= -caps[i]) - i32::from(forces[i] >= caps[i]);
+                let spent = (0..n).map(spent).collect();
+                return Some(Balanced { places, moved, spent, determined, rests: inertial <= STILL * largest });
             }
             last = now;
         }
@@ -328,20 +334,13 @@ where
     }
 }
 
-/// Whose accelerations the rows ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Gamma {
-    /// Those of drivers.
-    OfMotion,
-    /// None: drivers stand still.
-    None,
-}
-
 /// Forces of resting contacts as found.
 struct Balanced {
-    /// Their accelerations by unit forces.
-    a: DMatrix<f64>,
     places: Vec<Place>,
+    /// Those that others hold as well: they were set to a bound.
+    moved: Vec<usize>,
+    /// The sense in which a contact begins to slide whose force has reached what it can carry, else 0.
+    spent: Vec<i32>,
     /// The sense in which a contact begins to move whatever its force, 0 if it does not.
     determined: Vec<Option<i32>>,
     /// Whether nothing accelerates.
