@@ -12,6 +12,9 @@ use crate::engine::Why;
 /// An event is early in this part of a step.
 const EARLY: f64 = 0.1;
 
+/// Nearer to the begin it is located to no part of its own.
+const NEAREST: f64 = 1e-9;
+
 /// The step made again is so many times as long as the way to the event.
 const BEHIND: f64 = 1.05;
 
@@ -25,7 +28,7 @@ impl Integration {
         let chosen = !self.engine.is_fixed() && self.bridging.is_none() && !self.scheme.chooses_steps();
         // the rest of a step behind something recorded has been a whole step before
         let whole = self.dense.h <= h * (1.0 + 1e-9);
-        let narrow = theta < EARLY && theta * h > WORTH * shortest(t, self.goal);
+        let narrow = theta < EARLY && theta > NEAREST && theta * h > WORTH * shortest(t, self.goal);
         chosen && whole && narrow && system.pattern().forceful.contains(&root)
     }
 

@@ -10,6 +10,9 @@ use grashof_solvers::kkt::ROUND_OFF;
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
+/// Turns of an angle that are counted; a start beyond them is not met, which is told.
+const MOST_TURNS: f64 = 1e8;
+
 /// Residuals of the rows that a start must satisfy: constraints, then exact values.
 pub(super) struct System<'a, G: Space<S = f64>> {
     pub(super) dynamics: Dynamics<'a, G>,
@@ -77,6 +80,9 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
             let Measured::Turn { winding, .. } = m.gauges[gauge].measured else { continue };
             let turns = ((start.value - self.dynamics.work.readings[gauge].x) / TAU).round();
+            if turns.abs() > MOST_TURNS {
+                continue;
+            }
             self.modes[m.switches + winding] += 2 * turns as i32;
             self.dynamics.work.readings[gauge].x += turns * TAU;
         }

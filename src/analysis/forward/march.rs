@@ -353,8 +353,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             return Ok(());
         };
         // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
-        let parts = if self.plan.fixed_step().is_some() { 1 } else { PARTS };
         let (t, h) = (last.state.t, node.state.t - last.state.t);
+        // a step of a few roundings of time has no parts
+        let whole = self.plan.fixed_step().is_some() || h < 1e3 * f64::EPSILON * node.state.t;
+        let parts = if whole { 1 } else { PARTS };
         if h <= 0.0 {
             // an event at the begin of a step
             return Ok(());
