@@ -19,7 +19,7 @@ mod sheet;
 use by_hand::{ByHand, Drive};
 use cases::{Case, Size};
 use grashof::analysis::forward::is_available;
-use grashof::model::Integrator;
+use grashof::model::{INTEGRATORS, Integrator};
 use grashof_solvers::{Control, Counts, Integration, Method, Progress, Settings, System};
 use sheet::{Series, Sheet, readable};
 use std::time::Instant;
@@ -29,23 +29,9 @@ const ERROR: f64 = 1e-6;
 /// Runs that take longer end a series, s.
 const LONG: f64 = 1.0;
 
-/// All schemes; `ida` takes part where it is built in.
-const SCHEMES: [(&str, Integrator); 10] = [
-    ("dop853", Integrator::Dop853),
-    ("radau5", Integrator::Radau5),
-    ("bdf", Integrator::Bdf),
-    ("auto", Integrator::Auto),
-    ("rk4", Integrator::Rk4),
-    ("newmark", Integrator::Newmark),
-    ("hht", Integrator::Hht),
-    ("generalized-alpha", Integrator::GeneralizedAlpha),
-    ("central-difference", Integrator::CentralDifference),
-    ("ida", Integrator::Ida),
-];
-
 /// The schemes of this build.
 fn schemes() -> impl Iterator<Item = (&'static str, Integrator)> {
-    SCHEMES.into_iter().filter(|(_, by)| is_available(*by))
+    INTEGRATORS.iter().map(|d| (d.name, d.integrator)).filter(|(_, by)| is_available(*by))
 }
 
 fn main() {

@@ -7,7 +7,7 @@
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::progress::Progress;
 use super::run::{Scalars, load};
-use super::schemes::{self, Steps, is_explicit, word};
+use super::schemes::{self, Steps, is_explicit};
 use super::{Common, code, fail, files, say};
 use grashof::analysis::forward;
 use grashof::analysis::outcome::Failure;
@@ -177,8 +177,8 @@ fn refuse(message: &str, help: &str) -> u8 {
 fn integrators(words: &[String]) -> Result<Vec<Integrator>, u8> {
     let mut found = Vec::new();
     for text in words {
-        let Some(integrator) = schemes::named(text.trim()) else {
-            return Err(refuse(&format!("there is no integrator `{}`", text.trim()), &format!("the integrators are {}", schemes::words())));
+        let Some(integrator) = Integrator::named(text.trim()) else {
+            return Err(refuse(&format!("there is no integrator `{}`", text.trim()), &format!("the integrators are {}", schemes::names())));
         };
         if !found.contains(&integrator) {
             found.push(integrator);
@@ -190,7 +190,7 @@ fn integrators(words: &[String]) -> Result<Vec<Integrator>, u8> {
 /// What is compared if nothing is named.
 fn usual(fixed: bool, own: Integrator) -> Vec<Integrator> {
     let mut all = if fixed { BY_STEP.to_vec() } else { BY_TOLERANCE.to_vec() };
-    if !all.contains(&own) && (fixed || own != Integrator::CentralDifference) {
+    if !all.contains(&own) && (fixed || own.description().tolerance) {
         all.insert(0, own);
     }
     all
@@ -200,13 +200,13 @@ fn usual(fixed: bool, own: Integrator) -> Vec<Integrator> {
 fn usable(integrators: &[Integrator], fixed: bool) -> Result<(), u8> {
     if let Some(&missing) = integrators.iter().find(|i| !forward::is_available(**i)) {
         return Err(refuse(
-            &format!("the integrator `{}` (SUNDIALS) is not part of this program", word(missing)),
+            &format!("the integrator `{}` (SUNDIALS) is not part of this program", missing.name()),
             "build it with `cargo build --release --features sundials` (needs cmake, make and clang), or leave it out",
         ));
     }
-    if !fixed && integrators.contains(&Integrator::CentralDifference) {
+    if let Some(stepped) = integrators.iter().find(|i| !fixed && !i.description().tolerance) {
         return Err(refuse(
-            "`central-difference` takes fixed steps, no tolerance",
+            &format!("`{}` takes fixed steps, no tolerance", stepped.name()),
             "give `--steps`, as `--steps 1e-2..1e-4`, or leave it out",
         ));
     }
@@ -374,7 +374,7 @@ impl Bench<'_> {
     fn end(&mut self, by: Integrator, tolerance: f64) -> Result<Vec<f64>, NoReference> {
         let study = schemes::changed(self.model, self.study, self.forward, by, Steps::Tolerance(tolerance), None);
         let ended = self.recorded(&study).map_err(NoReference::Failure)?;
-        if ended.reason.is_empty() { Ok(ended.columns) } else { Err(NoReference::Stopped(format!("`{}`: {}", word(by), ended.reason))) }
+        if ended.reason.is_empty() { Ok(ended.columns) } else { Err(NoReference::Stopped(format!("`{}`: {}", by.name(), ended.reason))) }
     }
 
     /// A run with everything but its time.
@@ -414,7 +414,7 @@ impl Bench<'_> {
         let study = schemes::changed(self.model, self.study, self.forward, by, steps, None);
         let nan = f64::NAN;
         let mut row = Row {
-            integrator: word(by),
+            integrator: by.name(),
             size: steps.size(),
             time: nan,
             counts: [nan; 4],

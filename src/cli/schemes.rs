@@ -1,43 +1,19 @@
-//! Integrators by their words, and studies with another one.
+//! Studies with another integrator.
 
-use grashof::model::{Control, Forward, Integrator, Kind, Model, Study};
+use grashof::model::{Control, Family, Forward, INTEGRATORS, Integrator, Kind, Model, Study};
 
-/// The words of the model file.
-const WORDS: [(&str, Integrator); 10] = [
-    ("auto", Integrator::Auto),
-    ("newmark", Integrator::Newmark),
-    ("hht", Integrator::Hht),
-    ("generalized-alpha", Integrator::GeneralizedAlpha),
-    ("bdf", Integrator::Bdf),
-    ("radau5", Integrator::Radau5),
-    ("dop853", Integrator::Dop853),
-    ("rk4", Integrator::Rk4),
-    ("central-difference", Integrator::CentralDifference),
-    ("ida", Integrator::Ida),
-];
-
-/// The word of an integrator.
-pub(super) fn word(integrator: Integrator) -> &'static str {
-    WORDS.iter().find(|(_, known)| *known == integrator).map_or("", |(word, _)| word)
-}
-
-/// The integrator of a word.
-pub(super) fn named(word: &str) -> Option<Integrator> {
-    WORDS.iter().find(|(known, _)| *known == word).map(|(_, integrator)| *integrator)
-}
-
-/// All words, for a message.
-pub(super) fn words() -> String {
-    WORDS.map(|(word, _)| format!("`{word}`")).join(", ")
+/// All names, for a message.
+pub(super) fn names() -> String {
+    INTEGRATORS.map(|d| format!("`{}`", d.name)).join(", ")
 }
 
 /// Whether it takes accelerations and projects; `auto` begins so.
 pub(super) fn is_explicit(integrator: Integrator) -> bool {
-    matches!(integrator, Integrator::Auto | Integrator::Dop853 | Integrator::Rk4 | Integrator::CentralDifference)
+    integrator.description().family != Family::Implicit
 }
 
 /// An accurate scheme of another family: Radau IIA for explicit ones, Dormand and Prince for all others.
-pub(super) fn witness(integrator: Integrator) -> Integrator {
+pub(super) fn other(integrator: Integrator) -> Integrator {
     if is_explicit(integrator) { Integrator::Radau5 } else { Integrator::Dop853 }
 }
 

@@ -8,7 +8,7 @@
 //! is zero but for rounding so has no digits to lose.
 
 use super::interrupt::interrupted;
-use super::schemes::{self, Steps, word};
+use super::schemes::{self, Steps};
 use grashof::analysis::outcome::{Failure, Outcome};
 use grashof::analysis::run::run;
 use grashof::expression::Dimension;
@@ -104,13 +104,13 @@ fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> R
     };
     let size = size.unwrap_or(1.0);
     let (finer, factor, with) = finer(forward, steps);
-    let witness = schemes::witness(forward.integrator);
-    // a fixed step has no tolerance that the witness could share
+    let other = schemes::other(forward.integrator);
+    // a fixed step has no tolerance that the other scheme could share
     let tight = match steps {
         Steps::Tolerance(x) => (0.1 * x).max(1e-13),
         Steps::Fixed(_) => 1e-10,
     };
-    let others = [(forward.integrator, finer, factor, with), (witness, Steps::Tolerance(tight), 1.0, word(witness).to_string())];
+    let others = [(forward.integrator, finer, factor, with), (other, Steps::Tolerance(tight), 1.0, other.name().to_string())];
     let [a, b] = others.map(|(by, steps, factor, with)| {
         let other = compute(&mut model, by, steps);
         Comparison { model: &model, study, base: &base, size, every, events: forward.locate }.verified(other, factor, with)
@@ -135,13 +135,7 @@ fn finer(forward: &Forward, steps: Steps) -> (Steps, f64, String) {
             (Steps::Tolerance(finer), if finer < x { 1.0 / (1.0 - finer / x) } else { 1.0 }, format!("tolerance {}", short(finer)))
         }
         Steps::Fixed(h) => {
-            let order = match forward.integrator {
-                Integrator::Rk4 => 4,
-                Integrator::Dop853 | Integrator::Auto => 8,
-                Integrator::Radau5 => 5,
-                Integrator::Bdf => forward.order.unwrap_or(1) as i32,
-                _ => 2,
-            };
+            let order = forward.order.unwrap_or(forward.integrator.description().order) as i32;
             (Steps::Fixed(0.5 * h), 1.0 / (1.0 - 0.5f64.powi(order)), format!("a step of {} s", short(0.5 * h)))
         }
     }

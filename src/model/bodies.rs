@@ -69,7 +69,7 @@ pub struct Point {
     pub name: String,
     /// Its position in the body frame, m.
     pub at: PointAt,
-    /// How its own axes stand in the body frame: roll, pitch, yaw, rad; as those of the body if silent.
+    /// How its own axes stand in the body frame: roll, pitch, yaw, rad; as those of the body if omitted.
     pub rpy: Option<[Id; 3]>,
 }
 

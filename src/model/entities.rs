@@ -344,7 +344,7 @@ pub struct FirstOrder {
     pub name: String,
     /// Its dimension, that of `start`.
     pub dimension: Dimension,
-    /// Its value at t = 0, of parameters and tables; 0 if silent.
+    /// Its value at t = 0, of parameters and tables; 0 if omitted.
     pub start: Id,
     /// Its time rate, of positions, velocities, t, springs and states.
     pub rate: Id,

@@ -1,6 +1,7 @@
 //! What a study asks for.
 
 use super::entities::{Model, Place};
+use super::integrator::Integrator;
 use super::vocabulary::Quantity;
 use crate::expression::{Dimension, Id};
 
@@ -211,31 +212,6 @@ pub enum Control {
     Tolerance(Option<Id>),
     /// Fixed, s.
     Step(Id),
-}
-
-/// Schemes for motion in time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Integrator {
-    /// Chosen by the program, explicit first.
-    Auto,
-    /// Newmark's family.
-    Newmark,
-    /// Hilber, Hughes and Taylor.
-    Hht,
-    /// Chung and Hulbert.
-    GeneralizedAlpha,
-    /// Backward differences of order 1 to 5.
-    Bdf,
-    /// Radau IIA of order 5.
-    Radau5,
-    /// Dormand and Prince of order 8.
-    Dop853,
-    /// The classical Runge-Kutta scheme.
-    Rk4,
-    /// Central differences.
-    CentralDifference,
-    /// IDA of SUNDIALS.
-    Ida,
 }
 
 /// Which constraint rows an integrator imposes.

@@ -2,7 +2,7 @@
 
 mod studies;
 
-pub(crate) use studies::{INTEGRATORS, MOST_RUNS, STUDY, STUDY_KINDS};
+pub(crate) use studies::{MOST_RUNS, STUDY, STUDY_KINDS};
 
 use super::fields::Shape::{Count, Either, Flag, Formula, Later, List, Map, Name, Named, Patch, Text, Value, Word};
 use super::fields::{Choice, Field, Keys, Shape, Size, Table, Want};
@@ -116,8 +116,8 @@ static INCLUDE: Table = Table {
     choices: &[],
     fields: &[
         need("urdf", Text, "URDF file, by its path from this file."),
-        may("prefix", Text, "In front of every name of the robot; nothing if silent."),
-        may("at", List(&LENGTH, Size::Exactly(3)), "Place of the root in the world; the origin if silent."),
+        may("prefix", Text, "In front of every name of the robot; nothing if omitted."),
+        may("at", List(&LENGTH, Size::Exactly(3)), "Place of the root in the world; the origin if omitted."),
         may("rpy", ROLL_PITCH_YAW, "Orientation of the root: turned about the world's x, then y, then z."),
         may("base", Word(&["fixed", "free"]), "Whether the root is fixed to the ground."),
         may("stops", Flag, "Make end stops of the position limits."),
@@ -171,9 +171,9 @@ static BAR: Table = Table {
         may("length", LENGTH, "Length."),
         may("from", POSITION, "Start of a bar drawn in place, world coordinates."),
         may("to", POSITION, "End of a bar drawn in place, world coordinates."),
-        may("mass", MASS, "Mass; 0 if silent."),
-        may("width", LENGTH, "In space: size along y; thin if silent."),
-        may("height", LENGTH, "In space: size along z; thin if silent."),
+        may("mass", MASS, "Mass; 0 if omitted."),
+        may("width", LENGTH, "In space: size along y; thin if omitted."),
+        may("height", LENGTH, "In space: size along z; thin if omitted."),
     ],
 };
 
@@ -182,25 +182,25 @@ static DISC: Table = Table {
     choices: &[],
     fields: &[
         need("radius", LENGTH, "Radius."),
-        may("mass", MASS, "Mass; 0 if silent."),
-        may("thickness", LENGTH, "Thickness; thin if silent."),
+        may("mass", MASS, "Mass; 0 if omitted."),
+        may("thickness", LENGTH, "Thickness; thin if omitted."),
     ],
 };
 
 static PLATE: Table = Table {
     what: "a plate or box",
     choices: &[],
-    fields: &[need("size", List(&LENGTH, Size::Space), "Sizes along the body's axes."), may("mass", MASS, "Mass; 0 if silent.")],
+    fields: &[need("size", List(&LENGTH, Size::Space), "Sizes along the body's axes."), may("mass", MASS, "Mass; 0 if omitted.")],
 };
 
 static BALL: Table =
-    Table { what: "a ball", choices: &[], fields: &[need("radius", LENGTH, "Radius."), may("mass", MASS, "Mass; 0 if silent.")] };
+    Table { what: "a ball", choices: &[], fields: &[need("radius", LENGTH, "Radius."), may("mass", MASS, "Mass; 0 if omitted.")] };
 
 static ATTACHED: Table = Table {
     what: "an attached mass",
     choices: &[],
     fields: &[
-        may("at", Name("a point of the body"), "Point of the body; its origin if silent."),
+        may("at", Name("a point of the body"), "Point of the body; its origin if omitted."),
         may("mass", MASS, "Point mass."),
         may("inertia", FIGURES, "Inertia of a rotor about its own centre."),
     ],
@@ -227,7 +227,7 @@ static JOINT: Table = Table {
         may("universal", ENDS, "Spatial: two crossed hinges, `axes`."),
         may("spherical", ENDS, "Spatial: ball joint."),
         may("axis", DIRECTION, "Axis in the first body's frame."),
-        may("to", DIRECTION, "Spatial: the same axis in the second body's frame; the numbers of `axis` if silent."),
+        may("to", DIRECTION, "Spatial: the same axis in the second body's frame; the numbers of `axis` if omitted."),
         may(
             "rpy",
             ROLL_PITCH_YAW,
@@ -235,7 +235,7 @@ static JOINT: Table = Table {
         ),
         may("axes", List(&DIRECTION, Size::Exactly(2)), "Universal: axis in the first body's frame, axis in the second's."),
         may("pitch", LENGTH, "Screw: advance per turn."),
-        may("length", LENGTH, "Distance: length of the link; as drawn if silent."),
+        may("length", LENGTH, "Distance: length of the link; as drawn if omitted."),
         may("zero", COORDINATE, "Value of the coordinate where the bodies' axes coincide."),
         may("damping", DAMPING, "Viscous damping of the coordinate."),
         may("friction", Map(&FRICTION), "Dry friction."),
@@ -263,7 +263,7 @@ static BRISTLE: Table = Table {
     choices: &[],
     fields: &[
         need("stiffness", BRISTLE_STIFFNESS, "Stiffness of the bristles."),
-        may("damping", BRISTLE_DAMPING, "Damping of the bristles; 0 if silent."),
+        may("damping", BRISTLE_DAMPING, "Damping of the bristles; 0 if omitted."),
     ],
 };
 
@@ -274,9 +274,9 @@ static LIMITS: Table = Table {
         may("from", COORDINATE, "Lower end."),
         may("to", COORDINATE, "Upper end."),
         may("stiffness", STIFFNESS, "Stiffness of the stop, in N/m or N m/rad."),
-        may("damping", DAMPING, "Damping of the stop, which never pulls; 0 if silent."),
+        may("damping", DAMPING, "Damping of the stop, which never pulls; 0 if omitted."),
         may("restitution", NUMBER, "Of a rigid stop: speed behind a blow by speed before it, 0 to 1."),
-        may("rest_speed", RATE, "A rebound from a rigid stop below this speed counts as rest; 1 mm/s or 1e-3 rad/s if silent."),
+        may("rest_speed", RATE, "A rebound from a rigid stop below this speed counts as rest; 1 mm/s or 1e-3 rad/s if omitted."),
     ],
 };
 
@@ -337,7 +337,7 @@ static LOAD: Table = Table {
         may(
             "frame",
             Name("a body, a point `body.point` with axes of its own, or `world`"),
-            "Body or point whose axes the components are in; `world` if silent.",
+            "Body or point whose axes the components are in; `world` if omitted.",
         ),
     ],
 };
@@ -357,8 +357,8 @@ static SPRING: Table = Table {
         may("force", Formula("a table, or an expression of `stretch` and `t`"), "Law of the force, instead of `stiffness`."),
         may("length", LENGTH, "Free length."),
         may("rest", COORDINATE, "Rest angle or rest position."),
-        may("damping", DAMPING, "Force by rate of stretch; 0 if silent."),
-        may("preload", EFFORT, "Constant added to the force; 0 if silent."),
+        may("damping", DAMPING, "Force by rate of stretch; 0 if omitted."),
+        may("preload", EFFORT, "Constant added to the force; 0 if omitted."),
     ],
 };
 
@@ -368,8 +368,8 @@ static MOTOR: Table = Table {
     fields: &[
         need("joint", JOINT_NAME, "The joint that it turns."),
         may("curve", Name("the name of a table: torque over speed"), "Torque of the motor by its own speed."),
-        may("gear", NUMBER, "Turns of the motor per turn of the joint; 1 if silent."),
-        may("inertia", INERTIA, "Inertia of the rotor before the gear; 0 if silent."),
+        may("gear", NUMBER, "Turns of the motor per turn of the joint; 1 if omitted."),
+        may("inertia", INERTIA, "Inertia of the rotor before the gear; 0 if omitted."),
     ],
 };
 
@@ -406,7 +406,7 @@ static STATE: Table = Table {
     choices: &[],
     fields: &[
         need("rate", Formula("an expression of positions, velocities, t and states"), "Time rate of the state, which it may name."),
-        may("start", ANY, "Value at t = 0, 0 if silent; its unit is that of the state."),
+        may("start", ANY, "Value at t = 0, 0 if omitted; its unit is that of the state."),
     ],
 };
 

@@ -1,7 +1,6 @@
 //! What `compare` writes and prints: CSV, figure, table, JSON.
 
 use super::Compared;
-use crate::cli::schemes::word;
 use crate::cli::tell;
 use grashof::output::{Axis, Curve, Figure, Scale, Staging, json_number, number, render_figure};
 use serde_json::{Value, json};
@@ -30,7 +29,7 @@ impl Compared<'_> {
 
     /// How well the references agree, in a sentence.
     fn references(&self) -> String {
-        let [a, b] = self.references.of.map(|(by, tolerance)| format!("{} at {tolerance:e}", word(by)));
+        let [a, b] = self.references.of.map(|(by, tolerance)| format!("{} at {tolerance:e}", by.name()));
         match self.references.agree {
             Some(off) => format!("references: {a} (for implicit integrators) and {b} (for explicit ones) agree to {off:.1e}"),
             None => format!(
@@ -129,7 +128,7 @@ pub(super) fn json(compared: &Compared<'_>) -> String {
         .references
         .of
         .iter()
-        .map(|(by, tolerance)| json!({ "integrator": word(*by), "tolerance": json_number(*tolerance) }))
+        .map(|(by, tolerance)| json!({ "integrator": *by.name(), "tolerance": json_number(*tolerance) }))
         .collect();
     let all = json!({
         "study": compared.study.name,

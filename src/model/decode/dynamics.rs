@@ -3,28 +3,10 @@
 use super::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::fault::{At, Fault, Spot};
+use crate::model::integrator::{Family, INTEGRATORS, Integrator};
 use crate::model::merge::Node;
 use crate::model::rules::Rule;
-use crate::model::study::{Chart, Control, Forward, Integrator, Level};
-use crate::model::tables::INTEGRATORS;
-
-/// Integrators in the order of their words.
-const SCHEMES: [Integrator; 10] = [
-    Integrator::Auto,
-    Integrator::Newmark,
-    Integrator::Hht,
-    Integrator::GeneralizedAlpha,
-    Integrator::Bdf,
-    Integrator::Radau5,
-    Integrator::Dop853,
-    Integrator::Rk4,
-    Integrator::CentralDifference,
-    Integrator::Ida,
-];
-
-/// Keys that belong to some integrators alone.
-const OWN: [(&str, &[&str]); 4] =
-    [("alpha", &["newmark", "hht"]), ("beta", &["newmark"]), ("rho", &["generalized-alpha"]), ("order", &["bdf"])];
+use crate::model::study::{Chart, Control, Forward, Level};
 
 /// Largest relative tolerance.
 const LOOSEST: f64 = 0.1;
@@ -32,13 +14,13 @@ const LOOSEST: f64 = 0.1;
 impl<'n> Decoder<'n> {
     pub(super) fn forward(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<Forward> {
         let word = |key: &str| node.get(key).and_then(Node::text);
-        let chosen = word("integrator").and_then(|word| INTEGRATORS.iter().position(|known| *known == word)).unwrap_or(0);
-        let (name, integrator) = (INTEGRATORS[chosen], SCHEMES[chosen]);
+        let integrator = word("integrator").and_then(Integrator::named).unwrap_or(INTEGRATORS[0].integrator);
+        let name = integrator.name();
         let until = self.duration(node, "until", at, "the time");
         let every = self.duration(node, "every", at, "the time");
         let control = self.control(node, at);
         self.belong(node, at, name);
-        self.step_wanted(node, at, name);
+        self.step_wanted(node, at, integrator);
         let level = match word("level") {
             Some("stabilized") => Some(Level::Stabilized),
             Some("position") => Some(Level::Position),
@@ -80,7 +62,11 @@ impl<'n> Decoder<'n> {
 
     /// Refuses parameters of other integrators.
     fn belong(&mut self, node: Node<'n>, at: &At<'_, 'n>, name: &str) {
-        for (key, owners) in OWN {
+        let mut keys: Vec<&'static str> = INTEGRATORS.iter().flat_map(|d| d.keys).copied().collect();
+        keys.sort_unstable();
+        keys.dedup();
+        for key in keys {
+            let owners: Vec<&str> = INTEGRATORS.iter().filter(|d| d.keys.contains(&key)).map(|d| d.name).collect();
             if node.get(key).is_none() || owners.contains(&name) {
                 continue;
             }
@@ -100,7 +86,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// What cannot do without a fixed step.
-    fn step_wanted(&mut self, node: Node<'n>, at: &At<'_, 'n>, name: &str) {
+    fn step_wanted(&mut self, node: Node<'n>, at: &At<'_, 'n>, integrator: Integrator) {
         if node.get("step").is_some() {
             return;
         }
@@ -108,8 +94,12 @@ impl<'n> Decoder<'n> {
             let fault = self.fault("missing-key", &at.key(key), format!("{what} without a fixed step"), "`step`");
             fault.help = Some(help.to_owned());
         };
-        if name == "central-difference" {
-            wants("integrator", "`central-difference`", "add `step:`, instead of a tolerance; or use `dop853`, which chooses its steps");
+        if !integrator.description().tolerance {
+            wants(
+                "integrator",
+                &format!("`{}`", integrator.name()),
+                "add `step:`, instead of a tolerance; or use `dop853`, which chooses its steps",
+            );
         }
         if node.get("switches").and_then(Node::text) == Some("step-over") {
             wants("switches", "`step-over`", "add `step:`, or locate the switches");
@@ -121,7 +111,7 @@ impl<'n> Decoder<'n> {
 
     /// Refuses a choice of constraint rows where there is none.
     fn level_exists(&mut self, at: &At<'_, 'n>, name: &str, integrator: Integrator, chart: Chart) {
-        let explicit = matches!(integrator, Integrator::Dop853 | Integrator::Rk4 | Integrator::CentralDifference);
+        let explicit = integrator.description().family == Family::Explicit;
         let (message, expected) = if chart == Chart::Minimal {
             ("`level` with `coordinates: minimal`".to_owned(), "no `level`: independent coordinates leave no constraint rows")
         } else if explicit {

@@ -2,6 +2,7 @@
 
 use super::super::fields::Shape::{Count, Either, Flag, Formula, List, Map, Name, Named, Text, Value, Word};
 use super::super::fields::{Keys, Shape, Size, Table, Want};
+use super::super::integrator;
 use super::{ANY, NUMBER, TIME, at_most_one, may, need, one_of};
 
 /// Most intervals of a study.
@@ -88,19 +89,15 @@ static BALANCE: Table = Table {
     ],
 };
 
-/// Integrators by name; the first is the default.
-pub(crate) const INTEGRATORS: [&str; 10] =
-    ["auto", "newmark", "hht", "generalized-alpha", "bdf", "radau5", "dop853", "rk4", "central-difference", "ida"];
-
 static DYNAMICS: Table = Table {
     what: "a dynamics study",
     choices: &[at_most_one(&["tolerance", "step"])],
     fields: &[
         need("until", TIME, "End of the run."),
-        may("every", TIME, "Output step; all steps if silent."),
-        may("tolerance", NUMBER, "Relative tolerance; 1e-8 if silent."),
+        may("every", TIME, "Output step; all steps if omitted."),
+        may("tolerance", NUMBER, "Relative tolerance; 1e-8 if omitted."),
         may("step", TIME, "Fixed step, instead of a tolerance."),
-        may("integrator", Word(&INTEGRATORS), "Scheme."),
+        may("integrator", Word(&integrator::NAMES), "Scheme."),
         may("alpha", NUMBER, "Newmark: weight of the acceleration in the displacement. Hht: its alpha, from -1/3 to 0."),
         may("beta", NUMBER, "Newmark: weight of the acceleration in the velocity."),
         may("rho", NUMBER, "Spectral radius at infinity of generalized-alpha."),
@@ -142,9 +139,9 @@ static PERIODIC: Table = Table {
         may("by", ANY, "By how much."),
         may("through", ANY, "With `over: t`, instead of `by`: an expression; a period ends where it rises through 0 again."),
         need("of", Name("the name of a measure or quantity"), "Whose mean and extremes are found."),
-        may("samples", Count(1, MOST_SAMPLES), "Number of equal intervals of the rows; 360 if silent."),
-        may("tolerance", NUMBER, "Relative tolerance; 1e-12 if silent."),
-        may("settle", TIME, "Run before the search; until two periods are alike if silent, 0: the start is the guess."),
+        may("samples", Count(1, MOST_SAMPLES), "Number of equal intervals of the rows; 360 if omitted."),
+        may("tolerance", NUMBER, "Relative tolerance; 1e-12 if omitted."),
+        may("settle", TIME, "Run before the search; until two periods are alike if omitted, 0: the start is the guess."),
         may("coordinates", Word(&["joint", "cartesian"]), "Coordinates."),
         may("from", Map(&CONTINUED), "A parameter along which the regime is followed to its value in the study."),
     ],
@@ -156,7 +153,7 @@ static CONTINUED: Table = Table {
     fields: &[
         need("vary", Name("the name of a parameter"), "The parameter."),
         need("at", ANY, "Its value at the begin."),
-        may("steps", Count(1, MOST_STEPS), "Number of equal steps; 10 if silent."),
+        may("steps", Count(1, MOST_STEPS), "Number of equal steps; 10 if omitted."),
     ],
 };
 
@@ -186,7 +183,7 @@ static PLOT: Table = Table {
     choices: &[],
     fields: &[
         need("show", List(&COLUMN, Size::AtLeast(1)), "What is drawn."),
-        may("over", COLUMN, "What it is drawn over; the independent variable if silent."),
+        may("over", COLUMN, "What it is drawn over; the independent variable if omitted."),
         may("in", Text, "Unit of the horizontal axis."),
     ],
 };

@@ -41,7 +41,7 @@ pub(crate) enum Base {
 pub(crate) struct Options<'o> {
     /// In front of every name.
     pub(crate) prefix: &'o str,
-    /// Place of the root in the world, m; the origin if silent. As the model says it, expressions included.
+    /// Place of the root in the world, m; the origin if omitted. As the model says it, expressions included.
     pub(crate) at: Option<&'o Value>,
     /// Roll, pitch and yaw of the root, rad.
     pub(crate) rpy: Option<&'o Value>,
