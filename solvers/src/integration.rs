@@ -378,7 +378,7 @@ impl Integration {
                 if !self.settings.locate {
                     self.march_across(system)?;
                 }
-                self.balance(system)?;
+                self.balance(system, false)?;
                 Ok(if ends { Progress::End } else { Progress::Step })
             }
         }

@@ -1,6 +1,6 @@
 //! Stops of joints: rigid ones that throw back and hold, and those with stiffness, against closed forms.
 
-use super::{close, done, drift, last, march, tried};
+use super::{close, done, drift, forms, last, march, tried};
 
 /// Gravity of these tests, m/s².
 const G: f64 = 9.81;
@@ -251,5 +251,41 @@ fn stops_that_give_way_store_energy() {
         let march = march(&outcome);
         assert!(march.loads == 0.0 && march.dampers == 0.0 && march.energy_drift < 1e-7, "{march:?}");
         assert_eq!(march.stops < -0.1, !keeps, "{march:?}");
+    }
+}
+
+#[test]
+fn a_ball_rebounds_from_a_hard_spring_in_every_scheme() {
+    // a contact of 0.3 ms after each flight of 0.9 s: steps of the flight must not swallow it, nor implicit schemes damp it
+    let (g, k): (f64, f64) = (9.81, 1e8);
+    let lowest = -(g / k + ((g / k).powi(2) + 2.0 * g / k).sqrt());
+    let loose = ["1e-4", "1e-6"].map(|tolerance| (format!("integrator: radau5, tolerance: {tolerance}"), tolerance.parse().unwrap()));
+    for (of, tolerance) in forms().filter(|(of, _)| of.contains("tolerance")).chain(loose) {
+        let text = format!(
+            "grashof: 1
+name: ball
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: {{ ball: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, ball.origin], axis: [0, 1], limits: {{ from: 0 m, stiffness: 1e8 N/m }} }} }}
+start: {{ S.position: 1 m, S.velocity: 0 m/s }}
+studies:
+  fall:
+    dynamics: {{ until: 10 s, every: 0.5 s, {of} }}
+    columns: [time, S.position]
+    scalars: {{ low: min(S.position), high: \"value(S.position, 9.9296 s)\", stops: work_stops }}
+"
+        );
+        let outcome = done(&text, "fall");
+        let [low, high, stops] = outcome.scalars[..] else { panic!("three scalars") };
+        close(&format!("lowest, {of}"), low, lowest, 1e-2 * tolerance.max(1e-6));
+        assert!(drift(&outcome) < 1e3 * tolerance.max(1e-8), "{of}: {}", drift(&outcome));
+        close(&format!("work of the stop, {of}"), stops, 0.0, 1e-6);
+        assert_eq!(outcome.switches.len(), 22, "{of}");
+        // eleven flights of 2 √(2/g) and contacts of (π + 2 atan(g/(ω v)))/ω later it is at the top once more
+        let (v, w) = ((2.0 * g).sqrt(), k.sqrt());
+        let period = 2.0 * v / g + (std::f64::consts::PI + 2.0 * (g / (w * v)).atan()) / w;
+        let off = 9.9296 - 11.0 * period;
+        close(&format!("at the top, {of}"), high, 1.0 - 0.5 * g * off * off, 2e4 * tolerance);
     }
 }

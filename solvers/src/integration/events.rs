@@ -234,7 +234,7 @@ impl Integration {
             self.node.state.modes.copy_from_slice(&self.last.state.modes);
             self.engine.settle(system, &mut self.node)?;
         }
-        self.balance(system)?;
+        self.balance(system, true)?;
         self.before.copy_from(&self.node);
         self.crossed.clear();
         self.engine.counts.events += 1;

@@ -16,6 +16,9 @@ const MOST_HALVINGS: usize = 12;
 const FREE: usize = 500;
 const STEPS_TO_A_HALVING: usize = 20;
 
+/// Where a step that ends at a root has not reached it yet.
+const NEAR_SIDE: f64 = 1.0 - 1e-9;
+
 /// Part of the powers of all forces, those included that store energy, that is round-off of their differences.
 const NOISE: f64 = 1e-13;
 
@@ -23,8 +26,9 @@ const NOISE: f64 = 1e-13;
 pub(super) const NODES: usize = 5;
 
 impl Integration {
-    /// Adds ∫ power dt over the last step.
-    pub(super) fn balance(&mut self, system: &mut dyn System) -> Result<(), Why> {
+    /// Adds ∫ power dt over the last step, which ends at a root or not: a root lies on its far side, where forces still follow the
+    /// law of the near side, and energies no longer do.
+    pub(super) fn balance(&mut self, system: &mut dyn System, at_root: bool) -> Result<(), Why> {
         let of = system.pattern().power;
         if !self.settings.balance || of == Power::Zero {
             return Ok(());
@@ -35,7 +39,7 @@ impl Integration {
         let apart = 3.0 * if self.engine.is_fixed() { 1e-8 } else { self.engine.tolerance() }.powf(5.0 / 9.0);
         let inner = 0.5 - 0.5 * (3.0_f64 / 7.0).sqrt();
         let (end, side, middle) = (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0);
-        let (places, weights) = ([0.0, inner, 0.5, 1.0 - inner, 1.0], [end, side, middle, side, end]);
+        let (places, weights) = ([0.0, inner, 0.5, 1.0 - inner, if at_root { NEAR_SIDE } else { 1.0 }], [end, side, middle, side, end]);
         let count = self.work.len();
         let forces = self.engine.terms.force.iter().zip(&self.node.state.v);
         let noise = NOISE * forces.map(|(f, v)| (f * v).abs()).sum::<f64>();

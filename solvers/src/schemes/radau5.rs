@@ -53,6 +53,8 @@ pub(super) struct Radau5 {
     h: f64,
     error: f64,
     before: Option<[f64; 2]>,
+    /// The begin and the events so far.
+    restarts: usize,
     /// Whether a trial from this node has failed.
     rejected: bool,
     continuous: Continuous,
@@ -69,6 +71,7 @@ impl Radau5 {
             h: 0.0,
             error: 0.0,
             before: None,
+            restarts: 0,
             rejected: false,
             continuous: Continuous::new(dims),
         }
@@ -80,6 +83,10 @@ impl Radau5 {
         let mut error = scale * self.estimate.norm(system, engine, from, &mut self.stages, h);
         if error >= 1.0 && (self.before.is_none() || self.rejected) {
             error = scale * self.estimate.again(system, engine, from, &mut self.stages, h)?;
+        }
+        // behind an event forces may be far stiffer than before
+        if self.before.is_none() && self.restarts > 1 {
+            error = error.max(scale * self.estimate.unfiltered(system, engine, from, &self.stages, h));
         }
         if error.is_finite() { Ok(error) } else { Err(Why::Newton) }
     }
@@ -96,6 +103,7 @@ impl Scheme for Radau5 {
     fn restart(&mut self, _: &mut dyn System, _: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
         self.stages.forget();
         (self.before, self.rejected) = (None, false);
+        self.restarts += 1;
         Ok(())
     }
 

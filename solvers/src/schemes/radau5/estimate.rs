@@ -51,7 +51,15 @@ impl Estimate {
     /// Norm of the error of the step of size `h` from `from` with the given stages, 1 at the tolerance.
     pub(super) fn norm(&mut self, system: &mut dyn System, engine: &Engine, from: &Node, stages: &mut Stages, h: f64) -> f64 {
         self.scratch.copy_from(from);
+        self.difference(system, from, stages, h);
         self.filter(system, engine, from, stages, h)
+    }
+
+    /// The same without the filter, which takes for damped what a stiff force without damping throws back: a rebound.
+    pub(super) fn unfiltered(&mut self, system: &mut dyn System, engine: &Engine, from: &Node, stages: &Stages, h: f64) -> f64 {
+        self.scratch.copy_from(from);
+        self.difference(system, from, stages, h);
+        engine.norm(&from.state, &self.q, &self.v, &self.z)
     }
 
     /// The same from y₀ + x, x being the error found by [`norm`](Self::norm).
@@ -71,11 +79,12 @@ impl Estimate {
             x.iter_mut().zip(e).for_each(|(x, e)| *x += e);
         }
         engine.accelerate(system, &mut self.scratch)?;
+        self.difference(system, from, stages, h);
         Ok(self.filter(system, engine, from, stages, h))
     }
 
-    /// e from the rates of `scratch` and the stages, then x.
-    fn filter(&mut self, system: &mut dyn System, engine: &Engine, from: &Node, stages: &mut Stages, h: f64) -> f64 {
+    /// e from the rates of `scratch` and the stages.
+    fn difference(&mut self, system: &mut dyn System, from: &Node, stages: &Stages, h: f64) {
         let begin = &self.scratch;
         system.rate(begin.state.t, &begin.state.q, &begin.state.v, &mut self.rate);
         let [s0, s1, s2] = &stages.stage;
@@ -94,6 +103,10 @@ impl Estimate {
         for i in 0..self.z.len() {
             self.z[i] = h * (BEGIN * begin.zdot[i] + r0 * s0.zdot[i] + r1 * s1.zdot[i] + r2 * s2.zdot[i]);
         }
+    }
+
+    /// x from e.
+    fn filter(&mut self, system: &mut dyn System, engine: &Engine, from: &Node, stages: &mut Stages, h: f64) -> f64 {
         self.solve(stages, h);
         // x_q = e_q + N (c x_v + P η)
         let c = h / REAL;
