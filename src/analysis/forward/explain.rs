@@ -27,7 +27,7 @@ where
             format!("at t = {t:.6} s {}", cause(mechanism, &Why::Friction))
         }
         Why::Zeno(root) => format!(
-            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; smooth the switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
+            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; give friction as `friction` of a joint or as a clutch, which stick, smooth another switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
             root_name(model, system, root)
         ),
         Why::Unresolved(root) => format!(
