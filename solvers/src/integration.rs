@@ -6,8 +6,9 @@
 
 use crate::dense_output::Dense;
 use crate::engine::{Control, Engine, Node, Why};
-use crate::scheme::{Level, Scheme};
+use crate::scheme::Scheme;
 use crate::schemes::{self, Method};
+use crate::settings::Settings;
 use crate::{Sigma, State, System};
 use foresight::{Foresight, shortest};
 use resolve::{NODES, Resolver};
@@ -21,36 +22,6 @@ mod repeat;
 mod resolve;
 mod work;
 mod zeno;
-
-/// How a run is to be computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// The scheme.
-    pub method: Method,
-    /// Which constraint rows an implicit scheme imposes.
-    pub level: Level,
-    /// Tolerance or steps.
-    pub control: Control,
-    /// Whether switches are located; else the modes are taken anew from each state, and a step may march across.
-    pub locate: bool,
-    /// Whether the work of [`System::power`] is integrated.
-    pub balance: bool,
-    /// Most steps of a run.
-    pub most_steps: usize,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            method: Method::Auto,
-            level: Level::Stabilized,
-            control: Control::Tolerance(1e-8),
-            locate: true,
-            balance: false,
-            most_steps: 50_000_000,
-        }
-    }
-}
 
 /// What an advance has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -400,7 +371,7 @@ impl Integration {
             let t = self.node.state.t;
             let mut h = match self.settings.control {
                 Control::Steps(steps) => steps[self.turn % 2],
-                Control::Tolerance(_) => self.h,
+                Control::Tolerance(_) => self.h.min(self.settings.longest),
             };
             let itself = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some()).chooses_steps();
             // a last step that is a little longer saves a very short one

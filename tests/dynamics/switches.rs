@@ -140,3 +140,35 @@ studies: {{ run: {{ dynamics: {{ until: 1 s, {scheme} }}, columns: [time, P.velo
     }
     verdict.give("square waves");
 }
+
+/// A smooth force far from everything else that acts: where nothing acts an error allows any step, but not one beyond it.
+#[test]
+fn a_smooth_force_behind_a_long_flight_is_met() {
+    let mut verdict = Verdict::default();
+    for place in [1.0, 5.0] {
+        for width in [0.02, 0.05, 0.1] {
+            // those that evaluate many places in a step
+            for scheme in &SCHEMES[..3] {
+                let text = format!(
+                    "grashof: 1
+name: flight
+space: planar
+gravity: none
+bodies: {{ b: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, b.origin], axis: [1, 0] }} }}
+loads: {{ f: {{ joint: S, force: \"-{} N*exp(-((S.position - {place} m)/{width} m)^2)\" }} }}
+start: {{ S.position: 0 m, S.velocity: 3 m/s }}
+studies: {{ run: {{ dynamics: {{ until: 2.5 s, {scheme} }}, columns: [time, S.velocity] }} }}
+",
+                    2.0 / width
+                );
+                let table = run_text(&text, &["--no-plots"]).succeeded().table("run");
+                let found = table.rows.last().map_or(f64::NAN, |row| row[1]);
+                // what the force takes: the area below it, all but a part 1e-12
+                let right = f64::sqrt(9.0 - 4.0 * PI.sqrt());
+                verdict.close(&format!("velocity behind {width} m at {place} m"), scheme, found, right, 2e-3);
+            }
+        }
+    }
+    verdict.give("flight");
+}

@@ -19,10 +19,10 @@
 use crate::System;
 use crate::dense_output::Dense;
 use crate::engine::{Control, Engine, Node, Rejected, Why};
-use crate::integration::Settings;
 use crate::matrix::Coefficients;
 use crate::newton::{Implicit, Newton, Place, Unknown};
 use crate::scheme::{Level, Scheme};
+use crate::settings::Settings;
 use control::ORDER;
 use history::History;
 use start::Start;

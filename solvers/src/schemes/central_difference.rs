@@ -20,10 +20,10 @@
 
 use crate::dense_output::Dense;
 use crate::engine::{Engine, Node, Rejected, Why};
-use crate::integration::Settings;
 use crate::matrix::Coefficients;
 use crate::newton::{Implicit, Newton, Place, Unknown};
 use crate::scheme::{Level, Scheme};
+use crate::settings::Settings;
 use crate::{Span, Stage, State, System};
 
 /// Central differences.

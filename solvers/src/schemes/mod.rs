@@ -1,8 +1,8 @@
 //! The schemes, and how one is chosen.
 
 use crate::System;
-use crate::integration::Settings;
 use crate::scheme::Scheme;
+use crate::settings::Settings;
 
 #[cfg(not(feature = "sundials"))]
 mod absent;

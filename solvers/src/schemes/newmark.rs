@@ -27,10 +27,10 @@
 use crate::System;
 use crate::dense_output::Dense;
 use crate::engine::{Control, Engine, Node, Rejected, Why};
-use crate::integration::Settings;
 use crate::matrix::Coefficients;
 use crate::newton::{Implicit, Newton, Place, Unknown};
 use crate::scheme::{Level, Scheme};
+use crate::settings::Settings;
 
 /// The parameters of a member of the family.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,8 +11,8 @@
 use crate::System;
 use crate::dense_output::Dense;
 use crate::engine::{Engine, Node, Rejected, Why};
-use crate::integration::Settings;
 use crate::scheme::{Level, Scheme};
+use crate::settings::Settings;
 use continuous::Continuous;
 use estimate::Estimate;
 use stages::Stages;

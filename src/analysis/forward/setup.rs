@@ -38,6 +38,10 @@ pub(in crate::analysis) fn resolution(control: Control) -> f64 {
     }
 }
 
+/// Steps to a motion at least: where nothing acts an error allows any step, and what acts behind it must be met. With the stages of a
+/// step places are then about as near to each other as the first looks at a driven motion.
+const LONGEST: f64 = 20.0;
+
 /// Tolerance of a study that gives none.
 const TOLERANCE: f64 = 1e-8;
 
@@ -106,7 +110,15 @@ pub(super) fn plan(model: &Model, study: &Study, forward: &Forward, parameters: 
     Ok(Plan {
         until,
         every,
-        settings: Settings { method, level, control, locate: forward.locate, balance: true, ..Settings::default() },
+        settings: Settings {
+            method,
+            level,
+            control,
+            locate: forward.locate,
+            balance: true,
+            longest: until / LONGEST,
+            ..Settings::default()
+        },
         coordinates: if forward.chart == Chart::Cartesian { Coordinates::Cartesian } else { Coordinates::Joint },
         minimal: forward.chart == Chart::Minimal,
     })
