@@ -15,7 +15,7 @@ pub struct Settings {
     pub control: Control,
     /// Whether switches are located; else the modes are taken anew from each state, and a step may march across.
     pub locate: bool,
-    /// Whether the work of [`System::power`] is integrated.
+    /// Whether the work of [`System::power`](crate::System::power) is integrated.
     pub balance: bool,
     /// Longest step with error control, s: a force that no step evaluates is not seen.
     pub longest: f64,
