@@ -1,9 +1,7 @@
 //! Evaluations allocate nothing once their scratch is made.
 
-mod common;
-
+use crate::common::{State, mechanism, model};
 use allocation_counter::measure;
-use common::{State, mechanism, model};
 use grashof::analysis::assemble::assemble;
 use grashof::analysis::driven::Driven;
 use grashof::analysis::observe::Observer;

@@ -1,16 +1,12 @@
 //! The branch of a linkage is the one that the guesses lie on; what a start leaves open does not depend on coordinates and cuts.
 
-#[path = "assembly/alike.rs"]
 mod alike;
-#[path = "assembly/change.rs"]
 mod change;
-mod common;
-#[path = "assembly/open.rs"]
 mod open;
-#[path = "assembly/universal.rs"]
 mod universal;
 
-use common::Noise;
+use crate::common;
+use crate::common::Noise;
 use grashof::mechanism::Coordinates;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,15 +1,12 @@
 //! The crank-rocker by the program, against the reference values and against the closed form for other parameters.
 
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-#[path = "assignment/parameters.rs"]
 mod parameters;
-mod reference;
 
-use closed_form::crank_rocker::{COLUMNS, CrankRocker, Load, Parameters};
+use crate::closed_form::crank_rocker::{COLUMNS, CrankRocker, Load, Parameters};
+use crate::reference;
+use crate::reference::program::{Run, Table, model, run, run_text};
+use crate::reference::{Verdict, number, turning};
 use parameters::{load_beside, switched};
-use reference::program::{Run, Table, model, run, run_text};
-use reference::{Verdict, number, turning};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

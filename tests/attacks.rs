@@ -1,28 +1,17 @@
 //! Standing attacks: inputs made by chance, and laws that must hold for all of them.
 //!
-//! Each is short here. `GRASHOF_CASES=100000 GRASHOF_SEED=7 cargo test --release --test attacks -- --nocapture NAME` makes more
+//! Each is short here. `GRASHOF_CASES=100000 GRASHOF_SEED=7 cargo test --release --test all -- --nocapture NAME` makes more
 //! cases of one of them and tells how many; `GRASHOF_PATIENCE=5` gives seconds to a damaged file. `docs/reliability.md` has what
 //! long runs found.
 
-#[path = "common/mod.rs"]
-mod common;
-#[path = "attacks/dice.rs"]
-mod dice;
-#[path = "attacks/expressions.rs"]
+pub(crate) mod dice;
 mod expressions;
-#[path = "attacks/extremes.rs"]
 mod extremes;
-#[path = "attacks/files.rs"]
 mod files;
-#[path = "attacks/formula.rs"]
 mod formula;
-#[path = "attacks/friction.rs"]
 mod friction;
-#[path = "attacks/kills.rs"]
 mod kills;
-#[path = "attacks/mechanisms.rs"]
 mod mechanisms;
-#[path = "attacks/motion.rs"]
 mod motion;
 
 use dice::Dice;

@@ -1,13 +1,11 @@
 //! Bad models and bad arguments, each with the exact text that a person gets to read.
 //!
 //! `tests/bad/NAME.yaml` is run by the real program, in that directory; what it says on stderr is `tests/bad/NAME.txt`.
-//! After an intended change of a message: `GRASHOF_BLESS=1 cargo test --test bad_models`, then read the difference.
+//! After an intended change of a message: `GRASHOF_BLESS=1 cargo test --test all bad_models`, then read the difference.
 
-#[path = "attacks/dice.rs"]
-mod dice;
-#[path = "bad_models/lists.rs"]
 mod lists;
 
+use crate::attacks::dice;
 use lists::{ARGUMENTS, FILES};
 use std::collections::BTreeSet;
 use std::fs;

@@ -7,14 +7,10 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-#[path = "cli/codes.rs"]
 mod codes;
-#[path = "cli/others.rs"]
 mod others;
 #[cfg(unix)]
-#[path = "cli/signals.rs"]
 mod signals;
-#[path = "cli/streams.rs"]
 mod streams;
 
 /// A small four-bar with two studies and a sweep; `{}` stands for further lines of the study `turn`.

@@ -1,7 +1,6 @@
 //! Couplings by expressions that switch: T = f(S) on the side of the switch on which S is, in every kind of study.
 
-mod common;
-
+use crate::common;
 use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
 

@@ -1,20 +1,12 @@
 //! Motion in time by the program: reference values, reduced equations, agreement of coordinates, energies, events, faults.
 
-#[path = "dynamics/agreement.rs"]
 mod agreement;
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-#[path = "dynamics/crank_rocker.rs"]
 mod crank_rocker;
-#[path = "dynamics/events.rs"]
 mod events;
-#[path = "dynamics/faults.rs"]
 mod faults;
-mod reference;
-#[path = "dynamics/switches.rs"]
 mod switches;
 
-use reference::program::{Run, Table};
+use crate::reference::program::{Run, Table};
 
 /// A scalar of a study.
 fn scalar(run: &Run, study: &str, name: &str) -> f64 {

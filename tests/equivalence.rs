@@ -1,8 +1,7 @@
 //! Two roads, one answer: tree coordinates and cartesian ones, any joint cut, the plane and space.
 
-mod common;
-
-use common::{columns, study};
+use crate::common;
+use crate::common::{columns, study};
 use grashof::analysis::outcome::Outcome;
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;

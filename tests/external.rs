@@ -1,10 +1,8 @@
 //! Mechanisms of other simulators with their published results, and problems with references of many digits: `external/cases.json`.
 //!
-//! `GRASHOF_BLESS=1 cargo test --test external` writes `docs/verification.md` and its pictures anew.
+//! `GRASHOF_BLESS=1 cargo test --test all external` writes `docs/verification.md` and its pictures anew.
 
-#[path = "external/cases.rs"]
 mod cases;
-#[path = "external/manual.rs"]
 mod manual;
 
 use cases::{Comparison, comparisons};

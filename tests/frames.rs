@@ -1,9 +1,7 @@
 //! A motion is the same wherever it takes place and however fast it travels as a whole: what a mechanism does at the origin it does
 //! at 1,000 km from there, and at 1 km/s, in the same steps and to the rounding of its coordinates.
 
-mod common;
-
-use common::study;
+use crate::common::study;
 use grashof::mechanism::Coordinates;
 
 /// Shift, m, and velocity, m/s.

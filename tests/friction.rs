@@ -1,19 +1,13 @@
 //! Friction and contact at joints: closed forms, agreement of coordinates, schemes and spaces, energies, faults.
 
-#[path = "friction/bristles.rs"]
 mod bristles;
-#[path = "friction/closed_forms.rs"]
 mod closed_forms;
-#[path = "friction/clutches.rs"]
 mod clutches;
-mod common;
-#[path = "friction/equivalence.rs"]
 mod equivalence;
-#[path = "friction/sticking.rs"]
 mod sticking;
-#[path = "friction/stops.rs"]
 mod stops;
 
+use crate::common;
 use grashof::analysis::outcome::{Certificate, Failure, March, Outcome};
 use grashof::analysis::run::run;
 use grashof::analysis::sweep;

@@ -1,8 +1,7 @@
 //! Joints, drivers and couplings against closed forms, and classic mechanisms against reference numbers (`reference/README.md`).
 
-mod common;
-
-use common::{close, columns, study};
+use crate::common;
+use crate::common::{close, columns, study};
 use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
 use serde_json::Value;

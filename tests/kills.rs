@@ -2,7 +2,7 @@
 //! what is on the way, and the next run brings the set and clears what the dead one left.
 //!
 //! The number of kills is that of `GRASHOF_KILLS` (24 if silent), the seed of their instants that of `GRASHOF_SEED`:
-//! `GRASHOF_KILLS=500 GRASHOF_SEED=7 cargo test --test kills -- --nocapture`.
+//! `GRASHOF_KILLS=500 GRASHOF_SEED=7 cargo test --test all kills -- --nocapture`.
 
 #![cfg(unix)]
 

@@ -3,9 +3,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "bodies are numbered alike in several arrays")]
 
-mod common;
-
-use common::{Noise, State, accelerate, close, mechanism, react, slope, spin, star_state, twist, vector, wrench};
+use crate::common::{Noise, State, accelerate, close, mechanism, react, slope, spin, star_state, twist, vector, wrench};
 use forces::{along_efforts, along_rows};
 use grashof::dynamics::{self, Dynamics};
 use grashof::geometry::{Force, Motion, Planar, Space, Spatial};
@@ -34,7 +32,6 @@ macro_rules! everywhere {
     };
 }
 
-#[path = "laws/forces.rs"]
 mod forces;
 
 #[test]

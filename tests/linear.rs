@@ -1,8 +1,6 @@
 //! The linearised motion: against differences of accelerations, closed forms, and small motions in time.
 
-mod common;
-
-use common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
+use crate::common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
 use grashof::analysis::assemble::Assembled;
 use grashof::analysis::linear::{Linear, Reduced};
 use grashof::analysis::outcome::{LinearSystem, Outcome};

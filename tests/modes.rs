@@ -1,12 +1,10 @@
 //! Vibrations about a held pose: closed forms, equivalences, the second derivative of energy, and the methods against each other.
 
-#[path = "modes/chains.rs"]
 mod chains;
-mod common;
-#[path = "modes/eigensolvers.rs"]
 mod eigensolvers;
 
-use common::{assembled, close, slope, study};
+use crate::common;
+use crate::common::{assembled, close, slope, study};
 use grashof::analysis::modes::damped::{damped, state_matrix};
 use grashof::analysis::modes::eigen::library;
 use grashof::analysis::modes::held::{Held, Pose, settled};

@@ -1,9 +1,7 @@
 //! Mechanisms that move although their count of freedoms forbids it, in any direction of space: the rows of what is redundant are
 //! round-off, and constrain nothing; small rows that are none do.
 
-mod common;
-
-use common::{Noise, State, columns, mechanism, model};
+use crate::common::{Noise, State, columns, mechanism, model};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::run::run;
 use grashof::analysis::survey::{Survey, survey};

@@ -1,19 +1,13 @@
 //! Periodic regimes: multipliers against closed forms and against differences of the map of a period, regimes against closed forms
 //! and long runs, failures in words.
 
-mod common;
-#[path = "periodic/crank_rocker.rs"]
 mod crank_rocker;
-#[path = "periodic/faults.rs"]
 mod faults;
-#[path = "periodic/linear.rs"]
 mod linear;
-#[path = "periodic/nonlinear.rs"]
 mod nonlinear;
-#[path = "periodic/switches.rs"]
 mod switches;
 
-use common::study;
+use crate::common::study;
 use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
 

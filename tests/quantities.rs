@@ -1,18 +1,13 @@
 //! Quantities of bodies and joints, works of stops, frames of points, point masses and fields of gravity: held to closed forms, to
 //! differences and to other ways of saying the same.
 
-mod common;
-#[path = "quantities/fields.rs"]
 mod fields;
-#[path = "quantities/frames.rs"]
 mod frames;
-#[path = "quantities/points.rs"]
 mod points;
-#[path = "quantities/rates.rs"]
 mod rates;
-#[path = "quantities/stops.rs"]
 mod stops;
 
+use crate::common;
 use grashof::analysis::outcome::{March, Outcome};
 use grashof::mechanism::Coordinates;
 

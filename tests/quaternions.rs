@@ -1,7 +1,6 @@
 //! Quaternions of bodies as quantities: columns that do not jump, couplings and stretches made of them, and their rates.
 
-mod common;
-
+use crate::common;
 use grashof::analysis::outcome::Outcome;
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;

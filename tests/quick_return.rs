@@ -1,12 +1,9 @@
 //! The quick return by the program, against the reference values and against the closed form for other parameters.
 
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-mod reference;
-
-use closed_form::quick_return::{COLUMNS, Parameters, row, time_ratio};
-use reference::program::{Run, model, run};
-use reference::{Verdict, number, turning};
+use crate::closed_form::quick_return::{COLUMNS, Parameters, row, time_ratio};
+use crate::reference;
+use crate::reference::program::{Run, model, run};
+use crate::reference::{Verdict, number, turning};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,15 +1,11 @@
 //! The crank-rocker's steady turn under its motor, flywheels, other speeds and vibrations: `data/regimes.json`, and for other
 //! parameters equations written independently.
 
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-mod reference;
-
-use closed_form::crank_rocker::{CrankRocker, Load, Parameters};
+use crate::closed_form::crank_rocker::{CrankRocker, Load, Parameters};
+use crate::reference::motor;
+use crate::reference::program::{Run, model, run, run_text};
+use crate::reference::{Verdict, number, series};
 use nalgebra::{Matrix3, SymmetricEigen};
-use reference::motor;
-use reference::program::{Run, model, run, run_text};
-use reference::{Verdict, number, series};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! What a study says of its motion does not depend on where it writes rows: extremes, integrals, means, first places and switches
 //! against closed forms, for any number of samples.
 
-mod common;
-
-use common::{model, study};
+use crate::common::{model, study};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::{run::run, sweep};
 use grashof::mechanism::Coordinates;

@@ -1,8 +1,7 @@
 //! What time moves without a driver: couplings, stretches, rests and laws of springs with `t` in them. A coupling is the driver of
 //! the same motion, a spring on a moving place has its closed form, and energies balance with the work that time does.
 
-mod common;
-
+use crate::common;
 use grashof::analysis::outcome::{March, Outcome};
 use grashof::mechanism::Coordinates;
 

@@ -1,16 +1,13 @@
 //! Singular positions are passed with and without redundant rows, in all coordinates and schemes; minimal coordinates that are driven, or
 //! rub, move as joint coordinates do; a damping that is stiff beyond measure is integrated.
 
-mod common;
-
-use common::{columns, model};
+use crate::common::{columns, model};
 use grashof::analysis::outcome::{March, Outcome};
 use grashof::analysis::run::run;
 use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
 use std::fmt::Write;
 
-#[path = "singular/driven.rs"]
 mod driven;
 
 /// Integrators with what they need beside a tolerance, the tolerance, and how many tolerances they may be off where a motion does not

@@ -1,12 +1,8 @@
 //! `solve`: a parameter is varied until a scalar meets its target; against closed forms, and what is told where there is none.
 
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-mod reference;
-
-use closed_form::crank_rocker::{CrankRocker, Parameters};
-use reference::motor;
-use reference::program::{Run, model, run, run_text};
+use crate::closed_form::crank_rocker::{CrankRocker, Parameters};
+use crate::reference::motor;
+use crate::reference::program::{Run, model, run, run_text};
 use std::f64::consts::{PI, TAU};
 
 /// A four-bar whose rocker swings between the angles at which crank and coupler are in line; `{}` stands for its `solve`.

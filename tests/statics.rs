@@ -1,18 +1,12 @@
 //! Equilibria: closed forms, minima of the energy, equality of coordinates and of spaces, rest in motion, what is told.
 
-#[path = "statics/closed_forms.rs"]
 mod closed_forms;
-mod common;
-#[path = "statics/equivalence.rs"]
 mod equivalence;
-#[path = "statics/faults.rs"]
 mod faults;
-#[path = "statics/forces.rs"]
 mod forces;
-#[path = "statics/linkages.rs"]
 mod linkages;
-mod reference;
 
+use crate::common;
 use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
 

@@ -1,8 +1,6 @@
 //! What is undefined stops a study where it happens: with its name, its place in the file, the function and its argument.
 
-mod common;
-
-use common::model;
+use crate::common::model;
 use grashof::analysis::outcome::{Failure, Outcome, Undefined};
 use grashof::analysis::{run::run, sweep};
 use grashof::mechanism::Coordinates;

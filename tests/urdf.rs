@@ -2,13 +2,11 @@
 //! dropped in silence.
 //!
 //! `tests/urdf/refused/NAME.urdf` is refused with the text of `NAME.txt` beside it, `tests/urdf/NAME.urdf` becomes `NAME.yaml`.
-//! After an intended change: `GRASHOF_BLESS=1 cargo test --test urdf`, then read the difference.
+//! After an intended change: `GRASHOF_BLESS=1 cargo test --test all urdf`, then read the difference.
 
-mod common;
-#[path = "urdf/words.rs"]
 mod words;
 
-use common::Noise;
+use crate::common::Noise;
 use grashof::analysis::sweep::parameters;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Spatial;

@@ -1,10 +1,8 @@
 //! `auto`: explicit steps as long as accuracy bounds them, implicit steps where stability would.
 
-mod problems;
-
+use crate::problems::*;
 use allocation_counter::measure;
 use grashof_solvers::{Control, Counts, Integration, Method, Node, Progress, Settings};
-use problems::*;
 
 /// Runs to `end`; the last node, what was spent, and the steps of the implicit scheme.
 fn run<P: Problem>(system: &mut P, method: Method, control: Control, end: f64) -> (Node, Counts, usize) {

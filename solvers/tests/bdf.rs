@@ -1,10 +1,8 @@
 //! Backward differences: orders, errors that follow the tolerance, singular positions, attitudes, events.
 
-mod problems;
-
+use crate::problems::*;
 use allocation_counter::measure;
 use grashof_solvers::{Control, Counts, Integration, Level, Method, Node, Progress, Settings, State, System};
-use problems::*;
 
 const LEVELS: [Level; 4] = [Level::Stabilized, Level::Position, Level::Velocity, Level::Acceleration];
 

@@ -1,11 +1,9 @@
 //! Central differences: the textbook's numbers, order, constraints.
 
-mod problems;
-
+use crate::problems::*;
 use grashof_solvers::{
     At, Control, Dims, Effect, Integration, Method, Pattern, Progress, Settings, Span, Stage, State, System, Tangent, Terms,
 };
-use problems::*;
 
 fn settings(h: f64, other: f64) -> Settings {
     Settings { method: Method::CentralDifference, control: Control::Steps([h, other]), ..Settings::default() }

@@ -1,10 +1,8 @@
 //! The explicit schemes `dop853` and `rk4`: orders, tolerances, singular positions, quaternions, states, long runs.
 
-mod problems;
-
+use crate::problems::*;
 use allocation_counter::measure;
 use grashof_solvers::{Control, Counts, Integration, Method, Node, Progress, Settings, State, System};
-use problems::*;
 
 fn settings(method: Method, control: Control) -> Settings {
     Settings { method, control, ..Settings::default() }

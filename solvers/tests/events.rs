@@ -1,9 +1,7 @@
 //! The loop that drives schemes: ends, steps, continuous output, events.
 
-mod problems;
-
+use crate::problems::*;
 use grashof_solvers::{Control, Integration, Method, Node, Progress, Settings, State, System, Why};
-use problems::*;
 
 #[test]
 fn given_steps_reach_their_order() {

@@ -1,11 +1,9 @@
 //! IDA of SUNDIALS: it follows its tolerance on constrained systems of every kind, and behaves in the loop.
 #![cfg(feature = "sundials")]
 
-mod problems;
-
+use crate::problems::*;
 use allocation_counter::measure;
 use grashof_solvers::{Control, Counts, Engine, Integration, Method, Node, Progress, Scheme, Settings, State, System, schemes};
-use problems::*;
 
 const TOLERANCES: [f64; 7] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 

@@ -1,9 +1,7 @@
 //! Minimal coordinates: pure, consistent with the system inside, of full order with every kind of scheme.
 
-mod problems;
-
+use crate::problems::*;
 use grashof_solvers::{Control, Integration, Method, Minimal, Node, Progress, Settings, Span, Stage, State, System, Tangent, Terms};
-use problems::*;
 
 const TRAPEZOIDAL: Method = Method::Newmark { displacement: 0.25, velocity: 0.5 };
 /// The linear acceleration method, which the positions of constraints would make unstable.

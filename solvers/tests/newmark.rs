@@ -1,9 +1,7 @@
 //! The family of Newmark: orders at every level, error control, energy, singular positions.
 
-mod problems;
-
+use crate::problems::*;
 use grashof_solvers::{Control, Integration, Level, Method, Node, Progress, Settings, System};
-use problems::*;
 
 const LEVELS: [Level; 4] = [Level::Position, Level::Velocity, Level::Stabilized, Level::Acceleration];
 const TRAPEZOIDAL: Method = Method::Newmark { displacement: 0.25, velocity: 0.5 };

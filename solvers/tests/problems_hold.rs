@@ -1,11 +1,10 @@
 //! The test problems are what they claim to be: consistent, differentiated right, in balance, and equal to their references.
 
-mod problems;
 #[path = "problems/references.rs"]
 mod references;
 
+use crate::problems::*;
 use grashof_solvers::{At, Dims, Effect, Span, Sparsity, Stage, State, Tangent, Terms};
-use problems::*;
 
 /// Step of the differences, as a part of the scale: 4e-21 of the seventh derivative lost, 1e-13 of round-off.
 const H: f64 = 4e-4;

@@ -1,10 +1,8 @@
 //! Radau IIA with three stages: orders, tolerances, stiff forces, singular positions, quaternions, states, long runs.
 
-mod problems;
-
+use crate::problems::*;
 use allocation_counter::measure;
 use grashof_solvers::{Control, Counts, Integration, Level, Method, Node, Progress, Settings};
-use problems::*;
 
 const LEVELS: [Level; 4] = [Level::Stabilized, Level::Velocity, Level::Position, Level::Acceleration];
 

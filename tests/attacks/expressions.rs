@@ -1,8 +1,8 @@
 //! Expressions against a second evaluator: as parameters, which are folded to numbers, and as measures over time, with rates.
 
+use super::formula::{Formula, Trace, names};
+use super::{cases, seeded, tell};
 use crate::common::study;
-use crate::formula::{Formula, Trace, names};
-use crate::{cases, seeded, tell};
 use grashof::mechanism::Coordinates;
 use std::fmt::Write;
 use std::panic::catch_unwind;

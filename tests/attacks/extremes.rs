@@ -1,8 +1,8 @@
 //! Extremes, means and integrals of a study against those of a dense table of its own formula.
 
+use super::formula::{Formula, Trace, names};
+use super::{cases, seeded, tell};
 use crate::common::study;
-use crate::formula::{Formula, Trace, names};
-use crate::{cases, seeded, tell};
 use grashof::mechanism::Coordinates;
 
 const NAMES: usize = 3;

@@ -1,7 +1,7 @@
 //! Damages model files and URDF at random and runs what is left of them, in this process.
 
-use crate::dice::Dice;
-use crate::{cases, seeded, setting, tell};
+use super::dice::Dice;
+use super::{cases, seeded, setting, tell};
 use grashof::analysis::run::run;
 use grashof::analysis::survey::survey;
 use grashof::analysis::sweep;

@@ -1,7 +1,7 @@
 //! Formulas made by chance, with their text and a value of their own: a second evaluator that shares nothing with the first.
 
-use crate::dice::Dice;
-use crate::{between, share};
+use super::dice::Dice;
+use super::{between, share};
 
 /// A formula. Names are `p0`, `p1`, ..; its text has no more parentheses than the grammar needs.
 pub(crate) enum Formula {

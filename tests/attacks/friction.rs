@@ -1,8 +1,8 @@
 //! Exact friction made by chance: schemes and coordinates must not matter to what sticks and what slides.
 
-use crate::dice::Dice;
-use crate::motion::{apart, moved};
-use crate::{between, cases, seeded, tell};
+use super::dice::Dice;
+use super::motion::{apart, moved};
+use super::{between, cases, seeded, tell};
 use std::fmt::Write;
 
 /// The first is what the others are compared with, to so much of each column.

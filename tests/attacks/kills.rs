@@ -1,6 +1,6 @@
 //! Kills and full disks while results are written: what stands under the name of a result is whole.
 
-use crate::{cases, seeded, share, tell};
+use super::{cases, seeded, share, tell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,10 +2,10 @@
 //!
 //! All bodies lie on the ground's frame as drawn, so that every joint is closed at coordinate 0, loops included.
 
+use super::dice::Dice;
+use super::motion::{apart, moved};
+use super::{between, cases, seeded, tell};
 use crate::common::columns;
-use crate::dice::Dice;
-use crate::motion::{apart, moved};
-use crate::{between, cases, seeded, tell};
 use std::fmt::Write;
 
 /// A body on its joint, in space; a plane mechanism leaves out z.

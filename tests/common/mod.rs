@@ -1,7 +1,5 @@
 //! What the tests of the mechanics share: models from text, noise, random states, dense linear algebra, differences.
 
-#![allow(dead_code, reason = "each test binary uses a part")]
-
 use grashof::analysis::assemble::{Assembled, assemble};
 use grashof::analysis::outcome::Outcome;
 use grashof::analysis::{run::run, sweep};
@@ -197,20 +195,4 @@ pub(crate) fn star_state<G: Space<S = f64>>(star: &Mechanism<G>, at: &Dynamics<'
         }
     }
     (q, v)
-}
-
-/// Fixes the anchors of drivers, gears and racks so that the rows hold at a position.
-pub(crate) fn anchor<G: Space<S = f64>>(m: &mut Mechanism<G>, t: f64, q: &[f64]) {
-    let phi = {
-        let mut d = Dynamics::new(m);
-        let modes = m.modes();
-        d.time(t, &modes);
-        d.position(q, &modes);
-        d.work.phi
-    };
-    for (row, phi) in m.rows.iter_mut().zip(phi) {
-        if row.anchored {
-            row.offset += phi;
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Coordinates, spaces and integrators agree; energies balance.
 
-use crate::certified;
+use super::certified;
 use crate::reference::Verdict;
 use crate::reference::program::{Run, Table, run_text};
 
@@ -211,7 +211,7 @@ studies:
     let energy = run.table("run").column("energy.total");
     let gain = energy.last().unwrap() - energy[0];
     let figure = |name: &str| certified(&run, "run", name);
-    let scalar = |name: &str| crate::scalar(&run, "run", name);
+    let scalar = |name: &str| super::scalar(&run, "run", name);
     let scale = figure("energy_scale");
     let mut verdict = Verdict::default();
     let works = ["drivers", "loads", "dampers", "stops", "impacts"].map(|of| figure(&format!("work_{of}"))).iter().sum::<f64>();

@@ -1,10 +1,10 @@
 //! The crank-rocker from rest under its motor: `data/motion.json`, and the reduced equation for other parameters.
 
+use super::{doubled, scalar};
 use crate::closed_form::crank_rocker::{CrankRocker, Load, Parameters};
 use crate::reference::motor;
 use crate::reference::program::{Run, Table, model, run, run_text};
 use crate::reference::{Verdict, number, series};
-use crate::{doubled, scalar};
 use serde_json::Value;
 use std::path::Path;
 

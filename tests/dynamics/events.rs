@@ -1,8 +1,8 @@
 //! Events, end stops, dry friction and states against closed forms.
 
+use super::{certified, doubled, scalar};
 use crate::reference::program::{Run, Table, run_text};
 use crate::reference::{Verdict, number};
-use crate::{certified, doubled, scalar};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Runs a planar model of one study `run`.

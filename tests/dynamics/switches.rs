@@ -1,8 +1,8 @@
 //! Switches that come many in a step: conditions of time and of the motion against closed forms, in every scheme.
 
-use super::reference::Verdict;
-use super::reference::program::run_text;
 use super::scalar;
+use crate::reference::Verdict;
+use crate::reference::program::run_text;
 use std::f64::consts::{PI, TAU};
 
 /// Schemes that control their error, and one with a step that is long beside the switches.

@@ -1,6 +1,6 @@
 //! `docs/verification.md` and its pictures, written from what the comparisons found.
 
-use crate::cases::{Comparison, manifest, root};
+use super::cases::{Comparison, manifest, root};
 use grashof::output::{Axis, Curve, Figure, render_figure};
 use std::fmt::Write;
 use std::fs;
@@ -100,7 +100,7 @@ fn section(comparison: &Comparison) -> String {
 
 const HEAD: &str = "# Verification
 
-Mechanisms whose motion, forces or rest were published by others, or computed by independent programs with more digits than a double holds: what the program gives beside what is right. Written by `GRASHOF_BLESS=1 cargo test --test external`; the same test, without the word before it, runs all cases again and fails where one has fewer digits than it must have, or this page states more than there are.
+Mechanisms whose motion, forces or rest were published by others, or computed by independent programs with more digits than a double holds: what the program gives beside what is right. Written by `GRASHOF_BLESS=1 cargo test --test all external`; the same test, without the word before it, runs all cases again and fails where one has fewer digits than it must have, or this page states more than there are.
 
 ## How it is measured
 

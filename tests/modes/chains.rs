@@ -1,7 +1,7 @@
 //! Rows and hanging chains against their closed forms.
 
-use super::common::{close, study};
 use super::{G, codes, eigenvalues, list};
+use crate::common::{close, study};
 use grashof::geometry::Planar;
 use grashof::mechanism::Coordinates;
 use std::f64::consts::PI;

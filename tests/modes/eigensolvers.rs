@@ -1,6 +1,6 @@
 //! Three roads to the eigenvalues of a pair, one answer.
 
-use super::common::Noise;
+use crate::common::Noise;
 use grashof::analysis::modes::eigen::{Eigen, library};
 use grashof::analysis::modes::jacobi::jacobi;
 use grashof::analysis::modes::power::power;

@@ -1,6 +1,6 @@
 //! Why there is no regime, in words.
 
-use super::common::model;
+use crate::common::model;
 use grashof::analysis::outcome::Failure;
 use grashof::analysis::{run::run, sweep};
 use grashof::mechanism::Coordinates;

@@ -102,12 +102,12 @@ studies:
     for gravity in ["[0 m/s^2*x/r, -g*cos(1e-9*y/1 m)]", "{ potential: g*y }"] {
         let field = text(gravity);
         for study in ["falls", "turns", "rests"] {
-            let [a, b] = [&plain, &field].map(|text| super::common::study(text, study, Coordinates::Joint));
+            let [a, b] = [&plain, &field].map(|text| crate::common::study(text, study, Coordinates::Joint));
             for (a, b) in a.rows.iter().flatten().zip(b.rows.iter().flatten()) {
                 near(study, *b, *a, 1e-7 * (1.0 + a.abs()));
             }
         }
-        let [a, b] = [&plain, &field].map(|text| super::common::study(text, "sways", Coordinates::Joint).results[0]);
+        let [a, b] = [&plain, &field].map(|text| crate::common::study(text, "sways", Coordinates::Joint).results[0]);
         near("frequency", b, a, 1e-8 * a);
     }
 }

@@ -112,7 +112,7 @@ start: { a.x: 0 m, a.y: 0 m, a.z: 0 m, b.x: 1.2 m, b.y: 0 m, b.z: 0 m, c.x: 1 m,
 studies:
   fly: { dynamics: { until: 2 s, every: 0.1 s, tolerance: 1e-11 }, columns: [time, com.x, com.z, energy.total] }
 ";
-    let model = super::common::model(text, None);
+    let model = crate::common::model(text, None);
     let mechanism = build::<grashof::geometry::Spatial<f64>>(&model, &parameters(&model), Coordinates::Joint).expect("a mechanism");
     assert_eq!((mechanism.nq, mechanism.nv), (9, 9));
     let run = Columns::of(text, "fly", Coordinates::Joint);
@@ -140,7 +140,7 @@ studies: {{ fall: {{ dynamics: {{ until: 1 s }} }} }}
         )
     };
     let reason = |text: &str| {
-        let model = super::common::model(text, Some("fall"));
+        let model = crate::common::model(text, Some("fall"));
         let study = model.study.clone().expect("the study");
         match run(&model, &study, &parameters(&model), Coordinates::Joint, &|| false) {
             Ok(outcome) => outcome.stopped.unwrap_or_default(),

@@ -155,7 +155,7 @@ studies:
     };
     let energy = |settings: &str| {
         let text = text(settings);
-        let model = super::common::model(&text, Some("swing"));
+        let model = crate::common::model(&text, Some("swing"));
         let study = model.study.clone().expect("the study");
         let outcome = run(&model, &study, &parameters(&model), Coordinates::Joint, &|| false).expect("a run");
         outcome.findings.into_iter().find(|f| f.code == "energy")

@@ -1,7 +1,5 @@
 //! Reference values of `data/assignment.json`, the program's results, and how the two are compared.
 
-#![allow(dead_code, reason = "each test uses its own part")]
-
 pub(crate) mod motor;
 pub(crate) mod program;
 pub(crate) mod turning;

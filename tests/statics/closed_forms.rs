@@ -1,6 +1,6 @@
 //! Equilibria that are known in closed form.
 
-use crate::{all_are, findings, list, near, planar, sorted, zeros};
+use super::{all_are, findings, list, near, planar, sorted, zeros};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const G: f64 = 9.81;
@@ -155,7 +155,7 @@ springs: { s: { joint: B, stiffness: 4 N m/rad } }
 start: { A.angle: 2 deg, B.angle: ~-4 deg, W.position: ~2 m }",
         "",
     );
-    let theta = crate::zero(|x| 4.0 * 4.0 * x - 2.0 * 2.0 * G * x.sin(), 0.5, 3.0);
+    let theta = super::zero(|x| 4.0 * 4.0 * x - 2.0 * 2.0 * G * x.sin(), 0.5, 3.0);
     near(list(&outcome, "equilibria.A.angle")[0], theta, 1e-10);
     assert_eq!(outcome.results, [1.0]);
 }

@@ -1,6 +1,6 @@
 //! The same mechanism in the plane and in space, and bodies that turn freely.
 
-use crate::{all_are, list, near, planar, rest, sorted};
+use super::{all_are, list, near, planar, rest, sorted};
 use grashof::analysis::outcome::Outcome;
 
 const G: f64 = 9.81;
@@ -116,7 +116,7 @@ start: { left.angle: -30 deg }",
         "weight: last(left.fz) + last(right.fz), angle: last(left.angle)",
     );
     // positive angles sink: m g a cos φ = k (φ − φ0)
-    let wanted = crate::zero(|x| 3.0 * G * 0.2 * x.cos() - 2.0 * (x + 100_f64.to_radians()), 0.0, 1.5);
+    let wanted = super::zero(|x| 3.0 * G * 0.2 * x.cos() - 2.0 * (x + 100_f64.to_radians()), 0.0, 1.5);
     near(outcome.scalars[1], wanted, 1e-11);
     near(outcome.scalars[0], 3.0 * G, 1e-9);
     assert_eq!(outcome.results, [1.0]);

@@ -1,6 +1,6 @@
 //! Forces of every kind at rest: motors, states, stops, tables, switches, loads without an energy, friction.
 
-use crate::{all_are, findings, list, near, planar, sorted};
+use super::{all_are, findings, list, near, planar, sorted};
 
 const G: f64 = 9.81;
 

@@ -1,6 +1,6 @@
 //! Closed chains: minima of an energy that is written by hand, redundant rows, what a driver holds.
 
-use crate::{all_are, list, near, planar, rest, run, sorted, zeros};
+use super::{all_are, list, near, planar, rest, run, sorted, zeros};
 
 /// Lengths of the four-bar, m, masses, kg, and its spring.
 const LENGTHS: [f64; 4] = [0.3, 0.5, 0.45, 0.6];
@@ -121,7 +121,7 @@ start: {{ A.angle: 80 deg, table.angle: ~0 deg, B.angle: ~80 deg }}"
             "angle: last(A.angle), fy: last(A.fy) + last(B.fy)",
         )
     };
-    let theta = crate::zero(|x| 5.0 * G * 0.4 * x.cos() - 30.0 * (120_f64.to_radians() - x), 0.0, 3.0);
+    let theta = super::zero(|x| 5.0 * G * 0.4 * x.cos() - 30.0 * (120_f64.to_radians() - x), 0.0, 3.0);
     let two = table("", "");
     near(two.scalars[0], theta, 1e-10);
     near(two.scalars[1], 5.0 * G, 1e-8);

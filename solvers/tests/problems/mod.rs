@@ -3,7 +3,7 @@
 //! Each has a consistent start, an energy whose rate is the sum of its powers, exact tangents, and a closed form or the digits of
 //! a reference. SI units and radians; planar problems have x to the right and y up.
 
-#![allow(dead_code, unused_imports, reason = "each test binary uses a part")]
+#![allow(dead_code, unused_imports, reason = "the benchmark uses a part")]
 
 #[macro_use]
 mod base;
@@ -28,7 +28,6 @@ pub(crate) use car_axis::CarAxis;
 pub(crate) use chain::Chain;
 pub(crate) use explicit::Explicit;
 pub(crate) use linear::{InductanceMotor, StiffPair};
-pub(crate) use linkage::Linkage;
 pub(crate) use linkages::{FourBarTwin, NFourBar, RodChain, SliderCrank};
 pub(crate) use pendulum::{Pendulum, PendulumAngle};
 pub(crate) use skate::Skate;

@@ -98,9 +98,6 @@ pub(crate) struct PendulumAngle {
 }
 
 impl PendulumAngle {
-    /// The period (s).
-    pub(crate) const PERIOD: f64 = PERIOD;
-
     /// The pendulum of A01.
     pub(crate) fn new() -> Self {
         let dims = Dims { q: 1, v: 1, ..Dims::default() };

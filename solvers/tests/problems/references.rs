@@ -1,7 +1,7 @@
 //! The problems meet their references and closed forms when a plain Runge-Kutta method integrates them.
 
+use super::{close, distance, largest};
 use crate::problems::*;
-use crate::{close, distance, largest};
 use grashof_solvers::State;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 

@@ -1,13 +1,10 @@
 //! The hand-written closed forms against the reference values.
 
-#[path = "../benches/closed_form/mod.rs"]
-mod closed_form;
-mod reference;
-
-use closed_form::crank_rocker::{COLUMNS, CrankRocker, Load, Parameters};
-use closed_form::plane::{add, size, sub};
-use closed_form::quick_return;
-use reference::{Verdict, number, turning};
+use crate::closed_form::crank_rocker::{COLUMNS, CrankRocker, Load, Parameters};
+use crate::closed_form::plane::{add, size, sub};
+use crate::closed_form::quick_return;
+use crate::reference;
+use crate::reference::{Verdict, number, turning};
 use std::f64::consts::TAU;
 
 fn index(name: &str) -> usize {

@@ -1,0 +1,41 @@
+//! All tests of the program and its library, in one binary: `cargo test --test all NAME`.
+
+mod allocations;
+mod architecture;
+mod assembly;
+mod assignment;
+mod attacks;
+mod bad_models;
+mod cli;
+#[path = "../benches/closed_form/mod.rs"]
+mod closed_form;
+mod common;
+mod compare;
+mod couplings;
+mod dynamics;
+mod equivalence;
+mod external;
+mod frames;
+mod friction;
+mod hand_written;
+mod joints;
+mod kills;
+mod laws;
+mod linear;
+mod models;
+mod modes;
+mod overconstrained;
+mod periodic;
+mod quantities;
+mod quaternions;
+mod quick_return;
+mod reference;
+mod regimes;
+mod resolution;
+mod rheonomic;
+mod singular;
+mod solve;
+mod statics;
+mod sweep;
+mod undefined;
+mod urdf;
