@@ -18,8 +18,8 @@ mod sheet;
 
 use by_hand::{ByHand, Drive};
 use cases::{Case, Size};
-use grashof::analysis::forward::is_available;
 use grashof::model::{INTEGRATORS, Integrator};
+use grashof::studies::dynamics::is_available;
 use grashof_solvers::{Control, Counts, Integration, Method, Progress, Settings, System};
 use sheet::{Series, Sheet, readable};
 use std::time::Instant;

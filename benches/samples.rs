@@ -10,13 +10,13 @@
 mod closed_form;
 
 use closed_form::crank_rocker::{CrankRocker, Load, Parameters};
-use grashof::analysis::assemble::{Assembled, assemble};
-use grashof::analysis::driven::Driven;
-use grashof::analysis::sweep;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
+use grashof::kinematics::assemble::{Assembled, assemble};
+use grashof::kinematics::driven::Driven;
 use grashof::mechanism::{Coordinates, Mechanism};
 use grashof::model::{Document, Model, Selection};
+use grashof::studies::common::case::parameters;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::path::Path;
@@ -164,7 +164,7 @@ fn model_of(text: &str) -> Model {
 }
 
 fn assembled<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) -> (Mechanism<G>, Assembled) {
-    assemble(model, &sweep::parameters(model), coordinates).unwrap_or_else(|fault| panic!("{}", fault.reason()))
+    assemble(model, &parameters(model), coordinates).unwrap_or_else(|fault| panic!("{}", fault.reason()))
 }
 
 /// One turn of a driven crank, sample by sample: predicted by v h + ½ a h², corrected, then rates, switches, forces, reactions.

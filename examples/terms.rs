@@ -6,11 +6,11 @@
 //! pulls), and the efforts of M a + b, found from the wrenches of the bodies without M. The model must be a tree of joints
 //! with one coordinate each.
 
-use grashof::analysis::sweep::parameters;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Motion, Spatial};
 use grashof::mechanism::{Coordinates, Mechanism, Step, build};
 use grashof::model::{Document, Selection};
+use grashof::studies::common::case::parameters;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{BufRead, Write};

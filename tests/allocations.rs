@@ -2,14 +2,14 @@
 
 use crate::common::{State, mechanism, model};
 use allocation_counter::measure;
-use grashof::analysis::assemble::assemble;
-use grashof::analysis::driven::Driven;
-use grashof::analysis::observe::Observer;
-use grashof::analysis::sweep;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
+use grashof::kinematics::assemble::assemble;
+use grashof::kinematics::driven::Driven;
 use grashof::mechanism::{Coordinates, Mechanism};
 use grashof::model::{Dimensions, Model};
+use grashof::studies::common::case::parameters;
+use grashof::studies::common::observe::Observer;
 
 fn terms<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
     let mut d = Dynamics::new(m);
@@ -45,7 +45,7 @@ fn terms_residuals_reactions_and_energies_allocate_nothing() {
 }
 
 fn sample<G: Space<S = f64>>(model: &Model, coordinates: Coordinates) {
-    let parameters = sweep::parameters(model);
+    let parameters = parameters(model);
     let (m, start) = assemble::<G>(model, &parameters, coordinates).expect("a start");
     let columns: Vec<_> = model.study.as_ref().expect("a study").columns.iter().map(|c| c.value).collect();
     let mut observer = Observer::new(model, &m, &parameters, &columns);

@@ -1,8 +1,8 @@
 //! Couplings by expressions that switch: T = f(S) on the side of the switch on which S is, in every kind of study.
 
 use crate::common;
-use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 
 /// A function of the way x (m), as text and as it is.
 type Law = (&'static str, fn(f64) -> f64);

@@ -2,9 +2,9 @@
 
 use crate::common;
 use crate::common::{columns, study};
-use grashof::analysis::outcome::Outcome;
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 use std::fmt::Write;
 
 /// Of the largest number of a column, or of 1.

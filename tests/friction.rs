@@ -8,10 +8,10 @@ mod sticking;
 mod stops;
 
 use crate::common;
-use grashof::analysis::outcome::{Certificate, Failure, March, Outcome};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
+use grashof::results::{Certificate, Failure, March, Outcome};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 
 /// Settings of every scheme in all coordinates, each with the tolerance of its results.
 fn forms() -> impl Iterator<Item = (String, f64)> {
@@ -25,7 +25,7 @@ fn forms() -> impl Iterator<Item = (String, f64)> {
 fn tried(text: &str, name: &str) -> Result<Outcome, Failure> {
     let model = common::model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false)
+    run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false)
 }
 
 /// A study of a text, run to its end.

@@ -2,8 +2,8 @@
 
 use crate::common;
 use crate::common::{close, columns, study};
-use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

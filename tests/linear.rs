@@ -1,13 +1,13 @@
 //! The linearised motion: against differences of accelerations, closed forms, and small motions in time.
 
 use crate::common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
-use grashof::analysis::assemble::Assembled;
-use grashof::analysis::linear::{Linear, Reduced};
-use grashof::analysis::outcome::{LinearSystem, Outcome};
-use grashof::analysis::partition::preferred;
 use grashof::dynamics::{Dynamics, LANES, Linearizer, Point};
 use grashof::geometry::{Planar, Space, Spatial};
+use grashof::kinematics::assemble::Assembled;
+use grashof::kinematics::linear::{Linear, Reduced};
+use grashof::kinematics::partition::preferred;
 use grashof::mechanism::{Coordinates, Mechanism, Step};
+use grashof::results::{LinearSystem, Outcome};
 use grashof::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
 
@@ -442,7 +442,7 @@ fn what_cannot_be_asked_is_refused_with_its_place() {
 fn preferred_coordinates_are_those_of_the_start() {
     let m = model(&planar(), None);
     let base = Base::<Planar<f64>>::new(&planar());
-    let names = grashof::analysis::coordinates::coordinates(&m, &base.mechanism);
+    let names = grashof::kinematics::coordinates::coordinates(&m, &base.mechanism);
     let own: Vec<&str> = base.reduced().partition.independent.iter().map(|&i| names[i].name.as_str()).collect();
     assert_eq!(own, ["O.angle"]);
 }

@@ -5,15 +5,15 @@ mod eigensolvers;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};
-use grashof::analysis::modes::damped::{damped, state_matrix};
-use grashof::analysis::modes::eigen::library;
-use grashof::analysis::modes::held::{Held, Pose, settled};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::partition::preferred;
 use grashof::dynamics::{Dynamics, LANES, Linearizer};
 use grashof::geometry::{Planar, Space, Spatial};
+use grashof::kinematics::held::{Held, Pose, settled};
+use grashof::kinematics::partition::preferred;
 use grashof::mechanism::{Coordinates, Mechanism};
+use grashof::results::Outcome;
 use grashof::scalar::Dual;
+use grashof::studies::modes::damped::{damped, state_matrix};
+use grashof::studies::modes::eigen::library;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 use std::process::Command;
@@ -357,8 +357,12 @@ fn what_cannot_vibrate_says_so() {
     let text = chains::row(2).replace("b2: { mass: 2 }", "b2: { mass: 0 }");
     let model = common::model(&text, Some("v"));
     let study = model.study.clone().expect("the study");
-    let parameters = grashof::analysis::sweep::parameters(&model);
-    let failure = grashof::analysis::run::run(&model, &study, &parameters, Coordinates::Joint, &|| false).expect_err("no mass");
+    let parameters = grashof::studies::common::case::parameters(&model);
+    let failure =
+        grashof::studies::run::run(grashof::studies::common::case::Case { model: &model, study: &study, parameters: &parameters }, &|| {
+            false
+        })
+        .expect_err("no mass");
     assert!(failure.reason().contains("the motion of `j2.position` moves no mass"), "{}", failure.reason());
 }
 

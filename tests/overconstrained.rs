@@ -2,13 +2,13 @@
 //! round-off, and constrain nothing; small rows that are none do.
 
 use crate::common::{Noise, State, columns, mechanism, model};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::run::run;
-use grashof::analysis::survey::{Survey, survey};
-use grashof::analysis::sweep;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Space, Spatial};
+use grashof::kinematics::survey::{Survey, survey};
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run_in;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -205,7 +205,7 @@ fn linkages() -> Vec<(&'static str, Linkage, Linkage, usize)> {
 
 fn surveyed(text: &str) -> Survey {
     let model = model(text, None);
-    survey(&model, &sweep::parameters(&model)).unwrap_or_else(|f| panic!("{}", f.reason()))
+    survey(&model, &parameters(&model)).unwrap_or_else(|f| panic!("{}", f.reason()))
 }
 
 /// A study of a text, run to its end.
@@ -213,7 +213,7 @@ fn surveyed(text: &str) -> Survey {
 fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
     let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    let outcome = run(&model, &study, &sweep::parameters(&model), coordinates, &|| false);
+    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false);
     let outcome = outcome.unwrap_or_else(|f| panic!("{name}: {}\n{text}", f.reason()));
     assert_eq!(outcome.stopped, None, "{name} stopped\n{text}");
     outcome

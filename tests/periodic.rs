@@ -8,8 +8,8 @@ mod nonlinear;
 mod switches;
 
 use crate::common::study;
-use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 
 const PERIOD: usize = 0;
 const MEAN: usize = 1;

@@ -8,8 +8,8 @@ mod rates;
 mod stops;
 
 use crate::common;
-use grashof::analysis::outcome::{March, Outcome};
 use grashof::mechanism::Coordinates;
+use grashof::results::{March, Outcome};
 
 /// Columns of a study by their names.
 struct Columns {

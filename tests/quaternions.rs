@@ -1,9 +1,9 @@
 //! Quaternions of bodies as quantities: columns that do not jump, couplings and stretches made of them, and their rates.
 
 use crate::common;
-use grashof::analysis::outcome::Outcome;
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 
 fn study(text: &str, name: &str) -> Outcome {
     common::study(text, name, Coordinates::Joint)

@@ -2,9 +2,10 @@
 //! against closed forms, for any number of samples.
 
 use crate::common::{model, study};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::{run::run, sweep};
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 use std::f64::consts::{PI, TAU};
 
 const SAMPLES: [usize; 6] = [1, 2, 3, 10, 100, 3600];
@@ -215,7 +216,7 @@ studies:
         );
         let model = model(&text, Some("swing"));
         let asked = model.study.clone().expect("the study");
-        run(&model, &asked, &sweep::parameters(&model), Coordinates::Joint, &|| false).unwrap_or_else(|f| panic!("{}", f.reason()))
+        run(Case { model: &model, study: &asked, parameters: &parameters(&model) }, &|| false).unwrap_or_else(|f| panic!("{}", f.reason()))
     };
     // coupler and rocker in line
     let end = |reach: f64| ((0.15_f64.powi(2) + 1.0 - reach * reach) / 0.3).acos();

@@ -2,8 +2,8 @@
 //! the same motion, a spring on a moving place has its closed form, and energies balance with the work that time does.
 
 use crate::common;
-use grashof::analysis::outcome::{March, Outcome};
 use grashof::mechanism::Coordinates;
+use grashof::results::{March, Outcome};
 
 fn study(text: &str, name: &str) -> Outcome {
     common::study(text, name, Coordinates::Joint)
@@ -147,8 +147,7 @@ fn equilibria_vibrations_regimes_and_matrices_are_those_of_the_driver() {
                 common::close(&format!("{name}, {}", a.name), &b.values, &a.values, 1e-6);
             }
             if let (Some(a), Some(b)) = (&right.linear, &found.linear) {
-                let numbers =
-                    |of: &grashof::analysis::outcome::LinearSystem| of.matrices.iter().flat_map(|m| m.1.concat()).collect::<Vec<_>>();
+                let numbers = |of: &grashof::results::LinearSystem| of.matrices.iter().flat_map(|m| m.1.concat()).collect::<Vec<_>>();
                 common::close(&format!("{name}, matrices"), &numbers(b), &numbers(a), 1e-7);
             }
         }
@@ -322,8 +321,11 @@ fn laws_that_change_with_time_are_the_loads_they_make() {
 fn refused(text: &str, name: &str) -> String {
     let model = common::model(text, Some(name));
     let asked = model.study.clone().expect("the study");
-    let parameters = grashof::analysis::sweep::parameters(&model);
-    match grashof::analysis::run::run(&model, &asked, &parameters, Coordinates::Joint, &|| false) {
+    let parameters = grashof::studies::common::case::parameters(&model);
+    match grashof::studies::run::run(
+        grashof::studies::common::case::Case { model: &model, study: &asked, parameters: &parameters },
+        &|| false,
+    ) {
         Ok(outcome) => outcome.stopped.expect("a reason to stop"),
         Err(failure) => failure.reason(),
     }

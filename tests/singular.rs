@@ -2,10 +2,10 @@
 //! rub, move as joint coordinates do; a damping that is stiff beyond measure is integrated.
 
 use crate::common::{columns, model};
-use grashof::analysis::outcome::{March, Outcome};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep;
 use grashof::mechanism::Coordinates;
+use grashof::results::{March, Outcome};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run_in;
 use std::fmt::Write;
 
 mod driven;
@@ -133,7 +133,7 @@ fn ran(text: &str) -> Outcome {
     let model = model(text, Some("run"));
     let study = model.study.clone().expect("the study");
     let coordinates = if text.contains("cartesian") { Coordinates::Cartesian } else { Coordinates::Joint };
-    let outcome = run(&model, &study, &sweep::parameters(&model), coordinates, &|| false);
+    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false);
     let outcome = outcome.unwrap_or_else(|f| panic!("{}\n{text}", f.reason()));
     assert_eq!(outcome.stopped, None, "{text}");
     outcome

@@ -7,8 +7,8 @@ mod forces;
 mod linkages;
 
 use crate::common;
-use grashof::analysis::outcome::Outcome;
 use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
 
 /// A study of a text, run to its end.
 fn run(text: &str, study: &str) -> Outcome {

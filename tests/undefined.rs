@@ -1,10 +1,10 @@
 //! What is undefined stops a study where it happens: with its name, its place in the file, the function and its argument.
 
 use crate::common::model;
-use grashof::analysis::outcome::{Failure, Outcome, Undefined};
-use grashof::analysis::{run::run, sweep};
-use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Selection};
+use grashof::results::{Failure, Outcome, Undefined};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn arm(parts: &str, study: &str) -> String {
@@ -29,7 +29,7 @@ studies:
 fn result(text: &str) -> Result<Outcome, Failure> {
     let model = model(text, Some("s"));
     let study = model.study.clone().expect("the study");
-    run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false)
+    run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false)
 }
 
 /// A run that has stopped at something undefined.

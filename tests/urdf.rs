@@ -7,11 +7,11 @@
 mod words;
 
 use crate::common::Noise;
-use grashof::analysis::sweep::parameters;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Spatial;
 use grashof::mechanism::{Coordinates, Mechanism, Step, build};
 use grashof::model::{Document, Import, Imported, Selection, import};
+use grashof::studies::common::case::parameters;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,9 @@
 //! Motions that the integrators are compared on, each with what must come out at its end.
 
-use grashof::analysis::forward::{self, Bare};
-use grashof::analysis::sweep::parameters;
 use grashof::model::{Control, Document, Forward, Integrator, Kind, Model, Selection, Study};
+use grashof::studies::common::case::{self, parameters};
+use grashof::studies::dynamics;
+use grashof::studies::dynamics::Bare;
 use std::time::Instant;
 
 /// A step, or a tolerance.
@@ -66,7 +67,7 @@ impl Case {
             Forward { integrator: by, control, alpha: None, beta: None, rho: None, order: None, level: None, ..self.forward.clone() };
         let (mut begin, mut time) = (Instant::now(), 0.0);
         let mut timer = |on: bool| if on { begin = Instant::now() } else { time = begin.elapsed().as_secs_f64() };
-        let ended = forward::bare(&model, &self.study, &forward, &self.values, &mut timer);
+        let ended = dynamics::bare(case::Case { model: &model, study: &self.study, parameters: &self.values }, &forward, &mut timer);
         let bare = ended.unwrap_or_else(|failure| Bare { stopped: Some(failure.reason()), ..Bare::default() });
         let error = bare.columns.iter().zip(&self.reference).map(|(x, r)| (x - r).abs()).fold(0.0, f64::max);
         Sample { time, error: if bare.stopped.is_none() { error } else { f64::NAN }, bare }

@@ -9,6 +9,7 @@
 
 use crate::friction::Friction;
 use crate::kkt::{Kkt, ROUND_OFF};
+pub use crate::why::{Rejected, Why};
 use crate::{At, Common, Dims, Span, Stage, State, System, Terms};
 
 mod norm;
@@ -82,49 +83,6 @@ impl std::ops::AddAssign for Counts {
         self.stepped_over += other.stepped_over;
         self.unresolved += other.unresolved;
     }
-}
-
-/// Why a step, or a whole run, cannot go on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Why {
-    /// The local error is too large by this factor.
-    Error(f64),
-    /// Newton's iteration did not converge.
-    Newton,
-    /// A matrix is singular: mass is missing, or the position is singular.
-    Singular,
-    /// A number is not finite; the index of the velocity whose equation it is in.
-    NotFinite(usize),
-    /// Constraints cannot be closed: the row with the largest residual, and that residual.
-    Constraints {
-        /// Row of Φ or of G.
-        row: usize,
-        /// What remains.
-        residual: f64,
-    },
-    /// Friction by reactions has no accelerations that obey its law (Painlevé's paradox).
-    Friction,
-    /// The step has become too small to change the time.
-    StepSize,
-    /// Events pile up; the root that crossed last.
-    Zeno(usize),
-    /// A root of time alone whose sign cannot be bounded.
-    Unresolved(usize),
-    /// A blow against what drivers or other rows hold: the root of the contact.
-    Blocked(usize),
-    /// More steps than are allowed.
-    TooManySteps,
-    /// This build does not have the scheme (see [`available`](crate::schemes::available)).
-    Unavailable,
-}
-
-/// A trial that failed, and the step to try next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rejected {
-    /// The reason.
-    pub why: Why,
-    /// Step to try next, s.
-    pub retry: f64,
 }
 
 /// How the size of a step is chosen.

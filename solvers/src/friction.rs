@@ -8,8 +8,8 @@
 //! each step is one of iterative refinement as well. Where f_λ is linear in λ, one step solves the equations and the others refine.
 //! There need not be a solution: rigid bodies with large coefficients of friction can contradict Coulomb's law (Painlevé 1895).
 
-use crate::engine::Why;
 use crate::matrix::{Blocks, Coefficients, Matrix};
+use crate::why::Why;
 use crate::{Dims, Pattern, Sparsity, Terms};
 
 /// Writes f_λ (nv) and R_λ (nv × m) of the multipliers (m) that it is given.

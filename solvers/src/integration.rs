@@ -6,8 +6,10 @@
 
 use crate::dense_output::Dense;
 use crate::engine::{Control, Engine, Node, Why};
+use crate::halt::Halt;
+use crate::method::Method;
 use crate::scheme::Scheme;
-use crate::schemes::{self, Method};
+use crate::schemes;
 use crate::settings::Settings;
 use crate::{Sigma, State, System};
 use foresight::{Foresight, shortest};
@@ -17,6 +19,7 @@ pub use zeno::Zeno;
 mod begin;
 mod bridge;
 mod events;
+mod foresee;
 mod foresight;
 mod repeat;
 mod resolve;
@@ -36,16 +39,8 @@ pub enum Progress {
     End,
 }
 
-/// A run that cannot go on, with the place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Halt {
-    /// Why.
-    pub why: Why,
-    /// Time of the last good state, s.
-    pub t: f64,
-    /// The last step that was tried, s.
-    pub h: f64,
-}
+/// Of the rules over a part of a step for work.
+const WORK_NODES: usize = 5;
 
 /// Times of bridges that are remembered.
 pub const REMEMBERED: usize = 64;
@@ -138,16 +133,25 @@ impl Integration {
     /// # Errors
     /// If the start cannot be made consistent.
     pub fn new(system: &mut dyn System, settings: Settings, start: &State) -> Result<Self, Halt> {
+        let scheme = schemes::new(settings.method, settings, system);
+        Self::with_scheme(system, scheme, settings, start)
+    }
+
+    /// [`Integration::new`] by a scheme of one's own; `method` of the settings is not looked at.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with_scheme(system: &mut dyn System, scheme: Box<dyn Scheme>, settings: Settings, start: &State) -> Result<Self, Halt> {
         let dims = system.dims();
         let engine = Engine::new(system, settings.control);
-        let implicit = settings.method.is_implicit() && dims.holonomic > 0;
+        let implicit = scheme.is_implicit() && dims.holonomic > 0;
         let bridge = (implicit && !engine.is_fixed()).then(|| schemes::new(Method::Dop853, settings, system));
         let node = Node { state: start.clone(), ..Node::new(dims) };
         let timed = |root: &usize| system.pattern().timed.contains(root);
         let located = |root: &usize| settings.locate || system.pattern().acting.contains(root);
         let (timed, looked): (Vec<usize>, Vec<usize>) = (0..dims.roots).filter(located).partition(timed);
         let mut run = Self {
-            scheme: schemes::new(settings.method, settings, system),
+            scheme,
             bridge,
             bridging: None,
             bridged: Vec::with_capacity(REMEMBERED),
@@ -186,7 +190,7 @@ impl Integration {
             crossed: Vec::with_capacity(dims.roots),
             row: vec![0.0; dims.v],
             relative: vec![0.0; dims.v],
-            power: vec![0.0; work::NODES * dims.work],
+            power: vec![0.0; WORK_NODES * dims.work],
             repeated: None,
             halvings: 0,
             work: vec![0.0; dims.work],

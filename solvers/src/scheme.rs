@@ -58,6 +58,12 @@ pub trait Scheme {
     /// If the system cannot be evaluated inside of the step.
     fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why>;
 
+    /// Whether Newton's method solves its steps, on a matrix that is singular where the position is: the loop then crosses such
+    /// positions by explicit steps.
+    fn is_implicit(&self) -> bool {
+        false
+    }
+
     /// Order of convergence of q and v at present.
     fn order(&self) -> usize;
 

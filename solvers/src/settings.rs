@@ -1,8 +1,8 @@
 //! How a run is to be computed.
 
 use crate::engine::Control;
+use crate::method::Method;
 use crate::scheme::Level;
-use crate::schemes::Method;
 
 /// How a run is to be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,11 +2,12 @@
 
 use super::run::to_take;
 use super::{Common, code, files, say};
-use grashof::analysis::rehearsal::{Hindrance, rehearse};
-use grashof::analysis::survey::{Survey, survey};
-use grashof::analysis::sweep::{at, parameters};
+use grashof::kinematics::survey::{Survey, survey};
 use grashof::model::{Document, Kind, Model};
 use grashof::output::{json_number, json_numbers};
+use grashof::studies::common::case::parameters;
+use grashof::studies::rehearsal::{Hindrance, rehearse};
+use grashof::studies::sweep::at;
 use serde_json::{Value, json};
 
 #[derive(clap::Args)]

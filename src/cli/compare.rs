@@ -9,12 +9,11 @@ use super::progress::Progress;
 use super::run::{Scalars, load};
 use super::schemes::{self, Steps, is_explicit};
 use super::{Common, code, fail, files, say};
-use grashof::analysis::forward;
-use grashof::analysis::outcome::Failure;
-use grashof::analysis::run::run;
-use grashof::analysis::sweep::parameters;
-use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Forward, Integrator, Kind, Model, Study};
+use grashof::results::Failure;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::dynamics;
+use grashof::studies::run::run;
 use std::path::Path;
 use std::time::Instant;
 
@@ -198,7 +197,7 @@ fn usual(fixed: bool, own: Integrator) -> Vec<Integrator> {
 
 /// Refuses what this program does not have, and what does not take a tolerance.
 fn usable(integrators: &[Integrator], fixed: bool) -> Result<(), u8> {
-    if let Some(&missing) = integrators.iter().find(|i| !forward::is_available(**i)) {
+    if let Some(&missing) = integrators.iter().find(|i| !dynamics::is_available(**i)) {
         return Err(refuse(
             &format!("the integrator `{}` (SUNDIALS) is not part of this program", missing.name()),
             "build it with `cargo build --release --features sundials` (needs cmake, make and clang), or leave it out",
@@ -380,7 +379,7 @@ impl Bench<'_> {
     /// A run with everything but its time.
     fn recorded(&self, study: &Study) -> Result<Ended, Failure> {
         let begin = Instant::now();
-        let outcome = run(self.model, study, self.values, Coordinates::Joint, &interrupted)?;
+        let outcome = run(Case { model: self.model, study, parameters: self.values }, &interrupted)?;
         let time = begin.elapsed().as_secs_f64();
         let march = outcome.certificate.march.unwrap_or_default();
         let k = march.counts;
@@ -397,7 +396,7 @@ impl Bench<'_> {
     /// Why a run without a record stops.
     fn stopped(&self, study: &Study) -> Option<String> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
-        forward::bare(self.model, study, forward, self.values, &mut |_| {}).ok()?.stopped
+        dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut |_| {}).ok()?.stopped
     }
 
     /// The steps alone: time and counters of a run without a record.
@@ -405,7 +404,7 @@ impl Bench<'_> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
         let (mut begin, mut time) = (Instant::now(), f64::NAN);
         let mut timer = |on: bool| if on { begin = Instant::now() } else { time = begin.elapsed().as_secs_f64() };
-        let k = forward::bare(self.model, study, forward, self.values, &mut timer).ok()?.counts;
+        let k = dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut timer).ok()?.counts;
         Some((time, [k.steps, k.rejected, k.evaluations, k.factorisations].map(|n| n as f64)))
     }
 

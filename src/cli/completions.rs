@@ -1,7 +1,6 @@
 //! `grashof completions`.
 
 use super::code;
-use clap::CommandFactory;
 use clap_complete::Shell;
 
 #[derive(clap::Args)]
@@ -10,10 +9,10 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-/// Prints a completion script.
-pub(super) fn print(arguments: &Arguments) -> u8 {
+/// Prints a completion script for a command line.
+pub(super) fn print(arguments: &Arguments, command: &mut clap::Command) -> u8 {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut super::Cli::command(), "grashof", &mut script);
+    clap_complete::generate(arguments.shell, command, "grashof", &mut script);
     super::say(String::from_utf8_lossy(&script).trim_end());
     code::DONE
 }

@@ -1,11 +1,11 @@
 //! Figures of a study and the drawing of its mechanism, as data for the renderer.
 
-use grashof::analysis::outcome::{Outcome, Scene};
-use grashof::analysis::run::extra_curves;
-use grashof::analysis::sweep::Run;
 use grashof::expression::Dimension;
 use grashof::model::{Model, Plot, Shown, ShownWhat, Study};
 use grashof::output::{Axis, Curve, Drawing, Figure, Link, LinkKind, Outline, Placement, Scale, Symbol, SymbolKind, Trace};
+use grashof::results::{Outcome, Scene};
+use grashof::studies::common::watched::extra_curves;
+use grashof::studies::sweep::Run;
 
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;

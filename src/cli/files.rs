@@ -3,10 +3,10 @@
 use super::interrupt::{interrupted, uncut};
 use super::terminal::{fail, tell_report};
 use super::{Common, code, tell};
-use grashof::analysis::outcome::{Failure, Undefined, Unsolved};
 use grashof::mechanism::BuildFault;
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Staging, WriteError};
+use grashof::results::{Failure, Undefined, Unsolved};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 

@@ -4,8 +4,9 @@
 //! and a watch ends the program for it; only a motion in time, which keeps its rows up to there, and the writing of files are
 //! waited for. A second signal ends the program at once.
 
+use super::code;
+use super::end::end;
 use super::terminal::{take_errors, tell, tell_interrupted};
-use super::{code, end};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};

@@ -7,11 +7,11 @@
 //! file with another fingerprint is not used. Runs that never began are not kept: they cost nothing to try again. A file of this
 //! name that does not begin so, or that is a link, is somebody's own and is left alone; one that another run has locked is its.
 
-use grashof::analysis::outcome::{Failure, Outcome, Unsolved};
-use grashof::analysis::solve::Solved;
-use grashof::analysis::sweep::Run;
 use grashof::expression::Pool;
 use grashof::model::Model;
+use grashof::results::{Failure, Outcome, Unsolved};
+use grashof::studies::solve::Solved;
+use grashof::studies::sweep::Run;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::fs::{self, File, TryLockError};

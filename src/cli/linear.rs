@@ -1,8 +1,8 @@
 //! Matrices of a linearised motion: as JSON, as files, and in a few lines.
 
-use grashof::analysis::outcome::{LinearSystem, Outcome};
 use grashof::model::{Kind, Study};
 use grashof::output::{Header, MatValue, Table, json_numbers, write_csv, write_mat};
+use grashof::results::{LinearSystem, Outcome};
 use serde_json::{Map, Value};
 
 /// Names of the columns of a matrix.

@@ -2,8 +2,11 @@
 
 mod adhoc;
 mod check;
+mod code;
+mod common;
 mod compare;
 mod completions;
+mod end;
 mod figures;
 mod files;
 mod import;
@@ -23,26 +26,13 @@ mod sweep;
 mod terminal;
 mod verify;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use clap::{CommandFactory, Parser, Subcommand};
+pub(crate) use common::Common;
+use end::end;
+use std::io::Write;
 use std::process::ExitCode;
 use terminal::take_errors;
 pub(crate) use terminal::{fail, say, tell};
-
-/// Exit codes; several studies: the highest wins.
-pub(crate) mod code {
-    /// All done.
-    pub(crate) const DONE: u8 = 0;
-    /// An expectation is not met, `run --verify` finds no digit that stands, or `check --strict` has findings.
-    pub(crate) const UNMET: u8 = 1;
-    /// Usage, file or model.
-    pub(crate) const INPUT: u8 = 2;
-    /// A numerical failure.
-    pub(crate) const NUMERICAL: u8 = 3;
-    /// Interrupted.
-    pub(crate) const INTERRUPTED: u8 = 130;
-}
 
 const CODES: &str = "Exit codes:
   0    done (rows of a sweep that failed for a stated reason included)
@@ -59,42 +49,6 @@ struct Cli {
     command: Command,
     #[command(flatten)]
     common: Common,
-}
-
-/// What every command understands.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct Common {
-    /// Directory for results [default: results/<model file without extension>]; with `import` the file to write
-    #[arg(short, long, global = true, value_name = "PATH")]
-    output: Option<PathBuf>,
-    /// Replace files of the names of results that no earlier run is recorded to have written
-    #[arg(long, global = true)]
-    force: bool,
-    /// Set a parameter: a number in SI, or a quantity as "60 cm"
-    #[arg(long, global = true, value_name = "NAME=VALUE")]
-    set: Vec<String>,
-    /// Apply a variant of the file, after those of the study
-    #[arg(long, global = true, value_name = "V")]
-    variant: Vec<String>,
-    /// Threads for sweeps and figures [default: all processors]
-    #[arg(short = 'j', long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-    /// Print errors alone on stderr
-    #[arg(short, long, global = true)]
-    quiet: bool,
-    /// Tell on stderr what is done
-    #[arg(short, long, global = true)]
-    verbose: bool,
-    /// Colours on stderr; NO_COLOR is heeded
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
-    color: Color,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Color {
-    Auto,
-    Always,
-    Never,
 }
 
 #[derive(Subcommand)]
@@ -176,48 +130,11 @@ pub(crate) fn main() -> ExitCode {
         Command::New(arguments) => new::new(arguments, &cli.common),
         Command::Import(arguments) => import::import(arguments, &cli.common),
         Command::Schema => schema::print(),
-        Command::Completions(arguments) => completions::print(arguments),
+        Command::Completions(arguments) => completions::print(arguments, &mut Cli::command()),
     };
     ended(code, take_errors())
 }
 
 fn ended(code: u8, errors: Vec<serde_json::Value>) -> ExitCode {
     ExitCode::from(end(code, errors))
-}
-
-/// The exit code, after errors are printed as JSON where that was asked for and nothing else was printed.
-pub(crate) fn end(code: u8, errors: Vec<serde_json::Value>) -> u8 {
-    // what could not be parsed is asked for all the same
-    let asked = |word: &str| std::env::args_os().any(|argument| argument == word);
-    if code != code::DONE && asked("--json") && !terminal::has_said() {
-        let failure = terminal::failure_json(None, errors);
-        say(&if asked("run") { run::json_list(&[failure]) } else { failure });
-    }
-    if terminal::output_failed() { code.max(code::INPUT) } else { code }
-}
-
-impl Common {
-    /// Whether stderr gets colours.
-    pub(crate) fn colored(&self) -> bool {
-        match self.color {
-            Color::Always => true,
-            Color::Never => false,
-            Color::Auto => std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()) && std::io::stderr().is_terminal(),
-        }
-    }
-
-    /// Number of threads.
-    pub(crate) fn threads(&self) -> usize {
-        self.threads.map_or_else(grashof::par::processors, usize::from)
-    }
-
-    /// Words on the command line that change what studies compute.
-    pub(crate) fn changes(&self) -> Option<&'static str> {
-        match (self.set.is_empty(), self.variant.is_empty()) {
-            (true, true) => None,
-            (false, true) => Some("--set"),
-            (true, false) => Some("--variant"),
-            (false, false) => Some("--set` and `--variant"),
-        }
-    }
 }

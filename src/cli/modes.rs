@@ -2,8 +2,8 @@
 
 use super::{Common, adhoc};
 use clap::ValueEnum;
-use grashof::analysis::outcome::Outcome;
 use grashof::output::{Header, Table, json_number, number};
+use grashof::results::Outcome;
 use serde_json::Value;
 use std::f64::consts::TAU;
 

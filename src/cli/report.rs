@@ -5,11 +5,13 @@ mod sweep;
 pub(super) use sweep::{label, sweep_json, sweep_rows, sweep_summary};
 
 use super::{linear, modes};
-use grashof::analysis::extremum::Extremum;
-use grashof::analysis::outcome::{self, Outcome};
-use grashof::analysis::solve::Solved;
 use grashof::model::{Kind, Model, Study, WORKS};
-use grashof::output::{self, Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
+use grashof::numerics::extremum::Extremum;
+use grashof::output;
+use grashof::output::{Extrema, Extreme, Finding, Header, Report, Scalar, Table, json_number, json_numbers};
+use grashof::results;
+use grashof::results::Outcome;
+use grashof::studies::solve::Solved;
 use serde_json::Value;
 
 /// The rows of one run, in the columns of the study.
@@ -117,7 +119,7 @@ pub(super) fn json(study: &Study, outcome: &Outcome, solved: Option<&Solved>) ->
     })
 }
 
-fn finding(f: &outcome::Finding) -> Finding {
+fn finding(f: &results::Finding) -> Finding {
     Finding { code: f.code.into(), message: f.message.clone(), path: f.path.clone() }
 }
 

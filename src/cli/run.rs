@@ -1,12 +1,13 @@
 //! `grashof run`: studies one after the other; the highest code wins.
 
+use super::end::json_list;
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, fail, files, say, tell, verify};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::sweep::{Run, at};
 use grashof::model::{Document, Model, Selection, Study};
+use grashof::results::Outcome;
+use grashof::studies::sweep::{Run, at};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -221,12 +222,6 @@ impl Request<'_> {
             Err(failure) => files::explain(self.document, &failure, study, self.common),
         }
     }
-}
-
-/// JSON texts as one list, their numbers untouched: reading them back could change a last digit.
-pub(super) fn json_list(texts: &[String]) -> String {
-    let items: Vec<String> = texts.iter().map(|text| format!("\n  {}", text.trim_end().replace('\n', "\n  "))).collect();
-    format!("[{}{}]", items.join(","), if items.is_empty() { "" } else { "\n" })
 }
 
 /// The model of a study, with the scalars that it takes from others.

@@ -1,7 +1,7 @@
 //! `grashof statics`: equilibria of a model that has no study of them.
 
 use super::{Common, adhoc};
-use grashof::analysis::outcome::Outcome;
+use grashof::results::Outcome;
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {

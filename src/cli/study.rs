@@ -6,11 +6,11 @@ use super::interrupt::{self, interrupted};
 use super::progress::Progress;
 use super::terminal::{tell_interrupted, tell_report};
 use super::{Common, code, figures, files, linear, report, tell};
-use grashof::analysis::outcome::{Failure, Outcome};
-use grashof::analysis::sweep::{Run, at};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
 use grashof::output::{Picture, Staging, write_csv};
 use grashof::par;
+use grashof::results::{Failure, Outcome};
+use grashof::studies::sweep::{Run, at};
 use std::path::Path;
 
 /// A study to run, and where its results go.

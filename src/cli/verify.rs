@@ -9,13 +9,14 @@
 
 use super::interrupt::interrupted;
 use super::schemes::{self, Steps};
-use grashof::analysis::outcome::{Failure, Outcome};
-use grashof::analysis::run::run;
 use grashof::expression::Dimension;
 use grashof::geometry::{Planar, Spatial};
 use grashof::mechanism::{Coordinates, build};
 use grashof::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
 use grashof::output::number;
+use grashof::results::{Failure, Outcome};
+use grashof::studies::common::case::Case;
+use grashof::studies::run::run;
 use std::ops::Range;
 
 /// Rows of a run that has no output step.
@@ -92,7 +93,7 @@ fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> R
     let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
     let compute = |model: &mut Model, by: Integrator, steps: Steps| {
         let study = schemes::changed(model, study, forward, by, steps, Some(every));
-        run(model, &study, parameters, Coordinates::Joint, &interrupted)
+        run(Case { model, study: &study, parameters }, &interrupted)
     };
     let base = compute(&mut model, forward.integrator, steps)?;
     if base.stopped.is_some() {

@@ -1,6 +1,6 @@
 //! Text → lexemes. Numbers are narrower than in YAML: what another reader could take for something else is refused.
 
-use super::parser::SyntaxError;
+use super::syntax::SyntaxError;
 use std::ops::Range;
 
 /// A word or sign of an expression.

@@ -10,6 +10,7 @@ mod compile;
 mod construct;
 mod evaluate;
 mod function;
+mod id;
 mod lexer;
 mod lower;
 mod nearest;
@@ -23,21 +24,26 @@ mod scope;
 mod simplify;
 mod spline;
 mod switch;
+mod syntax;
 mod table;
+mod unit_text;
 mod units;
 
 pub use cause::Cause;
 pub use function::is_function;
+pub use id::Id;
 pub use lower::lower;
 pub use nearest::{MOST_CANDIDATES, nearest};
-pub use parser::{Expr, Kind, SyntaxError, parse};
+pub use parser::{Expr, Kind, parse};
 pub use part::{Part, Wanted};
-pub use pool::{Id, Node, Pool};
+pub use pool::{Node, Pool};
 pub use program::Program;
 pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
+pub use syntax::SyntaxError;
 pub use table::{Between, Beyond, Table, TableError};
-pub use units::{Dimension, parse_unit};
+pub use unit_text::parse_unit;
+pub use units::Dimension;
 
 #[cfg(test)]
 mod undefined_tests;

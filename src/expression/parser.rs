@@ -11,6 +11,7 @@
 
 use super::lexer::{Lexeme, Token, lexemes};
 use super::switch::Compare;
+pub(super) use super::syntax::SyntaxError;
 use super::units::Dimension;
 use std::ops::Range;
 
@@ -82,19 +83,6 @@ impl Expr {
             _ => None,
         }
     }
-}
-
-/// An error of form in an expression.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SyntaxError {
-    /// Bytes of the text; empty at its end.
-    pub at: Range<usize>,
-    /// What stands there.
-    pub found: String,
-    /// What was expected instead.
-    pub expected: String,
-    /// One remedy.
-    pub help: Option<String>,
 }
 
 /// The syntax tree of an expression.

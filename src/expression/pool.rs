@@ -2,24 +2,9 @@
 //!
 //! Operands always stand before the nodes that use them, so ascending order of ids is an order of evaluation.
 
+pub(super) use super::id::Id;
 use super::switch::{Compare, Switch, Test};
 use std::collections::HashMap;
-
-/// A node of a [`Pool`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Id(u32);
-
-impl Id {
-    /// Position in the pool.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-
-    pub(super) fn at(index: usize) -> Self {
-        Self(index as u32)
-    }
-}
 
 /// What a node computes. Conditions have the value 1 (true) or 0.
 ///

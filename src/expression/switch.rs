@@ -9,7 +9,7 @@
 //! | `floor(a)`, `ceil(a)`, `round(a)`, `mod(a, b)` | the whole number below a, −a, a + 1/2, a/b; without bound up to ±2³¹ |
 //! | table | number of the segment; −1 below, n above the n segments; periodic tables count on without bound |
 
-use super::pool::Id;
+use super::id::Id;
 use super::table::Table;
 use crate::scalar::{Interval, Scalar};
 

@@ -4,7 +4,6 @@
 //! deg/s an angular speed, and m*rad is m. It is what numbers are shown in; two dimensions that differ in it alone are equal.
 
 use super::nearest::nearest;
-use super::parser::{Kind, parse};
 use std::f64::consts::{PI, TAU};
 use std::hash::{Hash, Hasher};
 use std::ops::{Div, Mul};
@@ -331,22 +330,10 @@ pub(super) fn nearest_unit(word: &str) -> Option<&'static str> {
     (word.len() > 2).then(|| nearest(word, UNITS.into_iter().map(|(known, ..)| known))).flatten()
 }
 
-/// Size in SI and dimension of a composite unit such as `N m s/rad`, by the rules of the format.
-#[must_use]
-pub fn parse_unit(text: &str) -> Option<(f64, Dimension)> {
-    let first = text.trim_start();
-    // a quantity of size one is the unit; the first word must be one, else `1` would stand alone
-    if !first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '%') {
-        return None;
-    }
-    match parse(&format!("1 {first}")).ok()?.kind {
-        Kind::Quantity(size, dimension, _) => Some((size, dimension)),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::parser::{Kind, parse};
+    use super::super::unit_text::parse_unit;
     use super::*;
 
     #[test]

@@ -1,12 +1,5 @@
-//! Groups of bodies that hang together other than by the ground, each with a reference point near it.
-//!
-//! Moments are taken about that point, and the velocity of a body is that of its point which passes there. About the origin of the
-//! world, bodies at the distance p would have inertias of m p², whose round-off hides their own, so that a mechanism would know
-//! where the origin is. The point is fixed in the world during an evaluation, a function of q alone, and a plain number also where
-//! q carries derivatives: what is taken about it is no rate of it. It stands where the first joint between the group and the ground
-//! stands now, so that places near it are differences of places as early as they can be.
+//! Bodies that hang together other than by the ground.
 
-use super::{Measured, Mechanism, Step};
 use crate::geometry::Space;
 use crate::scalar::Scalar;
 
@@ -14,9 +7,9 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug, Default)]
 pub struct Group<G: Space> {
     /// Frame of its first joint on the ground, m.
-    anchor: G::Vector,
+    pub(super) anchor: G::Vector,
     /// Slides of that joint along directions that stay: index in q, and the direction.
-    slides: Vec<(usize, G::Vector)>,
+    pub(super) slides: Vec<(usize, G::Vector)>,
 }
 
 impl<G: Space> Group<G> {
@@ -31,79 +24,4 @@ impl<G: Space> Group<G> {
         let slides = self.slides.iter().map(|&(i, d)| (i, G::lift_vector::<D>(d))).collect();
         Group { anchor: G::lift_vector::<D>(self.anchor), slides }
     }
-}
-
-impl<G: Space> Mechanism<G> {
-    /// Finds the groups: bodies of one tree branch, and bodies between which something is measured.
-    pub(super) fn group(&mut self) {
-        let mut group: Vec<usize> = (0..self.bodies.len()).collect();
-        let branches = self.nodes.iter().map(|n| (n.parent, n.body));
-        for (a, b) in branches.chain(self.gauges.iter().map(|g| (g.a, g.b))) {
-            let (one, other) = (group[a], group[b]);
-            if a != 0 && b != 0 {
-                group.iter_mut().filter(|g| **g == other).for_each(|g| *g = one);
-            }
-        }
-        let mut found: Vec<usize> = Vec::new();
-        for node in &self.nodes {
-            // parents come first: the first node of a group hangs on the ground
-            if !found.contains(&group[node.body]) {
-                found.push(group[node.body]);
-                let slides = slides(&self.steps[node.steps.clone()], node.before.r).iter().map(|s| (s.q, s.along)).collect();
-                self.groups.push(Group { anchor: node.before.p, slides });
-            }
-        }
-        if self.groups.is_empty() {
-            self.groups.push(Group::default());
-        }
-        self.group_of = group.iter().map(|g| found.iter().position(|f| f == g).unwrap_or(0)).collect();
-    }
-
-    /// The group of what lies between two bodies, of which one may be the ground.
-    #[inline(always)]
-    #[must_use]
-    pub fn group_between(&self, a: usize, b: usize) -> usize {
-        self.group_of[a.max(b)]
-    }
-
-    /// Places on the ground where bodies of a group are held or pulled, with the group.
-    pub(super) fn footings(&self) -> Vec<(usize, G::Vector)> {
-        let joints = self.joints.iter().flat_map(|j| [(j.a, j.b.0), (j.b, j.a.0)]);
-        let gauges = self.gauges.iter().flat_map(|g| match g.measured {
-            Measured::Slide { pa, pb, .. } | Measured::Distance { pa, pb } => vec![((g.a, pa), g.b), ((g.b, pb), g.a)],
-            _ => Vec::new(),
-        });
-        joints
-            .chain(gauges)
-            .filter(|((body, _), other)| *body == 0 && *other != 0)
-            .map(|((_, p), other)| (self.group_of[other], p))
-            .collect()
-    }
-}
-
-/// A slide along a direction that no coordinate turns.
-pub(super) struct Slide<G: Space> {
-    /// Index in q.
-    pub(super) q: usize,
-    /// Index in v.
-    pub(super) v: usize,
-    /// Direction in the world.
-    pub(super) along: G::Vector,
-    /// Whether its coordinate turns the body, too.
-    pub(super) turns: bool,
-}
-
-/// The slides of a joint on the ground along directions that do not turn with its coordinates.
-pub(super) fn slides<G: Space>(steps: &[Step<G>], before: G::Rotation) -> Vec<Slide<G>> {
-    let (mut out, mut axes) = (Vec::new(), Vec::new());
-    for step in steps {
-        let Step::Axis { u, d, turns, slides, q, v } = *step else { break };
-        if turns {
-            axes.push(u);
-        }
-        if slides && axes.iter().all(|u| G::turn(*u, d) == G::Vector::default()) {
-            out.push(Slide { q, v, along: G::rotate(before, d), turns });
-        }
-    }
-    out
 }

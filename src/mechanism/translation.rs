@@ -4,7 +4,7 @@
 //! free fall. A group has such directions if each of its joints on the ground slides along them, and nothing measured between the
 //! group and the ground sees them but what a driver moves: a driver that moves by f(t) + u t is one in a frame that moves.
 
-use super::group::slides;
+use super::grouping::slides;
 use super::{EffortLaw, Leaf, Measured, Mechanism, RowKind, StretchOf};
 use crate::geometry::Space;
 

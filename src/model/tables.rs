@@ -1,49 +1,19 @@
 //! The tables of fields: every key of the format, once. Those of studies stand in `studies`.
 
+mod shapes;
 mod studies;
 
 pub(crate) use studies::{MOST_RUNS, STUDY, STUDY_KINDS};
 
 use super::fields::Shape::{Count, Either, Flag, Formula, Later, List, Map, Name, Named, Patch, Text, Value, Word};
-use super::fields::{Choice, Field, Keys, Shape, Size, Table, Want};
+use super::fields::{Keys, Shape, Size, Table, Want};
 use crate::expression::Dimension as D;
+use shapes::{
+    ANGLE, ANY, BRISTLE_DAMPING, BRISTLE_STIFFNESS, COORDINATE, DAMPING, DIRECTION, EFFORT, FIGURES, FRICTION_LEVEL, INERTIA, JOINT_NAME,
+    LENGTH, MASS, NUMBER, POINT, POSITION, RATE, ROLL_PITCH_YAW, STIFFNESS, TIME, at_most_one, may, need, one_of,
+};
 
-const fn need(key: &'static str, shape: Shape, doc: &'static str) -> Field {
-    Field { key, shape, required: true, doc }
-}
-const fn may(key: &'static str, shape: Shape, doc: &'static str) -> Field {
-    Field { key, shape, required: false, doc }
-}
-const fn one_of(keys: &'static [&'static str]) -> Choice {
-    Choice { keys, required: true }
-}
-const fn at_most_one(keys: &'static [&'static str]) -> Choice {
-    Choice { keys, required: false }
-}
-
-const LENGTH: Shape = Value(Want::Of(D::LENGTH));
-const MASS: Shape = Value(Want::Of(D::MASS));
-const INERTIA: Shape = Value(Want::Of(D::INERTIA));
-const TIME: Shape = Value(Want::Of(D::TIME));
-const NUMBER: Shape = Value(Want::Of(D::NONE));
-const ANGLE: Shape = Value(Want::Angle);
-const ANY: Shape = Value(Want::Any);
-/// Angle or length, as the joint has it.
-const COORDINATE: Shape = Value(Want::Varies("an angle (rad) or a length (m), as the joint has it"));
-const EFFORT: Shape = Value(Want::Varies("a torque (N m) or a force (N), as the joint has it"));
-const STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m, or N m/rad for an angle"));
-const DAMPING: Shape = Value(Want::Varies("a damping: N s/m, or N m s/rad for an angle"));
-const RATE: Shape = Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)"));
-const FRICTION_LEVEL: Shape = Value(Want::Varies("a torque (N m) or a force (N), as the joint has it, or a coefficient of friction"));
-const BRISTLE_STIFFNESS: Shape = Value(Want::Varies("a stiffness: N/m or N m/rad; with a coefficient of friction 1/m, or a plain number"));
-const BRISTLE_DAMPING: Shape = Value(Want::Varies("a damping: N s/m or N m s/rad; with a coefficient of friction s/m, or s"));
-const ROLL_PITCH_YAW: Shape = List(&ANGLE, Size::Exactly(3));
-const POSITION: Shape = List(&LENGTH, Size::Space);
 const PLACED: Shape = Either(&[POSITION, Map(&FRAME)]);
-const DIRECTION: Shape = List(&NUMBER, Size::Space);
-const POINT: Shape = Name("a point `body.point`, or a body for its origin");
-const JOINT_NAME: Shape = Name("the name of a joint");
-const FIGURES: Shape = Either(&[INERTIA, List(&INERTIA, Size::OneOf(&[1, 3, 6]))]);
 
 /// The whole file.
 pub(crate) static FILE: Table = Table {

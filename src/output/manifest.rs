@@ -5,7 +5,7 @@
 //! work. While a set is being written the record also holds the new sizes and checksums, so that a run that was killed leaves
 //! behind what is needed to finish its work. A record that is damaged, or is no plain file, is none.
 
-use super::staging::WriteError;
+use super::write_error::WriteError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File};

@@ -14,6 +14,9 @@ mod lettering;
 mod manifest;
 mod mat;
 mod panel;
+mod picture;
+mod plot;
+mod pose;
 mod raster;
 mod scene;
 mod staging;
@@ -24,29 +27,18 @@ mod table;
 mod thin;
 mod ticks;
 mod units;
+mod write_error;
 
 pub use csv::{number, write_csv};
-pub use drawing::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace, render_drawing};
-pub use figure::{Axis, Curve, Figure, Mark, Scale, render_figure};
+pub use drawing::render_drawing;
+pub use figure::render_figure;
 pub use json::{Extrema, Extreme, Finding, Report, json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
+pub use picture::Picture;
+pub use plot::{Axis, Curve, Figure, Mark, Scale};
+pub use pose::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use raster::RenderError;
-pub use staging::{Staging, WriteError, Written, prepare};
+pub use staging::{Staging, Written, prepare};
 pub use summary::{Scalar, summary};
 pub use table::{Header, Table};
-
-/// One picture in both of its forms.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// The text of an SVG file.
-    pub svg: String,
-    /// The bytes of a PNG file.
-    pub png: Vec<u8>,
-}
-
-impl Picture {
-    /// Both forms of one display list.
-    fn of(scene: &scene::Scene) -> Result<Self, RenderError> {
-        Ok(Self { svg: svg::write_svg(scene), png: raster::write_png(scene)? })
-    }
-}
+pub use write_error::WriteError;

@@ -1,7 +1,7 @@
 //! One panel of a figure: its axes, its grid and its curves.
 
-use super::figure::{Axis, Mark, Scale};
 use super::legend::{self, Entry, Legend};
+use super::plot::{Axis, Mark, Scale};
 use super::scene::{Anchor, Color, GREY, GRID, INK, Item, Rect, Scene, Stroke, Text, pale};
 use super::summary::significant;
 use super::thin::{self, Point};

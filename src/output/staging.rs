@@ -8,8 +8,8 @@
 //! run dies. Where a file system has no locks, runs at the same time need directories of their own.
 
 use super::manifest::{Entry, Manifest, Mark, Writing, is_plain, put, set_of};
+use super::write_error::WriteError;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -27,38 +27,6 @@ pub struct Written {
     pub paths: Vec<PathBuf>,
     /// What was mended of earlier runs, in sentences.
     pub notes: Vec<String>,
-}
-
-/// A file or directory that could not be written, and why.
-#[derive(Debug)]
-pub struct WriteError {
-    /// What could not be written.
-    pub path: PathBuf,
-    /// The system's reason; [`ErrorKind::AlreadyExists`] for a file that no run is recorded to have written.
-    pub cause: io::Error,
-}
-
-impl WriteError {
-    /// What can be done about it.
-    #[must_use]
-    pub fn help(&self) -> &'static str {
-        match self.cause.kind() {
-            ErrorKind::AlreadyExists => "move it away, choose another directory with `-o DIR`, or replace it with `--force`",
-            _ => "choose another directory with `-o DIR`",
-        }
-    }
-}
-
-impl fmt::Display for WriteError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "cannot write {}: {}", self.path.display(), self.cause)
-    }
-}
-
-impl std::error::Error for WriteError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.cause)
-    }
 }
 
 impl Staging {

@@ -1,7 +1,7 @@
 //! The signs of mechanism drawings, in pixels.
 
-use super::drawing::{LinkKind, Placement, SymbolKind};
 use super::font;
+use super::pose::{LinkKind, Placement, SymbolKind};
 use super::scene::{Anchor, Color, GREY, INK, Scene, Stroke, pale};
 use super::thin::Point;
 

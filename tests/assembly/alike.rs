@@ -1,9 +1,9 @@
 //! Random mechanisms begin alike in all coordinates and with any joint cut: poses, twists, energy, exact values and guesses.
 
 use crate::common::{Noise, assembled, close, spin, vector};
-use grashof::analysis::assemble::Assembled;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::{Planar, Pose, Space, Spatial, basis};
+use grashof::kinematics::assemble::Assembled;
 use grashof::mechanism::{Coordinates, Mechanism};
 use std::f64::consts::PI;
 
@@ -199,7 +199,7 @@ fn closed_mechanisms_begin_alike() {
 /// Whether a mechanism has a start at all; some random loops cannot be closed.
 fn assembles<G: Space<S = f64>>(random: &Random) -> bool {
     let model = crate::common::model(&random.text(None), None);
-    grashof::analysis::assemble::assemble::<G>(&model, &grashof::analysis::sweep::parameters(&model), Coordinates::Joint).is_ok()
+    grashof::kinematics::assemble::assemble::<G>(&model, &grashof::studies::common::case::parameters(&model), Coordinates::Joint).is_ok()
 }
 
 /// Guesses of all coordinates of a pose on the constraints are met.

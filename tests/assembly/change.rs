@@ -1,12 +1,12 @@
 //! Starts in change points: the branches are told, guesses choose between them, and the motion goes on.
 
 use crate::common::{assembled, model, study};
-use grashof::analysis::outcome::{Failure, Outcome};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep::parameters;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Planar;
 use grashof::mechanism::Coordinates;
+use grashof::results::{Failure, Outcome};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 use std::f64::consts::TAU;
 
 /// A parallelogram of 10 and 30 cm that begins flat.
@@ -251,7 +251,7 @@ start: { O.angle: 0 deg, coupler.angle: ~40 deg, rocker.angle: ~90 deg }
 studies: { k: { kinematics: { over: 1 deg, samples: 2 }, columns: [crank.angle] } }\n";
     let refused = |text: &str| {
         let model = model(text, Some("k"));
-        run(&model, &model.study.clone().expect("a study"), &parameters(&model), Coordinates::Joint, &|| false).map(|_| ())
+        run(Case { model: &model, study: &model.study.clone().expect("a study"), parameters: &parameters(&model) }, &|| false).map(|_| ())
     };
     let Err(Failure::Study { code: "dead-point", message, help, .. }) = refused(text) else { panic!("a dead point") };
     assert!(message.contains("`B` has its least value, 36.87 deg"), "{message}");

@@ -1,9 +1,9 @@
 //! What a start leaves open is as near to the drawn pose, and as near to rest, as it can be.
 
 use crate::common::{assembled, close};
-use grashof::analysis::assemble::Assembled;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Planar;
+use grashof::kinematics::assemble::Assembled;
 use grashof::mechanism::{Coordinates, Mechanism, RowKind};
 use std::f64::consts::TAU;
 

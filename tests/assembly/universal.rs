@@ -1,9 +1,9 @@
 //! A universal joint with `rpy`: its axes cross at right angles with the second body turned, not with both as drawn.
 
 use crate::common::{model, study};
-use grashof::analysis::sweep::parameters;
 use grashof::geometry::Spatial;
 use grashof::mechanism::{Coordinates, build};
+use grashof::studies::common::case::parameters;
 
 const TURNED: &str = "grashof: 1
 name: universal with rpy

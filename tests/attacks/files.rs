@@ -2,11 +2,12 @@
 
 use super::dice::Dice;
 use super::{cases, seeded, setting, tell};
-use grashof::analysis::run::run;
-use grashof::analysis::survey::survey;
-use grashof::analysis::sweep;
-use grashof::mechanism::Coordinates;
+use grashof::kinematics::survey::survey;
 use grashof::model::{Document, Import, Kind, Over, Selection, import};
+use grashof::studies::common::case::Case;
+use grashof::studies::common::case::{parameters, parameters_with};
+use grashof::studies::run::run;
+use grashof::studies::sweep;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -100,7 +101,7 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
         Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => {
             let (Over::Driver(id) | Over::Time(id)) = range.over;
             // a long range is long work and no hang
-            if model.pool.value(id, &sweep::parameters(&model)).abs() > 1e3 {
+            if model.pool.value(id, &parameters(&model)).abs() > 1e3 {
                 return Fate::Refused;
             }
             range.samples = 12;
@@ -109,14 +110,14 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
         // asks `stop` between its integrations only
         Kind::Periodic(_) => return Fate::Refused,
     }
-    let _ = survey(&model, &sweep::parameters(&model));
+    let _ = survey(&model, &parameters(&model));
     let grid = sweep::grid(&model, &study);
     let set: Vec<(usize, f64)> =
         study.sweep.iter().map(|s| s.parameter).zip(grid.get(choice % grid.len().max(1)).cloned().unwrap_or_default()).collect();
     // motions in time may be long without a hang: they have to hear that they shall stop
     let begun = Instant::now();
     let stop = || begun.elapsed() > Duration::from_millis(500);
-    match run(&model, &study, &sweep::parameters_with(&model, &set), Coordinates::Joint, &stop) {
+    match run(Case { model: &model, study: &study, parameters: &parameters_with(&model, &set) }, &stop) {
         Ok(outcome) => {
             assert!(outcome.places.iter().all(|x| x.is_finite()), "places {:?}", outcome.places);
             if outcome.stopped.is_some() { Fate::Failed } else { Fate::Ran }

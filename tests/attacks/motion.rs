@@ -1,15 +1,16 @@
 //! Motions of made models, and how far two of them are apart.
 
 use crate::common::model;
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::{run::run, sweep};
-use grashof::mechanism::Coordinates;
+use grashof::results::Outcome;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 
 /// The study `move` of a model, or why it does not run to its end.
 pub(crate) fn moved(text: &str) -> Result<Outcome, String> {
     let model = model(text, Some("move"));
     let study = model.study.clone().expect("the study");
-    let outcome = run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false).map_err(|f| f.reason().to_owned())?;
+    let outcome =
+        run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false).map_err(|f| f.reason().to_owned())?;
     match outcome.stopped {
         Some(reason) => Err(reason),
         None => Ok(outcome),

@@ -1,12 +1,13 @@
 //! What the tests of the mechanics share: models from text, noise, random states, dense linear algebra, differences.
 
-use grashof::analysis::assemble::{Assembled, assemble};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::{run::run, sweep};
 use grashof::dynamics::{Dynamics, Reactions};
 use grashof::geometry::{Pose, Space};
+use grashof::kinematics::assemble::{Assembled, assemble};
 use grashof::mechanism::{Coordinates, Mechanism, Step, build};
 use grashof::model::{Document, Model, Selection};
+use grashof::results::Outcome;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run_in;
 use nalgebra::{DMatrix, DVector};
 
 /// A fixed sequence in (−1, 1).
@@ -32,21 +33,21 @@ pub(crate) fn model(text: &str, study: Option<&str>) -> Model {
 /// The mechanism of a text in the given coordinates.
 pub(crate) fn mechanism<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> Mechanism<G> {
     let model = model(text, None);
-    build::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|faults| panic!("{faults:?}"))
+    build::<G>(&model, &parameters(&model), coordinates).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// The mechanism of a text in the given coordinates with its start.
 pub(crate) fn assembled<G: Space<S = f64>>(text: &str, coordinates: Coordinates) -> (Mechanism<G>, Assembled) {
     let model = model(text, None);
-    assemble::<G>(&model, &sweep::parameters(&model), coordinates).unwrap_or_else(|f| panic!("{}", f.reason()))
+    assemble::<G>(&model, &parameters(&model), coordinates).unwrap_or_else(|f| panic!("{}", f.reason()))
 }
 
 /// A study of a text, run to its end.
 pub(crate) fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
     let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    let outcome =
-        run(&model, &study, &sweep::parameters(&model), coordinates, &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
+    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false)
+        .unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
     assert_eq!(outcome.stopped, None, "{name} stopped");
     outcome
 }

@@ -1,9 +1,9 @@
 //! Three roads to the eigenvalues of a pair, one answer.
 
 use crate::common::Noise;
-use grashof::analysis::modes::eigen::{Eigen, library};
-use grashof::analysis::modes::jacobi::jacobi;
-use grashof::analysis::modes::power::power;
+use grashof::studies::modes::eigen::{Eigen, library};
+use grashof::studies::modes::jacobi::jacobi;
+use grashof::studies::modes::power::power;
 use nalgebra::{DMatrix, DVector};
 
 /// A pair with these eigenvalues, its mass matrix of condition 1e4.

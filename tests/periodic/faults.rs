@@ -1,15 +1,15 @@
 //! Why there is no regime, in words.
 
 use crate::common::model;
-use grashof::analysis::outcome::Failure;
-use grashof::analysis::{run::run, sweep};
-use grashof::mechanism::Coordinates;
+use grashof::results::Failure;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 
 /// Why a study gives nothing.
 fn failure(text: &str) -> Failure {
     let model = model(text, Some("regime"));
     let study = model.study.clone().unwrap();
-    match run(&model, &study, &sweep::parameters(&model), Coordinates::Joint, &|| false) {
+    match run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false) {
         Err(failure) => failure,
         Ok(outcome) => panic!("a regime: {:?}", outcome.results),
     }

@@ -1,9 +1,9 @@
 //! Point masses: bodies of `mass` alone, without a rotation.
 
 use super::{Columns, near};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep::parameters;
 use grashof::mechanism::{Coordinates, build};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 
 /// A bob on a rope that goes round on a circle: ω² = g/(l cos θ).
 #[test]
@@ -142,9 +142,9 @@ studies: {{ fall: {{ dynamics: {{ until: 1 s }} }} }}
     let reason = |text: &str| {
         let model = crate::common::model(text, Some("fall"));
         let study = model.study.clone().expect("the study");
-        match run(&model, &study, &parameters(&model), Coordinates::Joint, &|| false) {
+        match run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false) {
             Ok(outcome) => outcome.stopped.unwrap_or_default(),
-            Err(grashof::analysis::outcome::Failure::Study { message, help, .. }) => format!("{message}; {help}"),
+            Err(grashof::results::Failure::Study { message, help, .. }) => format!("{message}; {help}"),
             Err(failure) => failure.reason(),
         }
     };

@@ -1,9 +1,9 @@
 //! Forces and works of end stops, and the point that moments of sliding joints are about.
 
 use super::{Columns, near};
-use grashof::analysis::run::run;
-use grashof::analysis::sweep::parameters;
 use grashof::mechanism::Coordinates;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
 
 const G: f64 = 10.0;
 
@@ -157,7 +157,7 @@ studies:
         let text = text(settings);
         let model = crate::common::model(&text, Some("swing"));
         let study = model.study.clone().expect("the study");
-        let outcome = run(&model, &study, &parameters(&model), Coordinates::Joint, &|| false).expect("a run");
+        let outcome = run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false).expect("a run");
         outcome.findings.into_iter().find(|f| f.code == "energy")
     };
     for bad in ["integrator: rk4, step: 0.2 s", "integrator: central-difference, step: 0.1 s"] {

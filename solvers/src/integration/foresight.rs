@@ -1,79 +1,23 @@
-//! Switches of time alone: known before the step that would pass them.
-
-use super::Integration;
-use crate::engine::{Node, Why};
-use crate::{Ahead, System};
+//! What is known ahead of switches of time alone.
 
 /// How far ahead the roots of time alone are known to be positive, and the first that is not.
 #[derive(Clone, Debug)]
 pub(super) struct Foresight {
     /// Roots of time alone that are looked for.
-    roots: Vec<usize>,
+    pub(super) roots: Vec<usize>,
     /// Modes for which this was found.
-    modes: Vec<i32>,
+    pub(super) modes: Vec<i32>,
     /// None leaves its positive side before this time, s.
-    until: f64,
+    pub(super) until: f64,
     /// The first that does: when, and its number.
-    next: Option<(f64, usize)>,
+    pub(super) next: Option<(f64, usize)>,
     /// Whether the bounds could not tell what is behind `until`.
-    unknown: bool,
+    pub(super) unknown: bool,
 }
 
 impl Foresight {
     pub(super) fn new(roots: Vec<usize>, modes: usize) -> Self {
         Self { roots, modes: vec![0; modes], until: f64::NEG_INFINITY, next: None, unknown: false }
-    }
-}
-
-impl Integration {
-    /// The time in (from, to] that a step may not pass: of the first root of time alone that leaves its positive side in the modes of
-    /// the state at hand, or behind which nothing is known.
-    ///
-    /// # Errors
-    /// If a root cannot be bounded at all.
-    pub(super) fn foresee(&mut self, system: &mut dyn System, from: f64, to: f64) -> Result<Option<f64>, Why> {
-        if self.foresight.roots.is_empty() {
-            return Ok(None);
-        }
-        let Self { foresight, node, last, .. } = self;
-        // a step that has been made began at the last node, one that is to be made begins at this one
-        let state = if from < node.state.t { &last.state } else { &node.state };
-        if foresight.modes != state.modes || foresight.until < from {
-            foresight.modes.copy_from_slice(&state.modes);
-            (foresight.until, foresight.next, foresight.unknown) = (from, None, false);
-        }
-        if foresight.next.is_none() && foresight.until < to {
-            let mut at = state.at();
-            at.t = foresight.until;
-            match system.ahead(at, to, &foresight.roots) {
-                Ahead::Clear => (foresight.until, foresight.unknown) = (to, false),
-                Ahead::Crossing(t, root) => (foresight.until, foresight.next) = (t, Some((t, root))),
-                Ahead::Unknown(t, root) if t <= foresight.until => return Err(Why::Unresolved(root)),
-                Ahead::Unknown(t, _) => (foresight.until, foresight.unknown) = (t, true),
-            }
-        }
-        Ok(foresight.next.map(|(t, _)| t).or(foresight.unknown.then_some(foresight.until)))
-    }
-
-    /// The root of time alone that leaves its positive side within the last step: θ and its number.
-    pub(super) fn timed_crossing(&mut self, system: &mut dyn System) -> Result<Option<(f64, usize)>, Why> {
-        let (from, to) = (self.last.state.t, self.node.state.t);
-        self.foresee(system, from, to)?;
-        let next = if self.foresight.roots.is_empty() { None } else { self.foresight.next };
-        Ok(next.filter(|(t, _)| *t <= to).map(|(t, root)| (((t - from) / (to - from)).clamp(0.0, 1.0), root)))
-    }
-
-    /// A root of time alone that belongs to the instant of the node, and was not crossed yet.
-    pub(super) fn also_timed(&mut self, system: &mut dyn System) -> Option<usize> {
-        if self.foresight.roots.is_empty() {
-            return None;
-        }
-        let Node { state, .. } = &self.node;
-        let instant = state.t + shortest(state.t, self.goal);
-        match system.ahead(state.at(), instant, &self.foresight.roots) {
-            Ahead::Crossing(_, root) if !self.crossed.contains(&root) => Some(root),
-            _ => None,
-        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! degree three. Where the two are apart by a part d, the first is off by about d^(9/5), the ratio of their orders. That is below the
 //! tolerance where the step follows a motion; where drivers leave nothing to integrate a step may span whole turns, and is halved.
 
-use super::Integration;
+use super::{Integration, WORK_NODES};
 use crate::engine::Why;
 use crate::{Power, System};
 use std::ops::Range;
@@ -21,9 +21,6 @@ const NEAR_SIDE: f64 = 1.0 - 1e-9;
 
 /// Part of the powers of all forces, those included that store energy, that is round-off of their differences.
 const NOISE: f64 = 1e-13;
-
-/// Of the rules over a part of a step.
-pub(super) const NODES: usize = 5;
 
 impl Integration {
     /// Adds ∫ power dt over the last step, which ends at a root or not: a root lies on its far side, where forces still follow the
@@ -54,10 +51,10 @@ impl Integration {
             let at = |node: usize, k: usize| self.power[node * count + k];
             let (mut off, mut size): (f64, f64) = (0.0, 0.0);
             for k in 0..count {
-                let lobatto: f64 = (0..NODES).map(|node| weights[node] * at(node, k)).sum();
+                let lobatto: f64 = (0..WORK_NODES).map(|node| weights[node] * at(node, k)).sum();
                 let simpson = (at(0, k) + 4.0 * at(2, k) + at(4, k)) / 6.0;
                 off = off.max((lobatto - simpson).abs());
-                size = size.max((0..NODES).map(|node| weights[node] * at(node, k).abs()).sum());
+                size = size.max((0..WORK_NODES).map(|node| weights[node] * at(node, k).abs()).sum());
             }
             let affordable = self.halvings < FREE + self.engine.counts.steps / STEPS_TO_A_HALVING;
             if off > (apart * size).max(noise) && left < MOST_HALVINGS && affordable {

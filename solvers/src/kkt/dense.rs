@@ -1,23 +1,8 @@
 //! Dense LU factorisation in place, for matrices of a few to a few dozen unknowns.
 
 use super::number::Number;
+pub use super::singular::Singular;
 use super::small;
-use std::fmt;
-
-/// A matrix had no usable pivot: it is singular, or it holds a number that is not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Singular {
-    /// Column at which elimination stopped.
-    pub column: usize,
-}
-
-impl fmt::Display for Singular {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "matrix is singular at column {}", self.column)
-    }
-}
-
-impl std::error::Error for Singular {}
 
 /// P A = L U with partial pivoting; row-major, sized once, no allocation afterwards.
 ///

@@ -16,6 +16,7 @@
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 
+mod columns;
 mod definite;
 pub mod dense;
 pub mod factor;
@@ -23,6 +24,7 @@ pub mod number;
 pub mod ordering;
 mod pivoting;
 mod scale;
+mod singular;
 mod small;
 pub mod sparse;
 

@@ -1,8 +1,8 @@
 //! Choice of pivots of a sparse factorisation.
 
+use super::columns::Columns;
 use super::dense::Singular;
 use super::number::Number;
-use super::sparse::Columns;
 
 /// The preferred pivot is taken from this part of the largest entry of its column on.
 const THRESHOLD: f64 = 0.1;

@@ -3,8 +3,8 @@
 //!
 //! Tried and slower: updating whole rows against a masked pivot row, a copy of the matrix in local variables.
 
-use super::dense::Singular;
 use super::number::Number;
+use super::singular::Singular;
 
 /// Gaussian elimination by rows; see [`super::dense::Lu`] for the contents of the arguments.
 #[inline]

@@ -269,6 +269,10 @@ impl Scheme for Bdf {
         Ok(())
     }
 
+    fn is_implicit(&self) -> bool {
+        true
+    }
+
     fn order(&self) -> usize {
         self.order
     }

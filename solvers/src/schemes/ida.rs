@@ -171,6 +171,10 @@ impl Scheme for Ida {
         out.hermite(system, engine, from, to)
     }
 
+    fn is_implicit(&self) -> bool {
+        true
+    }
+
     fn order(&self) -> usize {
         self.reached.map_or(1, |_| self.solver.order())
     }

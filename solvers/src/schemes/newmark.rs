@@ -352,6 +352,10 @@ impl Scheme for Newmark {
         out.hermite(system, engine, from, to)
     }
 
+    fn is_implicit(&self) -> bool {
+        true
+    }
+
     fn order(&self) -> usize {
         2
     }

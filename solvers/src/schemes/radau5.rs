@@ -173,6 +173,10 @@ impl Scheme for Radau5 {
         Ok(())
     }
 
+    fn is_implicit(&self) -> bool {
+        true
+    }
+
     fn order(&self) -> usize {
         5
     }

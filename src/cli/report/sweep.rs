@@ -2,10 +2,12 @@
 
 use super::{certified, finding, significant};
 use crate::cli::{linear, modes};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::sweep::{Run, parameters};
 use grashof::model::{Model, Study};
-use grashof::output::{self, Finding, Header, Report, Table, json_number, json_numbers};
+use grashof::output;
+use grashof::output::{Finding, Header, Report, Table, json_number, json_numbers};
+use grashof::results::Outcome;
+use grashof::studies::common::case::parameters;
+use grashof::studies::sweep::Run;
 use serde_json::Value;
 
 /// One row a run: swept parameters, the one that was solved for, results, scalars, reason.

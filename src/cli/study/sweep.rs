@@ -5,10 +5,11 @@ use super::super::kept::Kept;
 use super::super::progress::Progress;
 use super::super::{code, fail, figures, linear, report, tell};
 use super::{Finished, Job, Output, values};
-use grashof::analysis::outcome::Outcome;
-use grashof::analysis::sweep::{self, Run};
 use grashof::model::Study;
 use grashof::output::{Staging, write_csv};
+use grashof::results::Outcome;
+use grashof::studies::sweep;
+use grashof::studies::sweep::Run;
 
 impl Job<'_> {
     /// Runs what is not known yet, and writes all.

@@ -2,7 +2,7 @@
 
 use super::super::inertia;
 use super::super::{Attached, Body};
-use super::Builder;
+use super::builder::Builder;
 use crate::expression::{Id, Table, TableError};
 use crate::geometry::{MassProperties, Space};
 use crate::model::{PointAt, PointRef, Shape, roll_pitch_yaw};

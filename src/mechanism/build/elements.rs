@@ -3,7 +3,7 @@
 use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
 use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
-use super::Builder;
+use super::builder::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{

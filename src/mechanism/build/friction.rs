@@ -1,7 +1,7 @@
 //! Where joints rub: their normal forces by the rows of the cut joint.
 
 use super::super::{Pressed, Pressing};
-use super::Builder;
+use super::builder::Builder;
 use crate::geometry::Space;
 use crate::model::{JointKind, Pressure};
 

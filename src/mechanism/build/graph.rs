@@ -2,10 +2,12 @@
 
 use super::super::gauge::Measured;
 use super::super::joint::{self, Shape};
-use super::super::tree::{self, Branch, Edge, Step};
+use super::super::step::Step;
+use super::super::tree::{self, Branch, Edge};
 use super::super::{Joint, Node, Row, RowKind, RowOwner};
+use super::builder::{Builder, along};
+use super::coordinates::Coordinates;
 use super::particle::particles;
-use super::{Builder, Coordinates, along};
 use crate::expression::Id;
 use crate::geometry::{Pose, Space};
 use crate::model::{self, JointKind, Quantity, roll_pitch_yaw};

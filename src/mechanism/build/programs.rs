@@ -3,7 +3,7 @@
 use super::super::force::{Leaf, Output, StagedProgram};
 use super::super::gauge::Measured;
 use super::super::{Function, Mechanism};
-use super::Builder;
+use super::builder::Builder;
 use crate::expression::{Id, Pool};
 use crate::geometry::{Space, basis};
 use crate::model::{Dimensions, Model, Quantity};
@@ -94,7 +94,7 @@ impl<'m, G: Space> Builder<'m, G> {
     }
 
     /// Programs and counts; the mechanism is complete.
-    pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::BuildFault>> {
+    pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::fault::BuildFault>> {
         let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(Clone::clone);
         let mut programs = outputs.map(|of| self.program(of)).into_iter();
         if !self.faults.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::super::joint::{apply, axis_rotation, dot, transpose, unit};
 use super::super::{Asked, Orientation, Start};
-use super::Builder;
+use super::builder::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{Quantity, StartValue, axis_angle, roll_pitch_yaw};

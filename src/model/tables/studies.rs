@@ -3,7 +3,7 @@
 use super::super::fields::Shape::{Count, Either, Flag, Formula, List, Map, Name, Named, Text, Value, Word};
 use super::super::fields::{Keys, Shape, Size, Table, Want};
 use super::super::integrator;
-use super::{ANY, NUMBER, TIME, at_most_one, may, need, one_of};
+use super::shapes::{ANY, NUMBER, TIME, at_most_one, may, need, one_of};
 
 /// Most intervals of a study.
 pub(crate) const MOST_SAMPLES: u64 = 10_000_000;

@@ -1,0 +1,109 @@
+//! Starts from which drivers cannot move: dead points, in words, with the nearest positions from which they can.
+
+use super::close::{Held, System};
+use super::explain::short;
+use super::fault::AssemblyFault;
+use crate::geometry::Space;
+use crate::mechanism::{Asked, Mechanism, RowKind};
+use crate::numerics::least_squares::left_open;
+
+/// How far beside a dead point a start is proposed, rad or sizes.
+const BESIDE: f64 = 0.05;
+
+impl<G: Space<S = f64>> System<'_, G> {
+    /// A start whose rows have their common rank but leave drivers no way.
+    pub(super) fn dead_point(&mut self, q: &[f64], missed: &str) -> AssemblyFault {
+        let m = self.dynamics.mechanism;
+        let driven: Vec<(usize, f64)> = m
+            .rows
+            .iter()
+            .zip(&self.dynamics.work.nu)
+            .filter_map(|(row, nu)| if let RowKind::Driver { gauge, .. } = row.kind { Some((gauge, *nu)) } else { None })
+            .collect();
+        let (a, round_off) = self.scaled(&self.undriven());
+        let open = left_open(round_off, &a, &self.metric);
+        let mut sides = Vec::new();
+        if open.ncols() == 1 {
+            let largest = open.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
+            for s in [BESIDE / largest, -BESIDE / largest] {
+                let way: Vec<f64> = open.iter().map(|u| u * s).collect();
+                sides.extend(self.beside(q, &way));
+            }
+        }
+        self.place(q);
+        let end = match (&driven[..], &sides[..]) {
+            ([(gauge, _)], [one, other]) => {
+                let here = self.dynamics.work.readings[*gauge].x;
+                let moved = [one, other].map(|side| side.driven - here);
+                (moved[0] * moved[1] > 0.0).then(|| {
+                    let extreme = if moved[0] > 0.0 { "least" } else { "largest" };
+                    format!(": there {} has its {extreme} value, {}", name(m, *gauge), value(m, *gauge, here))
+                })
+            }
+            _ => None,
+        };
+        let mover = if self.dynamics.mechanism.drives.is_empty() { "coupling" } else { "driver" };
+        let starts: Vec<&str> = sides.iter().map(|side| side.start.as_str()).filter(|start| !start.is_empty()).collect();
+        AssemblyFault {
+            code: "dead-point",
+            message: format!(
+                "the start is a dead point, where the links are in a line and no finite velocity moves the {mover} on: {missed}{}",
+                end.unwrap_or_default()
+            ),
+            place: "start".into(),
+            help: match starts[..] {
+                [] => "start beside it, by another exact value, or drive another joint".into(),
+                [one] => format!("start beside it, as with {one}, or drive another joint"),
+                [one, other, ..] => format!("start beside it, as with {one} or with {other}, or drive another joint"),
+            },
+        }
+    }
+
+    /// A change point on none of whose branches drivers and exact rates can be met.
+    pub(super) fn blocked(&self, branches: &str) -> AssemblyFault {
+        AssemblyFault {
+            code: "dead-point",
+            message: format!(
+                "the start is a change point from which drivers and exact rates lead along none of its branches: {branches} (in parts of the largest)"
+            ),
+            place: "start".into(),
+            help: "start beside it, by another exact value, or drive a joint that moves on the branch".into(),
+        }
+    }
+
+    /// The closed position a little way along a motion that drivers are not asked about.
+    fn beside(&mut self, q: &[f64], way: &[f64]) -> Option<Beside> {
+        let m = self.dynamics.mechanism;
+        let undriven = self.undriven();
+        let (rows, held) = (std::mem::replace(&mut self.rows, undriven), std::mem::replace(&mut self.held, Held::Nothing));
+        let mut at = q.to_vec();
+        m.retract(&mut at, way);
+        let closed = self.close(&mut at);
+        (self.rows, self.held) = (rows, held);
+        let readings = &self.dynamics.work.readings;
+        let gauge = m.rows.iter().find_map(|row| if let RowKind::Driver { gauge, .. } = row.kind { Some(gauge) } else { None })?;
+        let exact = m.starts.iter().filter(|s| !s.guess).filter_map(|s| match s.asked {
+            Asked::Gauge { gauge, order: 0 } => Some(format!("`{}: {}`", s.name, value(m, gauge, readings[gauge].x))),
+            _ => None,
+        });
+        let start = exact.collect::<Vec<_>>().join(", ");
+        closed.then(|| Beside { driven: readings[gauge].x, start })
+    }
+}
+
+/// A position beside a dead point: the driven value, and exact values of `start` as they would be written.
+struct Beside {
+    driven: f64,
+    start: String,
+}
+
+/// A driven joint's coordinate.
+fn name<G: Space>(m: &Mechanism<G>, gauge: usize) -> String {
+    let joint = m.joints.iter().find(|joint| joint.slots.contains(&gauge));
+    joint.map_or_else(|| "the driven quantity".into(), |joint| format!("`{}`", joint.name))
+}
+
+/// A value of a gauge with its unit.
+fn value<G: Space>(m: &Mechanism<G>, gauge: usize, x: f64) -> String {
+    if m.gauges[gauge].turns() { format!("{} deg", short(x.to_degrees())) } else { format!("{} m", short(x)) }
+}

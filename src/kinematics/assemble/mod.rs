@@ -1,0 +1,110 @@
+//! From guesses and exact values to a position and velocity that satisfy every constraint.
+//!
+//! The start is completed in one and the same form whatever the coordinates of the run: on the tree of all joints, those that are
+//! to be cut among them (`position.rs`, `velocity.rs`). Poses and twists are then carried over to the coordinates of the run
+//! (`carry.rs`), so that neither these nor `cut` change a start, and a mechanism without loops is always assembled.
+//!
+//! Guesses (`~`) and exact values first pull the drawn position towards themselves, all alike, in the sense of least squares.
+//! Then constraints and exact values are closed by Gauss-Newton steps that are the shortest, 1 rad counting as much as the size of
+//! the mechanism (Levenberg's damping where a step does not help): once from there, once from where they close best with guesses
+//! held as well, lest coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts. What
+//! is left open after that is as near to the drawn pose as can be, in least squares over the coordinates of all joints
+//! (`nearest.rs`). Next to a change point positions are moved into it (`sharpen.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
+//! on one of these (`cone.rs`, `branch.rs`).
+
+mod begun;
+mod branch;
+mod carry;
+mod close;
+mod cone;
+mod dead;
+mod explain;
+mod fault;
+mod found;
+mod metric;
+mod nearest;
+mod position;
+mod rotation;
+mod shake;
+mod sharpen;
+mod velocity;
+
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::mechanism::{Coordinates, Mechanism, build, build_uncut, is_uncut};
+use crate::model::Model;
+use crate::results::{Failure, Finding};
+use begun::{Begun, anchor};
+pub use branch::{Branch, ChangePoint};
+pub use fault::AssemblyFault;
+pub use found::Found;
+use grashof_solvers::kkt;
+pub(crate) use metric::units;
+
+/// A consistent start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembled {
+    /// Coordinates (nq).
+    pub q: Vec<f64>,
+    /// Velocities (nv).
+    pub v: Vec<f64>,
+    /// Modes: switches of the expressions, then winding numbers.
+    pub modes: Vec<i32>,
+    /// Characteristic length of the mechanism, m.
+    pub size: f64,
+    /// Diagonal of the mass metric D as drawn (nv).
+    pub metric: Vec<f64>,
+    /// Asked and found values of `start`.
+    pub found: Vec<Found>,
+    /// What the position is if branches of the motion cross there.
+    pub change: Option<ChangePoint>,
+}
+
+impl Assembled {
+    /// What a reader should know of the start.
+    pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
+        self.change.iter().map(|change| Finding { code: "change-point", message: change.message(), path: "start".into() })
+    }
+}
+
+/// The mechanism of a model at given parameters (in file order) with its assembled start; the start fixes the anchors of its rows.
+///
+/// # Errors
+/// If the model has no mechanism; the loops that stay open with their gaps, or the exact values that no assembly satisfies.
+pub fn assemble<G: Space<S = f64>>(
+    model: &Model,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<(Mechanism<G>, Assembled), Failure> {
+    let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+    let metric = drawn_metric(&mechanism);
+    let begun = if is_uncut(model, coordinates) {
+        begin(&mut mechanism)?
+    } else {
+        let mut uncut = build_uncut::<G>(model, parameters).map_err(Failure::Model)?;
+        let begun = begin(&mut uncut)?;
+        carry::carry(&uncut, &begun, &mut mechanism)
+    };
+    let size = mechanism.size();
+    let found = found::found(&mechanism, &begun)?;
+    let Begun { q, v, modes, change } = begun;
+    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change }))
+}
+
+/// Position and velocity on the tree at hand.
+fn begin<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Begun, AssemblyFault> {
+    let (q, modes) = position::position(mechanism)?;
+    anchor(mechanism, &q, &modes);
+    let (v, change) = velocity::velocity(mechanism, &q, &modes)?;
+    Ok(Begun { q, v, modes, change })
+}
+
+/// Diagonal of the mass metric as drawn, free bodies at the orientation that is asked for.
+fn drawn_metric<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<f64> {
+    let mut dynamics = Dynamics::new(mechanism);
+    let (mut q, mut modes) = (mechanism.drawn(), mechanism.modes());
+    position::orient(mechanism, &mut q);
+    dynamics.follow_time(0.0, &mut modes);
+    dynamics.terms(0.0, &q, &vec![0.0; mechanism.nv], &modes);
+    kkt::metric(&dynamics.work.mass, &units(mechanism))
+}

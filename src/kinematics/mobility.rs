@@ -1,0 +1,182 @@
+//! Degrees of freedom: the Grübler count, the numerical rank, redundant rows, and the Grashof class of four-bars.
+
+use super::assemble::{Assembled, ChangePoint};
+use super::freedom::{rows, undriven};
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, RowOwner};
+use crate::model::{Kind, Model, Study};
+use crate::results::Failure;
+use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
+
+/// The mobility of a mechanism at its start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mobility {
+    /// Freedoms of the bodies minus what the joints and couplings take: Grübler's count, without drivers.
+    pub grubler: i64,
+    /// Velocities minus the rank of joints and couplings: the real freedom, without drivers.
+    pub freedom: usize,
+    /// Freedom left with all drivers.
+    pub left: usize,
+    /// Rank of all rows.
+    pub rank: usize,
+    /// Whether time moves one of the couplings.
+    pub moved: bool,
+    /// Rows that depend on others, in words.
+    pub redundant: Vec<String>,
+}
+
+/// Counts at the assembled start.
+#[must_use]
+pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
+    // in a change point rows lose rank that they have everywhere else
+    let q = start.change.as_ref().and_then(ChangePoint::beside).unwrap_or(&start.q);
+    let rows = rows(mechanism, q, &start.modes, &start.metric);
+    let free = undriven(mechanism, &rows, &start.metric);
+    let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
+    let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();
+    Mobility {
+        grubler: mechanism.nv as i64 - (mechanism.rows.len() - drivers) as i64,
+        freedom: free.mobility(),
+        left: driven.mobility(),
+        rank: driven.rank,
+        moved: mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row)),
+        redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),
+    }
+}
+
+/// Whether the drivers leave no freedom and do not contend for the same one.
+pub(crate) fn drivers_fit<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    model: &Model,
+    study: &Study,
+) -> Result<(), Failure> {
+    let m = mobility(mechanism, start);
+    let drivers = mechanism.drives.len();
+    if m.freedom < drivers {
+        let names: Vec<String> = model.drivers.iter().map(|d| format!("`{}`", d.name)).collect();
+        return Err(Failure::Study {
+            code: "over-constrained",
+            message: format!(
+                "{drivers} driver{} ({}) for a mechanism of {} degree{} of freedom",
+                plural(drivers),
+                names.join(", "),
+                m.freedom,
+                plural(m.freedom)
+            ),
+            place: "drivers".into(),
+            help: "remove drivers until there are as many as degrees of freedom".into(),
+        });
+    }
+    if m.left > 0 {
+        let loose = loose(mechanism);
+        let kind = match study.kind {
+            Kind::Kinematics(_) => "kinematics",
+            Kind::Balance { .. } => "balance",
+            _ => "inverse",
+        };
+        return Err(Failure::Study {
+            code: "under-constrained",
+            message: format!(
+                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
+                m.freedom,
+                plural(m.freedom),
+                plural(drivers),
+                if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
+                in_no_joint(&loose)
+            ),
+            place: if drivers == 0 { study.place.clone() } else { "drivers".into() },
+            help: match loose.first() {
+                Some(body) => format!("give `{body}` a joint, or remove it"),
+                None => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            },
+        });
+    }
+    Ok(())
+}
+
+/// Names of the bodies that no joint leads to.
+#[must_use]
+pub fn loose<G: Space>(mechanism: &Mechanism<G>) -> Vec<&str> {
+    let joined = |body: usize| mechanism.joints.iter().any(|j| j.a.0 == body || j.b.0 == body);
+    (1..mechanism.bodies.len()).filter(|&b| !joined(b)).map(|b| mechanism.bodies[b].name.as_str()).collect()
+}
+
+/// `; body `rod` is in no joint`.
+fn in_no_joint(loose: &[&str]) -> String {
+    let names: Vec<String> = loose.iter().take(3).map(|name| format!("`{name}`")).collect();
+    match loose.len() {
+        0 => String::new(),
+        1 => format!("; body {} is in no joint", names[0]),
+        n => format!("; bodies {}{} are in no joint", names.join(", "), if n > 3 { ", ..." } else { "" }),
+    }
+}
+
+fn plural(n: usize) -> &'static str {
+    if n == 1 { "" } else { "s" }
+}
+
+/// Grashof's verdict on a planar four-bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grashof {
+    /// In words: crank-rocker, double-crank, double-rocker, change-point, triple-rocker.
+    pub class: &'static str,
+    /// Ground, input, coupler and output lengths, m, with the names of their bodies.
+    pub links: [(String, f64); 4],
+    /// Range of the input angle from the ground line, rad; none if it turns fully.
+    pub range: Option<(f64, f64)>,
+}
+
+/// The class of a planar four-bar of revolute joints, its driven link as the input; none for any other mechanism.
+#[must_use]
+pub fn grashof<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Option<Grashof> {
+    let m = mechanism;
+    if G::VECTOR != 2 || m.bodies.len() != 4 || m.joints.len() != 4 || m.joints.iter().any(|j| j.kind != "revolute") {
+        return None;
+    }
+    let of = |body: usize| -> Vec<usize> { (0..4).filter(|&j| m.joints[j].a.0 == body || m.joints[j].b.0 == body).collect() };
+    if (0..4).any(|b| of(b).len() != 2) {
+        return None;
+    }
+    let point = |joint: usize, body: usize| if m.joints[joint].a.0 == body { m.joints[joint].a.1 } else { m.joints[joint].b.1 };
+    let length = |body: usize| {
+        let [i, k] = of(body)[..] else { return 0.0 };
+        let d = point(i, body) - point(k, body);
+        G::dot(d, d).sqrt()
+    };
+    let other = |joint: usize, body: usize| if m.joints[joint].a.0 == body { m.joints[joint].b.0 } else { m.joints[joint].a.0 };
+    let ground = of(0);
+    let driven = m.drives.first().and_then(|d| ground.iter().copied().find(|&j| m.joints[j].slots.contains(&d.gauge)));
+    let input_joint = driven.unwrap_or(ground[0]);
+    let output_joint = ground.iter().copied().find(|j| *j != input_joint)?;
+    let (input, output) = (other(input_joint, 0), other(output_joint, 0));
+    let coupler = (1..4).find(|b| *b != input && *b != output)?;
+    let links = [0, input, coupler, output].map(|b| (m.bodies[b].name.clone(), length(b)));
+    let [g, a, b, c] = [links[0].1, links[1].1, links[2].1, links[3].1];
+    let sorted = {
+        let mut x = [g, a, b, c];
+        x.sort_by(f64::total_cmp);
+        x
+    };
+    let excess = sorted[0] + sorted[3] - sorted[1] - sorted[2];
+    let scale = 1e-12 * sorted[3];
+    let class = if excess.abs() <= scale {
+        "change-point"
+    } else if excess > 0.0 {
+        "triple-rocker (no link turns fully)"
+    } else if sorted[0] == a {
+        "crank-rocker (the input turns fully)"
+    } else if sorted[0] == g {
+        "double-crank (drag link)"
+    } else if sorted[0] == c {
+        "rocker-crank (the output turns fully)"
+    } else {
+        "double-rocker (the coupler turns fully)"
+    };
+    // the diagonal from the input's end to the output's pivot must lie in [|b − c|, b + c]
+    let cosine = |d: f64| (g * g + a * a - d * d) / (2.0 * g * a);
+    let (near, far) = (cosine((b - c).abs()), cosine(b + c));
+    let full = near >= 1.0 - 1e-12 && far <= -1.0 + 1e-12;
+    let range = (!full).then(|| (near.clamp(-1.0, 1.0).acos(), far.clamp(-1.0, 1.0).acos()));
+    Some(Grashof { class, links, range })
+}

@@ -1,0 +1,16 @@
+//! What a mechanism can do by its constraints: assembly, mobility, driven motion along a path, the linear motion about a pose.
+
+pub mod assemble;
+pub mod coordinates;
+pub mod driven;
+mod fold;
+mod freedom;
+pub mod held;
+pub mod linear;
+pub mod mobility;
+mod node;
+pub mod partition;
+pub mod path;
+pub(crate) mod standing;
+pub mod survey;
+pub mod undefined;

@@ -1,0 +1,150 @@
+//! Dependent and independent velocities at a position, G_d δ_d + G_i δ_i = 0 (Wehage & Haug, J. Mech. Des. 104 (1982) 247-255).
+
+use crate::geometry::Space;
+use crate::mechanism::{Asked, Measured, Mechanism};
+use crate::results::Failure;
+use nalgebra::{DMatrix, DVector};
+
+/// Pivot of the scaled rows, and part of the largest pivot, below which a row depends on the others.
+const RANK_TOLERANCE: f64 = 1e-8;
+
+/// A division of velocities, v = (v_d, v_i), such that G_d has full column rank and as many columns as G has independent rows.
+#[derive(Clone, Debug)]
+pub struct Partition {
+    /// Independent velocities, rising (n).
+    pub independent: Vec<usize>,
+    /// The others, rising (nv − n).
+    pub dependent: Vec<usize>,
+    /// P = [−G_d⁺ G_i; I] (nv × n): motions that the rows allow.
+    pub p: DMatrix<f64>,
+    /// G_d⁺ (dependent × rows), which solves G_d x = y exactly for right-hand sides that agree where rows are redundant.
+    inverse: DMatrix<f64>,
+}
+
+impl Partition {
+    /// Divides the velocities; `preferred` ones are independent as far as the rows leave them so, the others are chosen by
+    /// elimination with complete pivoting. G (rows × nv) is scaled by the `metric` D of its velocities (nv) and by the
+    /// `row_scale` diag(G D⁻¹ Gᵀ) of its rows, so that units do not choose.
+    #[must_use]
+    pub fn new(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64], preferred: &[usize]) -> Self {
+        let dependent = pivots(Scaled::new(g, metric, row_scale).g, preferred);
+        Self::of(g, metric, row_scale, (0..g.ncols()).filter(|j| !dependent.contains(j)).collect())
+    }
+
+    /// The same division at another position, by its G.
+    #[must_use]
+    pub fn of(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64], independent: Vec<usize>) -> Self {
+        let (rows, nv) = g.shape();
+        let dependent: Vec<usize> = (0..nv).filter(|j| !independent.contains(j)).collect();
+        let scaled = Scaled::new(g, metric, row_scale);
+        let qr = scaled.g.select_columns(&dependent).qr();
+        // full column rank: R is regular, R⁻¹Qᵀ is the inverse of least squares
+        let mut inverse = qr.r().solve_upper_triangular(&qr.q().transpose()).unwrap_or_else(|| DMatrix::zeros(dependent.len(), rows));
+        for (mut line, &j) in inverse.row_iter_mut().zip(&dependent) {
+            line.iter_mut().zip(&scaled.row_unit).for_each(|(x, r)| *x *= r * scaled.unit[j]);
+        }
+        let mut partition = Self { p: DMatrix::zeros(nv, independent.len()), independent, dependent, inverse };
+        partition.p = partition.follow(&g.select_columns(&partition.independent));
+        for (j, &i) in partition.independent.iter().enumerate() {
+            partition.p[(i, j)] = 1.0;
+        }
+        partition
+    }
+
+    /// x (nv × columns) with G x + y = 0 for y (rows × columns) that the rows can meet, its independent part 0.
+    #[must_use]
+    pub fn follow(&self, y: &DMatrix<f64>) -> DMatrix<f64> {
+        let x = &self.inverse * y;
+        let mut out = DMatrix::zeros(self.p.nrows(), y.ncols());
+        for (line, &d) in x.row_iter().zip(&self.dependent) {
+            out.row_mut(d).copy_from(&-line);
+        }
+        out
+    }
+
+    /// λ with G_dᵀλ = f_d (f: nv), of least λᵀ diag(G D⁻¹ Gᵀ) λ where rows are redundant: what the rows must bear so that the
+    /// dependent velocities are in balance.
+    #[must_use]
+    pub fn multipliers(&self, f: &DVector<f64>) -> DVector<f64> {
+        self.inverse.transpose() * f.select_rows(&self.dependent)
+    }
+}
+
+/// diag(G D⁻¹ Gᵀ)^−½ G D^−½ with its factors.
+struct Scaled {
+    g: DMatrix<f64>,
+    row_unit: Vec<f64>,
+    unit: Vec<f64>,
+}
+
+impl Scaled {
+    fn new(g: &DMatrix<f64>, metric: &[f64], row_scale: &[f64]) -> Self {
+        let root = |x: &f64| x.sqrt().recip();
+        let row_unit: Vec<f64> = row_scale.iter().map(root).collect();
+        let unit: Vec<f64> = metric.iter().map(root).collect();
+        let scaled = DMatrix::from_fn(g.nrows(), g.ncols(), |i, j| g[(i, j)] * row_unit[i] * unit[j]);
+        Self { g: scaled, row_unit, unit }
+    }
+}
+
+/// Columns that elimination takes, rising: those that are not preferred first.
+fn pivots(mut a: DMatrix<f64>, preferred: &[usize]) -> Vec<usize> {
+    let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+    // sound rows have the length 1: what is far shorter is round-off, also if nothing longer is there
+    let mut threshold = RANK_TOLERANCE;
+    for kept in [preferred, &[]] {
+        loop {
+            let free = |j: &usize| !columns.contains(j) && !kept.contains(j);
+            let places = (0..a.nrows()).filter(|i| !rows.contains(i)).flat_map(|i| (0..a.ncols()).filter(free).map(move |j| (i, j)));
+            let Some((i, j)) = places.max_by(|x, y| a[*x].abs().total_cmp(&a[*y].abs())) else { break };
+            let pivot = a[(i, j)];
+            if pivot.abs() <= threshold || pivot.is_nan() {
+                break;
+            }
+            threshold = f64::max(threshold, RANK_TOLERANCE * pivot.abs());
+            rows.push(i);
+            columns.push(j);
+            let line = a.row(i) / pivot;
+            for k in (0..a.nrows()).filter(|k| !rows.contains(k)) {
+                let factor = a[(k, j)];
+                a.row_mut(k).iter_mut().zip(line.iter()).for_each(|(x, l)| *x -= factor * l);
+            }
+        }
+    }
+    columns.sort_unstable();
+    columns
+}
+
+/// Velocities that are independent by preference: joint coordinates with an exact value in `start`, in file order.
+#[must_use]
+pub fn preferred<G: Space>(mechanism: &Mechanism<G>) -> Vec<usize> {
+    let of = |asked: Asked| match asked {
+        Asked::Gauge { gauge, order: 0 } => match mechanism.gauges[gauge].measured {
+            Measured::Coordinate { along, .. } => Some(along.v),
+            _ => None,
+        },
+        _ => None,
+    };
+    mechanism.starts.iter().filter(|s| !s.guess).filter_map(|s| of(s.asked)).collect()
+}
+
+/// Refuses a mass matrix (n × n) that is singular on the independent velocities named `names`.
+///
+/// # Errors
+/// Which motion has no mass.
+pub(crate) fn with_mass(mass: &DMatrix<f64>, names: &[String], place: &str) -> Result<(), Failure> {
+    let size = mass.diagonal().amax();
+    let pivots = mass.clone().cholesky().map(|c| c.l().diagonal().map(|x| x * x));
+    let worst = |d: &DVector<f64>| d.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, x)| (i, *x));
+    let massless = match &pivots {
+        Some(pivots) => worst(pivots).filter(|(_, x)| *x <= 1e-13 * size),
+        None => worst(&mass.diagonal()),
+    };
+    let Some((i, _)) = massless else { return Ok(()) };
+    Err(Failure::Study {
+        code: "singular-mass",
+        message: format!("the motion of `{}` moves no mass, so it has no rate", names[i]),
+        place: place.into(),
+        help: "give every moving body a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }`".into(),
+    })
+}

@@ -1,0 +1,146 @@
+//! What has no value in a study: which law or column it is, where that stands in the file, and why.
+
+use super::assemble::{Assembled, assemble};
+use super::held::settled;
+use crate::dynamics::Dynamics;
+use crate::expression::{Cause, Id};
+use crate::geometry::Space;
+use crate::mechanism::{self, Coordinates, Mechanism, build};
+use crate::model::{Model, Study};
+use crate::results::{Failure, Finding, Undefined};
+
+/// Something without a value at a place of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Gap {
+    /// A law of a driver, a coupling, a force or a state.
+    Law(mechanism::Undefined),
+    /// An expression that is watched.
+    Watched(Id, Cause),
+}
+
+/// What guards a value.
+const GUARD: &str = "choose what holds there by `if(condition, a, b)`";
+
+impl Gap {
+    /// In words; `at` is where it happens: `t = 0.5 s`.
+    pub(crate) fn told(&self, model: &Model, study: &Study, at: &str) -> Undefined {
+        match self {
+            Self::Law(law) => of_law(model, law, at),
+            Self::Watched(id, cause) => {
+                let (name, place) = watched(model, study, *id);
+                Undefined {
+                    message: format!("{name} is not defined at {at}: {}", model.why_undefined(*cause)),
+                    help: format!("{GUARD}; or, if its cells may stay blank there, name it in `undefined` of the study"),
+                    place,
+                }
+            }
+        }
+    }
+}
+
+/// A law of the mechanism without a value, in words.
+fn of_law(model: &Model, law: &mechanism::Undefined, at: &str) -> Undefined {
+    Undefined {
+        message: format!("{} is not defined at {at}: {}", part(&law.place), model.why_undefined(law.cause)),
+        place: law.place.clone(),
+        help: match law.cause {
+            Cause::Table { .. } => {
+                "give the table points as far as it is used, say how it goes on with `beyond`, or end the study before".into()
+            }
+            _ => "use a formula that is defined there and a little beyond, or end the study before".into(),
+        },
+    }
+}
+
+/// The part of a model at a path, in words: "load `push`" at `loads.push`.
+fn part(place: &str) -> String {
+    let mut keys = place.split('.');
+    let (section, name) = (keys.next().unwrap_or_default(), keys.next().unwrap_or_default());
+    let word = match section {
+        "loads" => "load",
+        "springs" => "the law of spring",
+        "drivers" => "the motion of driver",
+        "couplings" => "coupling",
+        "motors" => "the torque of motor",
+        "states" => "the rate of state",
+        "joints" => "a force on joint",
+        _ => return format!("`{place}`"),
+    };
+    format!("{word} `{name}`")
+}
+
+/// What an expression is that a study watches, and its place.
+fn watched(model: &Model, study: &Study, id: Id) -> (String, String) {
+    let column = study.columns.iter().find(|c| c.value == id).map(|c| c.name.as_str());
+    if let Some(measure) = model.measures.iter().find(|m| m.value == id) {
+        return (format!("`{}`", measure.name), measure.place.clone());
+    }
+    if let Some(name) = column {
+        return (format!("column `{name}`"), format!("{}.columns", study.place));
+    }
+    if let Some(functional) = study.functionals.iter().find(|f| f.of == id) {
+        return (format!("what `{}` is taken of", functional.text), study.place.clone());
+    }
+    let event = model
+        .events
+        .iter()
+        .find(|e| e.when == id || e.restitution.as_ref().is_some_and(|r| r.e == id) || e.set.iter().any(|(_, set)| *set == id));
+    match event {
+        Some(event) => (format!("an expression of event `{}`", event.name), format!("events.{}", event.name)),
+        None => ("a curve of a figure".into(), study.place.clone()),
+    }
+}
+
+/// What is undefined in a state that an analysis has not been able to use; none if that had another reason.
+pub(crate) fn in_state<G: Space<S = f64>>(
+    model: &Model,
+    mechanism: &Mechanism<G>,
+    [q, v, z]: [&[f64]; 3],
+    modes: &[i32],
+    at: &str,
+) -> Option<Undefined> {
+    let mut dynamics = Dynamics::new(mechanism);
+    dynamics.work.z.copy_from_slice(z);
+    dynamics.terms(0.0, q, v, modes);
+    dynamics.rates(modes);
+    dynamics.undefined(modes).map(|law| of_law(model, &law, at))
+}
+
+/// [`assemble`], where it fails because a law has no value told so.
+///
+/// # Errors
+/// As there, and that law.
+pub(crate) fn assembled<G: Space<S = f64>>(
+    model: &Model,
+    parameters: &[f64],
+    coordinates: Coordinates,
+) -> Result<(Mechanism<G>, Assembled), Failure> {
+    assemble::<G>(model, parameters, coordinates).map_err(|failure| {
+        let Ok(mechanism) = build::<G>(model, parameters, coordinates) else { return failure };
+        let (q, v, z) = (mechanism.drawn(), vec![0.0; mechanism.nv], mechanism.state_starts.clone());
+        let modes = settled(&mechanism, [&q, &v, &z], &mechanism.modes());
+        let undefined = in_state(model, &mechanism, [&q, &v, &z], &modes, "the start");
+        undefined.map_or(failure, Failure::Undefined)
+    })
+}
+
+/// Columns that have no value in some rows although the file does not expect it and no expression is at fault: what they show is not
+/// determined there.
+pub(crate) fn blank(study: &Study, independent: &str, places: &[f64], rows: &[Vec<f64>]) -> Vec<Finding> {
+    let blank = |c: usize| (0..rows.len()).filter(move |&i| rows[i].get(c).is_some_and(|x| !x.is_finite()));
+    let told = |(c, column): (usize, &crate::model::Column)| {
+        let first = blank(c).next()?;
+        let count = blank(c).count();
+        Some(Finding {
+            code: "blank-cells",
+            message: format!(
+                "`{}` is not defined in {count} of {} rows, first at {independent} = {}: its cells are blank there",
+                column.name,
+                rows.len(),
+                (places.get(first)? * 1e6).round() / 1e6 + 0.0
+            ),
+            path: format!("{}.columns", study.place),
+        })
+    };
+    study.columns.iter().enumerate().filter(|(_, c)| !study.undefined.contains(&c.value)).filter_map(told).collect()
+}

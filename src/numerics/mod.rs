@@ -1,0 +1,14 @@
+//! Numerical methods without mechanics: curves and their resolution, roots, extremes, quadrature, least squares, eigenvalues.
+
+pub mod chebyshev;
+pub(crate) mod complementarity;
+pub mod continuous;
+pub mod eigenvalues;
+pub mod extremum;
+pub mod hermite;
+mod hills;
+pub(crate) mod least_squares;
+pub(crate) mod panel;
+pub mod quadrature;
+pub mod resolve;
+pub mod root;

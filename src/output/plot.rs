@@ -1,0 +1,66 @@
+//! What a figure of curves shows.
+
+/// Curves over an axis.
+#[derive(Clone, Debug, Default)]
+pub struct Figure {
+    /// Above the picture; may be empty.
+    pub title: String,
+    /// The common axis. Radians are shown as degrees, on both axes.
+    pub x: Axis,
+    /// The other axis. Its `unit` counts for curves that have none of their own; curves of different units stand in panels of
+    /// their own, up to three, one above the other. An empty `label` is made from the names of the curves.
+    pub y: Axis,
+    /// What is shown.
+    pub curves: Vec<Curve>,
+    /// The x of switches, in the unit of the axis: thin dashed lines, across which no curve is joined.
+    pub breaks: Vec<f64>,
+    /// Points of interest.
+    pub marks: Vec<Mark>,
+    /// One unit of x is as long as one of y: for paths in the plane.
+    pub equal: bool,
+    /// Unit and quantity of panels whose curves are not named after their quantity.
+    pub quantities: Vec<(String, String)>,
+}
+
+/// What an axis says and how it runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Axis {
+    /// The quantity, without its unit.
+    pub label: String,
+    /// The SI unit as text, `N m`; empty for a pure number.
+    pub unit: String,
+    /// Even or logarithmic.
+    pub scale: Scale,
+}
+
+/// How an axis runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// By powers of ten; values not above zero are left out.
+    Log,
+}
+
+/// One curve, in SI units.
+#[derive(Clone, Debug, Default)]
+pub struct Curve {
+    /// Its name in the legend.
+    pub label: String,
+    /// Its unit, if it is not the axis' own.
+    pub unit: Option<String>,
+    /// Its points; NaN breaks the line, and so does a pair of equal x if x else runs one way.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A point of interest on a curve.
+#[derive(Clone, Debug, Default)]
+pub struct Mark {
+    /// The text beside it.
+    pub label: String,
+    /// The index of the curve it belongs to.
+    pub curve: usize,
+    /// Where, in SI units.
+    pub at: (f64, f64),
+}

@@ -1,0 +1,147 @@
+//! The independent variable of a range: the driver's coordinate or time, and the time that belongs to it.
+
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::numerics::root::root;
+use std::convert::Infallible;
+
+/// Progress s ≥ 0 along the motion (negative backwards), and what it means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// Independent variable at s = 0.
+    pub from: f64,
+    /// +1 if the independent variable grows along the motion.
+    pub direction: f64,
+    /// Length of the range.
+    pub length: f64,
+    /// Output of the time program that is followed; none: the variable is time itself.
+    driver: Option<usize>,
+    /// s per second, if it is constant.
+    speed: Option<f64>,
+    /// Time at the end of the range.
+    end: f64,
+}
+
+/// The driver never gets to the end of the range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NeverThere(pub String);
+
+impl Clock {
+    /// A range of time.
+    #[must_use]
+    pub fn of_time(length: f64) -> Self {
+        let direction = if length < 0.0 { -1.0 } else { 1.0 };
+        Self { from: 0.0, direction, length: length.abs(), driver: None, speed: Some(direction), end: length }
+    }
+
+    /// A part of the same range, from its begin.
+    #[must_use]
+    pub(crate) fn part(self, part: f64) -> Self {
+        Self { length: part * self.length, end: part * self.end, ..self }
+    }
+
+    /// A range of a driver's coordinate, in the direction in which the driver moves at the start (the other one if the range is
+    /// negative). `output` is that of the driver's law, `from` its coordinate at the start.
+    ///
+    /// # Errors
+    /// If the law stands still or turns back before the range is done.
+    pub fn of_driver<G: Space<S = f64>>(
+        dynamics: &mut Dynamics<'_, G>,
+        modes: &mut [i32],
+        output: usize,
+        from: f64,
+        length: f64,
+    ) -> Result<Self, NeverThere> {
+        let mut law = |t: f64| {
+            dynamics.follow_time(t, modes);
+            [0, 1, 2].map(|k| dynamics.work.motions[output + k])
+        };
+        let backwards = if length < 0.0 { -1.0 } else { 1.0 };
+        let length = length.abs();
+        let [f0, speed, rate] = law(0.0);
+        if speed != 0.0 && rate == 0.0 && law(1.0)[1] == speed && law(-7.0)[1] == speed {
+            let end = backwards * length / speed.abs();
+            let direction = backwards * speed.signum();
+            return Ok(Self { from, direction, length, driver: Some(output), speed: Some(backwards * speed.abs()), end });
+        }
+        // grow the time until the law has gone so far
+        let mut end = 1e-3;
+        let gone = |t: f64, law: &mut dyn FnMut(f64) -> [f64; 3]| (law(t)[0] - f0).abs();
+        while gone(end, &mut law) < length * (1.0 - 1e-12) {
+            end *= 1.5;
+            if end > 1e7 {
+                return Err(NeverThere("the driver never gets so far".into()));
+            }
+        }
+        let (mut low, mut high) = (end / 1.5, end);
+        while high - low > 1e-15 * high {
+            let middle = 0.5 * (low + high);
+            if gone(middle, &mut law) < length * (1.0 - 1e-15) { low = middle } else { high = middle }
+        }
+        let end = high;
+        let direction = (law(end)[0] - f0).signum();
+        let mut last = 0.0;
+        for i in 1..=2000 {
+            let x = gone(end * f64::from(i) / 2000.0, &mut law);
+            if x < last - 1e-9 * length {
+                return Err(NeverThere("the driver turns back within the range: give the range as a time".into()));
+            }
+            last = x;
+        }
+        Ok(Self { from, direction, length, driver: Some(output), speed: None, end })
+    }
+
+    /// Time at the end of the range, s.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// Whether a driver's coordinate is the independent variable.
+    #[must_use]
+    pub fn is_driver(&self) -> bool {
+        self.driver.is_some()
+    }
+
+    /// The independent variable at s.
+    #[must_use]
+    pub fn value(&self, s: f64) -> f64 {
+        // a zero of either sign is zero
+        self.from + self.direction * s + 0.0
+    }
+
+    /// Progress at a value of the independent variable.
+    #[must_use]
+    pub fn progress(&self, value: f64) -> f64 {
+        (value - self.from) * self.direction
+    }
+
+    /// Time at progress s.
+    pub fn time<G: Space<S = f64>>(&self, dynamics: &mut Dynamics<'_, G>, modes: &mut [i32], s: f64) -> f64 {
+        if let Some(speed) = self.speed {
+            return s / speed;
+        }
+        let Some(output) = self.driver else { return s };
+        if s >= self.length {
+            return self.end;
+        }
+        let mut gone = |t: f64| {
+            dynamics.follow_time(t, modes);
+            dynamics.work.motions[output]
+        };
+        let f0 = gone(0.0);
+        let mut miss = |t: f64| Ok::<f64, Infallible>((gone(t) - f0) * self.direction - s);
+        let (a, b) = if s < 0.0 { (-self.end, 0.0) } else { (0.0, self.end) };
+        let (Ok(fa), Ok(fb)) = (miss(a), miss(b));
+        match root(miss, a, b, fa, fb, 0.0) {
+            Ok(Some(found)) => found.place(),
+            Ok(None) => {
+                if fa.abs() < fb.abs() {
+                    a
+                } else {
+                    b
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What studies of several kinds share: the motion as a curve, what is watched of it, and the numbers that are taken from it.
+
+pub mod case;
+pub mod clock;
+pub(crate) mod contact;
+pub(crate) mod functional;
+pub mod motion;
+pub(crate) mod numbers;
+pub mod observe;
+pub(crate) mod pieces;
+pub(crate) mod scene;
+pub mod switching;
+pub mod watched;

@@ -1,0 +1,104 @@
+//! The expressions that a study watches: columns, what functionals are taken of, what only figures show.
+
+use super::clock::Clock;
+use crate::expression::Id;
+use crate::model::{Functional, FunctionalKind, Model, Quantity, ShownWhat, Study};
+use crate::numerics::extremum::Extremes;
+use crate::numerics::resolve::Resolved;
+use crate::results::Finding;
+
+/// The distinct expressions to watch: columns, what functionals are taken of, what only figures show.
+pub(crate) struct Watched {
+    pub(crate) ids: Vec<Id>,
+    /// Index in `ids` of each functional's argument.
+    pub(crate) functionals: Vec<usize>,
+    /// Index in `ids` of each column.
+    pub(crate) columns: Vec<usize>,
+    /// Index in `ids` of curves that figures show beyond the columns.
+    pub(crate) shown: Vec<usize>,
+}
+
+impl Watched {
+    /// The scalars or expectations for which a column is watched, in words.
+    fn asked(&self, model: &Model, study: &Study, column: usize) -> String {
+        let functional = |&k: &usize| self.functionals[k] == column;
+        let takes = |id: Id| {
+            let inputs = model.pool.inputs_of(&[id]);
+            inputs.iter().any(|&i| matches!(model.inputs[i as usize], Quantity::Functional(k) if functional(&k)))
+        };
+        let scalars = study.scalars.iter().filter(|s| takes(s.value)).map(|s| format!("`{}`", s.name));
+        let names: Vec<String> = scalars.chain(study.expect.iter().filter(|e| takes(e.value)).map(|e| format!("`{}`", e.text))).collect();
+        if names.is_empty() { "a figure".into() } else { names.join(", ") }
+    }
+
+    pub(crate) fn of(study: &Study) -> Self {
+        let mut ids: Vec<Id> = Vec::new();
+        let mut index = |id: Id| {
+            ids.iter().position(|x| *x == id).unwrap_or_else(|| {
+                ids.push(id);
+                ids.len() - 1
+            })
+        };
+        let columns = study.columns.iter().map(|c| index(c.value)).collect();
+        let functionals = study.functionals.iter().map(|f| index(f.of)).collect();
+        let shown = extra_curves(study).into_iter().map(&mut index).collect();
+        Self { ids, functionals, columns, shown }
+    }
+}
+
+/// Expressions that only figures show, in the order in which [`Outcome::rows`](crate::results::Outcome::rows) carries them behind the columns.
+#[must_use]
+pub fn extra_curves(study: &Study) -> Vec<Id> {
+    let mut extra = Vec::new();
+    for shown in study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over)) {
+        if let ShownWhat::Column(id) = shown.what
+            && study.columns.iter().all(|c| c.value != id)
+            && !extra.contains(&id)
+        {
+            extra.push(id);
+        }
+    }
+    extra
+}
+
+/// Extremes by the independent variable instead of progress.
+pub(crate) fn in_variable(mut e: Extremes, clock: Clock) -> Extremes {
+    e.min.at = clock.value(e.min.at);
+    e.max.at = clock.value(e.max.at);
+    e
+}
+
+/// Columns and switches that are not resolved within the effort that they are worth.
+pub(crate) fn unresolved(
+    model: &Model,
+    study: &Study,
+    watched: &Watched,
+    resolved: &Resolved,
+    switches: &[(usize, f64)],
+    name: &str,
+    clock: Clock,
+) -> Vec<Finding> {
+    let finding = |message: String| Finding { code: "unresolved", message, path: study.place.clone() };
+    // a value at a place does not depend on what is between
+    let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
+    let counts = |column: usize| {
+        watched.columns.iter().chain(&watched.shown).any(|&c| c == column)
+            || watched.functionals.iter().zip(&study.functionals).any(|(&c, f)| c == column && !single(f))
+    };
+    let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
+        let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
+        let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
+        let at = clock.value(open.at);
+        finding(match open.singular {
+            true => format!(
+                "{what} cannot be computed next to the singular position at {name} = {at:.6}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
+            ),
+            false => format!("{what} varies too fast or without bound near {name} = {at:.6}: there its extremes, means and integrals may be wrong"),
+        })
+    });
+    let switches = switches.iter().map(|&(switch, at)| {
+        let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());
+        finding(format!("the switch `{text}` changes too often near {name} = {at:.6} to be followed: some of its changes may be missing"))
+    });
+    columns.chain(switches).collect()
+}

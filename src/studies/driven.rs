@@ -1,0 +1,344 @@
+//! One run of a kinematic study: build, assemble, trace, resolve, extremes, functionals, rows, scalars, expectations.
+
+use super::balance;
+use super::balance::Unbalanced;
+use super::common::case::Case;
+use super::common::clock::Clock;
+use super::common::functional::Functionals;
+use super::common::motion::{Lost, Motion, Rows};
+use super::common::numbers::Sources;
+use super::common::observe::Observer;
+use super::common::watched::{Watched, in_variable, unresolved};
+use super::common::{contact, scene};
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::kinematics::assemble::Assembled;
+use crate::kinematics::mobility::drivers_fit;
+use crate::kinematics::path::{MOST_NODES, NoPath};
+use crate::kinematics::undefined::{Gap, assembled, blank};
+use crate::mechanism::{Coordinates, Mechanism};
+use crate::model::{Kind, Model, Over, Quantity, Range};
+use crate::numerics::extremum::{Extremes, extrema};
+use crate::numerics::resolve::Resolved;
+use crate::results::{Certificate, Failure, Finding, Outcome};
+
+/// A study of a motion that its drivers prescribe.
+pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates: Coordinates) -> Result<Outcome, Failure> {
+    let Case { model, study, parameters } = case;
+    let (mut mechanism, start) = prepared::<G>(case, coordinates)?;
+    let mut results = Vec::new();
+    if let Kind::Balance { moved, .. } = &study.kind {
+        let observer = Observer::new(model, &mechanism, parameters, &[]);
+        let mut motion = trace(case, &mechanism, &start, clock(case, &mechanism, &start, range)?, observer, 0)?;
+        let refused =
+            |message: String, help: &str| Failure::Study { code: "balance", message, place: study.place.clone(), help: help.into() };
+        let offsets = balance::balance(&mut motion, moved).map_err(|why| match why {
+            Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
+            Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
+                Failure::Undefined(gap.told(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
+            }
+            Unbalanced::Lost(lost) => refused(format!("the motion is lost at {}", lost.at), "start elsewhere, or give a shorter range"),
+        })?;
+        for (&(body, index), offset) in moved.iter().zip(&offsets.distances) {
+            let at = mechanism.bodies[body].attached[index].mass.com;
+            let along = at * (1.0 / G::dot(at, at).sqrt());
+            mechanism.bodies[body].move_attached(index, along * *offset);
+        }
+        results = offsets.distances;
+        results.push(offsets.residual);
+    }
+    observe(case, &mechanism, &start, range, results)
+}
+
+/// The mechanism at the start of a study whose motion its drivers prescribe.
+///
+/// # Errors
+/// Why the study cannot begin.
+pub(crate) fn prepared<G: Space<S = f64>>(case: Case<'_>, coordinates: Coordinates) -> Result<(Mechanism<G>, Assembled), Failure> {
+    let Case { model, study, parameters } = case;
+    let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
+    drivers_fit(&mechanism, &start, model, study)?;
+    contact::begins(model, &mechanism, &start)?;
+    contact::driven(model, &mechanism, study)?;
+    Ok((mechanism, start))
+}
+
+/// The motion over the range of a clock.
+///
+/// # Errors
+/// Why it cannot begin.
+pub(crate) fn trace<'m, G: Space<S = f64>>(
+    case: Case<'_>,
+    mechanism: &'m Mechanism<G>,
+    start: &Assembled,
+    clock: Clock,
+    observer: Observer<G>,
+    columns: usize,
+) -> Result<Motion<'m, G>, Failure> {
+    Motion::trace(mechanism, start, clock, observer, columns).map_err(|why| {
+        match why {
+            NoPath::SingularStart => Failure::numerical(
+                "the motion cannot begin: the start is a singular position (a dead point or change point), where the drivers do not determine the velocities",
+                "start elsewhere, or change the lengths",
+            ),
+            NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
+            NoPath::Undefined(gap) => Failure::Undefined(gap.told(case.model, case.study, "the start")),
+        }
+    })
+}
+
+/// The independent variable of a range.
+pub(crate) fn clock<G: Space<S = f64>>(
+    case: Case<'_>,
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    range: &Range,
+) -> Result<Clock, Failure> {
+    let fault = |message: String, help: &str| Failure::Study {
+        code: "range",
+        message,
+        place: format!("{}.over", case.study.place),
+        help: help.into(),
+    };
+    match range.over {
+        Over::Time(id) => {
+            let length = case.value(id);
+            if length.is_finite() && length != 0.0 {
+                Ok(Clock::of_time(length))
+            } else {
+                Err(fault(format!("the range is {length} s"), "give a time, as `over: 2 s`"))
+            }
+        }
+        Over::Driver(id) => {
+            let length = case.value(id);
+            let [drive] = &mechanism.drives[..] else {
+                return Err(fault(
+                    format!("the range is one of a driver, and the model has {} drivers", mechanism.drives.len()),
+                    "give the range as a time, as `over: 2 s`",
+                ));
+            };
+            if !length.is_finite() || length == 0.0 {
+                return Err(fault(format!("the range is {length}"), "give a range, as `over: 1 turn`"));
+            }
+            let mut dynamics = Dynamics::new(mechanism);
+            let mut modes = start.modes.clone();
+            dynamics.time(0.0, &modes);
+            dynamics.position(&start.q, &modes);
+            let from = dynamics.work.readings[drive.gauge].x;
+            Clock::of_driver(&mut dynamics, &mut modes, drive.output, from, length)
+                .map_err(|e| fault(e.0, "give the range as a time, as `over: 2 s`"))
+        }
+    }
+}
+
+fn observe<G: Space<S = f64>>(
+    case: Case<'_>,
+    mechanism: &Mechanism<G>,
+    start: &Assembled,
+    range: &Range,
+    mut results: Vec<f64>,
+) -> Result<Outcome, Failure> {
+    let Case { model, study, parameters } = case;
+    let watched = Watched::of(study);
+    let observer = Observer::new(model, mechanism, parameters, &watched.ids);
+    let clock = clock(case, mechanism, start, range)?;
+    let mut motion = trace(case, mechanism, start, clock, observer, watched.ids.len())?;
+    let name = independent(model, mechanism, clock);
+    let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
+    let mut undefined = motion.path.gap.take().map(|gap| told(&gap, clock.value(motion.ends[1])));
+    let seen = loop {
+        match see(&mut motion, case, &watched, range.samples, &name) {
+            Ok(seen) => break seen,
+            Err(Lost { at, gap: None }) => {
+                let message = format!("the position at {name} = {at} could not be reached");
+                return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
+            }
+            Err(Lost { at, gap: Some(gap) }) => {
+                let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
+                undefined = Some(told(&behind.unwrap_or(gap), at));
+            }
+        }
+    };
+    let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
+    contact::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
+    let n = rows.places.len();
+    let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
+    findings.extend(open);
+    findings.extend(contact::dwells(study, &name, &mut motion, &resolved));
+
+    let complete = motion.path.dead == [None, None];
+    let stopped = (!complete && undefined.is_none()).then(|| {
+        let at = clock.value(motion.ends[1]);
+        if let Some(row) = motion.path.open {
+            return format!(
+                "{name} cannot go beyond {at:.6}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
+                mechanism.name_of_row(row)
+            );
+        }
+        let mover = if mechanism.drives.is_empty() { "coupling" } else { "driver" };
+        let unit = if clock.is_driver() && drives_angle(mechanism) {
+            (180.0 / std::f64::consts::PI, "deg")
+        } else {
+            (1.0, if clock.is_driver() { "m" } else { "s" })
+        };
+        format!(
+            "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the {mover} cannot move them on",
+            at.max(clock.value(motion.ends[0])) * unit.0,
+            unit.1,
+            at.min(clock.value(motion.ends[0])) * unit.0,
+            unit.1
+        )
+    });
+    if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
+        results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
+    }
+    let sources = Sources { case, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
+    let numbers = sources.numbers(undefined.is_none());
+    let undefined = undefined.or(numbers.undefined);
+    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    let places: Vec<f64> = rows.places.iter().map(|s| clock.value(*s)).collect();
+    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    findings.extend(numbers.findings);
+    findings.extend(blank(study, &name, &places, &shown));
+    Ok(Outcome {
+        stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
+        undefined,
+        parameters: case.named(),
+        independent: name,
+        places,
+        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+        rows: shown,
+        results,
+        scalars: numbers.scalars,
+        extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+        expectations: numbers.expectations,
+        findings,
+        certificate: Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) },
+        events: Vec::new(),
+        scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
+        ..Outcome::default()
+    })
+}
+
+/// What is seen of a motion.
+pub(crate) struct Seen {
+    resolved: Resolved,
+    extremes: Vec<Option<Extremes>>,
+    rows: Rows,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+}
+
+/// Resolves a motion: its extremes, rows and functionals.
+pub(crate) fn see<G: Space<S = f64>>(
+    motion: &mut Motion<'_, G>,
+    case: Case<'_>,
+    watched: &Watched,
+    samples: usize,
+    name: &str,
+) -> Result<Seen, Lost> {
+    let resolved = motion.resolve()?;
+    motion.all_defined(&resolved)?;
+    let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
+    let extremes = extrema(motion, resolved.samples(), &breaks);
+    let rows = motion.rows(samples)?;
+    let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, name, clock);
+    let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = all.all(case, &watched.functionals, &mut findings)?;
+    Ok(Seen { resolved, extremes, rows, functionals, findings })
+}
+
+fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
+    mechanism.drives.first().is_some_and(|d| d.turns)
+}
+
+/// Name of the independent variable: the first measure that is the driven coordinate, else its path, else `time`.
+fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock: Clock) -> String {
+    if !clock.is_driver() {
+        return "time".into();
+    }
+    let Some(driver) = model.drivers.first() else { return "time".into() };
+    let joint = &model.joints[driver.joint];
+    let turning_body = |q: &Quantity| {
+        matches!(q, Quantity::Joint { joint: j, slot: 0, order: 0 } if *j == driver.joint)
+            || matches!(q, Quantity::Angle { body, order: 0 } if joint.a.body == 0 && *body == joint.b.body)
+    };
+    let measure = model.measures.iter().find(|m| {
+        model.pool.inputs_of(&[m.value])[..].iter().all(|&i| turning_body(&model.inputs[i as usize]))
+            && matches!(model.pool.node(m.value), crate::expression::Node::Input(_))
+    });
+    let word = if drives_angle(mechanism) { "angle" } else { "position" };
+    measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
+}
+
+/// What the motion itself shows: change points on the way.
+fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>) -> Vec<Finding> {
+    let mut out = Vec::new();
+    if mechanism.rows.len() > mechanism.nv {
+        out.push(Finding {
+            code: "redundant-constraints",
+            message: format!(
+                "{} constraint rows for {} unknowns: motions and driver efforts are unique, single reactions may be those of least size",
+                mechanism.rows.len(),
+                mechanism.nv
+            ),
+            path: "joints".into(),
+        });
+    }
+    if let (Some(t), None) = (motion.path.dead.iter().flatten().next(), motion.path.open) {
+        out.push(Finding {
+            code: "dead-point",
+            message: format!("the motion ends at a dead point at t = {} s", t.0),
+            path: "drivers".into(),
+        });
+    }
+    out
+}
+
+/// Residuals over the rows.
+fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Certificate {
+    let mut certificate =
+        Certificate { evaluations: rows.places.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
+    let mut nothing = vec![0.0; rows.values.first().map_or(0, Vec::len)];
+    let every = (rows.places.len() / 64).max(1);
+    for (s, piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {
+        use crate::numerics::continuous::Curve;
+        if motion.eval(*s, *piece, &mut nothing).is_err() {
+            continue;
+        }
+        let d = &motion.driven;
+        let w = &d.dynamics.work;
+        certificate.constraint = w.phi.iter().fold(certificate.constraint, |m, p| m.max(p.abs()));
+        // dT/dt = Σ (I A + V×*I V)·V must be the power of what is applied, of efforts and of rows
+        let m = d.dynamics.mechanism;
+        let (mut change, mut applied, mut size) = (0.0, 0.0, 0.0);
+        for node in &m.nodes {
+            let twist = w.twists[node.body];
+            let inertial = d.dynamics.inertial(node.body, d.reactions.accelerations[node.body]).power(twist);
+            let force = w.applied[node.body].power(twist);
+            change += inertial;
+            applied += force;
+            size += inertial.abs() + force.abs();
+        }
+        for rotor in &m.rotors {
+            let r = &w.readings[rotor.gauge];
+            change += rotor.inertia * r.rate * m.gauges[rotor.gauge].acceleration(r, &w.columns, &d.a);
+        }
+        for (effort, e) in m.efforts.iter().zip(&w.efforts) {
+            let power = e * d.dynamics.swept(effort.along);
+            applied += power;
+            size += power.abs();
+        }
+        // rows that move with time
+        for (nu, lambda) in w.nu.iter().zip(&d.lambda) {
+            let power = -(lambda * nu);
+            applied += power;
+            size += power.abs();
+        }
+        let off = (change - applied).abs() / size;
+        if off.is_finite() {
+            certificate.power_balance = certificate.power_balance.max(off);
+        }
+    }
+    certificate
+}

@@ -1,0 +1,254 @@
+//! The certificate of a run: energy balance, residuals of the constraints, work done by the integrator.
+//!
+//! E(t) − E(0) must be the work of drivers, loads and dampers, integrated beside the motion, and what impacts took at once. What
+//! remains is the energy that the integration has made or lost.
+
+use super::setup::Plan;
+use super::system::{Mechanical, Root, WORKS};
+use super::trajectory::Trajectory;
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::results::{Certificate, Finding, March};
+use crate::scalar::Dual;
+use crate::studies::common::motion::Rows;
+use grashof_solvers::{Control, Counts, Integration, Node};
+
+/// What an era begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Begins {
+    /// The run.
+    Run,
+    /// Other parameters.
+    Parameters,
+    /// Other stops on which joints rest.
+    Rests,
+}
+
+/// Energies looked at in the course of a run.
+const LOOKS: f64 = 400.0;
+
+/// Part of the energy scale that the balance may lack, in tolerances, and its ends.
+const TOLERANCES: f64 = 1e4;
+const LEAST: f64 = 1e-7;
+const MOST: f64 = 1e-2;
+/// Roundings of the largest energy that it may lack.
+const ROUNDING: f64 = 1e5;
+
+/// Energies and counters of a run so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Balance {
+    start: f64,
+    /// Work before the present era.
+    before: [f64; WORKS],
+    work: [f64; WORKS],
+    impacts: f64,
+    /// What blows at rigid end stops took.
+    blows: f64,
+    drift: f64,
+    scale: f64,
+    /// Largest |E|: what round-off is a part of.
+    largest: f64,
+    /// Kinetic energy of all mass at one size of the mechanism per second.
+    unit: f64,
+    kinetic: f64,
+    next: f64,
+    counts: Counts,
+    bridged: Vec<f64>,
+    widest_gap: f64,
+    schemes: Vec<&'static str>,
+}
+
+/// Kinetic and whole energy at a node, J.
+fn energy<G, D>(system: &mut Mechanical<'_, G, D>, node: &Node) -> [f64; 2]
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    system.observe(&node.state.at(), &node.a, &node.lambda);
+    let d = &mut system.dynamics;
+    let kinetic = d.kinetic_energy();
+    let mut modes = node.state.modes.clone();
+    modes.truncate(d.mechanism.switches + d.mechanism.windings);
+    [kinetic, kinetic + d.potential_energy(&mut modes)]
+}
+
+impl Balance {
+    /// Begins an era at a node; energies that change because parameters do count as done by the event.
+    pub(super) fn begin<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, begins: Begins)
+    where
+        G: Space<S = f64>,
+        D: Space<S = Dual<LANES>>,
+    {
+        let [kinetic, e] = energy(system, node);
+        match begins {
+            Begins::Run => {
+                let (mass, _) = system.dynamics.first_moment();
+                self.unit = 0.5 * mass * system.dynamics.mechanism.size().powi(2);
+                (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic);
+            }
+            // the drift so far is not known apart from it, and begins anew
+            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows,
+            Begins::Rests => {}
+        }
+        self.before = self.work;
+        for (before, now) in self.before.iter_mut().zip(&node.state.work) {
+            *before -= now;
+        }
+    }
+
+    /// Work of drivers, loads, dampers and end stops that give way so far, J.
+    fn done(&self) -> f64 {
+        self.work.iter().sum()
+    }
+
+    /// Looks at the energy of a node, if it is time to; whether it has, which leaves the system at the node.
+    pub(super) fn step<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, until: f64) -> bool
+    where
+        G: Space<S = f64>,
+        D: Space<S = Dual<LANES>>,
+    {
+        let t = node.state.t;
+        if t < self.next && t < until {
+            return false;
+        }
+        self.next = t + until / LOOKS;
+        self.look(system, node);
+        true
+    }
+
+    fn look<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node)
+    where
+        G: Space<S = f64>,
+        D: Space<S = Dual<LANES>>,
+    {
+        for ((work, before), now) in self.work.iter_mut().zip(&self.before).zip(&node.state.work) {
+            *work = before + now;
+        }
+        let [kinetic, e] = energy(system, node);
+        let off = e - self.start - self.done() - self.impacts - self.blows;
+        self.largest = self.largest.max(e.abs());
+        self.drift = self.drift.max(off.abs());
+        let largest = self.work.iter().fold(kinetic.max((e - kinetic - self.start + self.kinetic).abs()), |m, w| m.max(w.abs()));
+        self.scale = self.scale.max(largest);
+    }
+
+    /// Energy that a blow took, from the sides before and after it; `crossed` are the roots that were met: end stops, or events.
+    pub(super) fn jump<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, [before, after]: [&Node; 2], crossed: &[usize])
+    where
+        G: Space<S = f64>,
+        D: Space<S = Dual<LANES>>,
+    {
+        if before.state.v != after.state.v {
+            let [_, e0] = energy(system, before);
+            let [_, e1] = energy(system, after);
+            let events = crossed.iter().any(|root| matches!(system.roots.get(*root), Some(Root::Event(_))));
+            *if events { &mut self.impacts } else { &mut self.blows } += e1 - e0;
+        }
+    }
+
+    /// Ends an era.
+    pub(super) fn end<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, run: &Integration, inner: Counts)
+    where
+        G: Space<S = f64>,
+        D: Space<S = Dual<LANES>>,
+    {
+        self.look(system, node);
+        self.counts += inner;
+        self.spent(run);
+    }
+
+    /// Goes on from a run to another one, over a bridge that begins at a time, s, or from it.
+    pub(super) fn turn(&mut self, run: &Integration, bridge: Option<f64>) {
+        self.spent(run);
+        self.counts.bridges += usize::from(bridge.is_some());
+        self.bridged.extend(bridge);
+    }
+
+    /// Counts what a run has spent.
+    fn spent(&mut self, run: &Integration) {
+        self.counts += run.engine.counts;
+        self.bridged.extend(run.bridged());
+        self.widest_gap = self.widest_gap.max(run.widest_gap());
+        for name in run.schemes() {
+            if !self.schemes.contains(name) {
+                self.schemes.push(name);
+            }
+        }
+    }
+
+    /// The certificate without the residuals of rows, and what a reader should know of the study at `place`.
+    pub(super) fn finish(self, plan: &Plan, place: &str) -> (Certificate, Vec<Finding>) {
+        let march = March {
+            schemes: self.schemes.join(", "),
+            tolerance: match plan.settings.control {
+                Control::Tolerance(tolerance) => Some(tolerance),
+                Control::Steps(_) => None,
+            },
+            energy_drift: self.drift,
+            energy_scale: self.scale,
+            drivers: self.work[0],
+            loads: self.work[1],
+            dampers: self.work[2],
+            stops: self.work[3] + self.blows,
+            impacts: self.impacts,
+            widest_gap: self.widest_gap,
+            velocity: 0.0,
+            counts: self.counts,
+        };
+        let crossed = self.bridged.iter().take(20).map(|t| Finding {
+            code: "singular-position",
+            message: format!("a singular position was crossed near t = {t:.6} s"),
+            path: "joints".into(),
+        });
+        let findings = crossed.chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
+        (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings)
+    }
+}
+
+/// That the balance of energy lacks more than the tolerance explains, or with a fixed step more than a part that shows.
+///
+/// Speeds are wrong by a part of themselves and of the size s of the mechanism a second, whichever is larger, so that a slow motion
+/// with the energy E may lack m v δv ~ δ √(E ½ m s²/s²).
+fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<Finding> {
+    let (part, help) = match march.tolerance {
+        Some(tolerance) => ((TOLERANCES * tolerance).clamp(LEAST, MOST), "ask for a smaller `tolerance`"),
+        None => (MOST, "take a shorter `step`, or a scheme of higher order"),
+    };
+    let slow = if march.tolerance.is_some() { (march.energy_scale * unit).sqrt() } else { 0.0 };
+    let allowed = f64::max(part * march.energy_scale.max(slow), ROUNDING * f64::EPSILON * largest);
+    (march.energy_drift > allowed).then(|| Finding {
+        code: "energy",
+        message: format!(
+            "the balance of energy lacks {:.2e} J, {:.1e} of the {:.3e} J that move (more than {:.1e} of them is not explained by {}): {help}, and compare with another integrator by `--verify`",
+            march.energy_drift,
+            march.energy_drift / march.energy_scale,
+            march.energy_scale,
+            part,
+            march.tolerance.map_or("a step that is short enough".to_owned(), |t| format!("a tolerance of {t:.0e}")),
+        ),
+        path: place.to_owned(),
+    })
+}
+
+/// Largest residuals over the rows of a run.
+pub(crate) fn residuals<G, D>(trajectory: &mut Trajectory<'_, G, D>, rows: &Rows, mut certificate: Certificate) -> Certificate
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    certificate.evaluations = rows.places.len();
+    let every = (rows.places.len() / 128).max(1);
+    let mut velocity: f64 = 0.0;
+    for (&t, &piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {
+        if trajectory.go(t, piece).is_err() {
+            continue;
+        }
+        let [q, v] = trajectory.residuals(piece);
+        certificate.constraint = certificate.constraint.max(q);
+        velocity = velocity.max(v);
+    }
+    if let Some(march) = &mut certificate.march {
+        march.velocity = velocity;
+    }
+    certificate
+}

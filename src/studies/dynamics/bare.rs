@@ -1,0 +1,96 @@
+//! An integration alone, for measurements: nothing is recorded but its end.
+
+use super::balance::Balance;
+use super::balance::Begins;
+use super::chart::Charted;
+use super::depart::depart;
+use super::eras::Eras;
+use super::explain;
+use super::march::begin;
+use super::setup::Plan;
+use super::system::Mechanical;
+use super::watch::watched;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::results::Failure;
+use crate::studies::common::case::Case;
+use crate::studies::common::observe::Observer;
+use grashof_solvers::{Control, Counts, Engine, Node, Progress, Settings, Stage, System};
+
+/// What an integration alone has come to: nothing is recorded but its end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bare {
+    /// Time reached, s.
+    pub t: f64,
+    /// Columns of the study there.
+    pub columns: Vec<f64>,
+    /// Largest |E − E(0) − work|, J, of the end alone.
+    pub energy_drift: f64,
+    /// Largest residuals of positions and velocities at the end, in units of size.
+    pub residuals: [f64; 2],
+    /// What was spent.
+    pub counts: Counts,
+    /// Why it has stopped on its way.
+    pub stopped: Option<String>,
+}
+
+/// Integrates a plan to its end, for measurements: `timer` is called with true when the steps begin and with false when they end.
+///
+/// # Errors
+/// If the run did not begin.
+pub(super) fn bare<G: Space<S = f64>>(
+    case: Case<'_>,
+    plan: &Plan,
+    ids: &[Id],
+    eras: &Eras<G>,
+    timer: &mut dyn FnMut(bool),
+) -> Result<Bare, Failure> {
+    let Case { model, study, .. } = case;
+    let (all, watched) = watched(model, ids);
+    let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
+    let mut system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
+    let dims = system.dims();
+    let mut state = begin(eras, dims);
+    if let Some(departure) = depart(eras, &mut system, &state, plan.until) {
+        state = departure.to;
+    }
+    let mut chart = Charted::new(study, plan, system, eras, &state, &mut 0.0)?;
+    let mut node = Node::new(dims);
+    let mut balance = Balance::default();
+    let settings = Settings { balance: false, ..plan.settings };
+    timer(true);
+    let mut run = chart.run(settings, &state).map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
+    chart.whole(run.node(), &mut node);
+    balance.begin(chart.mechanical(), &node, Begins::Run);
+    let stopped = loop {
+        match run.advance(chart.system(), plan.until) {
+            Ok(Progress::End) => break None,
+            Ok(Progress::Step | Progress::Event) if !chart.is_bridge() => {}
+            Ok(progress) => {
+                chart.whole(run.node(), &mut node);
+                if chart.turns(&node.state, progress == Progress::Stopped) {
+                    balance.turn(&run, chart.is_bridge().then_some(node.state.t));
+                    match chart.run(settings, &node.state) {
+                        Ok(next) => run = next,
+                        Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+                    }
+                } else if progress == Progress::Stopped {
+                    break None;
+                }
+            }
+            Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+        }
+    };
+    timer(false);
+    chart.whole(run.node(), &mut node);
+    balance.end(chart.mechanical(), &node, &run, Counts::default());
+    let mut columns = vec![0.0; all.len()];
+    let mut engine = Engine::new(chart.mechanical(), Control::Tolerance(1e-8));
+    engine.evaluate(chart.mechanical(), node.state.at(), Stage::Velocity);
+    let residuals = [engine.position_residual(), engine.velocity_residual(&node.state.v)];
+    chart.mechanical().observe(&node.state.at(), &node.a, &node.lambda);
+    chart.mechanical().columns(&node.state.modes, &mut columns);
+    columns.truncate(ids.len());
+    let (energy_drift, counts) = balance.finish(plan, &study.place).0.march.map_or_else(Default::default, |m| (m.energy_drift, m.counts));
+    Ok(Bare { t: node.state.t, columns, energy_drift, residuals, counts, stopped })
+}

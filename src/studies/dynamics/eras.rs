@@ -1,0 +1,91 @@
+//! The mechanisms of a run: one for all parameters, stops on which joints rest and contacts that stick, from one change to the next.
+
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::kinematics::assemble::Assembled;
+use crate::kinematics::undefined::assembled;
+use crate::mechanism::{Coordinates, Mechanism, build};
+use crate::model::Model;
+use crate::results::Failure;
+use crate::scalar::Dual;
+use crate::studies::common::contact;
+use std::cell::OnceCell;
+
+/// Parameters that no earlier mechanism of a run had may be set so many times.
+pub(super) const MOST_ERAS: usize = 5000;
+
+/// What holds a mechanism beside its own rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Holds {
+    /// Stops on which joints rest.
+    pub(super) resting: Vec<usize>,
+    /// Contacts that stick.
+    pub(super) held: Vec<usize>,
+}
+
+/// A mechanism with the same on dual numbers, at given parameters and holds; and those that the run came to need after it.
+pub(crate) struct Eras<G: Space<S = f64>> {
+    pub(crate) mechanism: Mechanism<G>,
+    pub(crate) lifted: Mechanism<G::Lift<Dual<LANES>>>,
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) start: Assembled,
+    holds: Holds,
+    next: OnceCell<Box<Eras<G>>>,
+}
+
+impl<G: Space<S = f64>> Eras<G> {
+    /// The mechanism at the start.
+    ///
+    /// # Errors
+    /// If the model has none, or it cannot be assembled.
+    pub(crate) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
+        let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
+        contact::begins(model, &mechanism, &start)?;
+        let lifted = mechanism.lift();
+        Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, holds: Holds::default(), next: OnceCell::new() })
+    }
+
+    /// The first era.
+    pub(super) fn first(&self) -> &Self {
+        self
+    }
+
+    /// The mechanism with other parameters or holds, made when it is needed first; rows keep where the start has anchored them.
+    ///
+    /// # Errors
+    /// If the parameters allow no mechanism, or were set anew too many times.
+    pub(super) fn with(&self, model: &Model, parameters: &[f64], coordinates: Coordinates, holds: &Holds) -> Result<&Self, Failure> {
+        let (mut era, mut same, mut count) = (self, None, 0);
+        loop {
+            if era.parameters == parameters {
+                if era.holds == *holds {
+                    return Ok(era);
+                }
+                if era.holds == Holds::default() {
+                    same = Some(era);
+                }
+            }
+            let Some(next) = era.next.get() else { break };
+            (era, count) = (next, count + 1);
+        }
+        if count > MOST_ERAS {
+            let message = format!("parameters, stops on which joints rest or contacts that stick have changed to {MOST_ERAS} others");
+            return Err(Failure::numerical(message, "end the run before, or let parameters take fewer values"));
+        }
+        let mut mechanism = match same {
+            Some(same) => same.mechanism.clone(),
+            None => build::<G>(model, parameters, coordinates).map_err(Failure::Model)?,
+        };
+        for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
+            if row.anchored {
+                (row.offset, row.anchored) = (before.offset, before.anchored);
+            }
+        }
+        holds.resting.iter().for_each(|stop| mechanism.rest(*stop));
+        holds.held.iter().for_each(|contact| mechanism.hold(*contact));
+        let lifted = mechanism.lift();
+        let (parameters, start) = (parameters.to_vec(), self.start.clone());
+        let next = Self { mechanism, lifted, parameters, start, holds: holds.clone(), next: OnceCell::new() };
+        Ok(era.next.get_or_init(|| Box::new(next)))
+    }
+}

@@ -1,0 +1,305 @@
+//! Why a run did not begin or did not end, in words: what happened to which joint at what time, and what to try.
+
+use super::eras::Eras;
+use super::setup::Plan;
+use super::system::{Mechanical, Met, Root};
+use crate::dynamics::{Dynamics, LANES};
+use crate::geometry::Space;
+use crate::kinematics::assemble::{Assembled, units};
+use crate::kinematics::undefined::Gap;
+use crate::mechanism::{BuildFault, Contact, Mechanism};
+use crate::model::{Model, Parameter, Study};
+use crate::results::{Failure, Finding, Happened, Undefined};
+use crate::scalar::Dual;
+use grashof_solvers::minimal::Refused;
+use grashof_solvers::{Control, Halt, Why};
+
+/// Why a run has stopped on its way.
+pub(super) fn halt<G, D>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G, D>, plan: &Plan, halt: &Halt) -> String
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let t = halt.t;
+    let fixed = matches!(plan.settings.control, Control::Steps(_));
+    match halt.why {
+        Why::Zeno(root) if matches!(system.roots.get(root), Some(Root::Side { .. })) => {
+            format!("at t = {t:.6} s {}", cause(mechanism, &Why::Friction))
+        }
+        Why::Zeno(root) => format!(
+            "at t = {t:.6} s events pile up without end at {}: the motion wants to stay on the switch; give friction as `friction` of a joint or as a clutch, which stick, smooth another switch (a `clamp` over a small range instead of `sign`), or march across it with `integrator: rk4`, a fixed `step` and `switches: step-over`",
+            root_name(model, system, root)
+        ),
+        Why::Unresolved(root) => format!(
+            "at t = {t:.6} s it cannot be told where {} changes next: it oscillates, or stays at its edge, within the rounding of the time; use another unit of time, or give a shorter `until`",
+            root_name(model, system, root)
+        ),
+        Why::Blocked(root) if matches!(system.roots.get(root), Some(Root::Slides(_))) => format!(
+            "at t = {t:.6} s {} is driven against the sense in which it locks: drive it the other way, or let it go",
+            root_name(model, system, root)
+        ),
+        Why::Blocked(root) => format!(
+            "at t = {t:.6} s {} is reached while drivers or other joints hold the joint to its motion, so that no blow can stop it: end the driver's motion before, or give the stop `stiffness` instead of `restitution`",
+            root_name(model, system, root)
+        ),
+        Why::Error(_) | Why::StepSize => format!(
+            "at t = {t:.6} s the step has shrunk to {:.1e} s and the error is still too large: a force grows without bound there, or is rougher than the tolerance allows; look at the motion just before, or ask for a larger `tolerance`",
+            halt.h
+        ),
+        Why::Newton if fixed => {
+            format!("at t = {t:.6} s Newton's method does not converge with the step {:.1e} s: give a shorter `step`", halt.h)
+        }
+        Why::Newton => format!(
+            "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks or a force jumps there; look at the motion just before",
+            halt.h
+        ),
+        _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
+    }
+}
+
+/// What has no value in the state that was evaluated last, at a time.
+pub(super) fn undefined<G, D>(model: &Model, study: &Study, system: &mut Mechanical<'_, G, D>, modes: &[i32], t: f64) -> Option<Undefined>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    system.dynamics.undefined(modes).map(|law| Gap::Law(law).told(model, study, &format!("t = {t:.6} s")))
+}
+
+/// Why a run ends at an event that has set parameters to what no mechanism can have.
+pub(super) fn set(model: &Model, events: &[Happened], changed: &[(usize, f64)], t: f64, faults: &[BuildFault]) -> String {
+    let happened = |name: &str| events.iter().any(|e| e.at == t && e.name == name);
+    let now: Vec<_> = model.events.iter().filter(|e| !e.set.is_empty() && happened(&e.name)).collect();
+    let names: Vec<String> = now.iter().map(|e| format!("`{}`", e.name)).collect();
+    let theirs = changed.iter().filter(|(i, _)| now.iter().any(|e| e.set.iter().any(|(set, _)| set == i)));
+    let values: Vec<String> = theirs.map(|&(i, x)| assigned(&model.parameters[i], x)).collect();
+    let (word, verb) = if names.len() == 1 { ("event", "sets") } else { ("events", "set") };
+    let faults = Failure::Model(faults.to_vec()).reason();
+    format!("at t = {t:.6} s the {word} {} {verb} {}, which cannot be: {faults}", names.join(", "), values.join(", "))
+}
+
+/// `c = -5 N m`.
+fn assigned(parameter: &Parameter, x: f64) -> String {
+    format!("`{}` = {x} {}", parameter.name, parameter.dimension.si()).trim_end().to_string()
+}
+
+/// The rows that become dependent where a run has stopped in a nearly singular position; none elsewhere, or if the reason is another.
+pub(super) fn locked<G: Space>(mechanism: &Mechanism<G>, halt: &Halt, (sigma, rows): &(f64, Vec<usize>)) -> Option<String> {
+    if *sigma >= 0.05
+        || sigma.is_nan()
+        || rows.is_empty()
+        || matches!(halt.why, Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::NotFinite(_) | Why::Friction | Why::TooManySteps)
+    {
+        return None;
+    }
+    let mut names: Vec<String> = Vec::new();
+    // a driver among them is what a person looks for
+    let drives = mechanism.drives.iter().map(|d| d.row).filter(|row| rows.contains(row));
+    for row in drives.chain(rows.iter().copied()) {
+        let name = mechanism.name_of_row(row);
+        if !names.contains(&name) && names.len() < 3 {
+            names.push(name);
+        }
+    }
+    Some(format!(
+        "at t = {:.6} s the motion cannot go on: in a nearly singular position (a dead point, or links in a line) {} contradict each other; start elsewhere, change lengths, or end the run before",
+        halt.t,
+        names.join(" and ")
+    ))
+}
+
+/// What is wrong with a state.
+fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
+    match *why {
+        Why::NotFinite(v) => format!("a force on {} is not a number: look at tables and expressions of loads that act there", name_of_velocity(mechanism, v)),
+        Why::Friction => format!(
+            "the friction of {} has no accelerations that obey its law: with this coefficient the joint jams (Painlevé's paradox); give a smaller `coulomb`, a longer guide, or drive the motion from the other side",
+            rubbing(mechanism)
+        ),
+        Why::Singular => "the accelerations are not determined: a body that can move has no mass or inertia, or the position is singular; give masses to all moving bodies".into(),
+        Why::Constraints { row, residual } => format!(
+            "{} cannot be closed, {residual:.1e} remains: the mechanism locks there; check lengths and limits",
+            mechanism.name_of_row(row)
+        ),
+        Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
+        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::Unavailable => "the state cannot be continued".into(),
+    }
+}
+
+/// What to do where friction by reactions jams.
+pub(super) const LESS_FRICTION: &str = "give a smaller `coulomb`, a longer guide, or drive the motion from the other side";
+
+/// Why contacts cannot be decided.
+pub(super) fn jams<G: Space<S = f64>>(eras: &Eras<G>, t: f64) -> String {
+    let m = &eras.mechanism;
+    format!("at t = {t:.6} s no accelerations obey the laws of friction of {}: it jams (Painlevé's paradox)", names(m, 0..m.contacts.len()))
+}
+
+/// Why a run ends where contacts stick and slide without end.
+pub(super) fn chatters<G: Space<S = f64>>(eras: &Eras<G>, met: &[Met], t: f64) -> String {
+    format!(
+        "at t = {t:.6} s {} begins and ceases to stick without end: its force, or what holds it, changes too often; give it a `stick_speed`",
+        names(&eras.mechanism, met.iter().map(|met| met.contact))
+    )
+}
+
+/// Contacts at rest that other joints or drivers hold as well.
+pub(super) fn not_unique<G: Space<S = f64>>(eras: &Eras<G>, open: &[usize]) -> Vec<Finding> {
+    let contacts = eras.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
+    let finding = |(_, contact): (usize, &Contact)| Finding {
+        code: "friction-not-unique",
+        message: format!(
+            "while it sticks {} is not unique: drivers or other friction hold the same motion; what is printed is 0 or one of the values",
+            contact.name
+        ),
+        path: contact.place.clone(),
+    };
+    contacts.map(finding).collect()
+}
+
+/// Contacts in words.
+fn names<G: Space<S = f64>>(mechanism: &Mechanism<G>, contacts: impl Iterator<Item = usize>) -> String {
+    let mut names: Vec<&str> = contacts.map(|c| mechanism.contacts[c].name.as_str()).collect();
+    names.dedup();
+    names.join(" and ")
+}
+
+/// The joints with friction by reactions, in words.
+fn rubbing<G: Space>(mechanism: &Mechanism<G>) -> String {
+    let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", mechanism.joints[p.joint].name)).collect();
+    format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, names.join(", "))
+}
+
+/// The body that a velocity moves, in words.
+fn name_of_velocity<G: Space>(mechanism: &Mechanism<G>, v: usize) -> String {
+    let node = mechanism.nodes.iter().find(|n| n.columns.contains(&v));
+    node.map_or_else(|| "the mechanism".into(), |n| format!("body `{}`", mechanism.bodies[n.body].name))
+}
+
+/// A root in words.
+fn root_name<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize) -> String
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let m = system.dynamics.mechanism;
+    let switch = match system.roots.get(root) {
+        Some(&Root::Force { program, k }) => m.programs()[program].program.switches().get(k).copied(),
+        Some(&Root::Column { k }) => system.observer.program().switches().get(k).copied(),
+        Some(&(Root::Stop(stop) | Root::Clear(stop) | Root::Rest { stop, .. })) => {
+            if let Some(event) = m.stops[stop].event {
+                return format!("the event `{}`", model.events[event].name);
+            }
+            return format!("the {} of joint `{}`", m.stops[stop].word(), m.joints[m.stops[stop].joint].name);
+        }
+        Some(&(Root::Slides(contact) | Root::Holds { contact, .. })) => return m.contacts[contact].name.clone(),
+        Some(&Root::Event(event)) => return format!("the event `{}`", model.events[event].name),
+        _ => None,
+    };
+    match switch.and_then(|s| model.pool.switches().get(s as usize)) {
+        Some(switch) => format!("the switch `{}`", switch.text),
+        None => "a switch".into(),
+    }
+}
+
+/// That the impacts of an event would have to come to rest where nothing can hold the joint.
+pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
+    let name = &model.events[event].name;
+    format!(
+        "at t = {t:.6} s the blows of the event `{name}` have become so weak that its joint would rest there, but its `when` holds more than positions, so that nothing is known of how it rests: write `when` with positions alone, or give the joint `limits` with a `restitution`"
+    )
+}
+
+/// That a condition changed faster than it could be resolved, first at time `t` (s).
+pub(super) fn unresolved<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize, t: f64) -> Finding
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let name = root_name(model, system, root);
+    Finding {
+        code: "unresolved-condition",
+        message: format!(
+            "{name} changes faster than a millionth of a step from t = {t:.6} s on, or is noise: it was followed as seen, and changes back and forth may be missing"
+        ),
+        path: name,
+    }
+}
+
+/// Why a run has not begun.
+pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G>, start: &Assembled, halt: &Halt) -> Failure {
+    if halt.why == Why::Singular
+        && let Some(failure) = massless(mechanism, start)
+    {
+        return failure;
+    }
+    Failure::Study {
+        code: "no-start",
+        message: format!("the motion cannot begin: {}", cause(mechanism, &halt.why)),
+        place: study.place.clone(),
+        help: "look at `grashof check`, which shows the start position and the freedom that is left".into(),
+    }
+}
+
+/// That bodies without mass or inertia leave the accelerations open.
+pub(crate) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    if let Some((body, how)) = unresisted(mechanism, start) {
+        let has_mass = mechanism.bodies.iter().any(|b| b.name == body && crate::scalar::Scalar::value(b.mass.mass) > 0.0);
+        return Some(Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "the accelerations at the start are not determined: body `{body}` can {how} and has no {}",
+                if how == "turn" { "inertia" } else { "mass" }
+            ),
+            place: format!("bodies.{body}"),
+            help: if how == "turn" && has_mass {
+                "give it an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `ball: { radius: 1 cm, mass: 1 kg }`; a point mass, which \
+                 needs none, is a body with `mass` alone on which nothing but forces, springs, `distance` joints and (in space `spherical`, \
+                 in the plane `revolute`) joints at its origin act"
+                    .into()
+            } else {
+                "give it a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }` or `bar: { length: 1 m, mass: 1 kg }`".into()
+            },
+        });
+    }
+    let bare = |body: usize| crate::scalar::Scalar::value(mechanism.bodies[body].mass.mass) <= 0.0;
+    let names: Vec<String> =
+        mechanism.nodes.iter().filter(|n| bare(n.body)).map(|n| format!("`{}`", mechanism.bodies[n.body].name)).collect();
+    let (verb, selves) = if names.len() == 1 { ("has", "itself") } else { ("have", "themselves") };
+    (!names.is_empty()).then(|| Failure::Study {
+        code: "singular-mass",
+        message: format!("the accelerations at the start are not determined: {} {verb} no mass and can move by {selves}", names.join(", ")),
+        place: "bodies".into(),
+        help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
+    })
+}
+
+/// A body that can move along a coordinate without resistance of any mass, and how it moves.
+fn unresisted<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<(String, &'static str)> {
+    let mut dynamics = Dynamics::new(mechanism);
+    dynamics.terms(0.0, &start.q, &start.v, &start.modes);
+    let nv = mechanism.nv;
+    let mass = |k: usize| dynamics.work.mass[k * (nv + 1)];
+    let largest = (0..nv).fold(0.0, |m, k| f64::max(m, mass(k)));
+    let k = (0..nv).find(|&k| mass(k) <= 1e-14 * largest)?;
+    let node = mechanism.nodes.iter().find(|n| n.columns.contains(&k))?;
+    let slides = units(mechanism)[k] != 0;
+    Some((mechanism.bodies[node.body].name.clone(), if slides { "slide" } else { "turn" }))
+}
+
+/// Why there are no minimal coordinates.
+pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
+    let (message, help) = match why {
+        Refused::Dependent => (
+            "the joint coordinates with exact values in `start` depend on each other, or are more than the degrees of freedom",
+            "keep an exact value for as many joints as there are degrees of freedom, and put `~` before the others",
+        ),
+        Refused::Open => ("the loops cannot be closed at the start", "look at `grashof check`"),
+    };
+    Failure::Study {
+        code: "no-minimal-coordinates",
+        message: message.into(),
+        place: format!("{}.coordinates", study.place),
+        help: help.into(),
+    }
+}

@@ -1,0 +1,424 @@
+//! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
+
+use super::balance::{Balance, Begins};
+use super::chart::Charted;
+use super::contradiction;
+use super::depart::depart;
+use super::eras::{Eras, Holds};
+use super::explain;
+use super::pace::Pace;
+use super::setup::Plan;
+use super::system::{Mechanical, Met};
+use super::trajectory::Trajectory;
+use super::watch::{swept, watched};
+use crate::dynamics::LANES;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::kinematics::held::settled;
+use crate::kinematics::undefined::in_state;
+use crate::model::{Model, Study};
+use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
+use crate::scalar::Dual;
+use crate::studies::common::case::{Case, parameters_with};
+use crate::studies::common::observe::Observer;
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System, Zeno};
+
+/// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
+const PARTS: usize = 10;
+
+/// What a run has left.
+pub(crate) struct Recorded<'m, G: Space<S = f64>> {
+    pub(crate) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    pub(crate) stopped: Option<String>,
+    /// What has no value, if that has stopped it.
+    pub(crate) undefined: Option<Undefined>,
+    pub(crate) events: Vec<Happened>,
+    pub(crate) certificate: Certificate,
+    pub(crate) findings: Vec<Finding>,
+}
+
+/// Runs a plan from a state, or from the start; the trajectory has the columns `ids`.
+///
+/// # Errors
+/// If the run did not begin.
+pub(crate) fn march<'m, G: Space<S = f64>>(
+    case: Case<'_>,
+    plan: &Plan,
+    ids: &[Id],
+    eras: &'m Eras<G>,
+    from: Option<&State>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Recorded<'m, G>, Failure> {
+    let Case { model, study, parameters } = case;
+    let (all, watched) = watched(model, ids);
+    let follow = !plan.settings.locate;
+    let machine = |era: &'m Eras<G>| {
+        let observer = Observer::new(model, &era.mechanism, &era.parameters, &all);
+        Mechanical::new(&era.mechanism, &era.lifted, &era.start, observer, watched.clone())
+    };
+    let first = machine(eras);
+    let dims = first.dims();
+    let mut trajectory = Trajectory::new(&first, ids.len(), follow);
+    let mut flow = Flow {
+        model,
+        study,
+        plan,
+        stop,
+        trajectory: &mut trajectory,
+        events: Vec::new(),
+        balance: Balance::default(),
+        findings: Vec::new(),
+        pace: Pace::default(),
+        changed: Vec::new(),
+        holds: Holds::default(),
+        met: Vec::new(),
+        loosened: false,
+        open: Vec::new(),
+        begins: Begins::Run,
+        set_from: ids.len(),
+        sound: 0.0,
+        undefined: None,
+    };
+    let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
+    let (mut present, mut zeno, mut met) = (eras.parameters.clone(), Zeno::default(), false);
+    let stopped = loop {
+        let chosen = flow.choose(eras, &present, &machine, &mut state);
+        let era = match chosen {
+            Ok(Some(era)) => era,
+            Ok(None) if flow.begins == Begins::Run => return Err(Failure::numerical(explain::jams(eras, state.t), explain::LESS_FRICTION)),
+            Ok(None) => break Some(format!("{}; {}", explain::jams(eras, state.t), explain::LESS_FRICTION)),
+            Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
+            Err(failure) => break Some(failure.reason()),
+        };
+        if met && zeno.pile_up(state.t, 0.0) {
+            break Some(explain::chatters(eras, &flow.met, state.t));
+        }
+        flow.trajectory.era(std::ptr::from_ref(era).addr(), || machine(era));
+        match flow.era(era, machine(era), &mut state)? {
+            After::Done => break None,
+            After::Stopped(why) => break Some(why),
+            After::Changed => {
+                met = !flow.met.is_empty();
+                // other rows, other charts
+                flow.sound = 0.0;
+                if flow.begins == Begins::Parameters {
+                    let values = swept(study, parameters).into_iter().chain(flow.changed.clone()).collect::<Vec<_>>();
+                    present = parameters_with(model, &values);
+                }
+            }
+        }
+    };
+    flow.findings.extend(explain::not_unique(eras, &flow.open));
+    let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
+    let (certificate, mut findings) = balance.finish(plan, &study.place);
+    unresolved.dedup_by(|a, b| a.path == b.path);
+    findings.append(&mut unresolved);
+    trajectory.finish();
+    Ok(Recorded { trajectory, stopped, undefined, events, certificate, findings })
+}
+
+/// The state at the assembled start.
+pub(crate) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) -> State {
+    let mut state = State::new(dims);
+    state.q.copy_from_slice(&eras.start.q);
+    state.v.copy_from_slice(&eras.start.v);
+    state.z.copy_from_slice(&eras.mechanism.state_starts);
+    // forces may have no value in modes that are not those of the state
+    let modes = settled(&eras.mechanism, [&state.q, &state.v, &state.z], &eras.start.modes);
+    state.modes[..modes.len()].copy_from_slice(&modes);
+    state
+}
+
+/// How an era has ended.
+enum After {
+    Done,
+    Stopped(String),
+    Changed,
+}
+
+/// A run in progress.
+struct Flow<'a, 'm, G: Space<S = f64>> {
+    model: &'a Model,
+    study: &'a Study,
+    plan: &'a Plan,
+    stop: &'a dyn Fn() -> bool,
+    trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    events: Vec<Happened>,
+    balance: Balance,
+    findings: Vec<Finding>,
+    pace: Pace,
+    /// Parameters that events have set.
+    changed: Vec<(usize, f64)>,
+    /// Stops on which joints rest, and contacts that stick.
+    holds: Holds,
+    /// Contacts that stopped or gave way at the end of the era before, and whether all were let go for a blow.
+    met: Vec<Met>,
+    loosened: bool,
+    /// Contacts whose friction was not determined at some time.
+    open: Vec<usize>,
+    begins: Begins,
+    /// Number of columns: event functions follow them among the outputs.
+    set_from: usize,
+    /// The best quality of charts so far.
+    sound: f64,
+    /// What has no value, if that has stopped the run.
+    undefined: Option<Undefined>,
+}
+
+impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
+    /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
+    /// laws of friction.
+    fn choose(
+        &mut self,
+        eras: &'m Eras<G>,
+        parameters: &[f64],
+        machine: &impl Fn(&'m Eras<G>) -> Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        state: &mut State,
+    ) -> Result<Option<&'m Eras<G>>, Failure> {
+        let coordinates = self.plan.coordinates;
+        let free = Holds { held: Vec::new(), ..self.holds.clone() };
+        let base = eras.with(self.model, parameters, coordinates, &free)?;
+        if base.mechanism.contacts.is_empty() {
+            return Ok(Some(base));
+        }
+        if self.loosened {
+            self.holds.held.clear();
+            return Ok(Some(base));
+        }
+        let mut system = machine(base);
+        let contacts = &base.mechanism.contacts;
+        if self.begins == Begins::Run {
+            base.mechanism.slide(&vec![0; contacts.len()], &mut state.modes);
+        }
+        let Some(decided) = system.decide(state, &self.holds.held, &self.met) else { return Ok(None) };
+        base.mechanism.slide(&decided.senses, &mut state.modes);
+        state.live = system.extents(state);
+        self.open.extend(decided.open);
+        self.holds.held = decided.held;
+        eras.with(self.model, parameters, coordinates, &self.holds).map(Some)
+    }
+
+    /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
+    fn era(&mut self, era: &'m Eras<G>, mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
+        let first = self.begins == Begins::Run;
+        let dims = system.dims();
+        let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
+        let departure = if first { depart(era, &mut system, state, self.plan.until) } else { None };
+        if let Some(departure) = &departure {
+            state.copy_from(&departure.to);
+        }
+        let mut chart = Charted::new(self.study, self.plan, system, era, state, &mut self.sound)?;
+        let mut run = match chart.run(self.plan.settings, state) {
+            Ok(run) => run,
+            Err(halt) if first => {
+                let at = [&state.q[..], &state.v, &state.z];
+                let modes = settled(&era.mechanism, at, &era.start.modes);
+                let undefined = in_state(self.model, &era.mechanism, at, &modes, "the start");
+                return Err(undefined.map_or_else(|| explain::no_start(self.study, &era.mechanism, &era.start, &halt), Failure::Undefined));
+            }
+            Err(halt) => {
+                self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, halt.t);
+                return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)));
+            }
+        };
+        let (mut last, mut node) = (Node::new(dims), Node::new(dims));
+        let mut dense = Dense::new(dims);
+        chart.whole(run.node(), &mut node);
+        match &departure {
+            Some(departure) => {
+                self.balance.begin(chart.mechanical(), &departure.from, self.begins);
+                departure.record(self.trajectory, chart.mechanical(), &mut inner, &mut dense, &node);
+            }
+            None => {
+                self.trajectory.piece(&node);
+                self.balance.begin(chart.mechanical(), &node, self.begins);
+            }
+        }
+        // what crosses in the same instant as the event that began this era
+        let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
+        if !at_once.is_empty() {
+            self.note(&at_once, node.state.t);
+            state.copy_from(&node.state);
+            if self.ends_or_sets(&at_once) {
+                return Ok(self.stopped_by(&mut chart, &node, &at_once));
+            }
+        }
+        let ended = loop {
+            if (self.stop)() {
+                break After::Stopped(format!("interrupted at t = {} s", node.state.t));
+            }
+            let progress = match run.advance(chart.system(), self.plan.until) {
+                Ok(progress) => progress,
+                Err(halt) => {
+                    self.undefined = self.gap(&mut chart, &run, halt.t);
+                    break After::Stopped(self.explain(era, &mut chart, &mut run, &halt));
+                }
+            };
+            let happened = matches!(progress, Progress::Event | Progress::Stopped);
+            std::mem::swap(&mut last, &mut node);
+            chart.whole(if happened { run.before() } else { run.node() }, &mut node);
+            if node.state.t <= last.state.t && !happened {
+                break After::Done;
+            }
+            if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
+                break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt));
+            }
+            if self.balance.step(chart.mechanical(), &node, self.plan.until)
+                && let Some(told) = contradiction::told(chart.mechanical(), era.start.size, node.state.t)
+            {
+                break After::Stopped(told);
+            }
+            if happened {
+                let counted = self.happened(&mut chart, &run);
+                std::mem::swap(&mut last, &mut node);
+                chart.whole(run.node(), &mut node);
+                self.balance.jump(chart.mechanical(), [&last, &node], run.crossed());
+                // the last roots are those of the coordinates themselves
+                let own = run.crossed().iter().all(|root| *root >= chart.mechanical().roots.len());
+                if progress == Progress::Stopped && !(own && chart.turns(&node.state, true)) {
+                    break self.stopped_by(&mut chart, &last, &counted);
+                }
+                match chart.mechanical().winds_only(run.crossed()) {
+                    true => self.trajectory.wind(&node),
+                    false => self.trajectory.piece(&node),
+                }
+            }
+            if progress == Progress::Stopped || progress != Progress::End && chart.turns(&node.state, false) {
+                self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));
+                run = match chart.run(self.plan.settings, &node.state) {
+                    Ok(run) => run,
+                    Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+                };
+                chart.whole(run.node(), &mut node);
+                self.trajectory.piece(&node);
+            }
+            if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
+                break After::Stopped(slow.told(self.model, era, self.plan, &node));
+            }
+            if progress == Progress::End {
+                break After::Done;
+            }
+        };
+        self.balance.end(chart.mechanical(), &node, &run, inner.counts);
+        if let Some((root, t)) = run.unresolved() {
+            self.findings.push(explain::unresolved(self.model, chart.mechanical(), root, t));
+        }
+        state.copy_from(&node.state);
+        Ok(ended)
+    }
+
+    /// Why a run cannot go on, with the joints and drivers that lock.
+    fn explain(&self, era: &Eras<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
+        let locked = if chart.is_whole() { explain::locked(&era.mechanism, halt, &run.dependence(chart.system())) } else { None };
+        locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
+    }
+
+    /// What has no value where a run cannot go on.
+    fn gap(&self, chart: &mut Charted<'m, G>, run: &Integration, t: f64) -> Option<Undefined> {
+        let here = explain::undefined(self.model, self.study, chart.mechanical(), &run.node().state.modes, t);
+        if here.is_some() {
+            return here;
+        }
+        let beyond = run.beyond().filter(|_| chart.is_whole())?;
+        let system = chart.mechanical();
+        let dims = system.dims();
+        system.observe(&beyond.at(), &vec![0.0; dims.v], &vec![0.0; dims.rows()]);
+        explain::undefined(self.model, self.study, system, &beyond.modes, t)
+    }
+
+    /// Adds the last step to the trajectory.
+    fn record(
+        &mut self,
+        chart: &mut Charted<'m, G>,
+        run: &mut Integration,
+        inner: &mut Engine,
+        dense: &mut Dense,
+        [last, node]: [&Node; 2],
+    ) -> Result<(), Halt> {
+        let Charted::Minimal { system, bridging: false } = chart else {
+            self.trajectory.step(run.dense(chart.system())?, node.state.t, true);
+            return Ok(());
+        };
+        // the continuous solution of the whole is Hermite's over parts of the step, whose ends come from that of the scheme
+        let (t, h) = (last.state.t, node.state.t - last.state.t);
+        // a step of a few roundings of time has no parts
+        let whole = self.plan.fixed_step().is_some() || h < 1e3 * f64::EPSILON * node.state.t;
+        let parts = if whole { 1 } else { PARTS };
+        if h <= 0.0 {
+            // an event at the begin of a step
+            return Ok(());
+        }
+        let [mut reduced, mut from, mut to] = [run.node().clone(), last.clone(), last.clone()];
+        for part in 1..=parts {
+            let end = part == parts;
+            if end {
+                to.copy_from(node);
+            } else {
+                run.at(&mut **system, t + h * part as f64 / parts as f64, &mut reduced)?;
+                system.whole(&reduced, &mut to).map_err(|why| Halt { why, t, h })?;
+            }
+            let made = dense.hermite(system.inner_mut(), inner, &from, &to);
+            made.map_err(|why| Halt { why, t, h })?;
+            self.trajectory.step(dense, to.state.t, end);
+            std::mem::swap(&mut from, &mut to);
+        }
+        Ok(())
+    }
+
+    /// Notes the events of the model that the last step has ended at; their numbers.
+    fn happened(&mut self, chart: &mut Charted<'m, G>, run: &Integration) -> Vec<usize> {
+        let state = &run.node().state;
+        let system = chart.mechanical();
+        let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
+        let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
+        let t = state.t;
+        system.forget_struck();
+        self.note(&counted, t);
+        counted
+    }
+
+    fn note(&mut self, counted: &[usize], at: f64) {
+        self.events.extend(counted.iter().map(|&e| Happened { name: self.model.events[e].name.clone(), at }));
+    }
+
+    /// Whether one of these events ends the run or sets parameters.
+    fn ends_or_sets(&self, counted: &[usize]) -> bool {
+        counted.iter().any(|&e| self.model.events[e].stop || !self.model.events[e].set.is_empty())
+    }
+
+    /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
+    fn stopped_by(&mut self, chart: &mut Charted<'m, G>, before: &Node, counted: &[usize]) -> After {
+        if let Some(event) = chart.mechanical().restless() {
+            return After::Stopped(explain::restless(self.model, event, before.state.t));
+        }
+        if counted.iter().any(|&e| self.model.events[e].stop) {
+            return After::Done;
+        }
+        let system = chart.mechanical();
+        let rests = system.take_rests();
+        (self.met, self.loosened) = system.take_met();
+        self.begins = Begins::Rests;
+        for (stop, rests) in rests {
+            self.holds.resting.retain(|s| *s != stop);
+            if rests {
+                self.holds.resting.push(stop);
+            }
+        }
+        system.observe(&before.state.at(), &before.a, &before.lambda);
+        let mut outputs = vec![0.0; system.observer.program().outputs()];
+        system.columns(&before.state.modes, &mut outputs);
+        let functions = self.model.events.iter().map(|e| 1 + usize::from(e.restitution.is_some())).sum::<usize>();
+        let mut place = self.set_from + functions;
+        for (i, event) in self.model.events.iter().enumerate() {
+            for &(parameter, _) in &event.set {
+                if counted.contains(&i) {
+                    self.changed.retain(|(p, _)| *p != parameter);
+                    self.changed.push((parameter, outputs[place]));
+                    self.begins = Begins::Parameters;
+                }
+                place += 1;
+            }
+        }
+        After::Changed
+    }
+}

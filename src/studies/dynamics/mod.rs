@@ -1,0 +1,228 @@
+//! Motion in time: the study kind `dynamics`.
+//!
+//! `system` shows a mechanism to the integrators, `march` runs one of them and records, `trajectory` is the motion as a curve,
+//! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
+
+pub(crate) mod balance;
+mod bare;
+mod chart;
+mod contradiction;
+mod depart;
+pub(crate) mod eras;
+pub(crate) mod explain;
+pub(crate) mod march;
+mod pace;
+pub(crate) mod setup;
+pub(crate) mod system;
+pub(crate) mod trajectory;
+mod watch;
+
+pub use bare::Bare;
+pub use setup::{is_available, method};
+
+use super::common::case::Case;
+use super::common::clock::Clock;
+use super::common::functional::Functionals;
+use super::common::motion::Rows;
+use super::common::numbers::Sources;
+use super::common::scene;
+use super::common::watched::{Watched, in_variable, unresolved};
+use crate::dynamics::LANES;
+use crate::geometry::{Planar, Pose, Space, Spatial};
+use crate::kinematics::undefined::{Gap, blank};
+use crate::model::{Dimensions, Forward, Study, WORKS};
+use crate::numerics::continuous::Curve;
+use crate::numerics::extremum::{Extremes, extrema};
+use crate::numerics::resolve;
+use crate::results::{Certificate, Failure, Finding, March, Outcome, Resolution};
+use crate::scalar::Dual;
+use eras::Eras;
+use march::Recorded;
+use trajectory::{Off, Trajectory};
+
+/// Most numbers in the rows of a run: 4 GB of them.
+const MOST_NUMBERS: f64 = 5e8;
+
+/// Runs a dynamic study; `stop` is asked between steps, and ends the run where it is.
+///
+/// # Errors
+/// If it never began.
+pub(crate) fn run<G>(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let Case { model, study, parameters } = case;
+    let plan = setup::plan(case, forward)?;
+    let watched = Watched::of(study);
+    let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+    check_rows(study, &plan, watched.ids.len().max(1))?;
+    let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
+        march::march(case, &plan, &watched.ids, &eras, None, stop)?;
+
+    if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
+        return Err(match undefined {
+            Some(undefined) => Failure::Undefined(undefined),
+            None => Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"),
+        });
+    }
+    let clock = Clock::of_time(plan.until);
+    let seen = loop {
+        match see(&mut trajectory, case, &watched, &plan) {
+            Ok(seen) => break seen,
+            Err(Off { at, gap: None }) => {
+                return Err(Failure::numerical(
+                    format!("the state at t = {at} s could not be evaluated"),
+                    "the position is nearly singular there: end the run before, or start elsewhere",
+                ));
+            }
+            Err(Off { at, gap: Some(gap) }) => {
+                let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("t = {at:.6} s"));
+                let Some(Off { at, gap: behind }) = trajectory.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
+                undefined = Some(told(&behind.unwrap_or(gap), at));
+            }
+        }
+    };
+    let Seen { breaks, rows, extremes, functionals, resolution, findings: open } = seen;
+    findings.extend(open);
+    let (from, to) = (breaks[0], breaks[breaks.len() - 1]);
+    events.retain(|e| e.at <= to);
+    let stopped = undefined.as_ref().map(|u| u.message.clone()).or(stopped);
+    let tables = &eras.first().mechanism.tables;
+    let works = certificate.march.as_ref().map_or([f64::NAN; WORKS.len()], March::works);
+    let numbers = Sources { case, tables, functionals: &functionals, results: &[], works: &works }.numbers(stopped.is_none());
+    let undefined = undefined.or(numbers.undefined);
+    let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
+    let certificate = Certificate { resolved: Some(resolution), ..balance::residuals(&mut trajectory, &rows, certificate) };
+    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+    let n = rows.places.len();
+    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    findings.extend(numbers.findings);
+    findings.extend(blank(study, "t", &rows.places, &shown));
+    let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
+    Ok(Outcome {
+        stopped,
+        undefined,
+        parameters: case.named(),
+        independent: "time".into(),
+        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+        rows: shown,
+        places: rows.places,
+        results: Vec::new(),
+        scalars: numbers.scalars,
+        extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+        expectations: numbers.expectations,
+        findings: eras.start.findings().chain(findings).collect(),
+        certificate,
+        events,
+        scenes: vec![(scene::MECHANISM.into(), scene)],
+        ..Outcome::default()
+    })
+}
+
+/// Integrates a dynamic study without recording anything but its end; see [`Bare`].
+///
+/// # Errors
+/// If it never began.
+pub fn bare(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Bare, Failure> {
+    fn in_space<G>(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Bare, Failure>
+    where
+        G: Space<S = f64>,
+        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+    {
+        let plan = setup::plan(case, forward)?;
+        let eras = Eras::<G>::new(case.model, case.parameters, plan.coordinates)?;
+        let ids: Vec<_> = case.study.columns.iter().map(|c| c.value).collect();
+        bare::bare(case, &plan, &ids, &eras, timer)
+    }
+    match case.model.space {
+        Dimensions::Planar => in_space::<Planar<f64>>(case, forward, timer),
+        Dimensions::Spatial => in_space::<Spatial<f64>>(case, forward, timer),
+    }
+}
+
+/// A motion seen over time.
+struct Seen {
+    breaks: Vec<f64>,
+    rows: Rows,
+    extremes: Vec<Option<Extremes>>,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+    resolution: Resolution,
+}
+
+/// Rows, extremes and functionals of a motion.
+fn see<G, D>(trajectory: &mut Trajectory<'_, G, D>, case: Case<'_>, watched: &Watched, plan: &setup::Plan) -> Result<Seen, Off>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let breaks = trajectory.breaks();
+    let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(Off { at: 0.0, gap: None }) };
+    let stretches = trajectory.stretches();
+    let resolved = resolve::on(trajectory, &stretches, &breaks, setup::resolution(plan.settings.control))?;
+    trajectory.all_defined(&resolved)?;
+    let extremes = extrema(trajectory, resolved.samples(), &breaks);
+    let rows = rows(trajectory, &breaks, plan.every)?;
+    let clock = Clock::of_time(plan.until);
+    let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], "time", clock);
+    let mut functionals =
+        Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+    let functionals = functionals.all(case, &watched.functionals, &mut findings)?;
+    Ok(Seen { breaks, rows, extremes, functionals, findings, resolution: resolved.quality() })
+}
+
+/// Rows on the grid of the study, or at every step, with both sides of every switch.
+fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>) -> Result<Rows, Off>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let mut rows = Rows::default();
+    for (piece, ends) in breaks.windows(2).enumerate() {
+        let places = match every {
+            None => trajectory.ends_of(piece),
+            Some(every) => {
+                let inside = (ends[0] / every).floor() as i64..=(ends[1] / every).ceil() as i64;
+                let near = 1e-9 * every;
+                let grid = inside.map(|k| k as f64 * every).filter(|t| *t > ends[0] + near && *t < ends[1] - near);
+                std::iter::once(ends[0]).chain(grid).chain([ends[1]]).collect()
+            }
+        };
+        for t in places {
+            let mut out = vec![0.0; trajectory.columns()];
+            trajectory.row(t, piece, &mut out)?;
+            rows.places.push(t);
+            rows.pieces.push(piece);
+            rows.values.push(out);
+        }
+    }
+    Ok(rows)
+}
+
+/// Poses of the bodies at a time.
+pub(crate) fn pose<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
+    trajectory.go(t, piece).ok()?;
+    Some(trajectory.system(piece).dynamics.poses())
+}
+
+/// Refuses more rows than fit in memory.
+fn check_rows(study: &Study, plan: &setup::Plan, columns: usize) -> Result<(), Failure> {
+    let step = plan.every.or(plan.fixed_step());
+    let rows = step.map_or(0.0, |step| plan.until / step);
+    if rows * columns as f64 <= MOST_NUMBERS {
+        return Ok(());
+    }
+    let key = if plan.every.is_some() { "every" } else { "step" };
+    Err(Failure::Study {
+        code: "too-many-rows",
+        message: format!("the study asks for {rows:.3e} rows of {columns} numbers"),
+        place: format!("{}.{key}", study.place),
+        help: format!("ask for a longer output step, as `every: {}`", plan.until / 1000.0),
+    })
+}

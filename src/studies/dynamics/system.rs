@@ -1,0 +1,466 @@
+//! A mechanism as integrators see it: the terms by `dynamics`, and every switch, event and winding as a root.
+//!
+//! | root | positive | behind it |
+//! |---|---|---|
+//! | switch of a load, spring, driver, state | inside its mode | the neighbouring mode; the scheme starts afresh |
+//! | switch of a column alone | the same | the same mode number, without effect on the motion |
+//! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
+//! | side on which a joint with friction by reactions presses | its force points there | the other side |
+//! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the era |
+//! | stop just left | beyond its neighbourhood | it is watched exactly again |
+//! | stop on which a joint rests | the stop pushes | it is left, which ends the era |
+//! | contact that slides | it slides on | it sticks or turns round, which ends the era |
+//! | contact that sticks | less holds it than may | it slides, which ends the era |
+//! | event of the model | on its present side of zero | the other side; what the event does; an impact is a blow, as of a stop |
+//!
+//! `modes` hold the switches of all expressions, then the windings, the side of each event, and for each rigid stop whether it was
+//! left just now (1): then the motion may go beyond it by as much as rounding asks, until it is clear of it.
+
+mod ahead;
+mod contact;
+mod events;
+mod patterns;
+mod power;
+mod root;
+mod sticking;
+mod works;
+
+use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
+use crate::geometry::Space;
+use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
+use crate::scalar::Dual;
+use crate::studies::common::contact::PASSED;
+use crate::studies::common::observe::{Needs, Observer};
+use ahead::Timed;
+use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
+use patterns::known_by_rows;
+pub(crate) use root::{Met, Root, Watched};
+pub(super) use works::WORKS;
+
+/// A mechanism with its columns and events.
+pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(crate) dynamics: Dynamics<'m, G>,
+    pub(crate) observer: Observer<G>,
+    pub(super) reactions: Reactions<G>,
+    pub(crate) roots: Vec<Root>,
+    linearizer: Linearizer<'m, D>,
+    dims: Dims,
+    pattern: Pattern,
+    events: Vec<Watched>,
+    /// Roots that depend on time alone.
+    timed: Vec<Timed>,
+    kkt: Kkt,
+    friction: Option<Friction>,
+    /// Terms of the own solution where friction depends on reactions.
+    terms: Terms,
+    /// Size of the mechanism, m.
+    size: f64,
+    /// How near to each rigid stop counts as on it, rad or m.
+    near: Vec<f64>,
+    /// Stops on which joints have come to rest (true) or which they have left, in the event crossed last.
+    rests: Vec<(usize, bool)>,
+    /// Events with impacts that were met in the event crossed last, and the one that cannot rest.
+    struck: Vec<usize>,
+    restless: Option<usize>,
+    /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction holds.
+    met: Vec<Met>,
+    loosened: bool,
+    a: Vec<f64>,
+    lambda: Vec<f64>,
+    /// Modes while energies are asked.
+    modes: Vec<i32>,
+    inputs: Vec<f64>,
+    registers: Vec<f64>,
+    /// Roots of one program, and all outputs of the observer.
+    scratch: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl<'m, G, D> Mechanical<'m, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// The system of a mechanism and the same lifted; scales are those of an assembled start.
+    pub(crate) fn new(
+        mechanism: &'m Mechanism<G>,
+        lifted: &'m Mechanism<D>,
+        start: &crate::kinematics::assemble::Assembled,
+        observer: Observer<G>,
+        events: Vec<Watched>,
+    ) -> Self {
+        let (nv, rows, nz) = (mechanism.nv, mechanism.rows.len(), mechanism.state_starts.len());
+        let mut roots = Vec::new();
+        let mut seen = Vec::new();
+        let of_contact = |switch: u32| mechanism.is_of_contact(switch as usize);
+        for (program, staged) in mechanism.programs().iter().enumerate() {
+            for (k, switch) in staged.program.switches().iter().enumerate() {
+                if !seen.contains(switch) && !of_contact(*switch) {
+                    seen.push(*switch);
+                    roots.push(Root::Force { program, k });
+                }
+            }
+        }
+        for (k, switch) in observer.program().switches().iter().enumerate() {
+            if !seen.contains(switch) && !of_contact(*switch) {
+                roots.push(Root::Column { k });
+            }
+        }
+        for (gauge, g) in mechanism.gauges.iter().enumerate() {
+            if let Measured::Turn { winding, .. } = g.measured {
+                roots.push(Root::Winding { gauge, winding });
+            }
+        }
+        roots.extend(mechanism.sides().enumerate().map(|(place, mode)| Root::Side { place, mode }));
+        let rests = |row: &Row<G>| if let RowOwner::Stop(stop) = row.owner { Some(stop) } else { None };
+        let held: Vec<(usize, usize)> = mechanism.rows.iter().enumerate().filter_map(|(i, row)| Some((i, rests(row)?))).collect();
+        for stop in 0..mechanism.stops.len() {
+            match held.iter().find(|(_, s)| *s == stop) {
+                Some(&(row, _)) => roots.push(Root::Rest { row, stop }),
+                None if mechanism.stops[stop].event.is_some() => roots.push(Root::Clear(stop)),
+                None => roots.extend([Root::Stop(stop), Root::Clear(stop)]),
+            }
+        }
+        let contacts: Vec<(usize, usize)> = mechanism.held().collect();
+        for contact in 0..mechanism.contacts.len() {
+            match contacts.iter().find(|(c, _)| *c == contact) {
+                Some(&(_, row)) => roots.extend([-1, 1].map(|sense| Root::Holds { contact, row, sense })),
+                None => roots.push(Root::Slides(contact)),
+            }
+        }
+        roots.extend((0..events.len()).map(Root::Event));
+        let dims = Dims {
+            q: mechanism.nq,
+            v: nv,
+            z: nz,
+            holonomic: rows,
+            nonholonomic: 0,
+            modes: mechanism.switches + mechanism.windings + events.len() + mechanism.stops.len(),
+            live: mechanism.contacts.len(),
+            roots: roots.len(),
+            work: WORKS,
+        };
+        let mut dynamics = Dynamics::new(mechanism);
+        dynamics.time(0.0, &start.modes);
+        dynamics.position(&start.q, &start.modes);
+        let outputs: Vec<usize> = events.iter().map(|event| event.output).collect();
+        let timed = ahead::timed(mechanism, &observer, &roots, &outputs, mechanism.switches + mechanism.windings);
+        let block = pattern(mechanism);
+        let size: Vec<f64> = crate::kinematics::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
+        let mut size_q = vec![1.0; mechanism.nq];
+        for step in &mechanism.steps {
+            if let crate::mechanism::Step::Axis { q, v, .. } = step {
+                size_q[*q] = size[*v];
+            }
+        }
+        let pattern = Pattern {
+            mass: block.clone(),
+            g: known_by_rows(mechanism),
+            k: block.clone(),
+            c: block,
+            r_z: Sparsity::dense(nv, nz),
+            r_lambda: rubbed(mechanism),
+            z_q: Sparsity::dense(nz, nv),
+            z_v: Sparsity::dense(nz, nv),
+            z_z: Sparsity::dense(nz, nz),
+            g_scale: dynamics.row_scale(&start.q, &start.modes, &start.metric),
+            metric: start.metric.clone(),
+            size_q,
+            size_v: size,
+            common: mechanism.translations(),
+            power: works::depends(mechanism),
+            roots_by_reactions: observer.switches_by_forces()
+                || (!events.is_empty() && observer.needs_forces())
+                || mechanism.sides().next().is_some()
+                || !held.is_empty()
+                || !contacts.is_empty(),
+            acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
+            forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
+            timed: timed.iter().map(Timed::root).collect(),
+            rough: Vec::new(),
+        };
+        let mut kkt = Kkt::new(nv, rows);
+        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
+        let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
+        Self {
+            reactions: dynamics.reactions(),
+            linearizer: Linearizer::new(lifted),
+            outputs: vec![0.0; observer.program().outputs()],
+            inputs: vec![0.0; most(|p| p.inputs)],
+            registers: vec![0.0; most(|p| p.program.registers())],
+            scratch: vec![0.0; switches],
+            friction: Friction::of_pattern(dims, &pattern),
+            terms: Terms::new(dims),
+            a: vec![0.0; nv],
+            lambda: vec![0.0; rows],
+            size: start.size,
+            modes: mechanism.modes(),
+            near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
+            rests: Vec::with_capacity(2 * mechanism.stops.len()),
+            struck: Vec::with_capacity(mechanism.stops.len()),
+            restless: None,
+            met: Vec::with_capacity(mechanism.contacts.len()),
+            loosened: false,
+            dynamics,
+            observer,
+            roots,
+            dims,
+            pattern,
+            events,
+            timed,
+            kkt,
+        }
+    }
+
+    /// Whether nothing but windings were crossed, or a chart, whose root stands behind all others.
+    pub(super) fn winds_only(&self, crossed: &[usize]) -> bool {
+        !crossed.is_empty() && crossed.iter().all(|&root| self.roots.get(root).is_none_or(|root| matches!(root, Root::Winding { .. })))
+    }
+
+    /// Modes that the mechanism and its columns know.
+    fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
+        let m = self.dynamics.mechanism;
+        &modes[..m.switches + m.windings]
+    }
+
+    fn kinematics(&mut self, at: &At<'_>) {
+        self.dynamics.work.z.copy_from_slice(at.z);
+        self.dynamics.work.held.copy_from_slice(at.live);
+        self.dynamics.time(at.t, at.modes);
+        self.dynamics.position(at.q, at.modes);
+        self.dynamics.velocity(at.v, at.modes);
+    }
+
+    /// Evaluates a state with its accelerations and reads the columns' quantities.
+    pub(crate) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
+        self.kinematics(at);
+        self.dynamics.loads(at.modes);
+        self.dynamics.react(a, lambda, &mut self.reactions);
+        let own = self.own(at.modes);
+        self.observer.read(&mut self.dynamics, [at.q, at.v, a], &self.reactions, own);
+    }
+
+    /// Columns and event functions at the state observed last.
+    pub(crate) fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
+        self.observer.columns(modes, out);
+    }
+
+    /// Evaluates a state without accelerations and reads the columns' quantities, of which none needs them.
+    pub(crate) fn glance(&mut self, at: &At<'_>) {
+        self.kinematics(at);
+        if self.observer.needs() == Needs::Inertias {
+            self.dynamics.loads(at.modes);
+        }
+        let own = self.own(at.modes);
+        let Self { dynamics, observer, reactions, a, .. } = self;
+        observer.read(dynamics, [at.q, at.v, a], reactions, own);
+    }
+
+    /// The observer's inputs at a state; accelerations only if they are needed, by an own solution where none are given.
+    fn look(&mut self, at: &At<'_>, given: Option<(&[f64], &[f64])>) {
+        if !self.pattern.roots_by_reactions {
+            return self.glance(at);
+        }
+        if let Some((a, lambda)) = given {
+            return self.observe(at, a, lambda);
+        }
+        self.accelerate(at);
+        let (a, lambda) = (std::mem::take(&mut self.a), std::mem::take(&mut self.lambda));
+        self.observe(at, &a, &lambda);
+        (self.a, self.lambda) = (a, lambda);
+    }
+
+    /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.
+    fn with_program(&mut self, program: usize, run: impl FnOnce(&crate::expression::Program, &[f64], &mut [f64], &mut [f64])) {
+        let staged = self.dynamics.mechanism.programs()[program];
+        for &(input, leaf) in &staged.fills {
+            self.inputs[input] = self.dynamics.leaf(leaf);
+        }
+        run(&staged.program, &self.inputs, &mut self.registers, &mut self.scratch);
+    }
+}
+
+impl<G, D> System for Mechanical<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    fn dims(&self) -> Dims {
+        self.dims
+    }
+
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
+        self.kinematics(&at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        let w = &mut self.dynamics.work;
+        out.phi.copy_from_slice(&w.phi);
+        // the same entries are written at every evaluation, the others are zero in both
+        std::mem::swap(&mut out.g, &mut w.g);
+        std::mem::swap(&mut out.mass, &mut w.mass);
+        if stage >= Stage::Velocity {
+            out.nu.copy_from_slice(&w.nu);
+            out.gamma.copy_from_slice(&w.gamma);
+        }
+        if stage >= Stage::Dynamics {
+            out.force.copy_from_slice(&w.force);
+            if self.dims.z > 0 {
+                self.dynamics.rates(at.modes);
+                out.zdot.copy_from_slice(&self.dynamics.work.zdot);
+            }
+        }
+    }
+
+    fn residual(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]) {
+        self.kinematics(&at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        self.dynamics.residual(a, lambda, r);
+    }
+
+    fn rub(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+        self.kinematics(&at);
+        self.dynamics.loads(at.modes);
+        self.dynamics.friction(lambda, force, r_lambda);
+    }
+
+    fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
+        let point = Point { t: at.t, q: at.q, v: at.v, z: at.z, a, lambda, modes: at.modes };
+        self.linearizer.tangents(&point, out);
+        if self.friction.is_some() {
+            self.kinematics(&at);
+            self.dynamics.loads(at.modes);
+            self.dynamics.friction_slope(lambda, &mut out.r_lambda);
+        }
+    }
+
+    fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.dynamics.mechanism.rate(q, v, qdot);
+    }
+
+    fn retract(&self, _: Span, q: &mut [f64], delta: &[f64]) {
+        self.dynamics.mechanism.retract(q, delta);
+    }
+
+    fn displace(&self, _: Span, q: &mut [f64], u: &[f64]) {
+        self.dynamics.mechanism.displace(q, u);
+    }
+
+    fn power(&mut self, at: At<'_>, _: &[f64], lambda: &[f64], w: &mut [f64]) {
+        self.powers(&at, lambda, w);
+    }
+
+    fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
+        modes.copy_from_slice(at.modes);
+        let m = self.dynamics.mechanism;
+        // what sticks and slides is decided at events alone
+        let senses: Vec<i32> = m.contacts.iter().map(|c| at.modes[c.mode]).collect();
+        // a function of positions may switch and feed the others: twice settles what depends on it
+        for _ in 0..2 {
+            let own: &[i32] = modes;
+            self.kinematics(&At { modes: own, ..at });
+            for program in 0..m.programs().len() {
+                self.with_program(program, |p, inputs, registers, _| p.set_modes(inputs, registers, modes));
+                m.slide(&senses, modes);
+            }
+        }
+        self.press(&at, modes);
+        self.look(&At { modes, ..at }, None);
+        self.observer.set_modes(modes);
+        m.slide(&senses, modes);
+        self.observer.columns(modes, &mut self.outputs);
+        self.sides_of_events(modes);
+        for root in &self.roots {
+            if let Root::Winding { gauge, winding } = *root {
+                let half = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, modes[m.switches + winding]);
+                modes[m.switches + winding] += (half / std::f64::consts::PI).round() as i32;
+            }
+        }
+    }
+
+    fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {
+        self.look(&at, Some((a, lambda)));
+        let m = self.dynamics.mechanism;
+        // whose roots are in the scratch: the programs of the mechanism by number, then that of the columns
+        let of_columns = m.programs().len();
+        let mut filled = usize::MAX;
+        if !self.events.is_empty() {
+            self.observer.columns(at.modes, &mut self.outputs);
+        }
+        for (i, g) in g.iter_mut().enumerate() {
+            *g = match self.roots[i] {
+                Root::Force { program, k } => {
+                    if filled != program {
+                        self.with_program(program, |p, inputs, registers, roots| {
+                            p.roots(inputs, at.modes, registers, &mut roots[..p.switches().len()]);
+                        });
+                        filled = program;
+                    }
+                    self.scratch[k]
+                }
+                Root::Column { k } => {
+                    if filled != of_columns {
+                        let count = self.observer.program().switches().len();
+                        self.observer.roots(at.modes, &mut self.scratch[..count]);
+                        filled = of_columns;
+                    }
+                    self.scratch[k]
+                }
+                Root::Winding { gauge, winding } => {
+                    let off = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, at.modes[m.switches + winding]);
+                    // smooth at the middle, the distance near both ends
+                    let end = 0.75 * std::f64::consts::PI;
+                    (end * end - off * off) / (2.0 * end)
+                }
+                Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
+                Root::Slides(_) | Root::Holds { .. } => self.grip(self.roots[i], &at, a, lambda),
+                Root::Event(event) => self.way(event, self.outputs[self.events[event].output], at.modes),
+            };
+        }
+    }
+
+    fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
+        ahead::first(&mut self.timed, at, to, roots)
+    }
+
+    fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
+        let m = self.dynamics.mechanism;
+        self.look(&state.at(), None);
+        match self.roots[root] {
+            Root::Force { program, k } => {
+                let modes = &mut state.modes;
+                self.with_program(program, |p, inputs, registers, roots| {
+                    p.roots(inputs, modes, registers, &mut roots[..p.switches().len()]);
+                    modes[p.switches()[k] as usize] = p.neighbour(k, modes, registers);
+                });
+                Effect::Restart
+            }
+            Root::Column { k } => {
+                let count = self.observer.program().switches().len();
+                self.observer.roots(&state.modes, &mut self.scratch[..count]);
+                let switch = self.observer.program().switches()[k] as usize;
+                state.modes[switch] = self.observer.neighbour(k, &state.modes);
+                Effect::Record
+            }
+            Root::Winding { gauge, winding } => {
+                let mode = &mut state.modes[m.switches + winding];
+                *mode += if off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, *mode) > 0.0 { 1 } else { -1 };
+                Effect::Record
+            }
+            root @ (Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. }) => self.part(root, state, row),
+            Root::Slides(contact) => self.meet(contact, 0, row),
+            Root::Holds { contact, sense, .. } => self.meet(contact, sense, row),
+            Root::Event(event) => self.cross_event(event, state, row),
+        }
+    }
+}
+
+/// Angle from the centre of the half turn that is counted, rad.
+fn off_centre(x: f64, shift: f64, half: i32) -> f64 {
+    x - shift - std::f64::consts::PI * f64::from(half)
+}

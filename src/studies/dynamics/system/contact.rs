@@ -1,0 +1,197 @@
+//! Where bodies of a joint touch: sides on which friction by reactions presses, rigid stops, and accelerations with them.
+
+use super::Mechanical;
+use super::root::Root;
+use crate::dynamics::{LANES, slack};
+use crate::geometry::Space;
+use crate::mechanism::StretchOf;
+use crate::scalar::Dual;
+use grashof_solvers::{At, Effect, Stage, State, System};
+
+impl Root {
+    /// Whether its crossing acts on the motion as a kink does not: by a blow, or by what an event of the model does or notes.
+    pub(super) fn acts(self) -> bool {
+        matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Slides(_) | Self::Holds { .. } | Self::Event(_))
+    }
+
+    /// Whether forces follow other laws behind it.
+    pub(super) fn is_forceful(self) -> bool {
+        !matches!(self, Self::Column { .. } | Self::Winding { .. } | Self::Event(_))
+    }
+}
+
+impl<G, D> Mechanical<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// Accelerations and multipliers of a state by an own solution; those of before where there is none.
+    pub(super) fn accelerate(&mut self, at: &At<'_>) {
+        if self.friction.is_some() {
+            let mut terms = std::mem::take(&mut self.terms);
+            self.terms(*at, Stage::Dynamics, &mut terms);
+            let Self { friction: Some(friction), dynamics, a, lambda, .. } = self else { return };
+            a.fill(0.0);
+            lambda.fill(0.0);
+            // the dynamics stand at the state
+            let _ = friction.solve(&terms, &mut |l, f, slope| dynamics.friction(l, f, slope), a, lambda);
+            self.terms = terms;
+            return;
+        }
+        self.kinematics(at);
+        self.dynamics.forces(at.modes);
+        self.dynamics.mass();
+        let w = &self.dynamics.work;
+        if self.kkt.factor(&w.mass, &w.g).is_ok() {
+            self.kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
+        }
+    }
+
+    /// Sets the modes of the sides on which joints press, beginning with those at hand: each change may move the others.
+    pub(super) fn press(&mut self, at: &At<'_>, modes: &mut [i32]) {
+        for _ in 0..4 * self.dynamics.mechanism.sides().count() {
+            self.accelerate(&At { modes, ..*at });
+            let slack = -slack(&self.pattern.metric, &self.a, &self.lambda);
+            let Some((_, mode)) = self.dynamics.pressed(&self.lambda).find(|(n, _)| *n < slack) else { break };
+            modes[mode] = if modes[mode] < 0 { 1 } else { -1 };
+        }
+    }
+
+    /// Place of the mode of a stop.
+    fn mode_of_stop(&self, stop: usize) -> usize {
+        self.dims.modes - self.near.len() + stop
+    }
+
+    /// Stops on which joints have come to rest (true) or which they have left, since this was asked last.
+    pub(crate) fn take_rests(&mut self) -> Vec<(usize, bool)> {
+        std::mem::take(&mut self.rests)
+    }
+
+    /// A joint reaches a rigid stop: it rebounds, rests or, pulled away, has only touched it; at the state looked at last.
+    fn strike(&mut self, index: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
+        let stop = self.dynamics.mechanism.stops[index];
+        let mode = self.mode_of_stop(index);
+        row.fill(0.0);
+        self.dynamics.extent_gradient(StretchOf::Gauge(stop.gauge), |k, x| row[k] += x);
+        if self.lets_go() {
+            return Effect::Stop;
+        }
+        let undecided = self.undecided(&state.modes);
+        let Some(along) = stop.along else { return self.strike_without_rest(index, restitution, undecided) };
+        let speed = -stop.sense * self.dynamics.extent_rate(along);
+        if speed < -stop.rest_speed {
+            // another blow at the same instant has thrown it back already
+            state.modes[mode] = 1;
+            return if undecided { Effect::Stop } else { Effect::Record };
+        }
+        let rebound = Effect::Bounce { restitution, stops: undecided };
+        if restitution * speed >= stop.rest_speed {
+            state.modes[mode] = 0;
+            return rebound;
+        }
+        self.accelerate(&state.at());
+        let pressed = stop.sense * self.dynamics.extent_acceleration(along, &self.a) < 0.0;
+        if pressed || speed > stop.rest_speed {
+            self.rests.push((index, true));
+            return Effect::Bounce { restitution: 0.0, stops: true };
+        }
+        state.modes[mode] = 1;
+        match undecided {
+            _ if speed > 0.0 => rebound,
+            true => Effect::Stop,
+            false => Effect::Record,
+        }
+    }
+
+    /// A blow at the zero of a function that holds more than positions: nothing can rest there, and where it would the run ends.
+    fn strike_without_rest(&mut self, index: usize, restitution: f64, undecided: bool) -> Effect {
+        let stop = self.dynamics.mechanism.stops[index];
+        let rebound = restitution * self.dynamics.work.readings[stop.gauge].rate.abs();
+        if rebound >= stop.rest_speed {
+            return Effect::Impulse { restitution, stops: undecided };
+        }
+        self.restless = stop.event;
+        Effect::Stop
+    }
+
+    /// An event with impacts is met from the side that counts: a blow, as at a rigid stop.
+    pub(super) fn impact(&mut self, event: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
+        let m = self.dynamics.mechanism;
+        let side = f64::from(state.modes[m.switches + m.windings + event]);
+        let Some(stop) = m.stops.iter().position(|s| s.event == Some(event) && s.sense == side) else { return Effect::Record };
+        self.struck.push(event);
+        let also = self.events[event].stops;
+        match self.strike(stop, restitution, state, row) {
+            Effect::Bounce { restitution, stops } => Effect::Bounce { restitution, stops: stops || also },
+            Effect::Impulse { restitution, stops } => Effect::Impulse { restitution, stops: stops || also },
+            Effect::Record if also => Effect::Stop,
+            effect => effect,
+        }
+    }
+
+    /// The event whose impacts would have to come to rest where nothing can hold, if the last crossing met one.
+    pub(crate) fn restless(&self) -> Option<usize> {
+        self.restless
+    }
+
+    /// Way that is left to a stop at the state looked at last, rad or m, or in the unit of its event's function.
+    fn gap(&self, stop: usize) -> f64 {
+        let s = self.dynamics.mechanism.stops[stop];
+        s.along.map_or(1.0, |along| s.gap(self.dynamics.extent(along)))
+    }
+
+    /// Whether a joint has left a stop just now, and may still pass it by rounding.
+    fn left(&self, stop: usize, modes: &[i32]) -> bool {
+        modes[self.mode_of_stop(stop)] == 1
+    }
+
+    /// The value of the root of an event with impacts whose function is `x`: its way to the side that counts.
+    pub(super) fn way(&self, event: usize, x: f64, modes: &[i32]) -> f64 {
+        let m = self.dynamics.mechanism;
+        let side = f64::from(modes[m.switches + m.windings + event]);
+        let stop = m.stops.iter().position(|s| s.event == Some(event) && s.sense == side);
+        let held = |stop: usize| self.roots.iter().any(|root| matches!(root, Root::Rest { stop: s, .. } if *s == stop));
+        match stop {
+            Some(stop) if held(stop) => 1.0,
+            Some(stop) if self.left(stop, modes) => side * x + self.near[stop],
+            _ => side * x,
+        }
+    }
+
+    /// The value of a root of a contact; after the look at the state.
+    pub(super) fn touch(&self, root: Root, at: &At<'_>, a: &[f64], lambda: &[f64]) -> f64 {
+        let m = self.dynamics.mechanism;
+        let left = |stop: usize| self.left(stop, at.modes);
+        match root {
+            Root::Side { place, .. } => {
+                let pressed = self.dynamics.pressed(lambda).nth(place);
+                pressed.map_or(1.0, |(n, _)| n + slack(&self.pattern.metric, a, lambda))
+            }
+            Root::Stop(stop) => self.gap(stop) + if left(stop) { self.near[stop] } else { 0.0 },
+            Root::Clear(stop) if left(stop) => 2.0 * self.near[stop] - self.gap(stop),
+            Root::Rest { row, stop } => -m.stops[stop].sense * lambda[row],
+            _ => 1.0,
+        }
+    }
+
+    /// Crosses a root of a contact; at the state looked at last.
+    pub(super) fn part(&mut self, root: Root, state: &mut State, row: &mut [f64]) -> Effect {
+        match root {
+            Root::Side { mode, .. } => {
+                state.modes[mode] = if state.modes[mode] < 0 { 1 } else { -1 };
+                Effect::Restart
+            }
+            Root::Stop(stop) => self.strike(stop, self.dynamics.mechanism.stops[stop].restitution, state, row),
+            Root::Clear(stop) => {
+                state.modes[self.mode_of_stop(stop)] = 0;
+                Effect::Record
+            }
+            Root::Rest { stop, .. } => {
+                state.modes[self.mode_of_stop(stop)] = 1;
+                self.rests.push((stop, false));
+                Effect::Stop
+            }
+            _ => Effect::Record,
+        }
+    }
+}

@@ -1,0 +1,405 @@
+//! A motion in time as a curve: the continuous solution of every step, evaluated anywhere.
+
+use super::system::Mechanical;
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::kinematics::undefined::Gap;
+use crate::numerics::continuous::Curve;
+use crate::numerics::resolve::{FIRST_PANELS, Resolved};
+use crate::scalar::Dual;
+use grashof_solvers::{Control, Dense, Engine, Node, Sigma, Stage, System};
+
+/// Below this smallest singular value of the scaled rows a position is next to singular: errors of the state are multiplied by its
+/// inverse in velocities, by the square of that in reactions.
+const SINGULAR: f64 = 1e-2;
+
+/// Steps to a first stretch where columns are resolved.
+const STEPS_TO_A_STRETCH: usize = 16;
+
+/// One step: polynomials in θ = (t − begin)/h on [begin, end], end ≤ begin + h.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// Begin of the polynomials, and where the motion leaves them, s.
+    begin: f64,
+    end: f64,
+    h: f64,
+    /// First coefficient and number of coefficients.
+    first: usize,
+    count: usize,
+    /// Whether a step of the integrator ends here, not a part of one.
+    whole: bool,
+    /// Number of its modes.
+    modes: usize,
+}
+
+/// A stretch of the motion without switches: its parameters. Windings may change on it.
+#[derive(Clone, Debug)]
+struct Piece {
+    era: usize,
+    /// Where contacts are held.
+    live: Vec<f64>,
+    /// First step and the one behind the last.
+    steps: (usize, usize),
+    from: f64,
+    to: f64,
+}
+
+/// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
+pub(crate) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    key: usize,
+    pub(crate) system: Mechanical<'m, G, D>,
+    pub(crate) engine: Engine,
+}
+
+/// A state of the trajectory could not be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Off {
+    /// Time, s.
+    pub(crate) at: f64,
+    /// What has no value there, if that is why.
+    pub(crate) gap: Option<Gap>,
+}
+
+/// A motion in time.
+pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+    pub(crate) eras: Vec<Era<'m, G, D>>,
+    /// State, accelerations and multipliers evaluated last.
+    pub(crate) node: Node,
+    steps: Vec<Step>,
+    pieces: Vec<Piece>,
+    /// Modes of steps: one list for each piece, and one more for each winding.
+    modes: Vec<Vec<i32>>,
+    coefficients: Vec<f64>,
+    dense: Dense,
+    columns: usize,
+    out: Vec<f64>,
+    /// Whether modes are taken from each state: the integrator has marched across switches.
+    follow: bool,
+    /// The step found last.
+    near: usize,
+    /// The present era.
+    current: usize,
+}
+
+impl<'m, G, D> Trajectory<'m, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// An empty one of `columns` columns, to be filled from an era on.
+    pub(crate) fn new(first: &Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
+        let dims = first.dims();
+        let outputs = first.observer.program().outputs();
+        Self {
+            eras: Vec::new(),
+            node: Node::new(dims),
+            steps: Vec::new(),
+            pieces: Vec::new(),
+            modes: Vec::new(),
+            coefficients: Vec::new(),
+            dense: Dense::new(dims),
+            columns,
+            out: vec![0.0; outputs],
+            follow,
+            near: 0,
+            current: 0,
+        }
+    }
+
+    /// Begins an era of a mechanism by its key, which `make` makes if it is new.
+    pub(crate) fn era(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G, D>) {
+        self.current = self.eras.iter().position(|era| era.key == key).unwrap_or_else(|| {
+            let system = make();
+            let engine = Engine::new(&system, Control::Tolerance(1e-8));
+            self.eras.push(Era { key, system, engine });
+            self.eras.len() - 1
+        });
+    }
+
+    /// Begins a piece at a node.
+    pub(crate) fn piece(&mut self, node: &Node) {
+        let (t, n) = (node.state.t, self.steps.len());
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
+        // an event at the begin of a piece leaves nothing of it
+        if self.pieces.last().is_some_and(|p| p.from >= t) {
+            self.pieces.pop();
+        }
+        let live = node.state.live.clone();
+        self.pieces.push(Piece { era: self.current, live, steps: (n, n), from: t, to: t });
+    }
+
+    /// Goes on in the present piece behind a node where only the count of an angle's turns changes, which is no switch: the step that
+    /// ends there is a part of one.
+    pub(crate) fn wind(&mut self, node: &Node) {
+        self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
+        if let Some(step) = self.steps.last_mut() {
+            step.whole = false;
+        }
+    }
+
+    /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
+    pub(crate) fn step(&mut self, dense: &Dense, end: f64, whole: bool) {
+        let first = self.coefficients.len();
+        let coefficients = dense.coefficients();
+        self.coefficients.extend_from_slice(coefficients);
+        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole, modes: self.modes.len() - 1 });
+        if let Some(piece) = self.pieces.last_mut() {
+            (piece.to, piece.steps.1) = (end, self.steps.len());
+        }
+    }
+
+    /// Whether no time has passed.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.steps.iter().all(|s| s.end <= s.begin)
+    }
+
+    /// Forgets a last piece in which no step was made.
+    pub(crate) fn finish(&mut self) {
+        if self.pieces.len() > 1 && self.pieces.last().is_some_and(|p| p.steps.0 == p.steps.1) {
+            self.pieces.pop();
+        }
+    }
+
+    /// Lets the motion end where all is defined last before a time where something is not; what is undefined just behind it, or
+    /// nothing if that is so from the start on.
+    pub(crate) fn end_before(&mut self, t: f64) -> Option<Off> {
+        let from = self.pieces.first()?.from;
+        let mut out = vec![0.0; self.columns];
+        let mut defined = |trajectory: &mut Self, t: f64| {
+            let piece = trajectory.pieces.iter().position(|p| t <= p.to).unwrap_or(0);
+            trajectory.columns_at(t, piece, &mut out)
+        };
+        let (mut good, mut bad) = (from, t);
+        defined(self, good).ok()?;
+        let mut off = Off { at: t, gap: None };
+        for _ in 0..60 {
+            let middle = 0.5 * (good + bad);
+            match defined(self, middle) {
+                Ok(()) => good = middle,
+                Err(why) => (bad, off) = (middle, why),
+            }
+        }
+        let last = self.pieces.iter().position(|p| good <= p.to).unwrap_or(0);
+        self.pieces.truncate(last + 1);
+        let piece = &mut self.pieces[last];
+        let (low, high) = piece.steps;
+        let step = (low + self.steps[low..high].partition_point(|s| s.end < good)).min(high.saturating_sub(1));
+        (piece.to, piece.steps.1) = (good, step + 1);
+        self.steps.truncate(step + 1);
+        if let Some(step) = self.steps.last_mut() {
+            (step.end, step.whole) = (good, true);
+        }
+        (good > from).then_some(off)
+    }
+
+    /// Bytes in use by steps.
+    pub(crate) fn size(&self) -> usize {
+        std::mem::size_of_val(&self.coefficients[..]) + std::mem::size_of_val(&self.steps[..])
+    }
+
+    /// Times of the begin, of every switch, and of the end.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        let first = self.pieces.first().map_or(0.0, |p| p.from);
+        std::iter::once(first).chain(self.pieces.iter().map(|p| p.to)).collect()
+    }
+
+    /// Ends of the steps of a piece, with its begin.
+    pub(crate) fn ends_of(&self, piece: usize) -> Vec<f64> {
+        let p = &self.pieces[piece];
+        std::iter::once(p.from).chain(self.steps[p.steps.0..p.steps.1].iter().filter(|s| s.whole).map(|s| s.end)).collect()
+    }
+
+    /// Stretches of each piece to begin with where columns are resolved: some steps each, but no wider than the first panels of any
+    /// curve.
+    pub(crate) fn stretches(&self) -> Vec<(f64, f64, usize)> {
+        let range = self.pieces.last().zip(self.pieces.first()).map_or(0.0, |(last, first)| last.to - first.from);
+        let widest = range / FIRST_PANELS as f64;
+        let mut all = Vec::new();
+        for (piece, p) in self.pieces.iter().enumerate() {
+            let (mut from, mut count) = (p.from, 0);
+            for (k, step) in self.steps[p.steps.0..p.steps.1].iter().enumerate() {
+                count += 1;
+                let last = p.steps.0 + k + 1 == p.steps.1;
+                let to = if last { p.to } else { step.end };
+                if to <= from || !(last || count == STEPS_TO_A_STRETCH || to - from >= widest) {
+                    continue;
+                }
+                let parts = ((to - from) / widest).ceil().clamp(1.0, FIRST_PANELS as f64) as usize;
+                let at = |i: usize| if i == parts { to } else { from + (to - from) * i as f64 / parts as f64 };
+                all.extend((0..parts).map(|i| (at(i), at(i + 1), piece)));
+                (from, count) = (to, 0);
+            }
+        }
+        all
+    }
+
+    /// The mechanism of the piece that was evaluated last.
+    pub(crate) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
+        let era = self.pieces.get(piece).map_or(0, |p| p.era);
+        &mut self.eras[era].system
+    }
+
+    /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
+    /// the constraints.
+    pub(crate) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let own = self.take(t, piece)?;
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        // next to a singular position a state may not be moved to the constraints: there it counts as it is
+        if own || engine.settle(system, &mut self.node).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+            engine.accelerate(system, &mut self.node).map_err(|_| Off { at: t, gap: None })?;
+        }
+        let Node { state, a, lambda, .. } = &self.node;
+        system.observe(&state.at(), a, lambda);
+        Ok(())
+    }
+
+    /// As [`Trajectory::go`], but without accelerations where no column needs them.
+    fn glance(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let era = self.pieces.get(piece).map_or(0, |p| p.era);
+        if self.eras[era].system.observer.needs_forces() {
+            return self.go(t, piece);
+        }
+        let own = self.take(t, piece)?;
+        let Era { system, engine, .. } = &mut self.eras[era];
+        if !own && engine.project(system, &mut self.node.state).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+        }
+        system.glance(&self.node.state.at());
+        Ok(())
+    }
+
+    /// The state at `t` on a piece as the integrator's continuous solution has it; whether it is the end of a step, which is the
+    /// integrator's own.
+    fn take(&mut self, t: f64, piece: usize) -> Result<bool, Off> {
+        let off = Off { at: t, gap: None };
+        let Some(p) = self.pieces.get(piece) else { return Err(off) };
+        let (low, high) = p.steps;
+        if low == high {
+            return Err(off);
+        }
+        if !(self.near >= low && self.near < high && self.steps[self.near].begin <= t && t <= self.steps[self.near].end) {
+            self.near = (low + self.steps[low..high].partition_point(|s| s.end < t)).min(high - 1);
+        }
+        let step = self.steps[self.near];
+        self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
+        self.dense.evaluate(t, &mut self.node.state);
+        self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
+        self.node.state.live.copy_from_slice(&p.live);
+        let Era { system, engine, .. } = &mut self.eras[p.era];
+        // eras differ in the rows that hold joints on their stops
+        self.node.lambda.resize(system.dims().rows(), 0.0);
+        if self.follow {
+            engine.follow_modes(system, &mut self.node.state);
+        }
+        Ok(t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h)
+    }
+
+    /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
+    pub(crate) fn residuals(&mut self, piece: usize) -> [f64; 2] {
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        engine.evaluate(system, self.node.state.at(), Stage::Velocity);
+        [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
+    }
+
+    /// All outputs of the observer at the state evaluated last.
+    pub(crate) fn outputs(&mut self, piece: usize) -> &[f64] {
+        let era = self.pieces[piece].era;
+        self.eras[era].system.columns(&self.node.state.modes, &mut self.out);
+        &self.out
+    }
+}
+
+impl<G, D> Trajectory<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// Columns at `t` on a piece.
+    fn columns_at(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        self.glance(t, piece)?;
+        let n = self.columns;
+        out.copy_from_slice(&self.outputs(piece)[..n]);
+        let observer = &self.eras[self.pieces[piece].era].system.observer;
+        match observer.undefined(&self.node.state.modes, &self.out) {
+            Some(gap) => Err(Off { at: t, gap: Some(gap) }),
+            None => Ok(()),
+        }
+    }
+
+    /// As [`Curve::eval`], but where an expression has no value by its own fault that is an error.
+    pub(crate) fn row(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        let found = self.columns_at(t, piece, out);
+        if !matches!(found, Err(Off { gap: Some(_), .. })) {
+            return found;
+        }
+        // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        let length = self.pieces.last().map_or(0.0, |p| p.to);
+        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
+            if self.columns_at(t + shift * length, piece, out).is_ok() {
+                return Ok(());
+            }
+        }
+        found
+    }
+
+    /// Looks again where resolved columns have no value.
+    ///
+    /// # Errors
+    /// The first place where an expression has none by its own fault.
+    pub(crate) fn all_defined(&mut self, resolved: &Resolved) -> Result<(), Off> {
+        let mut out = vec![0.0; self.columns];
+        resolved.blanks().try_for_each(|(t, piece)| self.row(t, piece, &mut out))
+    }
+}
+
+impl<G, D> Curve for Trajectory<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    type Error = Off;
+
+    fn columns(&self) -> usize {
+        self.columns
+    }
+
+    fn middle(&self, from: f64, to: f64, piece: usize) -> f64 {
+        // steps meet in small kinks, which no polynomial follows
+        let (low, high) = self.pieces[piece].steps;
+        let steps = &self.steps[low..high];
+        let first = steps.partition_point(|s| s.end <= from);
+        let inside = &steps[first..first + steps[first..].partition_point(|s| s.end < to)];
+        if inside.is_empty() { 0.5 * (from + to) } else { inside[inside.len() / 2].end }
+    }
+
+    fn smooth(&self, at: f64, piece: usize) -> f64 {
+        let (low, high) = self.pieces[piece].steps;
+        let steps = &self.steps[low..high];
+        steps.get(steps.partition_point(|s| s.end < at)).map_or(0.0, |s| s.h)
+    }
+
+    fn singular(&mut self, at: f64, piece: usize) -> bool {
+        // what is redundant is so all along, in the begin of the piece as well
+        if self.go(self.pieces[piece].from, piece).is_err() {
+            return true;
+        }
+        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        let (pattern, mut weakest) = (system.pattern(), Sigma::new(self.node.lambda.len()));
+        weakest.begin(engine, &pattern.metric, &pattern.g_scale);
+        if self.go(at, piece).is_err() {
+            return true;
+        }
+        weakest.follow(&mut self.eras[self.pieces[piece].era].engine, 4) < SINGULAR
+    }
+
+    fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        match self.row(t, piece, out) {
+            Err(Off { gap: Some(_), .. }) => {
+                out.fill(f64::NAN);
+                Ok(())
+            }
+            found => found,
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Studies: what is computed of a mechanism, a module to a kind, and runs of them over values of parameters.
+//!
+//! A kinematic study is a [`Curve`](crate::numerics::continuous::Curve): columns that can be evaluated at any place of the range.
+//! Its grid is only where rows are written; extremes, integrals and switches are found on the curve itself.
+
+mod balance;
+pub mod common;
+pub(crate) mod driven;
+pub mod dynamics;
+mod linearize;
+pub mod modes;
+mod periodic;
+pub mod rehearsal;
+pub mod run;
+pub mod solve;
+mod statics;
+pub mod sweep;

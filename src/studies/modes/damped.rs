@@ -1,0 +1,87 @@
+//! Damped modes: complex eigenvalues μ of the state matrix of a linear motion.
+//!
+//! ```text
+//! M ü + C u̇ + K u + R δz = 0,   δż = Z_q u + Z_v u̇ + Z_z δz
+//! ```
+//!
+//! A pair μ = −ζω ± iω√(1 − ζ²) is an oscillation with the damping ratio ζ = −Re μ/|μ|, which is negative where it grows.
+
+use crate::kinematics::held::Held;
+use crate::numerics::eigenvalues::{eigenvalues, measurable};
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// One of each pair of complex eigenvalues, and every real one.
+#[derive(Clone, Debug)]
+pub struct Damped {
+    /// Eigenvalue, 1/s; its imaginary part is not negative.
+    pub value: Complex<f64>,
+    /// Its coordinates (n), the largest of them 1.
+    pub shape: DVector<Complex<f64>>,
+}
+
+impl Damped {
+    /// ζ = −Re μ/|μ|; 1 for a real eigenvalue that decays, NaN for 0.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        -self.value.re / self.value.norm()
+    }
+}
+
+/// The state matrix of (u, u̇, δz) (order 2n + nz); `with_damping` false leaves out C. None if M is not positive definite.
+#[must_use]
+pub fn state_matrix(held: &Held, with_damping: bool) -> Option<DMatrix<f64>> {
+    let (n, nz) = (held.mass.nrows(), held.z_z.nrows());
+    let factor = held.mass.clone().cholesky()?;
+    let mut a = DMatrix::zeros(2 * n + nz, 2 * n + nz);
+    a.view_mut((0, n), (n, n)).fill_with_identity();
+    a.view_mut((n, 0), (n, n)).copy_from(&-factor.solve(&held.stiffness));
+    if with_damping {
+        a.view_mut((n, n), (n, n)).copy_from(&-factor.solve(&held.damping));
+        a.view_mut((n, 2 * n), (n, nz)).copy_from(&-factor.solve(&held.r_z));
+        a.view_mut((2 * n, 0), (nz, n)).copy_from(&held.z_q);
+        a.view_mut((2 * n, n), (nz, n)).copy_from(&held.z_v);
+        a.view_mut((2 * n, 2 * n), (nz, nz)).copy_from(&held.z_z);
+    }
+    Some(a)
+}
+
+/// Eigenvalues of a state matrix of which the first `n` states are coordinates, by rising |μ|: one of each complex pair.
+///
+/// The matrix is balanced by powers of two (Parlett & Reinsch, Numer. Math. 13 (1969) 293-304) before the QR algorithm, since
+/// coordinates and rates differ by the size of the frequencies. Vectors come from inverse iteration.
+///
+/// None if the matrix is beyond what they can be found of, as [`eigenvalues`] says.
+#[must_use]
+pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
+    if a.is_empty() {
+        return Some(Vec::new());
+    }
+    if !measurable(a) {
+        return None;
+    }
+    let mut balanced = a.clone();
+    nalgebra::linalg::balancing::balance_parlett_reinsch(&mut balanced);
+    let mut values: Vec<Complex<f64>> = eigenvalues(&balanced)?.into_iter().filter(|mu| mu.im >= 0.0).collect();
+    values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
+    let size = a.norm();
+    Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(a, value, n, size, i), value }).collect())
+}
+
+/// The coordinates of an eigenvector: three steps of inverse iteration next to its eigenvalue.
+fn shape(a: &DMatrix<f64>, value: Complex<f64>, n: usize, size: f64, seed: usize) -> DVector<Complex<f64>> {
+    let order = a.nrows();
+    let beside = value + Complex::new(f64::EPSILON * size, 0.0);
+    let shifted = DMatrix::from_fn(order, order, |i, j| Complex::from(a[(i, j)]) - if i == j { beside } else { Complex::default() });
+    let factors = shifted.lu();
+    let mut x = DVector::from_fn(order, |i, _| Complex::from(1.0 + (2.39 * (i + 1) as f64 * (seed + 1) as f64).sin()));
+    for _ in 0..3 {
+        if let Some(y) = factors.solve(&x)
+            && y.iter().all(|y| y.re.is_finite() && y.im.is_finite())
+        {
+            x = y.unscale(y.norm());
+        }
+    }
+    let x = x.rows(0, n).into_owned();
+    let largest = x.iter().fold(Complex::default(), |m: Complex<f64>, x| if x.norm() > m.norm() * (1.0 + 1e-9) { *x } else { m });
+    if largest.norm() > 0.0 { x.map(|x| x / largest) } else { x }
+}

@@ -1,0 +1,165 @@
+//! Why there is no periodic regime, in words: what happened to what at what time, and what to try.
+
+use super::lap::{Broken, Search, Section};
+use super::monodromy::Rough;
+use super::settle::Unsettled;
+use super::shooting::Lost;
+use super::timed::timed;
+use crate::geometry::Space;
+use crate::results::Failure;
+use crate::studies::dynamics::eras::Eras;
+
+/// A difference in percent.
+fn percent(x: f64) -> String {
+    if x.is_finite() { format!("{:.3} %", 100.0 * x) } else { "much".into() }
+}
+
+/// A period that was not completed.
+pub(super) fn broken(search: &Search<'_>, why: Broken) -> Failure {
+    match why {
+        Broken::Failure(failure) => failure,
+        Broken::Stopped(message) => Failure::numerical(message, format!("the motion stops there: {LOOK}")),
+        Broken::Never { gone, t } => never(search, gone, t),
+    }
+}
+
+/// What shows a motion that has no regime.
+const LOOK: &str = "look at it in a study of the kind `dynamics`";
+
+/// A period whose end was never reached.
+fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> Failure {
+    let when = t.map_or_else(|| "however long it runs".to_owned(), |t| format!("up to t = {t:.6} s, where its steps run out"));
+    match search.section {
+        Section::Time(period) => {
+            Failure::numerical(format!("a period of {period} s takes too many steps ({when})"), "ask for a larger `tolerance`")
+        }
+        Section::Return(_) => Failure::numerical(
+            format!("the expression of `through` does not rise through 0 again, {when}: the motion dies out, or runs away from it"),
+            LOOK,
+        ),
+        Section::Advance(_, by) => Failure::numerical(
+            format!(
+                "`{}` does not advance by a period, {when}: it has gone {gone:.6} of {by:.6}, and stalls, comes to rest or swings to and fro",
+                search.over
+            ),
+            format!("{LOOK}, and give it a stronger drive, less load or a faster start"),
+        ),
+    }
+}
+
+/// A run that has not settled.
+pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
+    match why {
+        Unsettled::Broken(broken_off) => broken(search, broken_off),
+        Unsettled::Restless { one, two, .. } if two < 0.01 => Failure::numerical(
+            format!(
+                "the motion does not repeat itself after one period of `{}` (it differs by {}) but after two",
+                search.over,
+                percent(one)
+            ),
+            "ask for `by` twice as large",
+        ),
+        Unsettled::Restless { one, periods: [before, last], .. } => Failure::numerical(
+            format!(
+                "the run does not settle: the last two periods, of {before:.6} s and {last:.6} s, still differ by {}; the motion runs away, or has no regime of this period",
+                percent(one)
+            ),
+            format!("{LOOK}, or give `settle` and see where the search leads"),
+        ),
+    }
+}
+
+/// A map without derivative.
+pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
+    match why {
+        Rough::Touched(t) => Failure::numerical(
+            format!(
+                "at t = {t:.6} s of the period the motion only touches a switch or a stop, so that its neighbours differ from each other by more than they are apart: the map of a period has no derivative there"
+            ),
+            "change a parameter a little, or smooth the switch",
+        ),
+        Rough::Rests => Failure::numerical(
+            "a joint rests on a rigid stop, or is held by friction, in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",
+            "give the stop a `stiffness` instead of a `restitution`, the friction a `stick_speed`",
+        ),
+        Rough::Singular(t) => Failure::Study {
+            code: "singular-mass",
+            message: format!(
+                "at t = {t:.6} s of the period the motion near the regime is not determined: a body that can move has no mass, or the position is singular"
+            ),
+            place: search.study.place.clone(),
+            help: "give every moving body a mass and an inertia".into(),
+        },
+    }
+}
+
+/// A search without success.
+pub(super) fn lost<G: Space<S = f64>>(search: &Search<'_>, eras: &Eras<G>, why: Lost) -> Failure {
+    let apart = match why {
+        Lost::Broken(why) => return broken(search, why),
+        Lost::Rough(why) => return rough(search, why),
+        Lost::Apart(apart) => apart,
+    };
+    let hint = match search.section {
+        Section::Time(_) if !timed(&search.model, &eras.mechanism) => {
+            "nothing in the model depends on time, so that its periods are its own: count them by what advances (`over: theta, by: 1 turn`) or by where they end (`over: t, through: ...`)"
+        }
+        _ => {
+            "there may be no regime of this period near the run: let it run longer (`settle`), begin elsewhere, or follow the regime from a parameter with which it exists (`from`)"
+        }
+    };
+    let message =
+        format!("no regime is found: the begin and the end of the period stay {} of the size of the motion apart", percent(apart));
+    Failure::numerical(message, hint)
+}
+
+/// A failure on the way of a continuation.
+pub(super) fn on_the_way(failure: Failure, name: &str, x: f64) -> Failure {
+    match failure {
+        Failure::Numerical { message, help } => Failure::numerical(format!("followed to {name} = {x}: {message}"), help),
+        other => other,
+    }
+}
+
+/// Time acts on the motion, and the period is counted by what the motion itself does.
+pub(super) fn not_driven(search: &Search<'_>) -> Failure {
+    Failure::Study {
+        code: "forced-period",
+        message: format!(
+            "time acts on the mechanism (a driver, or an expression of `t`), but `{}` advances as the motion lets it",
+            search.over
+        ),
+        place: format!("{}.periodic.over", search.study.place),
+        help: "count the period of the forcing, as `over: t, by: 20 ms`".into(),
+    }
+}
+
+/// What acts in time is not periodic.
+pub(super) fn not_repeated(search: &Search<'_>, t: f64) -> Failure {
+    Failure::Study {
+        code: "not-periodic",
+        message: format!("what acts on the mechanism at t = {t:.6} s acts in another way one period later"),
+        place: format!("{}.periodic.over", search.study.place),
+        help: "give the period of drivers and loads, or remove what depends on time in another way".into(),
+    }
+}
+
+/// The motion comes back, but what acts on it does not, or not all coordinates do.
+pub(super) fn not_closed(search: &Search<'_>, apart: f64) -> Failure {
+    Failure::Study {
+        code: "not-periodic",
+        message: format!("after a period the independent coordinates are back, modulo whole turns, but the motion is another: positions or accelerations differ by {}", percent(apart)),
+        place: search.study.place.clone(),
+        help: "something counts the turns, as a spring on a joint that turns on, or winds up; let it be a function of sin and cos of the angle, or ask for the period after which it is back".into(),
+    }
+}
+
+/// What advances turns back, so that columns over it do not exist.
+pub(super) fn turns_back(search: &Search<'_>, t: f64) -> Failure {
+    Failure::Study {
+        code: "turns-back",
+        message: format!("`{}` turns back at t = {t:.6} s of the period, so that columns cannot stand over it", search.over),
+        place: format!("{}.periodic.over", search.study.place),
+        help: "let something else advance, that never turns back; if the period is known, `over: t`, else `over: t` with `through`".into(),
+    }
+}

@@ -1,0 +1,230 @@
+//! One period of the motion: from a state to where the period ends.
+
+use crate::dynamics::LANES;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::mechanism::Coordinates;
+use crate::model::{Crossing, Event, Model, Study};
+use crate::results::{Certificate, Failure, Finding, Happened};
+use crate::scalar::Dual;
+use crate::studies::common::case::Case;
+use crate::studies::common::observe::Observer;
+use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::march;
+use crate::studies::dynamics::march::Recorded;
+use crate::studies::dynamics::setup::Plan;
+use crate::studies::dynamics::system::Mechanical;
+use crate::studies::dynamics::trajectory::{Era, Trajectory};
+use grashof_solvers::{Control, Method, Node, Settings, State, System};
+use std::cell::Cell;
+
+/// Name of the event that ends a period: none that a model can give.
+const ENDS: &str = "(end of the period)";
+
+/// Time that no period is expected to last, s.
+const FOREVER: f64 = 1e6;
+
+/// Most steps in one period.
+const MOST_STEPS: usize = 50_000;
+
+/// Where a period ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Section {
+    /// After so long a time, s.
+    Time(f64),
+    /// Where the expression has advanced by so much.
+    Advance(Id, f64),
+    /// Where the expression rises through 0.
+    Return(Id),
+}
+
+/// What a period is, and how the motion in it is integrated.
+pub(super) struct Search<'a> {
+    /// The model of the study; it has one event more while a period runs.
+    pub(super) model: Model,
+    pub(super) study: &'a Study,
+    /// What advances, in words.
+    pub(super) over: String,
+    pub(super) section: Section,
+    /// Value of the expression of the section where a period begins.
+    pub(super) begin: f64,
+    /// Columns.
+    pub(super) ids: Vec<Id>,
+    /// Which of them is the expression of the section.
+    pub(super) mark: usize,
+    pub(super) coordinates: Coordinates,
+    pub(super) tolerance: f64,
+    pub(super) stop: &'a dyn Fn() -> bool,
+}
+
+/// A period that has been run.
+pub(super) struct Lap<'e, G: Space<S = f64>> {
+    pub(super) trajectory: Trajectory<'e, G, G::Lift<Dual<LANES>>>,
+    pub(super) certificate: Certificate,
+    pub(super) events: Vec<Happened>,
+    pub(super) findings: Vec<Finding>,
+    pub(super) start: Node,
+    pub(super) end: Node,
+}
+
+impl<G: Space<S = f64>> Lap<'_, G> {
+    /// Its time, s.
+    pub(super) fn period(&self) -> f64 {
+        self.end.state.t - self.start.state.t
+    }
+}
+
+/// Why a period did not come to its end.
+pub(super) enum Broken {
+    /// The run did not begin.
+    Failure(Failure),
+    /// It stopped, in words.
+    Stopped(String),
+    /// The end of the period was never reached: how far `over` has come, and the time if steps have run out.
+    Never { gone: f64, t: Option<f64> },
+}
+
+impl Search<'_> {
+    /// The expression whose value ends a period.
+    pub(super) fn marked(&self) -> Option<Id> {
+        match self.section {
+            Section::Time(_) => None,
+            Section::Advance(id, _) | Section::Return(id) => Some(id),
+        }
+    }
+
+    /// Runs from a state to the end of the period, at a tolerance.
+    pub(super) fn lap<'e, G: Space<S = f64>>(&mut self, eras: &'e Eras<G>, from: &State, tolerance: f64) -> Result<Lap<'e, G>, Broken> {
+        let begin = self.value(eras, from);
+        let (until, ends) = match self.section {
+            Section::Time(period) => (from.t + period, None),
+            Section::Advance(id, by) => {
+                let target = self.model.pool.constant(begin + by);
+                let crossing = if by > 0.0 { Crossing::Rising } else { Crossing::Falling };
+                (from.t + FOREVER, Some((self.model.pool.sub(id, target), crossing)))
+            }
+            Section::Return(id) => (from.t + FOREVER, Some((id, Crossing::Rising))),
+        };
+        if let Some((when, crossing)) = ends {
+            let place = self.study.place.clone();
+            let event = Event { name: ENDS.into(), when, crossing, stop: true, set: Vec::new(), restitution: None, place };
+            self.model.events.push(event);
+        }
+        let run = self.march(eras, from, until, tolerance);
+        if ends.is_some() {
+            self.model.events.pop();
+        }
+        let (recorded, exhausted) = run.map_err(Broken::Failure)?;
+        self.finish(recorded, exhausted, until, begin)
+    }
+
+    /// The run itself, and whether it took too many steps.
+    fn march<'e, G: Space<S = f64>>(
+        &self,
+        eras: &'e Eras<G>,
+        from: &State,
+        until: f64,
+        tolerance: f64,
+    ) -> Result<(Recorded<'e, G>, bool), Failure> {
+        let steps = Cell::new(0);
+        let stop = || {
+            steps.set(steps.get() + 1);
+            steps.get() > MOST_STEPS || (self.stop)()
+        };
+        let control = Control::Tolerance(tolerance);
+        let plan = Plan {
+            until,
+            every: None,
+            settings: Settings { method: Method::Auto, control, balance: true, ..Settings::default() },
+            coordinates: self.coordinates,
+            minimal: false,
+        };
+        let m = &eras.mechanism;
+        let modes = self.alone(eras, &[]).dims().modes + self.model.events.len();
+        let state = with_modes(from, m.switches + m.windings, modes);
+        let case = Case { model: &self.model, study: self.study, parameters: &eras.parameters };
+        let recorded = march::march(case, &plan, &self.ids, eras, Some(&state), &stop)?;
+        Ok((recorded, steps.get() > MOST_STEPS))
+    }
+
+    /// The lap that a run has left, if it has come to its end.
+    fn finish<'e, G: Space<S = f64>>(
+        &self,
+        recorded: Recorded<'e, G>,
+        exhausted: bool,
+        until: f64,
+        begin: f64,
+    ) -> Result<Lap<'e, G>, Broken> {
+        let Recorded { mut trajectory, stopped, undefined, mut events, certificate, findings } = recorded;
+        if let Some(undefined) = undefined {
+            return Err(Broken::Failure(Failure::Undefined(undefined)));
+        }
+        if let (Some(why), false) = (&stopped, exhausted) {
+            return Err(Broken::Stopped(why.clone()));
+        }
+        let breaks = trajectory.breaks();
+        let (Some(&first), Some(&last)) = (breaks.first(), breaks.last()) else { return Err(Broken::Never { gone: 0.0, t: None }) };
+        let lost = |_| Broken::Stopped(format!("the state at t = {last} s could not be evaluated"));
+        trajectory.go(first, 0).map_err(lost)?;
+        let start = trajectory.node.clone();
+        let pieces = breaks.len() - 1;
+        trajectory.go(last, pieces - 1).map_err(lost)?;
+        let end = trajectory.node.clone();
+        let ended = match self.section {
+            Section::Time(_) => last >= until,
+            _ => events.pop_if(|e| e.name == ENDS).is_some(),
+        };
+        if ended && !exhausted {
+            return Ok(Lap { trajectory, certificate, events, findings, start, end });
+        }
+        match events.last() {
+            Some(event) if !exhausted && last < until => {
+                Err(Broken::Stopped(format!("the event `{}` ends the motion at t = {last:.6} s", event.name)))
+            }
+            _ => {
+                let gone = if self.marked().is_some() { trajectory.outputs(pieces - 1)[self.mark] - begin } else { 0.0 };
+                Err(Broken::Never { gone, t: exhausted.then_some(last) })
+            }
+        }
+    }
+
+    /// The state at the assembled start.
+    pub(super) fn start<G: Space<S = f64>>(&self, eras: &Eras<G>) -> State {
+        march::begin(eras, self.alone(eras, &[]).dims())
+    }
+
+    /// The expression of the section in a state; 0 where only time counts.
+    pub(super) fn value<G: Space<S = f64>>(&self, eras: &Eras<G>, state: &State) -> f64 {
+        let Some(id) = self.marked() else { return 0.0 };
+        let m = &eras.mechanism;
+        let mut system = self.alone(eras, &[id]);
+        let mut at = with_modes(state, m.switches + m.windings, system.dims().modes);
+        let from = at.clone();
+        system.modes(from.at(), &mut at.modes);
+        system.observe(&at.at(), &vec![0.0; m.nv], &vec![0.0; m.rows.len()]);
+        let mut out = [0.0];
+        system.columns(&at.modes, &mut out);
+        out[0]
+    }
+
+    /// The mechanism with columns and without events.
+    fn alone<'e, G: Space<S = f64>>(&self, eras: &'e Eras<G>, ids: &[Id]) -> Mechanical<'e, G, G::Lift<Dual<LANES>>> {
+        let observer = Observer::new(&self.model, &eras.mechanism, &eras.parameters, ids);
+        Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, Vec::new())
+    }
+}
+
+/// A state whose first modes are kept, and whose others are to be taken from its values.
+fn with_modes(state: &State, kept: usize, all: usize) -> State {
+    let mut state = state.clone();
+    state.modes.truncate(kept);
+    state.modes.resize(all, 0);
+    state
+}
+
+/// The first era of a trajectory: a system with its engine, to evaluate other states with.
+pub(super) fn tools<'t, 'e, G: Space<S = f64>>(
+    trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
+) -> &'t mut Era<'e, G, G::Lift<Dual<LANES>>> {
+    &mut trajectory.eras[0]
+}

@@ -1,0 +1,149 @@
+//! The map of a period and its derivative.
+//!
+//! Neighbours of a periodic motion obey Ψ' = A(t) Ψ with A of [`Linear::state_matrix`] on all coordinates, which keeps them on the
+//! tangent space of the constraints. They begin as the motions of the independent coordinates, velocities and states (P and W of
+//! [`Reduced`](crate::kinematics::linear::Reduced)), go through every switch by its saltation matrix, and are read off the same
+//! coordinates at the end: the monodromy matrix, chart-free between. Where forces depend on the reactions A is found by differences.
+
+use super::collocation::{Gauss, STAGES};
+use super::lap::{Lap, Search, Section, tools};
+use super::saltation::{Side, pass, rate};
+use crate::dynamics::{LANES, Linearizer, Point};
+use crate::geometry::Space;
+use crate::kinematics::linear::{Linear, Singular};
+use crate::kinematics::partition::preferred;
+use crate::scalar::Dual;
+use crate::studies::dynamics::eras::Eras;
+use grashof_solvers::{Node, System};
+use nalgebra::{DMatrix, DVector};
+
+/// How neighbours of a lap come out of it.
+pub(super) struct Map {
+    /// Which velocities are independent (n).
+    pub(super) independent: Vec<usize>,
+    /// Neighbours at the start (2nv + nz × 2n + nz): the motions of the independent coordinates, velocities and states.
+    pub(super) basis: DMatrix<f64>,
+    /// Derivative of the map of a period (2n + nz square); of Poincaré's map where the period ends on a surface.
+    pub(super) derivative: DMatrix<f64>,
+    /// The surface on which the period begins; none where it ends by time.
+    pub(super) surface: Option<Surface>,
+}
+
+/// The surface on which a period begins.
+pub(super) struct Surface {
+    /// Its gradient at the start (2n + nz).
+    pub(super) normal: DVector<f64>,
+    /// The value that it keeps, there.
+    pub(super) value: f64,
+    /// The rate of this value along the motion, there.
+    pub(super) pace: f64,
+}
+
+/// Why there is no derivative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rough {
+    /// The mass matrix is singular, or a state cannot be evaluated, at this time, s.
+    Singular(f64),
+    /// A switch is only touched at this time, s.
+    Touched(f64),
+    /// A joint rests on a rigid stop, or a contact sticks, in a part of the period.
+    Rests,
+}
+
+impl<G: Space<S = f64>> Lap<'_, G>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    /// The derivative of its map.
+    pub(super) fn map(&mut self, search: &Search<'_>, eras: &Eras<G>) -> Result<Map, Rough> {
+        if self.trajectory.eras.len() > 1 {
+            return Err(Rough::Rests);
+        }
+        let by_reactions = tools(&mut self.trajectory).system.pattern().r_lambda.entries() > 0;
+        let mut flow = Flow { eras, linearizer: Linearizer::new(&eras.lifted), gauss: Gauss::new(), by_reactions };
+        let t = self.start.state.t;
+        let reduced = flow.linear(&self.start).and_then(|l| l.reduce(&preferred(&eras.mechanism))).map_err(|_| Rough::Singular(t))?;
+        let (independent, p, w) = (reduced.partition.independent, reduced.partition.p, reduced.w);
+        let (nv, n, nz) = (p.nrows(), p.ncols(), self.start.state.z.len());
+        let mut basis = DMatrix::zeros(2 * nv + nz, 2 * n + nz);
+        basis.view_mut((0, 0), (nv, n)).copy_from(&p);
+        basis.view_mut((nv, 0), (nv, n)).copy_from(&w);
+        basis.view_mut((nv, n), (nv, n)).copy_from(&p);
+        basis.view_mut((2 * nv, 2 * n), (nz, nz)).fill_with_identity();
+        let mut psi = self.transport(&mut flow, basis.clone())?;
+        let mut surface = None;
+        if !matches!(search.section, Section::Time(_)) {
+            let (start, end) = (self.start.clone(), self.end.clone());
+            let mut side = Side::<G>::from(tools(&mut self.trajectory));
+            let found = (|| {
+                let late = side.slope(search.mark, &end, &psi)? / side.pace(search.mark, &end)?;
+                let normal = side.slope(search.mark, &start, &basis)?;
+                let (value, pace) = (side.value(search.mark, &start)?, side.pace(search.mark, &start)?);
+                Some((Surface { normal, value, pace }, rate(&end) * late.transpose()))
+            })();
+            let (at_start, moved) = found.ok_or(Rough::Singular(end.state.t))?;
+            psi -= moved;
+            surface = Some(at_start);
+        }
+        let rows: Vec<usize> = independent.iter().copied().chain(independent.iter().map(|i| nv + i)).chain(2 * nv..2 * nv + nz).collect();
+        Ok(Map { independent, basis, derivative: psi.select_rows(&rows), surface })
+    }
+
+    /// Neighbours at the end of the lap.
+    fn transport(&mut self, flow: &mut Flow<'_, G>, mut psi: DMatrix<f64>) -> Result<DMatrix<f64>, Rough> {
+        let breaks = self.trajectory.breaks();
+        for piece in 0..breaks.len() - 1 {
+            for ends in self.trajectory.ends_of(piece).windows(2) {
+                let h = ends[1] - ends[0];
+                if h > 0.0 {
+                    let a = flow.gauss.nodes.map(|c| flow_matrix(flow, self, ends[0] + c * h, piece));
+                    let [a0, a1, a2, a3]: [Result<_, _>; STAGES] = a;
+                    let next = flow.gauss.step(h, &[a0?, a1?, a2?, a3?], &psi);
+                    psi = next.ok_or(Rough::Singular(ends[0]))?;
+                }
+            }
+            if piece + 2 < breaks.len() {
+                let at = breaks[piece + 1];
+                psi = pass(self, piece, at, &psi).ok_or(Rough::Touched(at))?;
+            }
+        }
+        Ok(psi)
+    }
+}
+
+/// What linearises.
+struct Flow<'e, G: Space<S = f64>> {
+    eras: &'e Eras<G>,
+    linearizer: Linearizer<'e, G::Lift<Dual<LANES>>>,
+    gauss: Gauss,
+    /// Whether forces depend on the reactions: their tangents are differences.
+    by_reactions: bool,
+}
+
+impl<G: Space<S = f64>> Flow<'_, G>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    /// The motion near a node.
+    fn linear(&mut self, node: &Node) -> Result<Linear, Singular> {
+        let m = &self.eras.mechanism;
+        let s = &node.state;
+        let modes = &s.modes[..m.switches + m.windings];
+        let at = Point { t: s.t, q: &s.q, v: &s.v, z: &s.z, a: &node.a, lambda: &node.lambda, modes };
+        Linear::new(m, &mut self.linearizer, &at, &self.eras.start.metric)
+    }
+}
+
+/// A at a time of a lap.
+fn flow_matrix<G: Space<S = f64>>(flow: &mut Flow<'_, G>, lap: &mut Lap<'_, G>, t: f64, piece: usize) -> Result<DMatrix<f64>, Rough>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    lap.trajectory.go(t, piece).map_err(|_| Rough::Singular(t))?;
+    if flow.by_reactions {
+        let node = lap.trajectory.node.clone();
+        return Side::<G>::from(tools(&mut lap.trajectory)).state_matrix(&node).ok_or(Rough::Singular(t));
+    }
+    let mut linear = flow.linear(&lap.trajectory.node).map_err(|_| Rough::Singular(t))?;
+    Ok(linear.state_matrix())
+}

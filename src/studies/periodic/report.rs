@@ -1,0 +1,230 @@
+//! The regime as columns, scalars, extremes and a certificate.
+
+use super::lap::{Lap, Search, tools};
+use super::shooting::Orbit;
+use super::states::largest;
+use super::turn::{Advance, NoTurn, Single, Turn};
+use super::{explain, stability};
+use crate::dynamics::LANES;
+use crate::expression::Id;
+use crate::geometry::Space;
+use crate::model::{PeriodEnd, Periodic};
+use crate::numerics::continuous::Curve;
+use crate::numerics::extremum::{Extremes, extrema};
+use crate::numerics::quadrature::integrals;
+use crate::numerics::resolve;
+use crate::results::{Certificate, Failure, Finding, List, Outcome, Resolution};
+use crate::scalar::Dual;
+use crate::studies::common::case::Case;
+use crate::studies::common::clock::Clock;
+use crate::studies::common::functional::Functionals;
+use crate::studies::common::motion::Rows;
+use crate::studies::common::numbers::Sources;
+use crate::studies::common::scene;
+use crate::studies::common::watched::{Watched, in_variable, unresolved};
+use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::setup::resolution;
+use crate::studies::dynamics::trajectory::Off;
+use crate::studies::dynamics::{balance, pose};
+use grashof_solvers::{Control, Node};
+
+/// Part of the largest acceleration by which those at the two ends may differ.
+const SAME: f64 = 1e-5;
+
+/// What is watched in a period.
+pub(super) struct Columns {
+    pub(super) ids: Vec<Id>,
+    /// The quantity whose mean and extremes are found.
+    of: usize,
+    /// What advances, and its rate.
+    over: Option<[usize; 2]>,
+    /// The expression that ends the period, if one does.
+    pub(super) mark: usize,
+}
+
+impl Columns {
+    /// Those of a study, then those of the kind.
+    pub(super) fn of(watched: &Watched, asked: &Periodic) -> Self {
+        let mut ids = watched.ids.clone();
+        let mut index = |id: Id| {
+            ids.push(id);
+            ids.len() - 1
+        };
+        let of = index(asked.of);
+        let over = asked.over.as_ref().map(|over| [index(over.value), index(over.rate)]);
+        let mark = match asked.ends {
+            PeriodEnd::Through(id) => index(id),
+            PeriodEnd::By(_) => over.map_or(of, |[value, _]| value),
+        };
+        Self { ids, of, over, mark }
+    }
+}
+
+/// A study that has found its regime.
+pub(super) struct Regime<'a> {
+    pub(super) search: &'a Search<'a>,
+    pub(super) asked: &'a Periodic,
+    pub(super) case: Case<'a>,
+    pub(super) watched: &'a Watched,
+    pub(super) columns: &'a Columns,
+}
+
+/// A period seen over the independent variable.
+struct Seen {
+    clock: Clock,
+    rows: Rows,
+    /// The same places in time.
+    at: Rows,
+    extremes: Vec<Option<Extremes>>,
+    functionals: Vec<f64>,
+    findings: Vec<Finding>,
+    resolution: Resolution,
+}
+
+fn lost(search: &Search<'_>, off: Off) -> Failure {
+    if let Some(gap) = &off.gap {
+        return Failure::Undefined(gap.told(&search.model, search.study, &format!("t = {:.6} s", off.at)));
+    }
+    Failure::numerical(
+        format!("the state at t = {} s could not be evaluated", off.at),
+        "look at the columns: one of them may not be defined there",
+    )
+}
+
+impl Regime<'_> {
+    /// Its outcome; `periods` were run before the search.
+    pub(super) fn outcome<G: Space<S = f64>>(&self, eras: &Eras<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
+        let Self { search, asked, case, watched, columns } = *self;
+        let Orbit { mut lap, multipliers, closure, steps } = orbit;
+        check_closed(search, &mut lap, closure[1])?;
+        let (model, study, period, times) = (&search.model, search.study, lap.period(), lap.trajectory.breaks());
+        let mut mean = [0.0];
+        let (stretches, width) = (lap.trajectory.stretches(), resolution(Control::Tolerance(search.tolerance)));
+        let mut single = Single { trajectory: &mut lap.trajectory, column: columns.of };
+        let resolved = resolve::on(&mut single, &stretches, &times, width).map_err(|off| lost(search, off))?;
+        integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(|off| lost(search, off))?;
+        let Seen { clock, rows, at, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
+        lap.findings.extend(findings);
+        let floquet = multipliers.first().map_or(0.0, |m| m.norm());
+        let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
+        let results = vec![period, mean[0] / period, max, min, floquet];
+        let tables = &eras.mechanism.tables;
+        let numbers =
+            Sources { case: Case { model, study, ..case }, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
+        let trajectory = &mut lap.trajectory;
+        let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
+        let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
+        let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
+        let mut lists = stability::lists(&multipliers);
+        lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
+        lap.findings.extend(numbers.findings);
+        lap.findings.push(stability::finding(&multipliers, &study.place));
+        Ok(Outcome {
+            parameters: case.named(),
+            independent: if asked.over.is_some() { search.over.clone() } else { "time".into() },
+            places: rows.places.iter().map(|s| clock.value(*s)).collect(),
+            switches: (0..rows.places.len() - 1).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
+            rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+            stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+            undefined: numbers.undefined,
+            scalars: numbers.scalars,
+            expectations: numbers.expectations,
+            results,
+            lists,
+            extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
+            findings: lap.findings,
+            certificate: Certificate { resolved: Some(resolution), ..balance::residuals(&mut lap.trajectory, &at, lap.certificate) },
+            events: lap.events,
+            scenes: vec![(scene::MECHANISM.into(), scene)],
+            ..Outcome::default()
+        })
+    }
+
+    /// Rows, extremes and functionals of a period.
+    fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen, Failure> {
+        let Self { search, asked, case, watched, columns } = *self;
+        let (clock, advance) = clock(asked, case, columns, lap, search).map_err(|off| lost(search, off))?;
+        let mut turn = Turn::new(&mut lap.trajectory, advance, clock.length).map_err(|why| match why {
+            NoTurn::Off(off) => lost(search, off),
+            NoTurn::Back(t) => explain::turns_back(search, t),
+        })?;
+        let (rows, at) = rows(&mut turn, asked.samples).map_err(|off| lost(search, off))?;
+        let breaks = turn.breaks.clone();
+        let width = resolution(Control::Tolerance(search.tolerance));
+        let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(|off| lost(search, off))?;
+        turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
+        let extremes = extrema(&mut turn, resolved.samples(), &breaks);
+        let ends = [0.0, clock.length];
+        let name = if asked.over.is_some() { &search.over } else { "time" };
+        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
+        let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
+        let functionals = all.all(case, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
+        Ok(Seen { clock, rows, at, extremes, functionals, findings, resolution: resolved.quality() })
+    }
+}
+
+/// Refuses a motion that is back in its independent coordinates alone: other coordinates, or the accelerations, differ by more than
+/// a part `SAME`. The begin lies behind a switch on which the period ends, so that its modes count at the end, too.
+fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, apart: f64) -> Result<(), Failure> {
+    let rates = |node: &Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
+    let start = rates(&lap.start);
+    let size = start.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    let sizes = vec![size; start.len()];
+    let era = tools(&mut lap.trajectory);
+    let mut followed = lap.end.clone();
+    era.engine.follow_modes(&mut era.system, &mut followed.state);
+    let mut differs = f64::INFINITY;
+    for modes in [&lap.end.state.modes, &lap.start.state.modes, &followed.state.modes] {
+        let mut end = lap.end.clone();
+        end.state.modes.clone_from(modes);
+        if era.engine.accelerate(&mut era.system, &mut end).is_ok() {
+            let difference: Vec<f64> = rates(&end).iter().zip(&start).map(|(a, b)| a - b).collect();
+            differs = differs.min(largest(&difference, &sizes));
+        }
+    }
+    let worst = apart.max(differs);
+    if worst <= SAME { Ok(()) } else { Err(explain::not_closed(search, worst)) }
+}
+
+/// The independent variable, and what advances in the lap.
+fn clock<G: Space<S = f64>>(
+    asked: &Periodic,
+    case: Case<'_>,
+    columns: &Columns,
+    lap: &mut Lap<'_, G>,
+    _search: &Search<'_>,
+) -> Result<(Clock, Option<Advance>), Off> {
+    let (Some([value, rate]), PeriodEnd::By(by)) = (columns.over, asked.ends) else {
+        return Ok((Clock::of_time(lap.period()), None));
+    };
+    let by = case.value(by);
+    let mut out = vec![0.0; lap.trajectory.columns()];
+    lap.trajectory.row(lap.start.state.t, 0, &mut out)?;
+    let mut clock = Clock::of_time(by.abs());
+    (clock.from, clock.direction) = (out[value], by.signum());
+    Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
+}
+
+/// Rows on a grid of progress with both sides of every switch, and the same places in time.
+fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize) -> Result<(Rows, Rows), Off>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let breaks = turn.breaks.clone();
+    let length = breaks[breaks.len() - 1];
+    let near = 1e-9 * length / samples as f64;
+    let (mut rows, mut at) = (Rows::default(), Rows::default());
+    for (piece, ends) in breaks.windows(2).enumerate() {
+        let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
+        for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
+            let mut out = vec![0.0; turn.columns()];
+            turn.row(s, piece, &mut out)?;
+            at.places.push(turn.time(s, piece)?);
+            at.pieces.push(piece);
+            rows.places.push(s);
+            rows.pieces.push(piece);
+            rows.values.push(out);
+        }
+    }
+    Ok((rows, at))
+}

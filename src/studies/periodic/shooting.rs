@@ -1,0 +1,180 @@
+//! Newton's method on the map of a period (Poincaré's map where the period ends on a surface).
+//!
+//! With x the independent coordinates, velocities and states at the start of a period, F(x) those at its end, angles modulo a turn,
+//! and DF by [`Lap::map`], a step solves (DF − I) δ = x − F(x); on a surface g = const only along it, δ = B y with ∇g·B = 0:
+//!
+//! ```text
+//! (Bᵀ DF B − I) y = Bᵀ(x − F(x)).
+//! ```
+//!
+//! The start itself is moved along the motion to where g has its value at the start of the study; the motion stays the same by that.
+//! The eigenvalues of DF, or of Bᵀ DF B, are Floquet's multipliers; on a surface the trivial one, along the motion, is not among
+//! them (Parker & Chua, Practical Numerical Algorithms for Chaotic Systems, 1989, chapter 5).
+
+use super::lap::{Broken, Lap, Search, tools};
+use super::monodromy::{Map, Rough, Surface};
+use super::saltation::rate;
+use super::states::{Scale, between, largest};
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::numerics::eigenvalues::eigenvalues;
+use crate::scalar::Dual;
+use crate::studies::dynamics::eras::Eras;
+use grashof_solvers::svd::Svd;
+use grashof_solvers::{Span, State, System};
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// Most steps.
+const MOST: usize = 40;
+
+/// A step below this, in sizes of the motion, is the last one.
+const CLOSED: f64 = 1e-11;
+
+/// A step below this counts as the last one where round-off lets no smaller one be.
+const NEARLY: f64 = 1e-7;
+
+/// Halvings of a step.
+const HALVINGS: usize = 6;
+
+/// Singular values of DF − I below this part of the largest belong to neighbours that are periodic, too.
+const NEUTRAL: f64 = 1e-8;
+
+/// A periodic motion.
+pub(super) struct Orbit<'e, G: Space<S = f64>> {
+    /// Its last period.
+    pub(super) lap: Lap<'e, G>,
+    /// Multipliers, the largest first.
+    pub(super) multipliers: Vec<Complex<f64>>,
+    /// Largest difference of the two ends, in sizes of the motion, of the independent coordinates alone and of all.
+    pub(super) closure: [f64; 2],
+    /// Steps of Newton's method.
+    pub(super) steps: usize,
+}
+
+/// Why there is no periodic motion.
+pub(super) enum Lost {
+    /// A period did not come to its end.
+    Broken(Broken),
+    /// The map has no derivative.
+    Rough(Rough),
+    /// Newton's method has stopped with this difference of the two ends, in sizes of the motion.
+    Apart(f64),
+}
+
+/// The periodic motion near a state.
+pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, eras: &'e Eras<G>, guess: &State) -> Result<Orbit<'e, G>, Lost>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let tolerance = search.tolerance;
+    let mut lap = search.lap(eras, guess, tolerance).map_err(Lost::Broken)?;
+    let mut last = f64::INFINITY;
+    for steps in 0..MOST {
+        let map = lap.map(search, eras).map_err(Lost::Rough)?;
+        let sizes = Scale::of(&mut lap).on(&map.independent);
+        let missed = miss(eras, &map, &lap);
+        let apart = largest(&missed, &sizes);
+        let (y, multipliers) = step(&map, &missed, &sizes).ok_or(Lost::Apart(apart))?;
+        let size = y.amax();
+        let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
+        let size = size.max(late.abs() / lap.period());
+        if size <= CLOSED || (size <= NEARLY && size > 0.25 * last) {
+            let all: Vec<usize> = (0..eras.mechanism.nv).collect();
+            let every = between(&eras.mechanism, &all, [&lap.start.state, &lap.end.state]);
+            let whole = largest(&every, &Scale::of(&mut lap).on(&all));
+            return Ok(Orbit { lap, multipliers, closure: [apart, whole], steps });
+        }
+        last = size;
+        lap = advance(search, eras, lap, &map, &y, &sizes, apart)?;
+    }
+    Err(Lost::Apart(last))
+}
+
+/// Ends of a lap: F(x) − x.
+fn miss<G: Space<S = f64>>(eras: &Eras<G>, map: &Map, lap: &Lap<'_, G>) -> Vec<f64> {
+    between(&eras.mechanism, &map.independent, [&lap.start.state, &lap.end.state])
+}
+
+/// The lap from where a step leads to, halved until the ends come nearer.
+fn advance<'e, G: Space<S = f64>>(
+    search: &mut Search<'_>,
+    eras: &'e Eras<G>,
+    mut lap: Lap<'e, G>,
+    map: &Map,
+    y: &DVector<f64>,
+    sizes: &[f64],
+    apart: f64,
+) -> Result<Lap<'e, G>, Lost>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
+    let along = rate(&lap.start) * late;
+    let mut part = 1.0;
+    let mut why = Lost::Apart(apart);
+    for _ in 0..HALVINGS {
+        let delta = DVector::from_iterator(y.len(), y.iter().zip(sizes).map(|(y, s)| part * y * s));
+        let from = moved(&mut lap, &(&map.basis * delta + &along));
+        let next = from.map_or(Err(Broken::Stopped("the loops cannot be closed".into())), |from| search.lap(eras, &from, search.tolerance));
+        match next {
+            Ok(next) => {
+                let left = largest(&miss(eras, map, &next), sizes);
+                if left <= (1.0 - 0.25 * part) * apart || y.amax() * part <= NEARLY {
+                    return Ok(next);
+                }
+                why = Lost::Apart(left);
+            }
+            Err(broken) => why = Lost::Broken(broken),
+        }
+        part *= 0.5;
+    }
+    Err(why)
+}
+
+/// The start of a lap moved by (δq, δv, δz) and set on the constraints.
+fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Option<State> {
+    let mut node = lap.start.clone();
+    let era = tools(&mut lap.trajectory);
+    let nv = node.state.v.len();
+    let delta = delta.as_slice();
+    era.system.retract(Span::at(node.state.t), &mut node.state.q, &delta[..nv]);
+    node.state.v.iter_mut().zip(&delta[nv..]).for_each(|(v, d)| *v += d);
+    node.state.z.iter_mut().zip(&delta[2 * nv..]).for_each(|(z, d)| *z += d);
+    era.engine.settle(&mut era.system, &mut node).ok()?;
+    Some(node.state)
+}
+
+/// Newton's step in units of `sizes`, and the multipliers.
+fn step(map: &Map, missed: &[f64], sizes: &[f64]) -> Option<(DVector<f64>, Vec<Complex<f64>>)> {
+    let m = sizes.len();
+    let derivative = DMatrix::from_fn(m, m, |i, j| map.derivative[(i, j)] * sizes[j] / sizes[i]);
+    if derivative.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let surface = match &map.surface {
+        Some(Surface { normal, .. }) => complement(&DVector::from_fn(m, |i, _| normal[i] * sizes[i])),
+        None => DMatrix::identity(m, m),
+    };
+    let along = surface.transpose() * derivative * &surface;
+    let k = along.nrows();
+    let right = -surface.transpose() * DVector::from_fn(m, |i, _| missed[i] / sizes[i]);
+    if k == 0 {
+        return Some((DVector::zeros(m), Vec::new()));
+    }
+    let mut multipliers: Vec<Complex<f64>> = eigenvalues(&along)?;
+    multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
+    let svd = Svd::new(&(along - DMatrix::identity(k, k)));
+    let least = NEUTRAL * svd.largest();
+    let y = svd.solve(right.as_slice(), |s| if s > least { 1.0 / s } else { 0.0 });
+    Some((surface * DVector::from_vec(y), multipliers))
+}
+
+/// Orthonormal columns across a vector (m × m − 1), by Householder's reflection of it to its largest entry's axis.
+fn complement(normal: &DVector<f64>) -> DMatrix<f64> {
+    let m = normal.len();
+    let k = normal.icamax();
+    let mut u = normal.normalize();
+    u[k] += u[k].signum();
+    let reflection = DMatrix::identity(m, m) - &u * u.transpose() * (2.0 / u.norm_squared());
+    reflection.remove_column(k)
+}

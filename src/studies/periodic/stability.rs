@@ -1,0 +1,60 @@
+//! What Floquet's multipliers say of a periodic motion.
+
+use crate::results::{Finding, List};
+use nalgebra::Complex;
+
+/// Moduli within this of 1 are told as those of a bifurcation.
+const NEAR: f64 = 1e-3;
+
+/// Moduli within this of 1 count as 1: the error of the multipliers where they meet.
+const NEUTRAL: f64 = 1e-6;
+
+/// The multipliers as lists.
+pub(super) fn lists(multipliers: &[Complex<f64>]) -> Vec<List> {
+    let list = |part: &str, of: fn(&Complex<f64>) -> f64| List {
+        name: format!("multipliers_{part}"),
+        unit: String::new(),
+        values: multipliers.iter().map(of).collect(),
+    };
+    vec![list("real", |m| m.re), list("imaginary", |m| m.im), list("modulus", |m| m.norm())]
+}
+
+/// Stability in words.
+pub(super) fn finding(multipliers: &[Complex<f64>], place: &str) -> Finding {
+    let largest = multipliers.first().map_or(0.0, |m| m.norm());
+    let (code, message) = if largest > 1.0 + NEUTRAL {
+        let count = multipliers.iter().filter(|m| m.norm() > 1.0 + NEUTRAL).count();
+        let message = format!(
+            "the regime is unstable: {count} of {} multipliers {} outside of the unit circle, the largest has the modulus {largest:.6} ({}); a real mechanism leaves it",
+            multipliers.len(),
+            if count == 1 { "lies" } else { "lie" },
+            lost(multipliers[0])
+        );
+        ("unstable-regime", message)
+    } else if largest >= 1.0 - NEUTRAL {
+        ("neutral-regime", "the regime is neither stable nor unstable: neighbouring motions come no nearer to it".to_owned())
+    } else {
+        ("stable-regime", format!("the regime is stable: a small deviation shrinks to {largest:.6} of itself in a period, or faster"))
+    };
+    let near = multipliers.iter().find(|m| (m.norm() - 1.0).abs() < NEAR);
+    let near = near.map_or_else(String::new, |m| format!("; a multiplier is close to the unit circle: {}", bifurcation(*m)));
+    Finding { code, message: message + &near, path: place.to_owned() }
+}
+
+/// How a regime with such a multiplier outside of the unit circle has lost its stability.
+fn lost(m: Complex<f64>) -> String {
+    match m {
+        _ if m.im != 0.0 => "a second oscillation grows beside it".into(),
+        _ if m.re < 0.0 => "a deviation changes its sign and grows: the period doubles".into(),
+        _ => "a deviation grows to one side".into(),
+    }
+}
+
+/// The bifurcation that a multiplier on the unit circle announces (Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4).
+fn bifurcation(m: Complex<f64>) -> &'static str {
+    match m {
+        _ if m.im.abs() > NEAR => "a second oscillation begins (Neimark-Sacker)",
+        _ if m.re < 0.0 => "the period doubles (flip)",
+        _ => "two regimes meet, or a family of them begins (fold)",
+    }
+}

@@ -1,0 +1,46 @@
+//! One run of a study of any kind.
+
+use super::common::case::Case;
+use super::{driven, dynamics, linearize, modes, periodic, statics};
+use crate::dynamics::LANES;
+use crate::geometry::{Planar, Space, Spatial};
+use crate::mechanism::Coordinates;
+use crate::model::{Dimensions, Kind};
+use crate::results::{Failure, Outcome};
+use crate::scalar::Dual;
+
+/// Runs a study once, whatever its kind.
+///
+/// # Errors
+/// If it never began: the model has no mechanism, it cannot be assembled, or its drivers do not fit. A motion that stops on its
+/// way is an [`Outcome`] with `stopped`. A motion in time asks `stop` between its steps.
+pub fn run(case: Case<'_>, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure> {
+    run_in(case, Coordinates::Joint, stop)
+}
+
+/// [`run`], where a study that its drivers prescribe is computed in given coordinates; all others take those that they name.
+///
+/// # Errors
+/// As there.
+pub fn run_in(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure> {
+    match case.model.space {
+        Dimensions::Planar => in_space::<Planar<f64>>(case, coordinates, stop),
+        Dimensions::Spatial => in_space::<Spatial<f64>>(case, coordinates, stop),
+    }
+}
+
+/// The kinds of studies.
+fn in_space<G>(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    match &case.study.kind {
+        Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => driven::run::<G>(case, range, coordinates),
+        Kind::Dynamics(motion) => dynamics::run::<G>(case, motion, stop),
+        Kind::Statics => statics::run::<G>(case, stop),
+        Kind::Modes(asked) => modes::run::<G>(case, asked, stop),
+        Kind::Linearize(asked) => linearize::run::<G>(case, asked, stop),
+        Kind::Periodic(asked) => periodic::run::<G>(case, asked, stop),
+    }
+}

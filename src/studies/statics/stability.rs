@@ -1,0 +1,109 @@
+//! Stability of an equilibrium: the eigenvalues of the tangent stiffness on the motions that the constraints leave.
+//!
+//! With forces that have an energy, H is symmetric and is its second derivative: the equilibrium is stable if all eigenvalues are
+//! positive (Lagrange and Dirichlet), and each negative one is a motion that falls. The signs do not depend on the metric
+//! (Sylvester). Without an energy (H not symmetric), with forces that depend on velocities, and with first-order states the poles of
+//! the linearised motion decide ([`Stability::by_motion`]). Where these cannot be had, since nothing has mass, the real parts of the
+//! eigenvalues of H do, as they do for slow, overdamped motion D ẏ = −H y; a flutter is not seen by them.
+
+use super::pose::Pose;
+use crate::dynamics::{LANES, Linearizer, Point};
+use crate::geometry::Space;
+use crate::kinematics::linear::Linear;
+use crate::kinematics::partition::preferred;
+use crate::mechanism::Mechanism;
+use crate::numerics::eigenvalues::eigenvalues;
+use crate::scalar::Dual;
+use nalgebra::linalg::{Schur, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
+
+/// Part of the stiffness that acts below which an eigenvalue counts as zero: an equilibrium with a zero one is found to 1e-5 of
+/// its place only, since the force is flat there.
+const ZERO: f64 = 1e-8;
+/// Part of H that may be unsymmetric by round-off.
+const SYMMETRIC: f64 = 1e-9;
+/// Part of the fastest pole below which the real part of a pole is round-off; a double zero is known to half of the digits.
+const STEADY: f64 = 1e-7;
+/// Sweeps of an eigensolver.
+const SWEEPS: usize = 10_000;
+
+/// What the tangent stiffness says.
+#[derive(Clone, Debug)]
+pub(super) struct Stability {
+    /// Real parts of the eigenvalues, rising, 1/s².
+    pub(super) values: Vec<f64>,
+    /// The motion of the lowest one, in the basis of the pose (n).
+    pub(super) falls: DVector<f64>,
+    /// Motions that fall.
+    pub(super) negative: usize,
+    /// Motions that nothing holds.
+    pub(super) zero: usize,
+    /// Whether the forces have an energy, as far as can be seen here.
+    pub(super) symmetric: bool,
+    /// Whether it is that of the linearised motion.
+    pub(super) of_motion: bool,
+    /// Stiffness of the order of those that act.
+    pub(super) scale: f64,
+}
+
+impl Stability {
+    /// Of a pose with its tangent stiffness.
+    pub(super) fn new(pose: &Pose, h: &DMatrix<f64>) -> Self {
+        let n = h.nrows();
+        let scale = pose.stiffness + h.amax();
+        let symmetric = (h - h.transpose()).amax() <= SYMMETRIC * scale;
+        let mut found = Self { values: Vec::new(), falls: DVector::zeros(n), negative: 0, zero: 0, symmetric, of_motion: false, scale };
+        if n == 0 {
+            return found;
+        }
+        let mean = (h + h.transpose()) * 0.5;
+        if let Some(eigen) = SymmetricEigen::try_new(mean, f64::EPSILON, SWEEPS) {
+            found.falls = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
+            found.values = eigen.eigenvalues.as_slice().to_vec();
+        }
+        if !symmetric && let Some(schur) = Schur::try_new(h.clone(), f64::EPSILON, SWEEPS) {
+            found.values = schur.complex_eigenvalues().iter().map(|x| x.re).collect();
+        }
+        found.values.sort_by(f64::total_cmp);
+        found.negative = found.values.iter().filter(|x| **x < -ZERO * scale).count();
+        found.zero = found.values.iter().filter(|x| x.abs() <= ZERO * scale).count();
+        found
+    }
+
+    /// Judges by the poles of the linearised motion what the stiffness alone does not tell: forces without an energy, and motions
+    /// that grow although every position is held. Left as it is where nothing resists, or friction depends on the reactions.
+    pub(super) fn by_motion<G>(&mut self, pose: &Pose, mechanism: &Mechanism<G>, lifted: &Mechanism<G::Lift<Dual<LANES>>>, metric: &[f64])
+    where
+        G: Space<S = f64>,
+        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+    {
+        if !mechanism.pressings.is_empty() {
+            return;
+        }
+        let zeros = vec![0.0; mechanism.nv];
+        let point = Point { t: 0.0, q: &pose.q, v: &zeros, z: &pose.z, a: &zeros, lambda: &pose.lambda, modes: &pose.modes };
+        let linear = Linear::new(mechanism, &mut Linearizer::new(lifted), &point, metric);
+        let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
+            return;
+        };
+        let steady = STEADY * poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
+        // one of each pair
+        let growing = poles.iter().filter(|p| p.re > steady && p.im >= 0.0).count();
+        if self.symmetric && growing <= self.negative {
+            return;
+        }
+        self.of_motion = true;
+        self.negative = growing;
+        self.zero = if self.symmetric { self.zero } else { poles.iter().filter(|p| p.norm() <= steady).count() };
+    }
+
+    /// Whether every motion is held.
+    pub(super) fn is_stable(&self) -> bool {
+        self.negative == 0 && self.zero == 0
+    }
+
+    /// The lowest eigenvalue; 0 without freedom.
+    pub(super) fn lowest(&self) -> f64 {
+        self.values.first().copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,146 @@
+//! Equilibria in words: coordinates by their names, what falls, what stays unbalanced.
+
+use super::pose::{Lost, Pose};
+use super::search::{Ended, Found};
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::kinematics::coordinates::{Coordinate, coordinates};
+use crate::kinematics::partition::{Partition, preferred};
+use crate::mechanism::{Mechanism, Step};
+use crate::model::Model;
+use crate::results::{Failure, Unsolved};
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::PI;
+
+/// The coordinates of a mechanism by their names, with the choice of independent ones.
+pub(super) struct Names {
+    pub(super) all: Vec<Coordinate>,
+    /// Index in q of each; none for a part of a quaternion.
+    pub(super) q: Vec<Option<usize>>,
+    preferred: Vec<usize>,
+    metric: Vec<f64>,
+    /// Whether joints have friction, which does not count.
+    rubs: bool,
+}
+
+impl Names {
+    /// Of a mechanism with the metric of its start.
+    pub(super) fn new<G: Space<S = f64>>(model: &Model, m: &Mechanism<G>, metric: &[f64]) -> Self {
+        let mut in_q = vec![None; m.nv];
+        for step in &m.steps {
+            if let Step::Axis { q, v, .. } = *step {
+                in_q[v] = Some(q);
+            }
+        }
+        Self {
+            all: coordinates(model, m),
+            q: in_q,
+            preferred: preferred(m),
+            metric: metric.to_vec(),
+            rubs: model.joints.iter().any(|j| j.friction.is_some()),
+        }
+    }
+
+    /// Independent velocities at a pose, which was evaluated last, and the motions P of the others with them.
+    pub(super) fn partition<G: Space<S = f64>>(&self, dynamics: &Dynamics<'_, G>, pose: &Pose) -> Partition {
+        let m = dynamics.mechanism;
+        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &dynamics.work.g);
+        Partition::new(&g, &self.metric, &dynamics.row_scale(&pose.q, &pose.modes, &self.metric), &self.preferred)
+    }
+
+    /// The coordinate that a displacement (nv) moves most, lengths by the size.
+    pub(super) fn most(&self, delta: &DVector<f64>, unit: &[f64]) -> &str {
+        let size = |k: usize| delta[k].abs() / unit[k];
+        // of equal ones the first
+        let most = (0..delta.len()).fold(0, |best, k| if size(k) > size(best) * (1.0 + 1e-9) { k } else { best });
+        self.all.get(most).map_or("", |c| &c.name)
+    }
+
+    /// `P.angle = -90 deg, S.position = 0.2 m` of independent coordinates.
+    pub(super) fn place(&self, independent: &[usize], values: &[f64]) -> String {
+        const SHOWN: usize = 4;
+        let shown: Vec<String> =
+            independent.iter().zip(values).take(SHOWN).map(|(k, x)| format!("{} = {}", self.all[*k].name, self.value(*k, *x))).collect();
+        let more = if independent.len() > SHOWN { ", ..." } else { "" };
+        if shown.is_empty() { "no coordinate is free".into() } else { shown.join(", ") + more }
+    }
+
+    fn value(&self, k: usize, x: f64) -> String {
+        if self.all[k].turns { format!("{} deg", six(x * 180.0 / PI)) } else { format!("{} m", six(x)) }
+    }
+
+    /// A force on a coordinate with its unit.
+    fn effort(&self, k: usize, x: f64) -> String {
+        format!("{} {}", six(x), if self.all[k].turns { "N m" } else { "N" })
+    }
+
+    /// The failure of a search whose best pose leaves `forces` (n) on the `independent` coordinates.
+    pub(super) fn unbalanced(&self, independent: &[usize], forces: &DVector<f64>, unit: &[f64], why: Ended, place: &str) -> Failure {
+        let size = |i: usize| forces[i].abs() * unit[independent[i]];
+        let most = (0..independent.len()).fold(0, |best, i| if size(i) > size(best) { i } else { best });
+        let what = match independent.get(most) {
+            Some(&k) => format!("{} on `{}` stays unbalanced at best", self.effort(k, forces[most].abs()), self.all[k].name),
+            None => "nothing can move".into(),
+        };
+        let (how, help) = match why {
+            Ended::Jump => (
+                "the forces jump where the mechanism wants to stay",
+                "smooth the jump, as with a `clamp` over a small range in the place of `sign` or of a condition",
+            ),
+            Ended::Away => (
+                "the mechanism moves on and on",
+                "hold it, by a joint, a driver, a spring or a stop; or take away the load or the motor in a variant",
+            ),
+            _ => (
+                "no position near the start is in balance",
+                "begin elsewhere with `start`, or see with a study of the kind `dynamics` and some damping where it comes to rest",
+            ),
+        };
+        let rubs = if self.rubs { "; the friction of joints does not count here, where it may hold: see with `dynamics`" } else { "" };
+        unsolved(format!("there is no equilibrium: {how}, {what}{rubs}"), place, help)
+    }
+
+    /// The failure of a search that has gone through a rigid stop.
+    pub(super) fn beyond(&self, joint: &str, place: &str) -> Failure {
+        let message = format!("the mechanism comes to rest on the rigid stop of joint `{joint}`, which `statics` does not know");
+        unsolved(message, place, "give `limits` a `stiffness` in the place of `restitution`; or hold the joint in a variant")
+    }
+
+    /// Why the start cannot be evaluated.
+    pub(super) fn lost(&self, lost: Lost, place: &str) -> Failure {
+        let (message, help) = match lost {
+            Lost::NotFinite(k) => (
+                format!("the force on `{}` is not a number at the start", self.all.get(k).map_or("", |c| &c.name)),
+                "look at tables and expressions of loads and springs that act there",
+            ),
+            Lost::Open => {
+                ("the constraints cannot be closed at the start".into(), "look at `grashof check`, which shows the start position")
+            }
+        };
+        unsolved(message, place, help)
+    }
+
+    /// `stable`, or what falls, or what is not held; `unit` as in [`Names::most`].
+    pub(super) fn verdict(&self, found: &Found, unit: &[f64]) -> String {
+        let s = &found.stability;
+        let motion = self.most(&(&found.pose.basis * &s.falls), unit);
+        match (s.negative, s.zero) {
+            (0, 0) => "stable".into(),
+            (1, _) => format!("unstable, it falls along `{motion}`"),
+            (0, 1) => format!("indifferent, nothing holds `{motion}`"),
+            (0, n) => format!("indifferent, nothing holds {n} motions, one of them along `{motion}`"),
+            (n, _) => format!("unstable, it falls in {n} motions, most of all along `{motion}`"),
+        }
+    }
+}
+
+fn unsolved(message: String, place: &str, help: &str) -> Failure {
+    Failure::Unsolved(Unsolved { message, place: place.into(), help: help.into() })
+}
+
+/// Six significant digits; what is round-off of ordinary lengths, angles and forces is 0.
+pub(super) fn six(x: f64) -> String {
+    let x = if x.abs() < 1e-12 { 0.0 } else { x };
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    if rounded != 0.0 && !(1e-4..1e7).contains(&rounded.abs()) { format!("{rounded:e}") } else { format!("{}", rounded + 0.0) }
+}
