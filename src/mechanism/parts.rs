@@ -136,7 +136,7 @@ pub struct Mechanism<G: Space> {
     pub tables: Arc<[Table]>,
     /// Gravity, m/s².
     pub gravity: G::Vector,
-    /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`] and what one-way clutches do) and of
+    /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`](super::Pressed::side) and what one-way clutches do) and of
     /// winding numbers (they follow).
     pub switches: usize,
     /// Number of winding numbers; the signs of quaternions are counted among them.
@@ -225,7 +225,7 @@ impl<G: Space> Mechanism<G> {
         }
     }
 
-    /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`].
+    /// Modes of the sides on which joints with friction by reactions press; see [`Pressed::side`](super::Pressed::side).
     pub fn sides(&self) -> impl Iterator<Item = usize> {
         self.pressings.iter().flat_map(|p| &p.places).filter(|p| p.components.len() == 1).map(|p| p.side)
     }
