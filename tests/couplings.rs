@@ -2,7 +2,7 @@
 
 use crate::common;
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 
 /// A function of the way x (m), as text and as it is.
 type Law = (&'static str, fn(f64) -> f64);

@@ -4,7 +4,7 @@ use crate::common;
 use crate::common::{columns, study};
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 use std::fmt::Write;
 
 /// Of the largest number of a column, or of 1.

@@ -9,8 +9,9 @@ mod stops;
 
 use crate::common;
 use grashof::mechanism::Coordinates;
-use grashof::results::{Certificate, Failure, March, Outcome};
+use grashof::results::{Certificate, Failure, March};
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 
 /// Settings of every scheme in all coordinates, each with the tolerance of its results.

@@ -3,7 +3,7 @@
 use crate::common;
 use crate::common::{close, columns, study};
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

@@ -7,8 +7,9 @@ use grashof::kinematics::assemble::Assembled;
 use grashof::kinematics::linear::{Linear, Reduced};
 use grashof::kinematics::partition::preferred;
 use grashof::mechanism::{Coordinates, Mechanism, Step};
-use grashof::results::{LinearSystem, Outcome};
+use grashof::results::LinearSystem;
 use grashof::scalar::Dual;
+use grashof::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
 
 const PLANAR: &str = include_str!("common/planar.yaml");

@@ -10,8 +10,8 @@ use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::held::{Held, Pose, settled};
 use grashof::kinematics::partition::preferred;
 use grashof::mechanism::{Coordinates, Mechanism};
-use grashof::results::Outcome;
 use grashof::scalar::Dual;
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::modes::damped::{damped, state_matrix};
 use grashof::studies::modes::eigen::library;
 use nalgebra::{DMatrix, DVector};
@@ -26,7 +26,7 @@ fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
 }
 
 fn codes(outcome: &Outcome) -> Vec<&str> {
-    outcome.findings.iter().map(|f| f.code).collect()
+    outcome.findings.iter().map(|f| &*f.code).collect()
 }
 
 /// A mechanism in its assembled start, held there.

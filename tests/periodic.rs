@@ -9,7 +9,7 @@ mod switches;
 
 use crate::common::study;
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 
 const PERIOD: usize = 0;
 const MEAN: usize = 1;

@@ -9,7 +9,8 @@ mod stops;
 
 use crate::common;
 use grashof::mechanism::Coordinates;
-use grashof::results::{March, Outcome};
+use grashof::results::March;
+use grashof::studies::common::outcome::Outcome;
 
 /// Columns of a study by their names.
 struct Columns {

@@ -3,7 +3,7 @@
 use crate::common;
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 
 fn study(text: &str, name: &str) -> Outcome {
     common::study(text, name, Coordinates::Joint)

@@ -3,8 +3,8 @@
 
 use crate::common::{model, study};
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 use std::f64::consts::{PI, TAU};
 

@@ -3,7 +3,8 @@
 
 use crate::common;
 use grashof::mechanism::Coordinates;
-use grashof::results::{March, Outcome};
+use grashof::results::March;
+use grashof::studies::common::outcome::Outcome;
 
 fn study(text: &str, name: &str) -> Outcome {
     common::study(text, name, Coordinates::Joint)

@@ -3,8 +3,9 @@
 
 use crate::common::{columns, model};
 use grashof::mechanism::Coordinates;
-use grashof::results::{March, Outcome};
+use grashof::results::March;
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run_in;
 use std::fmt::Write;
 

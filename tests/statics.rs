@@ -8,7 +8,7 @@ mod linkages;
 
 use crate::common;
 use grashof::mechanism::Coordinates;
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 
 /// A study of a text, run to its end.
 fn run(text: &str, study: &str) -> Outcome {

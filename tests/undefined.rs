@@ -2,8 +2,9 @@
 
 use crate::common::model;
 use grashof::model::{Document, Selection};
-use grashof::results::{Failure, Outcome, Undefined};
+use grashof::results::{Failure, Undefined};
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -9,6 +9,7 @@ use super::progress::Progress;
 use super::run::{Scalars, load};
 use super::schemes::{self, Steps, is_explicit};
 use super::{Common, code, fail, files, say};
+use compared::{Compared, References, Row};
 use grashof::model::{Document, Forward, Integrator, Kind, Model, Study};
 use grashof::results::Failure;
 use grashof::studies::common::case::{Case, parameters};
@@ -17,6 +18,7 @@ use grashof::studies::run::run;
 use std::path::Path;
 use std::time::Instant;
 
+mod compared;
 mod output;
 
 /// Compared if nothing is named: with a tolerance, and with fixed steps.
@@ -56,44 +58,6 @@ pub(super) struct Arguments {
     /// Write no figure
     #[arg(long)]
     no_plots: bool,
-}
-
-/// What an integrator came to with steps of one size.
-#[derive(Clone, Debug, Default)]
-struct Row {
-    integrator: &'static str,
-    size: f64,
-    /// From the first step to the last, s: the best of a few.
-    time: f64,
-    /// Steps, rejected ones, evaluations, factorisations.
-    counts: [f64; 4],
-    error: f64,
-    /// Largest |E − E(0) − work|, J.
-    energy: f64,
-    /// Largest residuals of positions and velocities.
-    residuals: [f64; 2],
-    /// Why it failed; empty if it did not.
-    reason: String,
-}
-
-/// The references, and how well they agree.
-#[derive(Clone, Debug)]
-struct References {
-    /// For implicit schemes, and for explicit ones: columns at the end.
-    columns: [Vec<f64>; 2],
-    /// Their integrators and tolerances.
-    of: [(Integrator, f64); 2],
-    /// Their difference, as an error; none if there is one reference alone.
-    agree: Option<f64>,
-}
-
-/// All that was compared.
-struct Compared<'a> {
-    study: &'a Study,
-    /// Whether the sizes are those of fixed steps.
-    fixed: bool,
-    references: References,
-    rows: Vec<Row>,
 }
 
 /// Compares integrators.

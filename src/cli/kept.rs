@@ -9,7 +9,8 @@
 
 use grashof::expression::Pool;
 use grashof::model::Model;
-use grashof::results::{Failure, Outcome, Unsolved};
+use grashof::results::{Failure, Unsolved};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::solve::Solved;
 use grashof::studies::sweep::Run;
 use serde::{Deserialize, Serialize};

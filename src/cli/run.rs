@@ -6,7 +6,7 @@ use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, fail, files, say, tell, verify};
 use grashof::model::{Document, Model, Selection, Study};
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::sweep::{Run, at};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;

@@ -5,12 +5,12 @@ mod sweep;
 use super::interrupt::{self, interrupted};
 use super::progress::Progress;
 use super::terminal::{tell_interrupted, tell_report};
-use super::{Common, code, figures, files, linear, report, tell};
+use super::{Common, code, files, tell};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
-use grashof::output::{Picture, Staging, write_csv};
+use grashof::output::{Figure, Picture, Staging, drawing, figures, matrices, summary, ten_digits, write_csv, write_json};
 use grashof::par;
-use grashof::results::{Failure, Outcome};
-use grashof::studies::sweep::{Run, at};
+use grashof::results::{Failure, Results};
+use grashof::studies::sweep::{at, single};
 use std::path::Path;
 
 /// A study to run, and where its results go.
@@ -75,23 +75,20 @@ impl Job<'_> {
     fn single(&self, study: &Study) -> Finished {
         let progress = Progress::open(self.study, self.common.quiet || study.solve.is_none());
         let told = |x: f64, scalar: f64| progress.tell(&self.trial(study, x, scalar));
-        let Run { result, solved, .. } = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &told);
+        let run = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &told);
         drop(progress);
-        let outcome = match result {
-            Ok(outcome) => outcome,
+        let results = match single(self.model, study, &run) {
+            Ok(results) => results,
             Err(_) if interrupted() => return Finished::nothing(code::INTERRUPTED),
             Err(failure) => return Finished::nothing(self.explain(&failure)),
         };
         if !self.common.quiet {
-            let of_start = outcome.findings.iter().filter(|f| f.code == "change-point");
-            solved
-                .iter()
-                .flat_map(|s| &s.findings)
-                .chain(of_start)
-                .for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
+            let of_start = results.findings.iter().filter(|f| f.code == "change-point");
+            let of_solution = results.solution.iter().flat_map(|s| &s.findings);
+            of_solution.chain(of_start).for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
         }
         let mut code = code::DONE;
-        if let Some(reason) = &outcome.stopped {
+        if let Some(reason) = &results.stopped {
             let message = format!("study `{}` stopped on its way: {reason}", study.name);
             let help = match study.kind {
                 Kind::Dynamics(_) => "what was computed up to there is kept; look at its last rows",
@@ -99,46 +96,41 @@ impl Job<'_> {
             };
             if interrupted() {
                 tell_interrupted(&message);
-            } else if let Some(undefined) = &outcome.undefined {
+            } else if let Some(undefined) = &results.undefined {
                 self.tell_at("undefined", &undefined.place, message, &undefined.help);
             } else {
                 self.tell_at("stopped", &study.place, message, help);
             }
             code = if interrupted() { code::INTERRUPTED } else { code::NUMERICAL };
         } else {
-            code = code.max(self.expectations(&outcome));
+            code = code.max(self.expectations(&results));
         }
-        let table = report::rows(study, &outcome);
         let mut staging = Staging::new();
-        staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::json(study, &outcome, solved.as_ref());
+        staging.add(format!("{}.csv", self.study), write_csv(&results.table));
+        let report = write_json(&results);
         staging.add(format!("{}.json", self.study), report.clone());
-        for (name, bytes) in linear::files(study, &outcome) {
-            staging.add(name, bytes);
+        for (end, bytes) in matrix_files(study, &results) {
+            staging.add(format!("{}{end}", self.study), bytes);
         }
         // who interrupts a motion wants its rows, and no waiting for figures
         if self.plots && !interrupted() {
-            self.draw(&mut staging, figures::figures(self.model, study, &[(None, &outcome)]), &outcome);
+            self.draw(&mut staging, figures(&results), &results);
         }
-        let output = Output {
-            table: report::solution(self.model, study, solved.as_ref()) + &report::summary(study, &outcome),
-            report,
-            columns: table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect(),
-        };
-        Finished { computed: vec![values(&outcome)], ..self.write(&staging, code, output) }
+        let output = Output { table: summary(&results), report, columns: units(&results) };
+        Finished { computed: vec![values(&results)], ..self.write(&staging, code, output) }
     }
 
     /// A run of a `solve`, beside its progress.
     fn trial(&self, study: &Study, x: f64, scalar: f64) -> String {
         let Some(solve) = &study.solve else { return String::new() };
         let parameter = &self.model.parameters[solve.parameter];
-        let value = report::significant;
+        let value = ten_digits;
         format!("{} = {} {}, {} = {}", parameter.name, value(x), parameter.dimension.si(), solve.target.0, value(scalar))
     }
 
     /// Renders figures and the drawing of the mechanism, several at a time.
-    fn draw(&self, staging: &mut Staging, figures: Vec<(String, grashof::output::Figure)>, outcome: &Outcome) {
-        let drawn = outcome.scenes.iter().map(|(name, scene)| (name, figures::drawing(self.model, self.study, name, scene)));
+    fn draw(&self, staging: &mut Staging, figures: Vec<(String, Figure)>, results: &Results) {
+        let drawn = results.scenes.iter().map(|(name, scene)| (name, drawing(&results.model, self.study, name, scene)));
         let drawings: Vec<_> = drawn.collect();
         let count = figures.len() + drawings.len();
         let progress = Progress::new(self.study, count, self.common.quiet);
@@ -181,13 +173,13 @@ impl Job<'_> {
     }
 
     /// Tells which expectations are not met.
-    fn expectations(&self, outcome: &Outcome) -> u8 {
+    fn expectations(&self, results: &Results) -> u8 {
         let help = match self.common.changes() {
             Some(_) => "the file expects this of its own values; `--set` and `--variant` change what is computed",
             None => "find out which of the two is right",
         };
         let mut code = code::DONE;
-        for e in outcome.expectations.iter().filter(|e| !e.met) {
+        for e in results.expectations.iter().filter(|e| !e.met) {
             code = code::UNMET;
             let message = format!("`{}` is {}, not {} within {:e}", e.text, e.found, e.wanted, e.tolerance);
             let report = Report::new(vec![self.document.diagnostic(
@@ -216,6 +208,17 @@ impl Job<'_> {
 }
 
 /// Values of the parameters of a run.
-fn values(outcome: &Outcome) -> Vec<f64> {
-    outcome.parameters.iter().map(|(_, x)| *x).collect()
+fn values(results: &Results) -> Vec<f64> {
+    results.parameters.iter().map(|p| p.value).collect()
+}
+
+/// Columns with their units.
+fn units(results: &Results) -> Vec<(String, String)> {
+    results.table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect()
+}
+
+/// The files that a study asks for beside its CSV and JSON: ends of their names, and what they hold.
+fn matrix_files(study: &Study, results: &Results) -> Vec<(String, Vec<u8>)> {
+    let Kind::Linearize(asked) = &study.kind else { return Vec::new() };
+    matrices(results, asked.csv, asked.mat)
 }

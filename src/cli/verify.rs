@@ -14,8 +14,9 @@ use grashof::geometry::{Planar, Spatial};
 use grashof::mechanism::{Coordinates, build};
 use grashof::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
 use grashof::output::number;
-use grashof::results::{Failure, Outcome};
+use grashof::results::Failure;
 use grashof::studies::common::case::Case;
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 use std::ops::Range;
 

@@ -208,6 +208,16 @@ impl Dimension {
         }
     }
 
+    /// What is measured, in words: `length`, `angular speed`, `number`; empty where the dimension has no name.
+    #[must_use]
+    pub fn quantity(&self) -> &'static str {
+        match self.named() {
+            Some((name, _)) => name,
+            None if *self == Self::NONE => "number",
+            None => "",
+        }
+    }
+
     /// Its name and unit, if it has a name.
     fn named(&self) -> Option<(&'static str, &'static str)> {
         let known = NAMED.iter().find(|(dimension, ..)| dimension == self && dimension.angle == self.angle);

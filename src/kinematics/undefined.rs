@@ -132,7 +132,7 @@ pub(crate) fn blank(study: &Study, independent: &str, places: &[f64], rows: &[Ve
         let first = blank(c).next()?;
         let count = blank(c).count();
         Some(Finding {
-            code: "blank-cells",
+            code: "blank-cells".into(),
             message: format!(
                 "`{}` is not defined in {count} of {} rows, first at {independent} = {}: its cells are blank there",
                 column.name,

@@ -73,6 +73,23 @@ pub enum Kind {
     Linearize(Linearize),
 }
 
+impl Kind {
+    /// Its key in the model file.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Kinematics(_) => "kinematics",
+            Self::Inverse(_) => "inverse",
+            Self::Balance { .. } => "balance",
+            Self::Dynamics(_) => "dynamics",
+            Self::Statics => "statics",
+            Self::Modes(_) => "modes",
+            Self::Periodic(_) => "periodic",
+            Self::Linearize(_) => "linearize",
+        }
+    }
+}
+
 /// Range of a kinematic study.
 #[derive(Clone, Debug)]
 pub struct Range {

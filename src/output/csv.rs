@@ -1,31 +1,18 @@
 //! CSV by RFC 4180, but with LF line ends: one header line of names, then rows of numbers in shortest round-trip form.
 
-use super::Table;
+use crate::results::{Column, Table, number};
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// The shortest text that reads back as the same `f64`; empty for what is not a finite number.
-///
-/// Rust's own shortest digits; exponents only where the plain form would have long rows of zeros. Whole numbers have no `.0`.
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    if !x.is_finite() {
-        String::new()
-    } else if size != 0.0 && !(1e-5..1e16).contains(&size) {
-        format!("{x:e}")
-    } else {
-        format!("{x}")
-    }
-}
-
 /// The text of the CSV file of `table`, with the `reason` column last if there is one.
 pub fn write_csv(table: &Table) -> String {
-    let mut text = String::with_capacity(table.rows.len() * table.columns.len() * 20 + 256);
+    let mut text = String::with_capacity(table.rows() * table.columns.len() * 20 + 256);
     let names = table.columns.iter().map(|column| quoted(&column.name));
     push_line(&mut text, names.chain(table.reasons.iter().map(|_| Cow::Borrowed("reason"))));
-    for (index, row) in table.rows.iter().enumerate() {
-        // A short row is filled up: every line must have as many fields as the header.
-        let values = (0..table.columns.len()).map(|column| Cow::Owned(number(row.get(column).copied().unwrap_or(f64::NAN))));
+    for index in 0..table.rows() {
+        // a short column is filled up: every line must have as many fields as the header
+        let value = |column: &Column| Cow::Owned(number(column.values.get(index).copied().unwrap_or(f64::NAN)));
+        let values = table.columns.iter().map(value);
         let reason = table.reasons.as_ref().map(|reasons| quoted(reasons.get(index).map_or("", String::as_str)));
         push_line(&mut text, values.chain(reason));
     }
@@ -48,8 +35,11 @@ fn quoted(field: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Header;
     use super::*;
+
+    fn column(name: &str, unit: &str, values: &[f64]) -> Column {
+        Column { name: name.into(), unit: unit.into(), values: values.to_vec(), ..Column::default() }
+    }
 
     #[test]
     fn every_number_reads_back_bit_for_bit() {
@@ -65,16 +55,15 @@ mod tests {
 
     #[test]
     fn a_table_reads_back() {
-        let rows = vec![vec![0.0, 1.0 / 3.0], vec![1.0, f64::NAN], vec![f64::INFINITY, -7e-12]];
-        let table = Table { columns: vec![Header::new("t", "s"), Header::new("atan2(a, b)", "rad")], rows, ..Table::default() };
+        let columns = vec![column("t", "s", &[0.0, 1.0, f64::INFINITY]), column("atan2(a, b)", "rad", &[1.0 / 3.0, f64::NAN, -7e-12])];
+        let table = Table { columns, ..Table::default() };
         assert_eq!(write_csv(&table), "t,\"atan2(a, b)\"\n0,0.3333333333333333\n1,\n,-7e-12\n");
     }
 
     #[test]
     fn reasons_are_quoted_and_last() {
         let table = Table {
-            columns: vec![Header::new("I_f", "kg m^2")],
-            rows: vec![vec![1.0], vec![2.0], vec![]],
+            columns: vec![column("I_f", "kg m^2", &[1.0, 2.0, f64::NAN])],
             reasons: Some(vec![String::new(), "no turn, \"dead point\"\nat 12 deg".into()]),
             ..Table::default()
         };

@@ -1,54 +1,10 @@
 //! The JSON file of a study: what was set, what came out, where the extremes are, and how far to trust it.
 
+use crate::results::{Extremes, Extremum, Finding, Happened, LinearSystem, March, Results, Run, Scalar, Solution};
 use serde_json::{Map, Value, json};
 
-/// What the JSON file says, in the order it says it.
-#[derive(Clone, Debug, Default)]
-pub struct Report {
-    /// The study's name.
-    pub study: String,
-    /// `ok`, `failed`, ...
-    pub status: String,
-    /// The parameters the study ran with, SI.
-    pub parameters: Vec<(String, f64)>,
-    /// Results; numbers by [`json_number`], lists by [`json_numbers`].
-    pub scalars: Vec<(String, Value)>,
-    /// For each column its extremes, on the continuous solution.
-    pub extrema: Vec<(String, Extrema)>,
-    /// Figures of merit: drifts, residuals, step counts.
-    pub certificate: Vec<(String, Value)>,
-    /// What the user should know.
-    pub findings: Vec<Finding>,
-}
-
-/// One remark with a stable code.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Finding {
-    /// A stable identifier, to be searched for.
-    pub code: String,
-    /// One sentence for people.
-    pub message: String,
-    /// Where in the model, `joints.A`; empty if nowhere in particular.
-    pub path: String,
-}
-
-/// A value and the independent variable where it occurs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
-    /// The extreme value.
-    pub value: f64,
-    /// The independent variable there.
-    pub at: f64,
-}
-
-/// Least and greatest value of a column; none if the column holds no number.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Extrema {
-    /// The least value, where it occurs first.
-    pub min: Option<Extreme>,
-    /// The greatest value, where it occurs first.
-    pub max: Option<Extreme>,
-}
+/// Names and values of an object, in order.
+type Entries = Vec<(String, Value)>;
 
 /// A JSON number, or `null` for what is not a finite number; whole numbers stand without `.0`, as in the CSV.
 pub fn json_number(x: f64) -> Value {
@@ -62,46 +18,177 @@ pub fn json_numbers(values: &[f64]) -> Value {
 }
 
 /// The text of the JSON file, indented by two, with a line end.
-pub fn write_json(report: &Report) -> String {
-    let object = |entries: &[(String, Value)]| Value::Object(entries.iter().cloned().collect());
-    let extreme = |extreme: Option<Extreme>| {
-        let Extreme { value, at } = extreme.unwrap_or(Extreme { value: f64::NAN, at: f64::NAN });
-        json!({ "value": json_number(value), "at": json_number(at) })
+pub fn write_json(results: &Results) -> String {
+    let several = results.table.reasons.is_some();
+    let whole = if several {
+        results.runs.iter().any(|run| run.results.as_ref().is_some_and(|r| r.stopped.is_none()))
+    } else {
+        results.stopped.is_none()
     };
-    let parameters: Map<_, _> = report.parameters.iter().map(|(name, x)| (name.clone(), json_number(*x))).collect();
-    let extrema: Map<_, _> =
-        report.extrema.iter().map(|(name, e)| (name.clone(), json!({ "min": extreme(e.min), "max": extreme(e.max) }))).collect();
-    let findings = report.findings.iter().map(|f| json!({ "code": f.code, "message": f.message, "path": f.path }));
-    let whole = json!({
-        "study": report.study,
-        "status": report.status,
+    let parameters: Map<_, _> = results.parameters.iter().map(|p| (p.name.clone(), json_number(p.value))).collect();
+    let extrema: Map<_, _> = results.extremes.iter().map(|(name, extremes)| (name.clone(), both(*extremes))).collect();
+    let text = json!({
+        "study": results.study,
+        "status": if whole { "done" } else { "failed" },
         "parameters": parameters,
-        "scalars": object(&report.scalars),
+        "scalars": object(if several { of_runs(results) } else { of_run(results) }),
         "extrema": extrema,
-        "certificate": object(&report.certificate),
-        "findings": findings.collect::<Vec<_>>(),
+        "certificate": object(if several { runs(results) } else { certificate(results) }),
+        "findings": findings(results),
     });
     // The alternate form of a Value is its indented text, and it cannot fail.
-    format!("{whole:#}\n")
+    format!("{text:#}\n")
+}
+
+fn object(entries: Entries) -> Value {
+    Value::Object(entries.into_iter().collect())
+}
+
+/// The extremes of a column.
+fn both(extremes: Option<Extremes>) -> Value {
+    let nowhere = Extremum { value: f64::NAN, at: f64::NAN, piece: 0 };
+    let one = |e: Extremum| json!({ "value": json_number(e.value), "at": json_number(e.at) });
+    let [min, max] = extremes.map_or([nowhere; 2], |e| [e.min, e.max]);
+    json!({ "min": one(min), "max": one(max) })
+}
+
+/// Scalars, and what the kind gives beside them.
+fn of_run(results: &Results) -> Entries {
+    let scalar = |s: &Scalar| (s.name.clone(), json_number(s.value));
+    results.scalars.iter().map(scalar).chain(of_kind(results)).collect()
+}
+
+/// Lists, shapes and matrices of a kind.
+fn of_kind(results: &Results) -> Entries {
+    let lists = results.lists.iter().map(|list| (list.name.clone(), json_numbers(&list.values)));
+    let shape = |shape: &Vec<(String, f64)>| Value::Object(shape.iter().map(|(name, x)| (name.clone(), json_number(*x))).collect());
+    let shapes = (!results.shapes.is_empty()).then(|| ("shapes".into(), results.shapes.iter().map(shape).collect()));
+    lists.chain(shapes).chain(results.linear.as_ref().map(|system| ("linear".into(), linear(system)))).collect()
+}
+
+/// Names, values and matrices of a linearised motion.
+fn linear(system: &LinearSystem) -> Value {
+    let mut entries: Entries = system.names().iter().map(|(name, list)| ((*name).to_string(), Value::from(list.to_vec()))).collect();
+    entries.extend(LinearSystem::VALUES.iter().zip(&system.values).map(|(name, values)| ((*name).to_string(), json_numbers(values))));
+    let matrix = |rows: &Vec<Vec<f64>>| rows.iter().map(|row| json_numbers(row)).collect();
+    entries.extend(system.matrices.iter().map(|(name, rows)| (name.clone(), matrix(rows))));
+    object(entries)
+}
+
+/// Columns of the table of a sweep, and what the kind gives beside numbers: one entry of each run, `null` where there is none.
+fn of_runs(results: &Results) -> Entries {
+    let mut entries: Entries = results.table.columns.iter().map(|column| (column.name.clone(), json_numbers(&column.values))).collect();
+    let all: Vec<Entries> = results.runs.iter().map(|run| run.results.as_ref().map_or_else(Vec::new, of_kind)).collect();
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in all.iter().flatten() {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    let entry = |own: &Entries, name: &str| own.iter().find(|(known, _)| known == name).map_or(Value::Null, |(_, v)| v.clone());
+    entries.extend(names.iter().map(|name| ((*name).to_string(), all.iter().map(|own| entry(own, name)).collect())));
+    entries
+}
+
+/// What certifies the runs of a sweep.
+fn runs(results: &Results) -> Entries {
+    let count = ("runs".into(), json_number(results.runs.len() as f64));
+    let solves = results.runs.iter().any(|run| run.solution.is_some());
+    let solved = |run: &Run| run.solution.as_ref().map_or(Value::Null, solution);
+    let solved = solves.then(|| ("solve".into(), results.runs.iter().map(solved).collect()));
+    std::iter::once(count).chain(solved).collect()
+}
+
+/// What certifies a solution.
+fn solution(solved: &Solution) -> Value {
+    json!({
+        "runs": solved.runs,
+        "bracket": json_numbers(&solved.bracket),
+        "target": json_number(solved.target),
+        "residual": json_number(solved.found - solved.target),
+    })
+}
+
+/// What certifies a run.
+fn certificate(results: &Results) -> Entries {
+    let c = &results.certificate;
+    let mut all = vec![count("rows", c.evaluations), count("switches", c.switches), figure("constraint_residual", c.constraint)];
+    if let Some(r) = &c.resolved {
+        all.extend([figure("resolved_to", r.width), count("unresolved", r.open), count("looks", r.evaluations)]);
+    }
+    match &c.march {
+        Some(march) => all.extend(motion(march, &results.events)),
+        None => all.push(figure("power_balance", c.power_balance)),
+    }
+    all.into_iter().chain(results.solution.as_ref().map(|s| ("solve".into(), solution(s)))).collect()
+}
+
+/// What certifies a motion in time.
+fn motion(march: &March, events: &[Happened]) -> Entries {
+    let happened = events.iter().map(|e| json!({ "name": e.name, "at": json_number(e.at) }));
+    let mut all = vec![
+        figure("velocity_residual", march.velocity),
+        ("integrator".into(), Value::String(march.schemes.clone())),
+        ("happened".into(), happened.collect()),
+        figure("energy_drift", march.energy_drift),
+        figure("energy_scale", march.energy_scale),
+    ];
+    all.extend(march.works().map(|(name, work)| figure(name, work)));
+    let counts = &march.counts;
+    all.extend([
+        figure("widest_gap", march.widest_gap),
+        count("steps", counts.steps),
+        count("rejected", counts.rejected),
+        count("evaluations", counts.evaluations),
+        count("tangents", counts.tangents),
+        count("factorisations", counts.factorisations),
+        count("events", counts.events),
+        count("bridges", counts.bridges),
+        count("stepped_over", counts.stepped_over),
+        count("unresolved", counts.unresolved),
+    ]);
+    all
+}
+
+fn figure(name: &str, x: f64) -> (String, Value) {
+    (name.to_string(), json_number(x))
+}
+
+fn count(name: &str, n: usize) -> (String, Value) {
+    figure(name, n as f64)
+}
+
+/// What a reader should know: why it stopped, what was found, which expectations are not met.
+fn findings(results: &Results) -> Value {
+    let entry = |code: &str, message: &str, path: &str| json!({ "code": code, "message": message, "path": path });
+    let stopped = results.stopped.iter().map(|reason| entry("stopped", reason, &results.place));
+    let found = |f: &Finding| entry(&f.code, &f.message, &f.path);
+    let own = results.findings.iter().chain(results.solution.iter().flat_map(|s| &s.findings)).map(found);
+    let unmet = results.expectations.iter().filter(|e| !e.met).map(|e| {
+        let message = format!("{} is {}, not {} within {}", e.text, e.found, e.wanted, e.tolerance);
+        entry("expectation", &message, &e.place)
+    });
+    stopped.chain(own).chain(unmet).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::{By, List};
 
     #[test]
     fn the_report_reads_back_in_its_order_with_null_for_no_number() {
-        let theta = Extrema { min: Some(Extreme { value: -1.0, at: 2.0 }), max: Some(Extreme { value: 2.5, at: 1.0 }) };
-        let report = Report {
+        let at = |value, at| Extremum { value, at, piece: 0 };
+        let parameter = |name: &str, value| Scalar { name: name.into(), value, by: By::File, ..Scalar::default() };
+        let results = Results {
             study: "one-turn".into(),
-            status: "ok".into(),
-            parameters: vec![("z".into(), 1.0), ("a".into(), f64::NAN)],
-            scalars: vec![("eigenvalues".into(), json_numbers(&[0.1, f64::INFINITY]))],
-            extrema: vec![("theta".into(), theta), ("none".into(), Extrema::default())],
+            parameters: vec![parameter("z", 1.0), parameter("a", f64::NAN)],
+            lists: vec![List { name: "eigenvalues".into(), unit: String::new(), values: vec![0.1, f64::INFINITY] }],
+            extremes: vec![("theta".into(), Some(Extremes { min: at(-1.0, 2.0), max: at(2.5, 1.0) })), ("none".into(), None)],
             findings: vec![Finding { code: "jump".into(), message: "a jump".into(), path: "forces.load".into() }],
-            ..Report::default()
+            ..Results::default()
         };
-        let text = write_json(&report);
+        let text = write_json(&results);
         let value: Value = serde_json::from_str(&text).unwrap();
         let keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
         assert_eq!(keys, ["study", "status", "parameters", "scalars", "extrema", "certificate", "findings"]);

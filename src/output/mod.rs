@@ -1,44 +1,49 @@
 //! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
 //!
-//! This room knows names, numbers and pictures, nothing of mechanics; its data types are plain, and every function here is
+//! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
 //! pure but [`Staging::commit`] and [`prepare`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 mod csv;
 mod drawing;
 mod figure;
+mod figures;
 mod font;
 mod json;
 mod legend;
 mod lettering;
 mod manifest;
 mod mat;
+mod matrices;
 mod panel;
 mod picture;
 mod plot;
 mod pose;
 mod raster;
+mod scalars;
 mod scene;
 mod staging;
-mod summary;
 mod svg;
 mod symbols;
-mod table;
+mod text;
 mod thin;
 mod ticks;
 mod units;
 mod write_error;
 
-pub use csv::{number, write_csv};
+pub use crate::results::number;
+pub use csv::write_csv;
 pub use drawing::render_drawing;
 pub use figure::render_figure;
-pub use json::{Extrema, Extreme, Finding, Report, json_number, json_numbers, write_json};
+pub use figures::{drawing, figures};
+pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
+pub use matrices::matrices;
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use raster::RenderError;
+pub use scalars::ten_digits;
 pub use staging::{Staging, Written, prepare};
-pub use summary::{Scalar, summary};
-pub use table::{Header, Table};
+pub use text::summary;
 pub use write_error::WriteError;

@@ -2,8 +2,8 @@
 
 use super::legend::{self, Entry, Legend};
 use super::plot::{Axis, Mark, Scale};
+use super::scalars::significant;
 use super::scene::{Anchor, Color, GREY, GRID, INK, Item, Rect, Scene, Stroke, Text, pale};
-use super::summary::significant;
 use super::thin::{self, Point};
 use super::ticks::{self, Tick};
 use super::{font, units};

@@ -216,7 +216,7 @@ pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
         scene.line(vec![[x, y - 7.0], [x, y + 7.0]], Stroke::solid(INK, 2.5));
     }
     let (length, unit) = if length < 0.0099 { (length * 1e3, "mm") } else { (length, "m") };
-    let text = format!("{} {unit}", super::summary::significant(length, 6));
+    let text = format!("{} {unit}", super::scalars::significant(length, 6));
     scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
 }
 

@@ -34,7 +34,7 @@ pub(super) fn linear(low: f64, high: f64, most: usize, degrees: bool) -> Vec<Tic
 
 fn text(at: f64, decimals: usize, step: f64) -> String {
     let at = if at.abs() < step * 1e-6 { 0.0 } else { at };
-    let plain = if decimals > 8 || at.abs() >= 1e9 { super::summary::significant(at, 6) } else { format!("{at:.decimals$}") };
+    let plain = if decimals > 8 || at.abs() >= 1e9 { super::scalars::significant(at, 6) } else { format!("{at:.decimals$}") };
     plain.replace('-', "−")
 }
 
@@ -66,7 +66,7 @@ pub(super) fn log(low: f64, high: f64, most: usize) -> Vec<Tick> {
         if power >= first {
             let label = match power {
                 _ if (power - first) % every != 0 => String::new(),
-                _ if plain => super::csv::number(decade),
+                _ if plain => super::number(decade),
                 _ => format!("10{}", superscript(power)),
             };
             ticks.push(Tick { at: decade, label });

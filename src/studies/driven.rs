@@ -20,7 +20,8 @@ use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Kind, Model, Over, Quantity, Range};
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve::Resolved;
-use crate::results::{Certificate, Failure, Finding, Outcome};
+use crate::results::{Certificate, Failure, Finding};
+use crate::studies::common::outcome::Outcome;
 
 /// A study of a motion that its drivers prescribe.
 pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates: Coordinates) -> Result<Outcome, Failure> {
@@ -276,7 +277,7 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
     let mut out = Vec::new();
     if mechanism.rows.len() > mechanism.nv {
         out.push(Finding {
-            code: "redundant-constraints",
+            code: "redundant-constraints".into(),
             message: format!(
                 "{} constraint rows for {} unknowns: motions and driver efforts are unique, single reactions may be those of least size",
                 mechanism.rows.len(),
@@ -287,7 +288,7 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
     }
     if let (Some(t), None) = (motion.path.dead.iter().flatten().next(), motion.path.open) {
         out.push(Finding {
-            code: "dead-point",
+            code: "dead-point".into(),
             message: format!("the motion ends at a dead point at t = {} s", t.0),
             path: "drivers".into(),
         });

@@ -13,7 +13,8 @@ use super::sweep::grid;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::Coordinates;
 use crate::model::{Dimensions, Kind, Model, Range, Study};
-use crate::results::{Failure, Outcome};
+use crate::results::Failure;
+use crate::studies::common::outcome::Outcome;
 use std::cell::Cell;
 
 /// Part of a range that is looked at.

@@ -6,8 +6,9 @@ use crate::dynamics::LANES;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::Coordinates;
 use crate::model::{Dimensions, Kind};
-use crate::results::{Failure, Outcome};
+use crate::results::Failure;
 use crate::scalar::Dual;
+use crate::studies::common::outcome::Outcome;
 
 /// Runs a study once, whatever its kind.
 ///

@@ -1,11 +1,14 @@
 //! Sweeps: one study at many parameter values; failed runs are rows with a reason.
 
 use super::common::case::{Case, parameters, parameters_with};
+use super::common::named::{self, named};
 use super::run::run;
 use super::solve::{Solved, Task, solve};
-use crate::model::{Model, Study, Values};
+use crate::model::{Model, Study, Sweep, Values};
 use crate::par;
-use crate::results::{Failure, Outcome};
+use crate::results::Failure;
+use crate::results::{self, By, Column, Finding, Results, Solution, Table, number};
+use crate::studies::common::outcome::Outcome;
 
 /// One run of a study.
 #[derive(Clone, Debug)]
@@ -101,4 +104,100 @@ pub fn sweep(
         runs[i] = Some(run);
     }
     runs.into_iter().flatten().collect()
+}
+
+/// What a run, or the search of a `solve`, has come to, with names.
+///
+/// # Errors
+/// Why there is nothing.
+pub fn single(model: &Model, study: &Study, run: &Run) -> Result<Results, Failure> {
+    let outcome = run.result.as_ref().map_err(Clone::clone)?;
+    Ok(Results { solution: solution(model, study, run), ..named(model, study, outcome) })
+}
+
+/// What the runs of a sweep have come to: a table with a row for each, and the results of each.
+#[must_use]
+pub fn together(model: &Model, study: &Study, runs: &[Run]) -> Results {
+    let labelled = |run: &Run| results::Run {
+        label: label(model, study, &run.at),
+        results: run.result.as_ref().ok().map(|outcome| named(model, study, outcome)),
+        solution: solution(model, study, run),
+    };
+    let table = table(model, study, runs);
+    let mut findings = Vec::new();
+    for (i, (run, reason)) in runs.iter().zip(table.reasons.iter().flatten()).enumerate() {
+        let of = |message: &str| format!("run {} ({}): {message}", i + 1, label(model, study, &run.at));
+        if !reason.is_empty() {
+            findings.push(Finding { code: "run-stopped".into(), message: of(reason), path: study.place.clone() });
+        }
+        findings.extend(run.solved.iter().flat_map(|s| &s.findings).map(|f| Finding { message: of(&f.message), ..f.clone() }));
+    }
+    Results {
+        model: model.name.clone(),
+        study: study.name.clone(),
+        kind: study.kind.name().into(),
+        place: study.place.clone(),
+        parameters: named::parameters(model, parameters(model).into_iter()),
+        table,
+        findings,
+        plots: named::plots(study),
+        runs: runs.iter().map(labelled).collect(),
+        ..Results::default()
+    }
+}
+
+/// What certifies the solution of a run that solves.
+fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
+    let (solved, solve) = (run.solved.as_ref()?, study.solve.as_ref()?);
+    let parameter = &model.parameters[solve.parameter];
+    Some(Solution {
+        parameter: named::scalar(&parameter.name, parameter.dimension, solved.value, By::File),
+        of: solve.target.0.clone(),
+        found: solved.found,
+        target: solved.target,
+        bracket: solved.bracket,
+        runs: solved.runs,
+        findings: solved.findings.clone(),
+    })
+}
+
+/// The swept values of a run: `l3 = 0.3 m`.
+fn label(model: &Model, study: &Study, at: &[f64]) -> String {
+    let value = |(sweep, x): (&Sweep, &f64)| {
+        let parameter = &model.parameters[sweep.parameter];
+        format!("{} = {} {}", parameter.name, number(*x), parameter.dimension.si()).trim_end().to_string()
+    };
+    study.sweep.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
+}
+
+/// One row a run: swept parameters, the one that was solved for, results of the kind, scalars, and why a run is not whole.
+fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
+    let outcomes: Vec<Option<&Outcome>> = runs.iter().map(|run| run.result.as_ref().ok()).collect();
+    let of = |values: &dyn Fn(&Outcome) -> Option<f64>, none: f64| -> Vec<f64> {
+        outcomes.iter().map(|o| o.map_or(none, |o| values(o).unwrap_or(f64::NAN))).collect()
+    };
+    let parameter = |index: usize, values: Vec<f64>| {
+        let p = &model.parameters[index];
+        named::column(&p.name, p.dimension, values)
+    };
+    let swept = study.sweep.iter().enumerate();
+    let mut columns: Vec<Column> = swept.map(|(k, s)| parameter(s.parameter, runs.iter().map(|r| r.at[k]).collect())).collect();
+    let solved = || runs.iter().map(|run| run.solved.as_ref().map_or(f64::NAN, |solved| solved.value)).collect();
+    columns.extend(study.solve.iter().map(|solve| parameter(solve.parameter, solved())));
+    // results that no run has although its kind gives lists, as the frequency of a mode that is not there, are left out
+    let lists = outcomes.iter().flatten().any(|o| !o.lists.is_empty());
+    let has = |i: usize| outcomes.iter().flatten().any(|o| o.results.get(i).is_some_and(|x| !x.is_nan()));
+    for (i, result) in study.results.iter().enumerate().filter(|(i, _)| !lists || has(*i)) {
+        // a range that could not be begun is not a full turn
+        let none = if result.name == "turns_fully" { 0.0 } else { f64::NAN };
+        columns.push(named::column(&result.name, result.dimension, of(&|o| o.results.get(i).copied(), none)));
+    }
+    for (i, scalar) in study.scalars.iter().enumerate() {
+        columns.push(named::column(&scalar.name, scalar.dimension, of(&|o| o.scalars.get(i).copied(), f64::NAN)));
+    }
+    let reason = |run: &Run| match &run.result {
+        Ok(outcome) => outcome.stopped.clone().unwrap_or_default(),
+        Err(failure) => failure.reason(),
+    };
+    Table { columns, switches: Vec::new(), reasons: Some(runs.iter().map(reason).collect()) }
 }

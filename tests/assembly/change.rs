@@ -4,8 +4,9 @@ use crate::common::{assembled, model, study};
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Planar;
 use grashof::mechanism::Coordinates;
-use grashof::results::{Failure, Outcome};
+use grashof::results::Failure;
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 use std::f64::consts::TAU;
 

@@ -1,8 +1,8 @@
 //! Motions of made models, and how far two of them are apart.
 
 use crate::common::model;
-use grashof::results::Outcome;
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
 
 /// The study `move` of a model, or why it does not run to its end.

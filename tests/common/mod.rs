@@ -5,8 +5,8 @@ use grashof::geometry::{Pose, Space};
 use grashof::kinematics::assemble::{Assembled, assemble};
 use grashof::mechanism::{Coordinates, Mechanism, Step, build};
 use grashof::model::{Document, Model, Selection};
-use grashof::results::Outcome;
 use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run_in;
 use nalgebra::{DMatrix, DVector};
 

@@ -95,7 +95,9 @@ fn inverse_dynamics_asks_for_what_motion_in_time_needs() {
     let of = |study: &str| done(&slider_crank("planar", ", length: 8 cm", driver, study).replace("O.f]", "O.f, drive.torque]"), "turn");
     let inverse = of("inverse: { over: 0.5 s, samples: 50 }");
     let forward = of("dynamics: { until: 0.5 s, every: 10 ms, tolerance: 1e-11 }");
-    let at = |outcome: &grashof::results::Outcome, t: f64| outcome.rows.iter().find(|r| (r[0] - t).abs() < 1e-9).expect("a row").clone();
+    let at = |outcome: &grashof::studies::common::outcome::Outcome, t: f64| {
+        outcome.rows.iter().find(|r| (r[0] - t).abs() < 1e-9).expect("a row").clone()
+    };
     for t in [0.1, 0.2, 0.3, 0.45] {
         for (k, (found, right)) in at(&inverse, t).iter().zip(at(&forward, t)).enumerate() {
             close(&format!("column {k} at {t} s"), *found, right, 1e-6 * right.abs().max(1.0));

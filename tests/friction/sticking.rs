@@ -261,7 +261,7 @@ studies: {{ rest: {{ statics: {{ from: start }}, columns: [O.angle, O.friction] 
     };
     let weight = 9.81 * 0.5;
     let region = (1.0_f64 / weight).asin().to_degrees();
-    let told = |outcome: &grashof::results::Outcome| {
+    let told = |outcome: &grashof::studies::common::outcome::Outcome| {
         let finding = outcome.findings.iter().find(|f| f.code == "held-by-friction").expect("a region");
         let numbers: Vec<f64> = finding.message.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         assert_eq!(numbers.len(), 2, "{}", finding.message);

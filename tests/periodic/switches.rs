@@ -40,7 +40,7 @@ studies:
     }
 
     /// The regime, whose multipliers are those of differences of the map.
-    fn check(&self, within: f64) -> grashof::results::Outcome {
+    fn check(&self, within: f64) -> grashof::studies::common::outcome::Outcome {
         let found = regime(&self.text([0.1, 0.0], "regime: { periodic: { over: t, by: 2 s, of: v }, columns: [x, v] }"));
         let lap = "lap: { dynamics: { until: 2 s, tolerance: 1e-13 }, columns: [x, v] }";
         let x = &found.rows[0];
@@ -54,7 +54,7 @@ studies:
 }
 
 /// The determinant of a map of two coordinates.
-fn determinant(found: &grashof::results::Outcome) -> f64 {
+fn determinant(found: &grashof::studies::common::outcome::Outcome) -> f64 {
     let m = multipliers(found);
     m[0][0] * m[1][0] - m[0][1] * m[1][1]
 }

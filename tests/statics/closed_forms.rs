@@ -28,7 +28,7 @@ start: { S.position: 0.1 m }",
     all_are(&sorted(&outcome, "S.position"), &[(y, 1.0)], 1e-14);
 }
 
-fn pendulum(angle: &str) -> grashof::results::Outcome {
+fn pendulum(angle: &str) -> grashof::studies::common::outcome::Outcome {
     planar(
         "[0, -9.81 m/s^2]",
         &format!(
@@ -62,7 +62,7 @@ fn a_pendulum_hangs_or_stands() {
 }
 
 /// A point mass on a massless rod of 1 m that a torsion spring holds upright; `part` is k/(m g l).
-fn inverted(part: f64, start: &str) -> grashof::results::Outcome {
+fn inverted(part: f64, start: &str) -> grashof::studies::common::outcome::Outcome {
     planar(
         "[0, -9.81 m/s^2]",
         &format!(

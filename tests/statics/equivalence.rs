@@ -1,7 +1,7 @@
 //! The same mechanism in the plane and in space, and bodies that turn freely.
 
 use super::{all_are, list, near, planar, rest, sorted};
-use grashof::results::Outcome;
+use grashof::studies::common::outcome::Outcome;
 
 const G: f64 = 9.81;
 

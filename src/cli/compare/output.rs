@@ -1,6 +1,6 @@
 //! What `compare` writes and prints: CSV, figure, table, JSON.
 
-use super::Compared;
+use super::compared::{Compared, Row};
 use crate::cli::tell;
 use grashof::output::{Axis, Curve, Figure, Scale, Staging, json_number, number, render_figure};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ const NAMES: [&str; 9] =
     ["time", "evaluations", "steps", "rejected", "factorisations", "error", "energy_drift", "constraint_drift", "velocity_drift"];
 
 /// The numbers of a row in the order of `NAMES`.
-fn numbers(row: &super::Row) -> [f64; 9] {
+fn numbers(row: &Row) -> [f64; 9] {
     let [steps, rejected, evaluations, factorisations] = row.counts;
     [row.time, evaluations, steps, rejected, factorisations, row.error, row.energy, row.residuals[0], row.residuals[1]]
 }

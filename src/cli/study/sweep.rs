@@ -3,13 +3,12 @@
 use super::super::interrupt::{self, interrupted};
 use super::super::kept::Kept;
 use super::super::progress::Progress;
-use super::super::{code, fail, figures, linear, report, tell};
-use super::{Finished, Job, Output, values};
+use super::super::{code, fail, tell};
+use super::{Finished, Job, Output, matrix_files, units, values};
 use grashof::model::Study;
-use grashof::output::{Staging, write_csv};
-use grashof::results::Outcome;
-use grashof::studies::sweep;
-use grashof::studies::sweep::Run;
+use grashof::output::{Staging, figures, summary, write_csv, write_json};
+use grashof::results::Results;
+use grashof::studies::sweep::{self, Run, together};
 
 impl Job<'_> {
     /// Runs what is not known yet, and writes all.
@@ -68,41 +67,37 @@ impl Job<'_> {
             fail(&format!("no run of study `{name}` got through its range"), "the reasons stand in its last column");
             code = code::NUMERICAL;
         }
-        for outcome in runs.iter().filter_map(|r| r.result.as_ref().ok()) {
-            code = code.max(self.expectations(outcome));
+        let results = together(self.model, study, runs);
+        let whole = || results.runs.iter().filter_map(|run| run.results.as_ref());
+        for run in whole() {
+            code = code.max(self.expectations(run));
         }
-        let (staging, output) = self.staged(study, runs);
+        let (staging, output) = self.staged(study, &results);
         let finished = self.write(&staging, code, output);
         if finished.output.is_some() {
             kept.remove();
         }
-        Finished { computed: runs.iter().filter_map(|r| r.result.as_ref().ok()).map(values).collect(), ..finished }
+        Finished { computed: whole().map(values).collect(), ..finished }
     }
 
     /// The files of a sweep.
-    fn staged(&self, study: &Study, runs: &[Run]) -> (Staging, Output) {
+    fn staged(&self, study: &Study, results: &Results) -> (Staging, Output) {
         let mut staging = Staging::new();
-        let table = report::sweep_rows(self.model, study, runs);
-        staging.add(format!("{}.csv", self.study), write_csv(&table));
-        let report = report::sweep_json(self.model, study, runs);
+        staging.add(format!("{}.csv", self.study), write_csv(&results.table));
+        let report = write_json(results);
         staging.add(format!("{}.json", self.study), report.clone());
-        for (i, run) in runs.iter().enumerate() {
-            if let Ok(outcome) = &run.result {
-                let stem = format!("{}-{:03}", self.study, i + 1);
-                staging.add(format!("{stem}.csv"), write_csv(&report::rows(study, outcome)));
-                for (name, bytes) in linear::files(study, outcome) {
-                    staging.add(format!("{stem}{}", name.strip_prefix(&study.name).unwrap_or(&name)), bytes);
-                }
+        for (i, run) in results.runs.iter().enumerate() {
+            let Some(run) = &run.results else { continue };
+            let stem = format!("{}-{:03}", self.study, i + 1);
+            staging.add(format!("{stem}.csv"), write_csv(&run.table));
+            for (end, bytes) in matrix_files(study, run) {
+                staging.add(format!("{stem}{end}"), bytes);
             }
         }
-        let labelled: Vec<(Option<String>, &Outcome)> =
-            runs.iter().filter_map(|r| Some((Some(report::label(self.model, study, &r.at)), r.result.as_ref().ok()?))).collect();
-        if let (true, Some((_, first))) = (self.plots, labelled.first()) {
-            let mut drawn = figures::figures(self.model, study, &labelled);
-            drawn.extend(figures::sweep_figures(self.model, study, runs));
-            self.draw(&mut staging, drawn, first);
+        let first = results.runs.iter().find_map(|run| run.results.as_ref());
+        if let (true, Some(first)) = (self.plots, first) {
+            self.draw(&mut staging, figures(results), first);
         }
-        let columns = table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect();
-        (staging, Output { table: report::sweep_summary(&table), report, columns })
+        (staging, Output { table: summary(results), report, columns: units(results) })
     }
 }

@@ -63,7 +63,7 @@ pub struct Assembled {
 impl Assembled {
     /// What a reader should know of the start.
     pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
-        self.change.iter().map(|change| Finding { code: "change-point", message: change.message(), path: "start".into() })
+        self.change.iter().map(|change| Finding { code: "change-point".into(), message: change.message(), path: "start".into() })
     }
 }
 

@@ -84,7 +84,7 @@ pub(crate) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut 
         let (from, to) = (motion.clock.value(from), motion.clock.value(to));
         let unit = if contact.angular { "N m" } else { "N" };
         findings.push(Finding {
-            code: "friction-not-unique",
+            code: "friction-not-unique".into(),
             message: format!(
                 "from {name} = {from:.6} to {to:.6} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are told with 0 in its place",
                 contact.name, -most

@@ -35,7 +35,7 @@ impl<C: Curve> Functionals<'_, C> {
             let quality = integrals(self.curve, &self.resolved.panels, &noise.collect::<Vec<_>>(), &mut sums)?;
             if quality.error > UNCERTAIN {
                 findings.push(Finding {
-                    code: "integral",
+                    code: "integral".into(),
                     message: format!(
                         "a mean or an integral is known to a part {:.0e} of its size only: a quantity varies without end, or has no bound",
                         quality.error

@@ -36,7 +36,7 @@ impl Sources<'_> {
         let (mut findings, mut undefined) = (Vec::new(), None);
         let mut missing = |name: &str, place: &str, cause: Cause| match self.given(cause) {
             Some(why) => findings.push(Finding {
-                code: "undefined-scalar",
+                code: "undefined-scalar".into(),
                 message: format!("`{name}` is not defined: {why}"),
                 path: place.to_owned(),
             }),

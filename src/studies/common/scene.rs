@@ -62,7 +62,13 @@ pub(crate) fn of_poses<G: Space<S = f64>>(mechanism: &Mechanism<G>, poses: &[Vec
         joints: mechanism
             .joints
             .iter()
-            .map(|j| SceneJoint { name: j.name.clone(), kind: j.kind, grounded: j.a.0 == 0 || j.b.0 == 0, at: vec![], along: vec![] })
+            .map(|j| SceneJoint {
+                name: j.name.clone(),
+                kind: j.kind.into(),
+                grounded: j.a.0 == 0 || j.b.0 == 0,
+                at: vec![],
+                along: vec![],
+            })
             .collect(),
         springs: vec![],
         traces: vec![],
@@ -109,7 +115,7 @@ fn scene_links<G: Space<S = f64>>(mechanism: &Mechanism<G>, poses: &[Vec<Pose<G>
         scene.bodies.push((joint.name.clone(), from.iter().zip(&to).map(|(a, b)| vec![*a, *b]).collect()));
         for (at, (body, _)) in [(from, joint.a), (to, joint.b)] {
             let along = vec![[1.0, 0.0]; at.len()];
-            scene.joints.push(SceneJoint { name: String::new(), kind: "revolute", grounded: body == 0, at, along });
+            scene.joints.push(SceneJoint { name: String::new(), kind: "revolute".into(), grounded: body == 0, at, along });
         }
     }
 }

@@ -46,7 +46,7 @@ impl Watched {
     }
 }
 
-/// Expressions that only figures show, in the order in which [`Outcome::rows`](crate::results::Outcome::rows) carries them behind the columns.
+/// Expressions that only figures show, in the order in which [`Outcome::rows`](crate::studies::common::outcome::Outcome::rows) carries them behind the columns.
 #[must_use]
 pub fn extra_curves(study: &Study) -> Vec<Id> {
     let mut extra = Vec::new();
@@ -78,7 +78,7 @@ pub(crate) fn unresolved(
     name: &str,
     clock: Clock,
 ) -> Vec<Finding> {
-    let finding = |message: String| Finding { code: "unresolved", message, path: study.place.clone() };
+    let finding = |message: String| Finding { code: "unresolved".into(), message, path: study.place.clone() };
     // a value at a place does not depend on what is between
     let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
     let counts = |column: usize| {

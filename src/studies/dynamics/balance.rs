@@ -196,7 +196,7 @@ impl Balance {
             counts: self.counts,
         };
         let crossed = self.bridged.iter().take(20).map(|t| Finding {
-            code: "singular-position",
+            code: "singular-position".into(),
             message: format!("a singular position was crossed near t = {t:.6} s"),
             path: "joints".into(),
         });
@@ -217,7 +217,7 @@ fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<F
     let slow = if march.tolerance.is_some() { (march.energy_scale * unit).sqrt() } else { 0.0 };
     let allowed = f64::max(part * march.energy_scale.max(slow), ROUNDING * f64::EPSILON * largest);
     (march.energy_drift > allowed).then(|| Finding {
-        code: "energy",
+        code: "energy".into(),
         message: format!(
             "the balance of energy lacks {:.2e} J, {:.1e} of the {:.3e} J that move (more than {:.1e} of them is not explained by {}): {help}, and compare with another integrator by `--verify`",
             march.energy_drift,

@@ -147,7 +147,7 @@ pub(super) fn chatters<G: Space<S = f64>>(eras: &Eras<G>, met: &[Met], t: f64) -
 pub(super) fn not_unique<G: Space<S = f64>>(eras: &Eras<G>, open: &[usize]) -> Vec<Finding> {
     let contacts = eras.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
     let finding = |(_, contact): (usize, &Contact)| Finding {
-        code: "friction-not-unique",
+        code: "friction-not-unique".into(),
         message: format!(
             "while it sticks {} is not unique: drivers or other friction hold the same motion; what is printed is 0 or one of the values",
             contact.name
@@ -218,7 +218,7 @@ where
 {
     let name = root_name(model, system, root);
     Finding {
-        code: "unresolved-condition",
+        code: "unresolved-condition".into(),
         message: format!(
             "{name} changes faster than a millionth of a step from t = {t:.6} s on, or is noise: it was followed as seen, and changes back and forth may be missing"
         ),

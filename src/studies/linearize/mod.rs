@@ -30,8 +30,9 @@ use crate::kinematics::undefined::assembled;
 use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
-use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Outcome};
+use crate::results::{Certificate, Failure, Finding, LinearSystem, List};
 use crate::scalar::Dual;
+use crate::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
 
@@ -274,7 +275,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
     /// That the state does not rest, or that the equations change with time.
     fn findings(&self, at: &Whole, base: &Answer, names: &Names, partition: &Partition) -> Vec<Finding> {
         let mut out = Vec::new();
-        let mut add = |code, message| out.push(Finding { code, message, path: self.case.study.place.clone() });
+        let mut add = |code: &'static str, message| out.push(Finding { code: code.into(), message, path: self.case.study.place.clone() });
         let own = &partition.independent;
         let moving = own.iter().filter(|&&i| at.v[i].abs() > 1e-9 || base.a[i].abs() > 1e-6);
         let moving: Vec<String> = moving.map(|&i| format!("`{}`", names.coordinates[i])).collect();

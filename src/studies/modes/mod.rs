@@ -21,8 +21,9 @@ use crate::kinematics::partition::{preferred, with_mass};
 use crate::kinematics::undefined::{assembled, in_state};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Eigensolver, Modes, Study};
-use crate::results::{Certificate, Failure, Finding, List, Outcome};
+use crate::results::{Certificate, Failure, Finding, List};
 use crate::scalar::Dual;
+use crate::studies::common::outcome::Outcome;
 use damped::{Damped, damped, state_matrix};
 use eigen::Eigen;
 use nalgebra::{DMatrix, DVector};
@@ -138,7 +139,7 @@ impl Report<'_> {
     }
 
     fn finding(&mut self, code: &'static str, message: String) {
-        self.findings.push(Finding { code, message, path: self.study.place.clone() });
+        self.findings.push(Finding { code: code.into(), message, path: self.study.place.clone() });
     }
 
     /// Which coordinates are held by a force, and that there is nothing to move; `size` is that of the mechanism, m.

@@ -38,7 +38,7 @@ pub(super) fn finding(multipliers: &[Complex<f64>], place: &str) -> Finding {
     };
     let near = multipliers.iter().find(|m| (m.norm() - 1.0).abs() < NEAR);
     let near = near.map_or_else(String::new, |m| format!("; a multiplier is close to the unit circle: {}", bifurcation(*m)));
-    Finding { code, message: message + &near, path: place.to_owned() }
+    Finding { code: code.into(), message: message + &near, path: place.to_owned() }
 }
 
 /// How a regime with such a multiplier outside of the unit circle has lost its stability.

@@ -60,7 +60,7 @@ impl Words<'_> {
     pub(super) fn findings(&self, zero: &Zero) -> Vec<Finding> {
         let [parameter, scalar] = self.names();
         let path = format!("{}.solve", self.task.study.place);
-        let finding = |code, message| Finding { code, message, path: path.clone() };
+        let finding = |code: &'static str, message| Finding { code: code.into(), message, path: path.clone() };
         let mut found = Vec::new();
         if !zero.others.is_empty() {
             let others: Vec<String> = zero.others.iter().map(|[a, b]| format!("between {} and {}", self.at(*a), self.at(*b))).collect();

@@ -34,8 +34,9 @@ use crate::kinematics::undefined::{assembled, in_state};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::FunctionalKind;
 use crate::numerics::extremum::{Extremes, Extremum};
-use crate::results::{Certificate, Failure, Finding, List, Outcome};
+use crate::results::{Certificate, Failure, Finding, List};
 use crate::scalar::Dual;
+use crate::studies::common::outcome::Outcome;
 use grip::Gripped;
 use pose::{Pose, Rest};
 use search::{Ended, Found};
@@ -214,7 +215,7 @@ where
             [Some(one), None] | [None, Some(one)] => format!("{what}: it rests anywhere beside {one}, on the side of the position told"),
             [None, None] => format!("{what}: it rests wherever it is put"),
         };
-        Some(Finding { code: "held-by-friction", message, path: self.case.study.place.clone() })
+        Some(Finding { code: "held-by-friction".into(), message, path: self.case.study.place.clone() })
     }
 
     /// The equilibrium from a pose, and the ridge before it; else the pose where least is unbalanced, and why.
@@ -285,7 +286,7 @@ where
     fn findings(&mut self, found: &Found) -> Vec<Finding> {
         let (model, place) = (self.case.model, &self.case.study.place);
         let mut out = Vec::new();
-        let mut add = |code: &'static str, message: String, path: &str| out.push(Finding { code, message, path: path.into() });
+        let mut add = |code: &'static str, message: String, path: &str| out.push(Finding { code: code.into(), message, path: path.into() });
         if !found.stability.is_stable() {
             let code = if found.stability.negative > 0 { "unstable" } else { "indifferent" };
             add(code, format!("the equilibrium is {}", self.names.verdict(found, &self.rest.unit)), place);
@@ -311,7 +312,7 @@ where
         for (_, joint) in model.joints.iter().enumerate().filter(|(i, j)| j.friction.is_some() && !held(*i)) {
             let message =
                 format!("the friction of joint `{}` holds nothing here: with it the mechanism also rests beside this position", joint.name);
-            out.push(Finding { code: "friction", message, path: format!("joints.{}.friction", joint.name) });
+            out.push(Finding { code: "friction".into(), message, path: format!("joints.{}.friction", joint.name) });
         }
         out
     }
@@ -346,9 +347,9 @@ where
             let code = if i == 0 { "equilibrium" } else { "further-equilibrium" };
             let place = self.names.place(&independent, values) + if self.held.is_some() { ", held by friction" } else { "" };
             let message = format!("{place}: {}", self.names.verdict(found, &self.rest.unit));
-            findings.push(Finding { code, message, path: study.place.clone() });
+            findings.push(Finding { code: code.into(), message, path: study.place.clone() });
         }
-        findings.extend(self.findings(&all[0]).into_iter().filter(|f| !["unstable", "indifferent"].contains(&f.code)));
+        findings.extend(self.findings(&all[0]).into_iter().filter(|f| !["unstable", "indifferent"].contains(&&*f.code)));
 
         let scenes = self.scenes(begin, all);
         let row = self.row(pose, watched.ids.len())?;

@@ -1,21 +1,11 @@
 //! The table of scalars for the terminal: `name   value   unit`, numbers aligned on the decimal point.
 
-/// One result.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scalar {
-    /// The name, `mean_power`.
-    pub name: String,
-    /// The value, in `unit`.
-    pub value: f64,
-    /// The unit as text; empty for a pure number.
-    pub unit: String,
-}
-
+use crate::results::{Scalar, number};
 /// Longer names stand on a line of their own, so that one of them does not push all values to the right.
 const LONGEST_NAME: usize = 32;
 
 /// The aligned table, each line indented by two and ended by a line end; empty for no scalars.
-pub fn summary(scalars: &[Scalar]) -> String {
+pub(super) fn table(scalars: &[&Scalar]) -> String {
     let texts: Vec<_> = scalars.iter().map(|scalar| significant(scalar.value, 10)).collect();
     // The first part of a value ends before its point (or exponent): there the column is aligned.
     let parts: Vec<_> = texts.iter().map(|text| text.split_at(text.find(['.', 'e']).unwrap_or(text.len()))).collect();
@@ -56,6 +46,12 @@ pub(super) fn significant(x: f64, digits: usize) -> String {
     format!("{}e{power}", without_zeros(mantissa))
 }
 
+/// Ten significant digits, without trailing zeros.
+pub fn ten_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
+    number(rounded)
+}
+
 fn without_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
@@ -76,13 +72,14 @@ mod tests {
 
     #[test]
     fn points_stand_below_each_other() {
-        let scalar = |name: &str, value, unit: &str| Scalar { name: name.into(), value, unit: unit.into() };
+        let scalar = |name: &str, value, unit: &str| Scalar { name: name.into(), value, unit: unit.into(), ..Scalar::default() };
         let long = "a_name_that_is_too_long_for_the_column";
-        let text = summary(&[scalar("mean_power", 1599.58985783, "W"), scalar("delta", -0.01, ""), scalar(long, 12.0, "s")]);
+        let all = [scalar("mean_power", 1599.58985783, "W"), scalar("delta", -0.01, ""), scalar(long, 12.0, "s")];
+        let text = table(&all.iter().collect::<Vec<_>>());
         assert_eq!(
             text,
             "  mean_power  1599.589858  W\n  delta         -0.01\n  a_name_that_is_too_long_for_the_column\n                12         s\n"
         );
-        assert_eq!(summary(&[]), "");
+        assert_eq!(table(&[]), "");
     }
 }

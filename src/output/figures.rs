@@ -1,0 +1,134 @@
+//! Figures that a study asks for, and drawings of its mechanism, laid out from its results.
+
+use super::{Axis, Curve, Drawing, Figure, Link, LinkKind, Outline, Placement, Scale, Symbol, SymbolKind, Trace};
+use crate::results::{Column, Plot, Results, Scene};
+
+/// Switches that are marked by lines in a figure, at most.
+const MOST_MARKED: usize = 16;
+
+/// Figures of a study by name; of a sweep curves for each run, told apart by its label, and numbers of whole runs.
+pub fn figures(results: &Results) -> Vec<(String, Figure)> {
+    let runs: Vec<(Option<&str>, &Results)> = if results.table.reasons.is_none() {
+        vec![(None, results)]
+    } else {
+        results.runs.iter().filter_map(|run| Some((Some(run.label.as_str()), run.results.as_ref()?))).collect()
+    };
+    let curves = results.plots.iter().filter(|plot| !plot.of_runs).map(|plot| (plot.name.clone(), of_columns(results, plot, &runs)));
+    let numbers = results.plots.iter().filter(|plot| plot.of_runs && results.table.reasons.is_some());
+    curves.chain(numbers.filter_map(|plot| Some((plot.name.clone(), of_runs(results, plot)?)))).collect()
+}
+
+/// Curves of columns.
+fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)]) -> Figure {
+    let several = runs.len() > 1;
+    let mut curves = Vec::new();
+    for (label, run) in runs {
+        let x = plot.over.as_ref().map_or(Some(&run.independent), |over| column(run, over));
+        for y in plot.show.iter().filter_map(|name| column(run, name)) {
+            let name = match label {
+                Some(label) if several && plot.show.len() > 1 => format!("{}, {label}", y.name),
+                Some(label) if several => (*label).to_string(),
+                _ => y.name.clone(),
+            };
+            let points = joined(x.map_or(&[], |x| &x.values), &y.values, &run.table.switches, plot.over.is_some());
+            curves.push(Curve { label: name, unit: Some(y.unit.clone()), points });
+        }
+    }
+    let first = runs.first().map(|(_, run)| *run);
+    let over = first.and_then(|run| plot.over.as_ref().map_or(Some(&run.independent), |over| column(run, over)));
+    let (x, factor) = axis(plot, over);
+    scale_x(&mut curves, factor);
+    // lines at switches help where there is one run with a few; many would cover the curves
+    let breaks = match (&plot.over, runs) {
+        (None, [(_, run)]) if run.table.switches.len() <= MOST_MARKED => {
+            run.table.switches.iter().map(|&i| run.independent.values[i] / factor).collect()
+        }
+        _ => vec![],
+    };
+    let shown: Vec<&Column> = first.map_or_else(Vec::new, |run| plot.show.iter().filter_map(|name| column(run, name)).collect());
+    let same_plane = plot.over.is_some() && shown.iter().copied().chain(over).all(|column| column.unit == "m");
+    let y = match shown[..] {
+        [only] if several && plot.show.len() == 1 => Axis { label: only.name.clone(), unit: only.unit.clone(), ..Axis::default() },
+        _ => Axis::default(),
+    };
+    Figure { title: title(results, plot), x, y, curves, breaks, equal: same_plane, ..Figure::default() }
+}
+
+/// Numbers of whole runs over a swept parameter, or over another number.
+fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
+    let over = match &plot.over {
+        Some(over) => results.table.column(over)?,
+        None => results.table.columns.first()?,
+    };
+    let (x, factor) = axis(plot, Some(over));
+    let nowhere = vec![f64::NAN; results.table.rows()];
+    let curve = |name: &String| {
+        let column = results.table.column(name);
+        let values = column.map_or(&nowhere, |column| &column.values);
+        let points = over.values.iter().copied().zip(values.iter().copied()).collect();
+        Curve { label: name.clone(), unit: Some(column.map_or_else(String::new, |column| column.unit.clone())), points }
+    };
+    let mut curves: Vec<Curve> = plot.show.iter().map(curve).collect();
+    scale_x(&mut curves, factor);
+    Some(Figure { title: title(results, plot), x, curves, ..Figure::default() })
+}
+
+/// A column by its name, or a curve that only figures show.
+fn column<'r>(results: &'r Results, name: &str) -> Option<&'r Column> {
+    results.table.column(name).or_else(|| results.curves.iter().find(|column| column.name == name))
+}
+
+/// Points of a curve; where a path in the plane jumps at a switch, the line is broken.
+fn joined(x: &[f64], y: &[f64], switches: &[usize], path: bool) -> Vec<(f64, f64)> {
+    let mut points = Vec::with_capacity(x.len());
+    for (i, (x, y)) in x.iter().zip(y).enumerate() {
+        points.push((*x, *y));
+        if path && switches.contains(&i) {
+            points.push((f64::NAN, f64::NAN));
+        }
+    }
+    points
+}
+
+fn title(results: &Results, plot: &Plot) -> String {
+    format!("{}, {}: {}", results.model, results.study, plot.name.replace('_', " "))
+}
+
+/// The horizontal axis and the factor that its values are divided by.
+fn axis(plot: &Plot, over: Option<&Column>) -> (Axis, f64) {
+    let (label, unit) = over.map_or_else(Default::default, |column| (column.name.clone(), column.unit.clone()));
+    match &plot.unit {
+        Some((word, factor)) => (Axis { label, unit: word.clone(), scale: Scale::Linear }, *factor),
+        None => (Axis { label, unit, scale: Scale::Linear }, 1.0),
+    }
+}
+
+fn scale_x(curves: &mut [Curve], factor: f64) {
+    for point in curves.iter_mut().flat_map(|c| &mut c.points) {
+        point.0 /= factor;
+    }
+}
+
+/// The drawing of a scene of a study; that of the mechanism itself is titled by the model alone.
+pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
+    let kind = |word: &str| match word {
+        "slider" | "cylindrical" | "planar" | "screw" => Some(SymbolKind::Slide),
+        "pin-in-slot" => Some(SymbolKind::Slot),
+        "spherical" | "universal" => Some(SymbolKind::Ball),
+        "fixed" => Some(SymbolKind::Weld),
+        "free" | "distance" => None,
+        _ => Some(SymbolKind::Hinge),
+    };
+    let joints = scene.joints.iter().filter_map(|j| {
+        let poses = j.at.iter().zip(&j.along).map(|(at, along)| Placement { at: *at, along: *along, way: None }).collect();
+        Some(Symbol { name: j.name.clone(), kind: kind(&j.kind)?, grounded: j.grounded, poses })
+    });
+    let spring = |(name, poses): &(String, Vec<[[f64; 2]; 2]>)| Link { name: name.clone(), kind: LinkKind::Spring, poses: poses.clone() };
+    Drawing {
+        title: if name == "mechanism" { model.to_string() } else { format!("{model}, {study}: {}", name.replace('-', " ")) },
+        bodies: scene.bodies.iter().map(|(name, poses)| Outline { name: name.clone(), poses: poses.clone() }).collect(),
+        joints: joints.collect(),
+        links: scene.springs.iter().map(spring).collect(),
+        traces: scene.traces.iter().map(|(name, points)| Trace { name: name.clone(), points: points.clone() }).collect(),
+    }
+}

@@ -1,0 +1,109 @@
+//! What a study has come to, for the terminal.
+
+use super::scalars::{self, ten_digits};
+use crate::results::{By, Results, Scalar, number};
+
+mod linear;
+mod modes;
+mod runs;
+
+/// Findings of a motion that are shown.
+const FINDINGS: usize = 5;
+/// Events that are shown.
+const EVENTS: usize = 6;
+
+/// The summary of a study: what was found, how far it is to be trusted, its scalars; of a sweep a line for each run.
+pub fn summary(results: &Results) -> String {
+    if results.table.reasons.is_some() {
+        return runs::summary(&results.table);
+    }
+    let of_kind = match results.kind.as_str() {
+        "statics" => equilibria(results),
+        "linearize" => linear::summary(results),
+        "modes" => modes::summary(results),
+        _ => range(results) + &march(results) + &notes(results),
+    };
+    // the results of modes stand in their table
+    let listed = |s: &&Scalar| results.kind != "modes" || s.by != By::Kind;
+    let listed: Vec<&Scalar> = results.scalars.iter().filter(listed).collect();
+    solution(results) + &of_kind + &scalars::table(&listed)
+}
+
+/// `solved: I_f = 279.25 kg m^2 (12 runs), delta = 0.01`; empty where nothing is solved.
+fn solution(results: &Results) -> String {
+    let Some(solved) = &results.solution else { return String::new() };
+    let p = &solved.parameter;
+    let value = format!("{} {}", ten_digits(p.value), p.unit);
+    format!("  solved: {} = {} ({} runs), {} = {}\n", p.name, value.trim_end(), solved.runs, solved.of, ten_digits(solved.found))
+}
+
+/// How many rows there are, and over what.
+fn range(results: &Results) -> String {
+    let places = &results.independent.values;
+    let switches = match results.table.switches.len() {
+        0 => String::new(),
+        1 => ", 1 switch".into(),
+        n => format!(", {n} switches"),
+    };
+    let (from, to) = (place(places.first()), place(places.last()));
+    format!("  {} rows over {} from {from} to {to}{switches}\n", places.len(), results.independent.name)
+}
+
+fn place(x: Option<&f64>) -> String {
+    x.map_or_else(String::new, |x| number((x * 1e6).round() / 1e6 + 0.0))
+}
+
+/// Where a mechanism rests, and where else it could.
+fn equilibria(results: &Results) -> String {
+    let line = |code: &str| match code {
+        "equilibrium" => "at rest",
+        "further-equilibrium" => "also in balance",
+        _ => "note",
+    };
+    results.findings.iter().map(|f| format!("  {}: {}\n", line(&f.code), f.message)).collect()
+}
+
+/// What a reader should know of a motion, in a line each; all of it is in the JSON.
+fn notes(results: &Results) -> String {
+    if !["dynamics", "kinematics", "inverse"].contains(&results.kind.as_str()) {
+        return String::new();
+    }
+    let shown = results.findings.iter().take(FINDINGS).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
+    match results.findings.len().saturating_sub(FINDINGS) {
+        0 => shown,
+        more => shown + &format!("  note: {more} more findings stand in `{}.json`\n", results.study),
+    }
+}
+
+/// The certificate of a motion in time in three lines: energy, constraints, work.
+fn march(results: &Results) -> String {
+    let Some(m) = &results.certificate.march else { return String::new() };
+    let (c, k) = (&results.certificate, &m.counts);
+    let works = m.works().into_iter().filter(|(_, x)| x.abs() > 1e-12 * m.energy_scale);
+    let works: Vec<String> = works.map(|(name, x)| format!("{} {x:+.6} J", name.trim_start_matches("work_"))).collect();
+    let works = if works.is_empty() { String::new() } else { format!("; {}", works.join(", ")) };
+    let relative = if m.energy_scale > 0.0 { m.energy_drift / m.energy_scale } else { 0.0 };
+    let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));
+    let bridges = if k.bridges > 0 { format!(", {} bridges over singular positions", k.bridges) } else { String::new() };
+    let over = if k.stepped_over > 0 { format!(", {} switches stepped over", k.stepped_over) } else { String::new() };
+    let gap = if m.widest_gap > 0.0 {
+        format!("  conditions: resolved, with looks at most {:.1e} s apart\n", m.widest_gap)
+    } else {
+        String::new()
+    };
+    format!(
+        "  energy: balanced to {:.1e} J, {relative:.1e} of {:.3e} J{works}\n  constraints: positions {:.1e}, velocities {:.1e}\n  work: {}, {control}, {} steps ({} rejected), {} evaluations, {} factorisations, {} events{bridges}{over}\n{gap}",
+        m.energy_drift, m.energy_scale, c.constraint, m.velocity, m.schemes, k.steps, k.rejected, k.evaluations, k.factorisations, k.events
+    ) + &happened(results)
+}
+
+/// The first events of the model, in a line.
+fn happened(results: &Results) -> String {
+    if results.events.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<String> = results.events.iter().take(EVENTS).map(|e| format!("{} at {}", e.name, place(Some(&e.at)))).collect();
+    let more = results.events.len().saturating_sub(EVENTS);
+    let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+    format!("  happened: {}{more}\n", shown.join(", "))
+}
