@@ -1,5 +1,67 @@
-//! Grashof: mechanisms from a text file to motion, forces and pictures.
+//! Grashof: mechanisms from a text file to motion, forces, vibrations and pictures.
+//!
+//! A model is a file, or a text, in the language that `docs/format.md` describes; a study of it has results with names:
+//!
+//! ```
+//! let model = grashof::Model::parse(
+//!     "
+//! grashof: 1
+//! name: pendulum
+//! space: planar
+//! gravity: [0, -9.81 m/s^2]
+//! parameters: { length: 1 m }
+//! bodies: { rod: { bar: { length: length, mass: 2 kg } } }
+//! joints: { P: { revolute: [ground, rod.start] } }
+//! start: { P.angle: -30 deg, P.omega: 0 }
+//! studies:
+//!   swing:
+//!     dynamics: { until: 2 s, every: 10 ms }
+//!     columns: [time, P.angle, P.fy]
+//!     scalars: { largest: max(abs(P.fy)) }
+//! ",
+//! )?;
+//! let results = model.study("swing")?.set("length", "60 cm").run()?;
+//! assert_eq!(results.column("P.fy")?.len(), 201);
+//! println!("{} N, at most {} N", results.column("P.fy")?[0], results.scalar("largest")?);
+//! # Ok::<(), grashof::Error>(())
+//! ```
+//!
+//! [`Model::load`] reads a file with what it includes. [`Study::over`] runs a study for many values of a parameter, [`Study::compare`]
+//! computes a motion by several integrators. Errors have places in the file and remedies. What is computed is plain data
+//! ([`Results`]), from which [`output`] makes CSV, JSON, figures and drawings.
+//!
+//! The mechanism itself can be evaluated by hand, and stepped:
+//!
+//! ```
+//! # let text = "
+//! # grashof: 1
+//! # name: pendulum
+//! # space: planar
+//! # gravity: [0, -9.81 m/s^2]
+//! # bodies: { rod: { bar: { length: 1 m, mass: 2 kg } } }
+//! # joints: { P: { revolute: [ground, rod.start] } }
+//! # start: { P.angle: -30 deg, P.omega: 0 }
+//! # ";
+//! # let model = grashof::Model::parse(text)?;
+//! let mechanism = model.mechanism()?;
+//! let (q, v) = mechanism.start();
+//! let terms = mechanism.terms(0.0, &q, &v)?;
+//! let (a, _) = mechanism.accelerations(0.0, &q, &v)?;
+//! assert!((&terms.mass * &a - &terms.force).norm() < 1e-12);
+//!
+//! let mut motion = mechanism.simulate(grashof::solvers::Settings::default())?;
+//! for step in 1..=10 {
+//!     let state = motion.advance(0.1 * f64::from(step))?;
+//!     let tip = mechanism.placement("rod", &state.q)?;
+//!     assert!(tip.position.norm() < 1e-12);
+//! }
+//! # Ok::<(), grashof::Error>(())
+//! ```
+//!
+//! An integrator of one's own is a [`solvers::Scheme`], which [`Mechanism::simulate_by`] takes; a system of one's own is a
+//! [`solvers::System`]. How the rooms below depend on each other is drawn in `docs/architecture.md`.
 
+pub mod api;
 pub mod dynamics;
 pub mod expression;
 pub mod geometry;
@@ -12,3 +74,14 @@ pub mod par;
 pub mod results;
 pub mod scalar;
 pub mod studies;
+
+/// Integrators and the linear algebra below them.
+pub use grashof_solvers as solvers;
+
+pub use api::{Error, Mechanism, Model, Simulation, Study};
+pub use results::Results;
+
+/// The section of the README on the library, compiled as it stands there.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

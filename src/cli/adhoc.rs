@@ -4,6 +4,7 @@ use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::Job;
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, run, say};
+use grashof::studies::loader::Loader;
 
 #[derive(clap::Args)]
 #[group(skip)]
@@ -24,7 +25,8 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Comm
     watch_interrupts();
     let Some(mut document) = files::document(&arguments.model, common) else { return code::INPUT };
     let name = document.add_study(name, yaml);
-    let model = match run::load(&document, common, &name, &mut run::Scalars::new()) {
+    let Some(selection) = files::selection(common, Some(&name)) else { return code::INPUT };
+    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
         Err(code) => return code,
     };

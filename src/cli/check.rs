@@ -1,13 +1,12 @@
 //! `grashof check`: a look at a model before it moves.
 
-use super::run::to_take;
 use super::{Common, code, files, say};
 use grashof::kinematics::survey::{Survey, survey};
-use grashof::model::{Document, Kind, Model};
+use grashof::model::{Document, Kind};
 use grashof::output::{json_number, json_numbers};
 use grashof::studies::common::case::parameters;
+use grashof::studies::loader::quickly;
 use grashof::studies::rehearsal::{Hindrance, rehearse};
-use grashof::studies::sweep::at;
 use serde_json::{Value, json};
 
 #[derive(clap::Args)]
@@ -52,7 +51,8 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
 
 /// What would keep a study from running; none for a study whose parameters others have long to compute.
 fn hindered(document: &Document, study: &str, common: &Common) -> Option<String> {
-    let model = match given(document, study, common) {
+    let selection = files::selection(common, Some(study))?;
+    let model = match quickly(document, &selection) {
         Ok(model) => model?,
         Err(hindrance) => return Some(hindrance),
     };
@@ -70,31 +70,6 @@ fn hindered(document: &Document, study: &str, common: &Common) -> Option<String>
     let massless =
         survey(&model, &values).ok()?.bodies.iter().all(|(_, mass, _, inertia)| *mass == 0.0 && inertia.iter().all(|i| *i == 0.0));
     massless.then(|| format!("study `{study}`: no body has a mass and nothing pulls, so that all forces are zero"))
-}
-
-/// The model of a study with the scalars that it takes from others, if these are quickly computed.
-fn given(document: &Document, study: &str, common: &Common) -> Result<Option<Model>, String> {
-    let model = files::selection(common, Some(study)).and_then(|selection| document.model(&selection).ok());
-    let Some(mut model) = model else { return Ok(None) };
-    let takes = model.study.as_ref().map(|study| study.take.clone()).unwrap_or_default();
-    let mut taken = Vec::new();
-    for take in &takes {
-        let Some(other) = given(document, &take.study, common)? else { return Ok(None) };
-        let Some(asked) = &other.study else { return Ok(None) };
-        if !asked.sweep.is_empty() || asked.solve.is_some() || matches!(asked.kind, Kind::Dynamics(_) | Kind::Periodic(_)) {
-            return Ok(None);
-        }
-        let hindered = |why: &str| format!("study `{study}` takes a scalar of `{}`: {why}", take.study);
-        let outcome = at(&other, asked, Vec::new(), 1, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
-        if let Some(why) = &outcome.stopped {
-            return Err(hindered(why));
-        }
-        taken.push(to_take(asked, &outcome).iter().find(|(name, _)| *name == take.scalar).map_or(f64::NAN, |(_, value)| *value));
-    }
-    if !taken.is_empty() {
-        model.give(&taken);
-    }
-    Ok(Some(model))
 }
 
 /// What is worth a remark about freedom and rows.

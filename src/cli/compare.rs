@@ -6,33 +6,25 @@
 
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::progress::Progress;
-use super::run::{Scalars, load};
-use super::schemes::{self, Steps, is_explicit};
-use super::{Common, code, fail, files, say};
-use compared::{Compared, References, Row};
-use grashof::model::{Document, Forward, Integrator, Kind, Model, Study};
-use grashof::results::Failure;
-use grashof::studies::common::case::{Case, parameters};
-use grashof::studies::dynamics;
-use grashof::studies::run::run;
+use super::run::load;
+use super::{Common, code, fail, files, say, tell};
+use grashof::model::{Document, Forward, Integrator, Kind, Study};
+use grashof::output::{Staging, comparison, render_figure};
+use grashof::results::{Compared, Failure};
+use grashof::studies::common::case::parameters;
+use grashof::studies::compare::{NoReference, Watch};
+use grashof::studies::integrators::{self, Steps};
+use grashof::studies::loader::Loader;
+use grashof::studies::{self, dynamics};
 use std::path::Path;
 use std::time::Instant;
-
-mod compared;
-mod output;
 
 /// Compared if nothing is named: with a tolerance, and with fixed steps.
 const BY_TOLERANCE: [Integrator; 3] = [Integrator::Dop853, Integrator::Radau5, Integrator::Bdf];
 const BY_STEP: [Integrator; 4] = [Integrator::Rk4, Integrator::Newmark, Integrator::GeneralizedAlpha, Integrator::Bdf];
 /// Tolerances if none are given.
 const TOLERANCES: &str = "1e-4..1e-10";
-/// Tolerance of the explicit reference; the implicit one is a hundredth of the tightest that is compared.
-const TIGHT: f64 = 1e-13;
-/// References that differ by more are none.
-const UNSURE: f64 = 1e-4;
-/// Runs that take less are repeated, s, and how often.
-const SHORT: f64 = 0.2;
-const REPEATS: usize = 5;
+
 /// Most sizes in a range.
 const MOST: usize = 40;
 
@@ -73,16 +65,17 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
         Some(name) => name.clone(),
         None => only_motion(&document, common)?,
     };
-    let report = document.check_all(&files::selection(common, Some(&name)).ok_or(code::INPUT)?);
+    let selection = files::selection(common, Some(&name)).ok_or(code::INPUT)?;
+    let report = document.check_all(&selection);
     if report.failed() {
         files::print(&report, common);
         return Err(code::INPUT);
     }
-    let mut model = load(&document, common, &name, &mut Scalars::new())?;
+    let mut model = load(&mut Loader::new(&document, common.threads()), &document, common, &selection)?;
     let study = model.study.clone().ok_or(code::INPUT)?;
     let forward = motion(&study)?.clone();
     let values = parameters(&model);
-    let (fixed, sizes) = sizes(arguments, schemes::steps(&model, &forward, &values))?;
+    let (fixed, sizes) = sizes(arguments, integrators::steps(&model, &forward, &values))?;
     let integrators = if integrators.is_empty() { usual(fixed, forward.integrator) } else { integrators };
     usable(&integrators, fixed)?;
     let explain = |failure: &Failure| files::explain(&document, failure, &study.name, common);
@@ -91,35 +84,42 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     files::prepare(&directory, &ends.iter().map(|end| format!("compare.{end}")).collect::<Vec<_>>(), common)?;
 
     let progress = Progress::new(&study.name, integrators.len() * sizes.len() + 2, common.quiet);
-    let mut bench = Bench { model: &mut model, study: &study, forward: &forward, values: &values };
-    let tightest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
-    let references = bench.references(if fixed { 1e-8 } else { tightest }, &progress).map_err(|why| why.told(&study.name, &explain))?;
-    let mut rows = Vec::new();
-    for &by in &integrators {
-        for &size in &sizes {
-            let steps = if fixed { Steps::Fixed(size) } else { Steps::Tolerance(size) };
-            let row = bench.row(by, steps, &references.columns[usize::from(is_explicit(by))]);
-            stop_if_interrupted()?;
-            rows.push(row);
-            progress.step();
-        }
-    }
+    let steps: Vec<Steps> = sizes.iter().map(|&size| if fixed { Steps::Fixed(size) } else { Steps::Tolerance(size) }).collect();
+    let begun = Instant::now();
+    let watch = Watch { stop: &interrupted, now: &|| begun.elapsed().as_secs_f64(), done: &|| progress.step() };
+    let compared = studies::compare::compare(&mut model, &study, &forward, (&integrators, &steps), watch)
+        .map_err(|why| told(why, &study.name, &explain))?;
     drop(progress);
-    let compared = Compared { study: &study, fixed, references, rows };
     finish(&compared, &directory, arguments, common)
 }
 
 /// Writes and prints.
-fn finish(compared: &Compared<'_>, directory: &Path, arguments: &Arguments, common: &Common) -> Result<u8, u8> {
-    let staging = output::files(compared, !arguments.no_plots);
+fn finish(compared: &Compared, directory: &Path, arguments: &Arguments, common: &Common) -> Result<u8, u8> {
+    let staging = written(compared, !arguments.no_plots);
     stop_if_interrupted()?;
     files::commit(&staging, directory, "compare", common)?;
-    say(&if arguments.json { output::json(compared) } else { output::table(compared) });
+    say(&if arguments.json { comparison::json(compared) } else { comparison::table(compared) });
     if compared.rows.iter().all(|r| !r.reason.is_empty()) {
-        fail(&format!("no integrator got through study `{}`", compared.study.name), "the reasons stand in the last column");
+        fail(&format!("no integrator got through study `{}`", compared.study), "the reasons stand in the last column");
         return Ok(code::NUMERICAL);
     }
     Ok(code::DONE)
+}
+
+/// `compare.csv`, `compare.svg` and `compare.png`.
+fn written(compared: &Compared, plots: bool) -> Staging {
+    let mut staging = Staging::new();
+    staging.add("compare.csv", comparison::csv(compared));
+    if plots {
+        match render_figure(&comparison::figure(compared)) {
+            Ok(picture) => {
+                staging.add("compare.svg", picture.svg);
+                staging.add("compare.png", picture.png);
+            }
+            Err(error) => tell(&format!("warning: the figure cannot be drawn: {error}")),
+        }
+    }
+    staging
 }
 
 fn stop_if_interrupted() -> Result<(), u8> {
@@ -141,7 +141,10 @@ fn integrators(words: &[String]) -> Result<Vec<Integrator>, u8> {
     let mut found = Vec::new();
     for text in words {
         let Some(integrator) = Integrator::named(text.trim()) else {
-            return Err(refuse(&format!("there is no integrator `{}`", text.trim()), &format!("the integrators are {}", schemes::names())));
+            return Err(refuse(
+                &format!("there is no integrator `{}`", text.trim()),
+                &format!("the integrators are {}", integrators::names()),
+            ));
         };
         if !found.contains(&integrator) {
             found.push(integrator);
@@ -257,183 +260,26 @@ fn listed(text: &str, flag: &str, most: f64) -> Result<Vec<f64>, u8> {
     Ok((0..count).map(|k| round(from * 10f64.powf(decades.signum() * k as f64))).collect())
 }
 
-/// Why there is no reference.
-enum NoReference {
-    Failure(Failure),
-    Stopped(String),
-    Apart(f64),
-    Interrupted,
-}
-
-impl NoReference {
-    /// Prints it; the exit code.
-    fn told(self, study: &str, explain: &dyn Fn(&Failure) -> u8) -> u8 {
-        match self {
-            Self::Failure(failure) => explain(&failure),
-            Self::Stopped(why) => {
-                fail(&format!("there is no reference for study `{study}`: {why}"), "run the study itself first, and see why it stops");
-                code::NUMERICAL
-            }
-            Self::Apart(off) => {
-                fail(
-                    &format!("the references of study `{study}`, by `dop853` and by `radau5`, differ by {off:.1e} at the end"),
-                    "compare a shorter motion: where small differences grow without bound, no error can be told; `grashof run --verify` tells where they begin, and whether events differ",
-                );
-                code::NUMERICAL
-            }
-            Self::Interrupted => {
-                interrupt::tell_end("interrupted: nothing is written");
-                code::INTERRUPTED
-            }
+/// Prints why there is no reference; the exit code.
+fn told(why: NoReference, study: &str, explain: &dyn Fn(&Failure) -> u8) -> u8 {
+    match why {
+        NoReference::Failure(failure) => explain(&failure),
+        NoReference::Stopped(why) => {
+            fail(&format!("there is no reference for study `{study}`: {why}"), "run the study itself first, and see why it stops");
+            code::NUMERICAL
+        }
+        NoReference::Apart(off) => {
+            fail(
+                &format!("the references of study `{study}`, by `dop853` and by `radau5`, differ by {off:.1e} at the end"),
+                "compare a shorter motion: where small differences grow without bound, no error can be told; `grashof run --verify` tells where they begin, and whether events differ",
+            );
+            code::NUMERICAL
+        }
+        NoReference::Interrupted => {
+            interrupt::tell_end("interrupted: nothing is written");
+            code::INTERRUPTED
         }
     }
-}
-
-/// A study under many integrators.
-struct Bench<'a> {
-    model: &'a mut Model,
-    study: &'a Study,
-    forward: &'a Forward,
-    values: &'a [f64],
-}
-
-impl Bench<'_> {
-    /// The references by dop853 and by radau5.
-    fn references(&mut self, tightest: f64, progress: &Progress) -> Result<References, NoReference> {
-        let explicit = self.end(Integrator::Dop853, TIGHT);
-        progress.step();
-        // how tight an implicit scheme can be depends on the motion: its Newton iterations end at rounding
-        let mut implicit = (0.0, Err(NoReference::Interrupted));
-        for looser in [1e-2, 1e-1, 1.0] {
-            let tolerance = (looser * tightest).clamp(TIGHT, 1e-10);
-            if tolerance > implicit.0 {
-                implicit = (tolerance, self.end(Integrator::Radau5, tolerance));
-            }
-            if implicit.1.is_ok() || interrupted() {
-                break;
-            }
-        }
-        progress.step();
-        if interrupted() {
-            return Err(NoReference::Interrupted);
-        }
-        let of = [(Integrator::Dop853, TIGHT), (Integrator::Radau5, implicit.0)];
-        match (explicit, implicit.1) {
-            (Ok(a), Ok(b)) => {
-                let off = error(&a, &b).max(error(&b, &a));
-                if off.is_nan() || off > UNSURE {
-                    return Err(NoReference::Apart(off));
-                }
-                Ok(References { columns: [a, b], of, agree: Some(off) })
-            }
-            // one alone must do, and it is said
-            (Ok(x), Err(_)) => Ok(References { columns: [x.clone(), x], of: [of[0]; 2], agree: None }),
-            (Err(_), Ok(x)) => Ok(References { columns: [x.clone(), x], of: [of[1]; 2], agree: None }),
-            (Err(why), Err(_)) => Err(why),
-        }
-    }
-
-    /// Columns at the end of a run.
-    fn end(&mut self, by: Integrator, tolerance: f64) -> Result<Vec<f64>, NoReference> {
-        let study = schemes::changed(self.model, self.study, self.forward, by, Steps::Tolerance(tolerance), None);
-        let ended = self.recorded(&study).map_err(NoReference::Failure)?;
-        if ended.reason.is_empty() { Ok(ended.columns) } else { Err(NoReference::Stopped(format!("`{}`: {}", by.name(), ended.reason))) }
-    }
-
-    /// A run with everything but its time.
-    fn recorded(&self, study: &Study) -> Result<Ended, Failure> {
-        let begin = Instant::now();
-        let outcome = run(Case { model: self.model, study, parameters: self.values }, &interrupted)?;
-        let time = begin.elapsed().as_secs_f64();
-        let march = outcome.certificate.march.unwrap_or_default();
-        let k = march.counts;
-        Ok(Ended {
-            columns: outcome.rows.last().map_or_else(Vec::new, |row| row[..study.columns.len()].to_vec()),
-            time,
-            counts: [k.steps, k.rejected, k.evaluations, k.factorisations].map(|n| n as f64),
-            energy: march.energy_drift,
-            residuals: [outcome.certificate.constraint, march.velocity],
-            reason: outcome.stopped.unwrap_or_default(),
-        })
-    }
-
-    /// Why a run without a record stops.
-    fn stopped(&self, study: &Study) -> Option<String> {
-        let Kind::Dynamics(forward) = &study.kind else { return None };
-        dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut |_| {}).ok()?.stopped
-    }
-
-    /// The steps alone: time and counters of a run without a record.
-    fn bare(&self, study: &Study) -> Option<(f64, [f64; 4])> {
-        let Kind::Dynamics(forward) = &study.kind else { return None };
-        let (mut begin, mut time) = (Instant::now(), f64::NAN);
-        let mut timer = |on: bool| if on { begin = Instant::now() } else { time = begin.elapsed().as_secs_f64() };
-        let k = dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut timer).ok()?.counts;
-        Some((time, [k.steps, k.rejected, k.evaluations, k.factorisations].map(|n| n as f64)))
-    }
-
-    /// One integrator with steps of one size.
-    fn row(&mut self, by: Integrator, steps: Steps, reference: &[f64]) -> Row {
-        let study = schemes::changed(self.model, self.study, self.forward, by, steps, None);
-        let nan = f64::NAN;
-        let mut row = Row {
-            integrator: by.name(),
-            size: steps.size(),
-            time: nan,
-            counts: [nan; 4],
-            error: nan,
-            energy: nan,
-            residuals: [nan; 2],
-            reason: String::new(),
-        };
-        let ended = match self.recorded(&study) {
-            Ok(ended) => ended,
-            Err(failure) => {
-                // a run that fails in its first step has no record, but a reason of its own
-                row.reason = self.stopped(&study).unwrap_or_else(|| failure.reason());
-                return row;
-            }
-        };
-        (row.time, row.counts, row.energy, row.residuals) = (ended.time, ended.counts, ended.energy, ended.residuals);
-        row.reason = ended.reason;
-        if !row.reason.is_empty() {
-            return row;
-        }
-        row.error = error(&ended.columns, reference);
-        // where events set parameters the mechanism is built anew on the way, and the whole run is what is timed
-        if self.model.events.iter().all(|e| e.set.is_empty()) {
-            let (mut spent, mut best) = (0.0, f64::INFINITY);
-            for _ in 0..REPEATS {
-                let Some((time, counts)) = self.bare(&study) else { break };
-                (best, spent, row.counts) = (time.min(best), spent + time, counts);
-                if spent > SHORT || interrupted() {
-                    break;
-                }
-            }
-            row.time = if best.is_finite() { best } else { row.time };
-        }
-        row
-    }
-}
-
-/// What a recorded run came to.
-struct Ended {
-    columns: Vec<f64>,
-    time: f64,
-    counts: [f64; 4],
-    energy: f64,
-    residuals: [f64; 2],
-    reason: String,
-}
-
-/// Largest |x − x*| / max(1, |x*|); columns that are defined in neither are left out.
-fn error(columns: &[f64], reference: &[f64]) -> f64 {
-    let off = |(x, r): (&f64, &f64)| match (x.is_nan(), r.is_nan()) {
-        (true, true) => 0.0,
-        (false, false) => (x - r).abs() / r.abs().max(1.0),
-        _ => f64::INFINITY,
-    };
-    columns.iter().zip(reference).map(off).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -451,11 +297,5 @@ mod tests {
         for wrong in ["", "1e-3..", "0", "1", "-1e-3", "1e-3..x", "1e-300..1e-3", "nan"] {
             assert!(listed(wrong, "--tolerances", 0.1).is_err(), "{wrong}");
         }
-    }
-
-    #[test]
-    fn errors_are_relative_for_large_columns_and_absolute_for_small_ones() {
-        assert_eq!(error(&[1000.0, 0.5, f64::NAN], &[1001.0, 0.25, f64::NAN]), 0.25);
-        assert_eq!(error(&[f64::NAN], &[1.0]), f64::INFINITY);
     }
 }

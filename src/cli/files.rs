@@ -3,17 +3,15 @@
 use super::interrupt::{interrupted, uncut};
 use super::terminal::{fail, tell_report};
 use super::{Common, code, tell};
-use grashof::mechanism::BuildFault;
+use grashof::api::{beside, explained, why};
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Staging, WriteError};
-use grashof::results::{Failure, Undefined, Unsolved};
+use grashof::results::Failure;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
 const MOST: u64 = 2 << 20;
-/// Largest included file that is read at all; the reader itself refuses above 16 MiB and says so.
-pub(super) const MOST_INCLUDED: u64 = 17 << 20;
 
 /// Reads a model file, or stdin for `-`; what is wrong has been printed.
 pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
@@ -34,24 +32,6 @@ pub(super) fn document(model: &str, common: &Common) -> Option<Document> {
     }
 }
 
-/// A file that a model includes, by its path from the model file.
-fn beside(model: &str, included: &str) -> Result<(String, Vec<u8>), String> {
-    let path = Path::new(model).parent().unwrap_or(Path::new("")).join(included);
-    let name = path.to_string_lossy().into_owned();
-    let read = || {
-        match std::fs::metadata(&path)? {
-            known if known.is_dir() => return Err(std::io::Error::other("it is a directory")),
-            // a pipe may have no writer, and a device no end
-            known if !known.is_file() => return Err(std::io::Error::other("it is no plain file")),
-            _ => {}
-        }
-        let mut bytes = Vec::new();
-        std::fs::File::open(&path)?.take(MOST_INCLUDED).read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
-    read().map(|bytes| (name, bytes)).map_err(|error| why(&error))
-}
-
 /// Says why a file cannot be read, on stderr; `what` it was to be, and the remedy if it does not exist.
 pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing: &str) {
     let help = match error.kind() {
@@ -60,10 +40,6 @@ pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing
         _ => format!("name {what} that can be read, or `-` for stdin"),
     };
     fail(&format!("cannot read `{file}`: {}", why(error)), &help);
-}
-
-fn why(error: &std::io::Error) -> String {
-    if error.kind() == std::io::ErrorKind::NotFound { "there is no such file".to_string() } else { error.to_string() }
 }
 
 /// A model file without faults, with the selection that `--set` and `--variant` make and what there is to say of it, which
@@ -194,27 +170,9 @@ pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
 
 /// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
 pub(super) fn explain(document: &Document, failure: &Failure, study: &str, common: &Common) -> u8 {
-    let (diagnostics, code) = match failure {
-        Failure::Model(faults) => {
-            let at = |f: &BuildFault| document.diagnostic(f.code, &f.place, f.message.clone(), f.expected.clone(), f.help.clone());
-            (faults.iter().map(at).collect(), code::INPUT)
-        }
-        Failure::Study { code, message, place, help } => {
-            (vec![document.diagnostic(code, place, message.clone(), "", Some(help.clone()))], code::INPUT)
-        }
-        Failure::Unsolved(Unsolved { message, place, help }) => {
-            let message = format!("study `{study}`: {message}");
-            (vec![document.diagnostic("unsolved", place, message, "", Some(help.clone()))], code::NUMERICAL)
-        }
-        Failure::Undefined(Undefined { message, place, help }) => {
-            let message = if study.is_empty() { message.clone() } else { format!("study `{study}`: {message}") };
-            (vec![document.diagnostic("undefined", place, message, "", Some(help.clone()))], code::NUMERICAL)
-        }
-        Failure::Numerical { message, help } => {
-            let message = format!("study `{study}`: {message}");
-            (vec![document.diagnostic("numerical", &format!("studies.{study}"), message, "", Some(help.clone()))], code::NUMERICAL)
-        }
-    };
-    tell_report(&Report::new(diagnostics), common.colored());
-    code
+    tell_report(&explained(document, study, failure), common.colored());
+    match failure {
+        Failure::Model(_) | Failure::Study { .. } => code::INPUT,
+        Failure::Unsolved(_) | Failure::Undefined(_) | Failure::Numerical { .. } => code::NUMERICAL,
+    }
 }

@@ -25,7 +25,7 @@ fn prefix(text: &str) -> Result<String, String> {
 
 /// Writes a model made of a URDF to stdout, or to the file of `--output`.
 pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
-    let bytes = match files::bytes(&arguments.urdf, files::MOST_INCLUDED) {
+    let bytes = match files::bytes(&arguments.urdf, grashof::api::MOST_INCLUDED) {
         Ok(bytes) => bytes,
         Err(error) => {
             files::unreadable(&arguments.urdf, &error, "a URDF file", "check the path");

@@ -16,12 +16,10 @@ mod new;
 mod progress;
 mod run;
 mod schema;
-mod schemes;
 mod statics;
 mod study;
 mod sweep;
 mod terminal;
-mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
 pub(crate) use common::Common;

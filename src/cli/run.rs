@@ -4,15 +4,12 @@ use super::end::json_list;
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
-use super::{Common, code, fail, files, say, tell, verify};
-use grashof::model::{Document, Model, Selection, Study};
-use grashof::studies::common::outcome::Outcome;
-use grashof::studies::sweep::{Run, at};
-use std::collections::{HashMap, HashSet};
+use super::{Common, code, fail, files, say, tell};
+use grashof::model::{Document, Model, Selection};
+use grashof::studies::loader::{Loader, NotLoaded};
+use grashof::studies::verify::verify;
+use std::collections::HashSet;
 use std::path::Path;
-
-/// Scalars of the studies that were run for others.
-pub(super) type Scalars = HashMap<String, Vec<(String, f64)>>;
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -75,7 +72,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
     let mut worst = code::DONE;
-    let mut scalars = Scalars::new();
+    let mut loader = Loader::new(&document, common.threads());
     let mut told = false;
     for study in &studies {
         let mut reported = |report: Option<String>| {
@@ -87,7 +84,8 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
             }
         };
         interrupt::begins(format!("interrupted: study `{study}` is not begun"), false);
-        let mut model = match load(&document, common, study, &mut scalars) {
+        let selected = files::selection(common, Some(study)).ok_or(code::INPUT);
+        let mut model = match selected.and_then(|selection| load(&mut loader, &document, common, &selection)) {
             Ok(model) => model,
             Err(code) => {
                 let code = if interrupted() { told_of_interrupt(study, "is not begun") } else { code };
@@ -209,7 +207,7 @@ impl Request<'_> {
     /// Prints how many digits of a motion in time stand; on stderr where stdout has JSON.
     fn verified(&self, model: &Model, study: &str, computed: &[Vec<f64>]) -> u8 {
         let json = self.wanted.json;
-        match verify::verify(model, computed) {
+        match verify(model, computed, &interrupted) {
             Ok(Some(verdict)) => {
                 let line = if json { tell } else { say };
                 line(&format!("{}{}", if json { format!("{study}: ") } else { "  ".into() }, verdict.line));
@@ -224,65 +222,26 @@ impl Request<'_> {
     }
 }
 
-/// The model of a study, with the scalars that it takes from others.
-pub(super) fn load(document: &Document, common: &Common, study: &str, scalars: &mut Scalars) -> Result<Model, u8> {
-    let selection = files::selection(common, Some(study)).ok_or(code::INPUT)?;
-    load_selected(document, common, &selection, scalars)
-}
-
-/// The model of a selection with a study, with the scalars that this takes from others.
-pub(super) fn load_selected(document: &Document, common: &Common, selection: &Selection<'_>, scalars: &mut Scalars) -> Result<Model, u8> {
-    let study = selection.study.unwrap_or_default();
-    let mut model = document.model(selection).map_err(|report| {
-        files::print(&report, common);
-        code::INPUT
-    })?;
-    let takes = model.study.as_ref().map(|s| s.take.clone()).unwrap_or_default();
-    let mut taken = Vec::new();
-    for take in &takes {
-        let of = match scalars.get(&take.study) {
-            Some(of) => of,
-            None => {
-                let other = load(document, common, &take.study, scalars)?;
-                let found = scalars_of(document, &other, study, common)?;
-                scalars.entry(take.study.clone()).or_insert(found)
-            }
-        };
-        taken.push(of.iter().find(|(name, _)| *name == take.scalar).map_or(f64::NAN, |(_, value)| *value));
-    }
-    if !taken.is_empty() {
-        model.give(&taken);
-    }
-    Ok(model)
-}
-
-/// Runs a study for its scalars, which `for_study` takes; faults have been printed.
-fn scalars_of(document: &Document, model: &Model, for_study: &str, common: &Common) -> Result<Vec<(String, f64)>, u8> {
-    let Some(study) = &model.study else { return Err(code::INPUT) };
-    let refuse = |what: &str, help: &str, code: u8| {
-        fail(&format!("study `{for_study}` takes a scalar of `{}`, {what}", study.name), help);
-        code
-    };
-    let Run { result, .. } = at(model, study, Vec::new(), common.threads(), &interrupted, &|_, _| {});
-    let outcome = result
-        .map_err(|failure| if interrupted() { code::INTERRUPTED } else { files::explain(document, &failure, &study.name, common) })?;
-    if let Some(reason) = &outcome.stopped {
-        return Err(refuse(&format!("which stopped on its way: {reason}"), "see to that study first", code::NUMERICAL));
-    }
-    Ok(to_take(study, &outcome))
-}
-
-/// What other studies can take from one.
-pub(super) fn to_take(study: &Study, outcome: &Outcome) -> Vec<(String, f64)> {
-    let results = study.results.iter().map(|r| r.name.clone()).zip(outcome.results.iter().copied());
-    let own = study.scalars.iter().map(|s| s.name.clone()).zip(outcome.scalars.iter().copied());
-    let taken = study.take.iter().map(|t| (t.name.clone(), t.value));
-    results.chain(own).chain(taken).collect()
-}
-
 /// A parameter that is set from outside although the study varies it.
 pub(super) fn conflict(model: &Model) -> Option<String> {
     let study = model.study.as_ref()?;
     let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
     varied.map(|p| model.parameters[p].name.clone()).find(|name| model.set.contains(name))
+}
+
+/// The model of a study, with the scalars that it takes from others; what is wrong has been printed.
+pub(super) fn load(loader: &mut Loader<'_>, document: &Document, common: &Common, selection: &Selection<'_>) -> Result<Model, u8> {
+    loader.model(selection, &interrupted).map_err(|why| match why {
+        NotLoaded::Wrong(report) => {
+            files::print(&report, common);
+            code::INPUT
+        }
+        NotLoaded::Failed { .. } if interrupted() => code::INTERRUPTED,
+        NotLoaded::Failed { study, failure } => files::explain(document, &failure, &study, common),
+        NotLoaded::Stopped { study, of, reason } => {
+            let message = format!("study `{study}` takes a scalar of `{of}`, which stopped on its way: {reason}");
+            fail(&message, "see to that study first");
+            code::NUMERICAL
+        }
+    })
 }

@@ -1,10 +1,11 @@
 //! `grashof sweep`: a study of the file over values of parameters that are named on the command line.
 
 use super::interrupt::{interrupted, watch_interrupts};
-use super::run::{Request, Scalars, Wanted, conflict, load_selected, refused};
+use super::run::{Request, Wanted, conflict, load, refused};
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, fail, files, say};
 use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
+use grashof::studies::loader::Loader;
 
 /// The figure of scalars over the swept parameter, where the study has none of its own.
 const FIGURE: &str = "scalars";
@@ -33,7 +34,7 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     let (Some(study), Some(over)) = (chosen(arguments, &known), over(&arguments.over)) else { return code::INPUT };
     let stem = format!("{study}-over-{}", over.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join("+"));
     let selection = Selection { study: Some(study), over, ..selection };
-    let mut model = match load_selected(&document, common, &selection, &mut Scalars::new()) {
+    let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
         Err(_) if interrupted() => return code::INTERRUPTED,
         Err(code) => return code,

@@ -4,6 +4,7 @@
 //! pure but [`Staging::commit`] and [`prepare`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
+pub mod comparison;
 mod csv;
 mod drawing;
 mod figure;

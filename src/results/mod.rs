@@ -3,20 +3,24 @@
 //! Tables on a disc, reports and figures are made of this and of nothing else.
 
 mod certificate;
+mod compared;
 mod failure;
 mod finding;
 mod number;
 mod scene;
 mod table;
+mod unknown;
 
 pub use crate::numerics::extremum::{Extremes, Extremum};
 pub use crate::numerics::resolve::Resolution;
 pub use certificate::{Certificate, March};
+pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};
 pub use finding::{Checked, Finding, Happened};
 pub use number::number;
 pub use scene::{Plot, Scene, SceneJoint};
 pub use table::{Column, Table};
+pub use unknown::Unknown;
 
 use serde::{Deserialize, Serialize};
 
@@ -181,25 +185,33 @@ impl LinearSystem {
 
 impl Results {
     /// The values of a column, SI, by its name.
-    #[must_use]
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let curve = || self.curves.iter().find(|column| column.name == name);
-        self.table.column(name).or_else(curve).map(|column| column.values.as_slice())
+    ///
+    /// # Errors
+    /// If there is none of this name.
+    pub fn column(&self, name: &str) -> Result<&[f64], Unknown> {
+        let mut columns = self.table.columns.iter().chain(&self.curves);
+        let known = || self.table.columns.iter().map(|column| column.name.clone()).collect();
+        let found = columns.find(|column| column.name == name).map(|column| column.values.as_slice());
+        found.ok_or_else(|| Unknown { what: "column", name: name.into(), known: known() })
     }
 
     /// A scalar, SI, by its name.
-    #[must_use]
-    pub fn scalar(&self, name: &str) -> Option<f64> {
-        self.scalars.iter().find(|scalar| scalar.name == name).map(|scalar| scalar.value)
+    ///
+    /// # Errors
+    /// If there is none of this name.
+    pub fn scalar(&self, name: &str) -> Result<f64, Unknown> {
+        let known = || self.scalars.iter().map(|scalar| scalar.name.clone()).collect();
+        let found = self.scalars.iter().find(|scalar| scalar.name == name).map(|scalar| scalar.value);
+        found.ok_or_else(|| Unknown { what: "scalar", name: name.into(), known: known() })
     }
 
-    /// The values of a list by its name.
+    /// The values of a list by its name, if the kind gives it.
     #[must_use]
     pub fn list(&self, name: &str) -> Option<&[f64]> {
         self.lists.iter().find(|list| list.name == name).map(|list| list.values.as_slice())
     }
 
-    /// The extremes of a column by its name.
+    /// The extremes of a column by its name; none if it has no value.
     #[must_use]
     pub fn extremes(&self, name: &str) -> Option<Extremes> {
         self.extremes.iter().find(|(column, _)| column == name).and_then(|(_, extremes)| *extremes)

@@ -5,9 +5,12 @@
 
 mod balance;
 pub mod common;
+pub mod compare;
 pub(crate) mod driven;
 pub mod dynamics;
+pub mod integrators;
 mod linearize;
+pub mod loader;
 pub mod modes;
 mod periodic;
 pub mod rehearsal;
@@ -15,3 +18,4 @@ pub mod run;
 pub mod solve;
 mod statics;
 pub mod sweep;
+pub mod verify;

@@ -1,25 +1,25 @@
 //! Studies with another integrator.
 
-use grashof::model::{Control, Family, Forward, INTEGRATORS, Integrator, Kind, Model, Study};
+use crate::model::{Control, Family, Forward, INTEGRATORS, Integrator, Kind, Model, Study};
 
 /// All names, for a message.
-pub(super) fn names() -> String {
+pub fn names() -> String {
     INTEGRATORS.map(|d| format!("`{}`", d.name)).join(", ")
 }
 
 /// Whether it takes accelerations and projects; `auto` begins so.
-pub(super) fn is_explicit(integrator: Integrator) -> bool {
+pub fn is_explicit(integrator: Integrator) -> bool {
     integrator.description().family != Family::Implicit
 }
 
 /// An accurate scheme of another family: Radau IIA for explicit ones, Dormand and Prince for all others.
-pub(super) fn other(integrator: Integrator) -> Integrator {
+pub fn other(integrator: Integrator) -> Integrator {
     if is_explicit(integrator) { Integrator::Radau5 } else { Integrator::Dop853 }
 }
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Steps {
+pub enum Steps {
     /// By a relative tolerance.
     Tolerance(f64),
     /// Fixed, s.
@@ -28,7 +28,7 @@ pub(super) enum Steps {
 
 impl Steps {
     /// The number, whichever it is.
-    pub(super) fn size(self) -> f64 {
+    pub fn size(self) -> f64 {
         match self {
             Self::Tolerance(x) | Self::Fixed(x) => x,
         }
@@ -39,7 +39,7 @@ impl Steps {
 ///
 /// Parameters and constraint rows that belong to the study's own integrator are kept for that one alone, `order` and marching
 /// across switches where steps are fixed.
-pub(super) fn changed(model: &mut Model, study: &Study, forward: &Forward, by: Integrator, steps: Steps, every: Option<f64>) -> Study {
+pub fn changed(model: &mut Model, study: &Study, forward: &Forward, by: Integrator, steps: Steps, every: Option<f64>) -> Study {
     let own = by == forward.integrator;
     let kept = |id| if own { id } else { None };
     let fixed = matches!(steps, Steps::Fixed(_));
@@ -66,7 +66,7 @@ pub(super) fn changed(model: &mut Model, study: &Study, forward: &Forward, by: I
 }
 
 /// The steps of a study as it stands.
-pub(super) fn steps(model: &Model, forward: &Forward, parameters: &[f64]) -> Steps {
+pub fn steps(model: &Model, forward: &Forward, parameters: &[f64]) -> Steps {
     match forward.control {
         Control::Tolerance(id) => Steps::Tolerance(id.map_or(1e-8, |id| model.pool.value(id, parameters))),
         Control::Step(id) => Steps::Fixed(model.pool.value(id, parameters)),

@@ -1,61 +1,20 @@
-//! What `compare` writes and prints: CSV, figure, table, JSON.
+//! What a comparison of integrators has come to: as CSV, figure, table and JSON.
 
-use super::compared::{Compared, Row};
-use crate::cli::tell;
-use grashof::output::{Axis, Curve, Figure, Scale, Staging, json_number, number, render_figure};
+use super::{Axis, Curve, Figure, Scale, json_number, number};
+use crate::results::{Compared, ComparedRun};
 use serde_json::{Value, json};
 
 const NAMES: [&str; 9] =
     ["time", "evaluations", "steps", "rejected", "factorisations", "error", "energy_drift", "constraint_drift", "velocity_drift"];
 
 /// The numbers of a row in the order of `NAMES`.
-fn numbers(row: &Row) -> [f64; 9] {
+fn numbers(row: &ComparedRun) -> [f64; 9] {
     let [steps, rejected, evaluations, factorisations] = row.counts;
     [row.time, evaluations, steps, rejected, factorisations, row.error, row.energy, row.residuals[0], row.residuals[1]]
 }
 
-impl Compared<'_> {
-    /// What the sizes are.
-    fn size(&self) -> &'static str {
-        if self.fixed { "step" } else { "tolerance" }
-    }
-
-    /// The names of the integrators, in order.
-    fn integrators(&self) -> Vec<&'static str> {
-        let mut names: Vec<&str> = self.rows.iter().map(|r| r.integrator).collect();
-        names.dedup();
-        names
-    }
-
-    /// How well the references agree, in a sentence.
-    fn references(&self) -> String {
-        let [a, b] = self.references.of.map(|(by, tolerance)| format!("{} at {tolerance:e}", by.name()));
-        match self.references.agree {
-            Some(off) => format!("references: {a} (for implicit integrators) and {b} (for explicit ones) agree to {off:.1e}"),
-            None => format!(
-                "reference: {a} alone, since the other family does not get through; errors of its own family may be larger than they seem"
-            ),
-        }
-    }
-}
-
-/// `compare.csv`, `compare.svg` and `compare.png`.
-pub(super) fn files(compared: &Compared<'_>, plots: bool) -> Staging {
-    let mut staging = Staging::new();
-    staging.add("compare.csv", csv(compared));
-    if plots {
-        match render_figure(&figure(compared)) {
-            Ok(picture) => {
-                staging.add("compare.svg", picture.svg);
-                staging.add("compare.png", picture.png);
-            }
-            Err(error) => tell(&format!("warning: the figure cannot be drawn: {error}")),
-        }
-    }
-    staging
-}
-
-fn csv(compared: &Compared<'_>) -> String {
+/// The rows as CSV.
+pub fn csv(compared: &Compared) -> String {
     let mut text = format!("integrator,{},{},reason\n", compared.size(), NAMES.join(","));
     for row in &compared.rows {
         let values: Vec<String> = numbers(row).iter().map(|x| number(*x)).collect();
@@ -67,7 +26,7 @@ fn csv(compared: &Compared<'_>) -> String {
 }
 
 /// Time and evaluations over the error: one panel above the other, one line for each integrator.
-fn figure(compared: &Compared<'_>) -> Figure {
+pub fn figure(compared: &Compared) -> Figure {
     let mut curves = Vec::new();
     for (unit, of) in [("s", 0), ("", 1)] {
         for name in compared.integrators() {
@@ -78,12 +37,12 @@ fn figure(compared: &Compared<'_>) -> Figure {
     }
     let axis = |label: &str| Axis { label: label.into(), unit: String::new(), scale: Scale::Log };
     let quantities = vec![("s".into(), "time".into()), (String::new(), "evaluations".into())];
-    let title = format!("{}: work over error at the end", compared.study.name);
+    let title = format!("{}: work over error at the end", compared.study);
     Figure { title, x: axis("error"), y: axis(""), curves, quantities, ..Figure::default() }
 }
 
 /// The table for stdout, columns aligned.
-pub(super) fn table(compared: &Compared<'_>) -> String {
+pub fn table(compared: &Compared) -> String {
     let heads = ["integrator", compared.size(), "time [s]", "evaluations", "steps", "rejected", "factorisations", "error"];
     let heads = heads.into_iter().chain(["energy [J]", "positions", "velocities"]);
     let mut lines: Vec<Vec<String>> = vec![heads.map(String::from).collect()];
@@ -101,7 +60,7 @@ pub(super) fn table(compared: &Compared<'_>) -> String {
     }
     let width = |i: usize| lines.iter().map(|l| l[i].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..lines[0].len()).map(width).collect();
-    let mut text = format!("{}\n  {}\n", compared.study.name, compared.references());
+    let mut text = format!("{}\n  {}\n", compared.study, compared.sentence());
     for (i, line) in lines.iter().enumerate() {
         let (first, rest) = (&line[0], &line[1..]);
         text.push_str(&format!("  {first:<width$}", width = widths[0]));
@@ -115,23 +74,19 @@ pub(super) fn table(compared: &Compared<'_>) -> String {
 }
 
 /// The same as JSON.
-pub(super) fn json(compared: &Compared<'_>) -> String {
+pub fn json(compared: &Compared) -> String {
     let rows = compared.rows.iter().map(|row| {
         let mut object = serde_json::Map::new();
-        object.insert("integrator".into(), row.integrator.into());
+        object.insert("integrator".into(), row.integrator.clone().into());
         object.insert(compared.size().into(), json_number(row.size));
         object.extend(NAMES.iter().zip(numbers(row)).map(|(name, x)| ((*name).to_string(), json_number(x))));
         object.insert("reason".into(), row.reason.clone().into());
         Value::Object(object)
     });
-    let references: Vec<Value> = compared
-        .references
-        .of
-        .iter()
-        .map(|(by, tolerance)| json!({ "integrator": *by.name(), "tolerance": json_number(*tolerance) }))
-        .collect();
+    let references: Vec<Value> =
+        compared.references.of.iter().map(|(by, tolerance)| json!({ "integrator": by, "tolerance": json_number(*tolerance) })).collect();
     let all = json!({
-        "study": compared.study.name,
+        "study": compared.study,
         "references": references,
         "references_agree": compared.references.agree.map_or(Value::Null, json_number),
         "runs": rows.collect::<Vec<_>>(),

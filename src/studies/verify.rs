@@ -1,4 +1,4 @@
-//! `run --verify`: a motion in time computed twice more, and how many digits of its columns stand.
+//! A motion in time computed twice more, and how many digits of its columns stand: `run --verify`.
 //!
 //! With the same scheme at a tenth of the tolerance (half of a fixed step), and with one of another family. If errors follow the
 //! tolerance, the first of two runs at τ and rτ is off by |y − y'|/(1 − r), which is 10/9 of the difference (Richardson). A
@@ -7,17 +7,16 @@
 //! size or a radian, that of mass follows from the largest energy or work of the run. An energy counts in units of that itself. What
 //! is zero but for rounding so has no digits to lose.
 
-use super::interrupt::interrupted;
-use super::schemes::{self, Steps};
-use grashof::expression::Dimension;
-use grashof::geometry::{Planar, Spatial};
-use grashof::mechanism::{Coordinates, build};
-use grashof::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
-use grashof::output::number;
-use grashof::results::Failure;
-use grashof::studies::common::case::Case;
-use grashof::studies::common::outcome::Outcome;
-use grashof::studies::run::run;
+use super::integrators::{self, Steps};
+use crate::expression::Dimension;
+use crate::geometry::{Planar, Spatial};
+use crate::mechanism::{Coordinates, build};
+use crate::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
+use crate::results::Failure;
+use crate::results::number;
+use crate::studies::common::case::Case;
+use crate::studies::common::outcome::Outcome;
+use crate::studies::run::run;
 use std::ops::Range;
 
 /// Rows of a run that has no output step.
@@ -35,7 +34,7 @@ const LEAST: f64 = 1e-3;
 
 /// How well a study agrees with another computation of it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Verified {
+pub struct Verified {
     /// With what: `tolerance 1e-9`, `radau5`.
     with: String,
     /// Digits of the column that agrees least, at its worst row.
@@ -45,9 +44,11 @@ pub(super) struct Verified {
 }
 
 /// What is said of a study, and whether it stands.
-pub(super) struct Verdict {
-    pub(super) line: String,
-    pub(super) agrees: bool,
+pub struct Verdict {
+    /// In a line.
+    pub line: String,
+    /// Whether at least a digit stands in both.
+    pub agrees: bool,
 }
 
 /// Computes the runs of a motion in time again in other ways, from the parameters that each was computed with; none if the study
@@ -55,13 +56,13 @@ pub(super) struct Verdict {
 ///
 /// # Errors
 /// If the run itself does not begin.
-pub(super) fn verify(model: &Model, computed: &[Vec<f64>]) -> Result<Option<Verdict>, Failure> {
+pub fn verify(model: &Model, computed: &[Vec<f64>], stop: &dyn Fn() -> bool) -> Result<Option<Verdict>, Failure> {
     let Some(study) = &model.study else { return Ok(None) };
     let Kind::Dynamics(forward) = &study.kind else { return Ok(None) };
     let mut worst: Option<[Verified; 2]> = None;
     for values in computed {
-        let found = one(model, study, forward, values)?;
-        if interrupted() {
+        let found = one(Case { model, study, parameters: values }, forward, stop)?;
+        if stop() {
             return Ok(None);
         }
         let Some(found) = found else { continue };
@@ -87,14 +88,15 @@ fn said(both: &[Verified], runs: usize) -> String {
 }
 
 /// One run beside its two others; none if it stops on its way, which is told elsewhere.
-fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> Result<Option<[Verified; 2]>, Failure> {
-    let mut model = model.clone();
-    let steps = schemes::steps(&model, forward, parameters);
+fn one(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Option<[Verified; 2]>, Failure> {
+    let Case { study, parameters, .. } = case;
+    let mut model = case.model.clone();
+    let steps = integrators::steps(&model, forward, parameters);
     let until = model.pool.value(forward.until, parameters);
     let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
     let compute = |model: &mut Model, by: Integrator, steps: Steps| {
-        let study = schemes::changed(model, study, forward, by, steps, Some(every));
-        run(Case { model, study: &study, parameters }, &interrupted)
+        let study = integrators::changed(model, study, forward, by, steps, Some(every));
+        run(Case { model, study: &study, parameters }, stop)
     };
     let base = compute(&mut model, forward.integrator, steps)?;
     if base.stopped.is_some() {
@@ -106,7 +108,7 @@ fn one(model: &Model, study: &Study, forward: &Forward, parameters: &[f64]) -> R
     };
     let size = size.unwrap_or(1.0);
     let (finer, factor, with) = finer(forward, steps);
-    let other = schemes::other(forward.integrator);
+    let other = integrators::other(forward.integrator);
     // a fixed step has no tolerance that the other scheme could share
     let tight = match steps {
         Steps::Tolerance(x) => (0.1 * x).max(1e-13),

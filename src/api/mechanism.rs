@@ -1,0 +1,289 @@
+//! A mechanism to evaluate by hand.
+
+use super::error::Error;
+use super::simulation::Simulation;
+use crate::dynamics::{Dynamics, LANES};
+use crate::geometry::{Planar, Space, Spatial};
+use crate::kinematics::assemble::Assembled;
+use crate::kinematics::coordinates::coordinates;
+use crate::kinematics::undefined::assembled;
+use crate::mechanism::{self, Coordinates};
+use crate::model::{Dimensions, Model};
+use crate::results::{Failure, Unknown};
+use crate::scalar::Dual;
+use crate::studies::common::case::parameters;
+use crate::studies::common::observe::Observer;
+use crate::studies::dynamics::system::Mechanical;
+use grashof_solvers::{Kkt, Scheme, Settings, Stage, State, System};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// A mechanism assembled at its start, with nq coordinates q, nv velocities v and m constraint rows.
+///
+/// Velocities are the rates of coordinates but for joints that turn about a point: their four coordinates are a quaternion, their three
+/// velocities the angular velocity of the second body. SI units and radians.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    model: Model,
+    of: Of,
+}
+
+/// In the plane or in space.
+#[derive(Clone, Debug)]
+enum Of {
+    Planar(Box<Built<Planar<f64>>>),
+    Spatial(Box<Built<Spatial<f64>>>),
+}
+
+#[derive(Clone, Debug)]
+struct Built<G: Space>
+where
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    mechanism: mechanism::Mechanism<G>,
+    /// The same on dual numbers, for exact tangents.
+    lifted: mechanism::Mechanism<G::Lift<Dual<LANES>>>,
+    start: Assembled,
+}
+
+/// What is the same in the plane and in space.
+macro_rules! built {
+    ($self:expr, $built:ident => $what:expr) => {
+        match &$self.of {
+            Of::Planar($built) => $what,
+            Of::Spatial($built) => $what,
+        }
+    };
+}
+
+/// The terms of M(q) a + Gᵀλ = f(t, q, v), Φ(t, q) = 0, G v = ν, G a = γ in a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terms {
+    /// M (nv × nv).
+    pub mass: DMatrix<f64>,
+    /// f (nv): all applied forces and those of Coriolis; what depends on reactions is not in it.
+    pub force: DVector<f64>,
+    /// Φ (m).
+    pub phi: DVector<f64>,
+    /// G (m × nv).
+    pub g: DMatrix<f64>,
+    /// ν (m).
+    pub nu: DVector<f64>,
+    /// γ (m).
+    pub gamma: DVector<f64>,
+}
+
+/// Where a body is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Place of its origin, m.
+    pub position: Vector3<f64>,
+    /// Its axes as columns.
+    pub rotation: Matrix3<f64>,
+}
+
+impl Mechanism {
+    pub(super) fn new(model: Model) -> Result<Self, Failure> {
+        let of = match model.space {
+            Dimensions::Planar => Of::Planar(Box::new(Built::new(&model)?)),
+            Dimensions::Spatial => Of::Spatial(Box::new(Built::new(&model)?)),
+        };
+        Ok(Self { model, of })
+    }
+
+    /// Names of the coordinates behind the velocities (nv): `O.angle`; parts of a turn are `ball.turn_x`.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<String> {
+        built!(self, b => coordinates(&self.model, &b.mechanism)).into_iter().map(|c| c.name).collect()
+    }
+
+    /// Coordinates and velocities of the start.
+    #[must_use]
+    pub fn start(&self) -> (Vec<f64>, Vec<f64>) {
+        built!(self, b => (b.start.q.clone(), b.start.v.clone()))
+    }
+
+    /// Numbers of coordinates, velocities and constraint rows.
+    #[must_use]
+    pub fn sizes(&self) -> (usize, usize, usize) {
+        built!(self, b => (b.mechanism.nq, b.mechanism.nv, b.mechanism.rows.len()))
+    }
+
+    /// The terms of the equations of motion in a state.
+    ///
+    /// # Errors
+    /// If q or v have other sizes than those of the mechanism.
+    pub fn terms(&self, t: f64, q: &[f64], v: &[f64]) -> Result<Terms, Error> {
+        let mut system = self.system();
+        let state = self.state(&mut *system, t, q, v)?;
+        Ok(terms(&mut *system, &state))
+    }
+
+    /// Accelerations a (nv) and multipliers λ (m) in a state. Friction that depends on reactions is left out.
+    ///
+    /// # Errors
+    /// If q or v have other sizes than those of the mechanism; if mass is missing.
+    pub fn accelerations(&self, t: f64, q: &[f64], v: &[f64]) -> Result<(DVector<f64>, DVector<f64>), Error> {
+        let mut system = self.system();
+        let state = self.state(&mut *system, t, q, v)?;
+        let mut terms = grashof_solvers::Terms::new(system.dims());
+        system.terms(state.at(), Stage::Dynamics, &mut terms);
+        let dims = system.dims();
+        let mut kkt = Kkt::new(dims.v, dims.rows());
+        kkt.set_scale(&system.pattern().metric, &system.pattern().g_scale);
+        kkt.factor(&terms.mass, &terms.g).map_err(|_| Error::Refused {
+            message: "the accelerations are not determined: mass is missing".into(),
+            help: "give each body that moves a mass".into(),
+        })?;
+        let (mut a, mut lambda) = (vec![0.0; dims.v], vec![0.0; dims.rows()]);
+        kkt.solve(&terms.force, &terms.gamma, &mut a, &mut lambda);
+        Ok((DVector::from_vec(a), DVector::from_vec(lambda)))
+    }
+
+    /// Inverse dynamics: the forces along the velocities (nv) which, added to f, give accelerations `a`: M a + Gᵀλ − f.
+    ///
+    /// # Errors
+    /// If an argument has another size than in the mechanism.
+    pub fn inverse(&self, t: f64, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> Result<DVector<f64>, Error> {
+        let mut system = self.system();
+        let state = self.state(&mut *system, t, q, v)?;
+        let dims = system.dims();
+        sized("accelerations", a, dims.v)?;
+        sized("multipliers", lambda, dims.rows())?;
+        let mut r = vec![0.0; dims.v];
+        system.residual(state.at(), a, lambda, &mut r);
+        Ok(DVector::from_vec(r))
+    }
+
+    /// Where a body is at a position.
+    ///
+    /// # Errors
+    /// If there is no such body, or q has another size than that of the mechanism.
+    pub fn placement(&self, body: &str, q: &[f64]) -> Result<Placement, Error> {
+        built!(self, b => b.placement(body, q))
+    }
+
+    /// The motion from the start, to be advanced step by step.
+    ///
+    /// # Errors
+    /// If the mechanism has events, rigid stops or exact friction, which a study of the kind `dynamics` follows; if its start cannot
+    /// be made consistent.
+    pub fn simulate(&self, settings: Settings) -> Result<Simulation<'_>, Error> {
+        self.followed()?;
+        Simulation::new(self.system(), settings, None, self.begin())
+    }
+
+    /// [`Self::simulate`] by a scheme of one's own; `method` of the settings is not looked at.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn simulate_by(&self, scheme: Box<dyn Scheme>, settings: Settings) -> Result<Simulation<'_>, Error> {
+        self.followed()?;
+        Simulation::new(self.system(), settings, Some(scheme), self.begin())
+    }
+
+    /// The mechanism as the integrators see it: for schemes of one's own.
+    #[must_use]
+    pub fn system(&self) -> Box<dyn System + '_> {
+        built!(self, b => b.system(&self.model))
+    }
+
+    /// Whether its motion is that of one mechanism from begin to end.
+    fn followed(&self) -> Result<(), Error> {
+        let holds = built!(self, b => !b.mechanism.stops.is_empty() || !b.mechanism.contacts.is_empty());
+        if !holds && self.model.events.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Refused {
+            message: "the mechanism has events, rigid stops or exact friction, which change it on the way".into(),
+            help: "run a study of the kind `dynamics`".into(),
+        })
+    }
+
+    fn begin(&self) -> State {
+        let mut system = self.system();
+        let mut state = State::new(system.dims());
+        built!(self, b => {
+            state.q.copy_from_slice(&b.start.q);
+            state.v.copy_from_slice(&b.start.v);
+            state.z.copy_from_slice(&b.mechanism.state_starts);
+            state.modes[..b.start.modes.len()].copy_from_slice(&b.start.modes);
+        });
+        settle(&mut *system, &mut state);
+        state
+    }
+
+    /// A state with the modes of its switches.
+    fn state(&self, system: &mut dyn System, t: f64, q: &[f64], v: &[f64]) -> Result<State, Error> {
+        let dims = system.dims();
+        sized("coordinates", q, dims.q)?;
+        sized("velocities", v, dims.v)?;
+        let mut state = State { t, q: q.to_vec(), v: v.to_vec(), ..self.begin() };
+        settle(system, &mut state);
+        Ok(state)
+    }
+}
+
+/// Takes the modes of the switches from a state.
+fn settle(system: &mut dyn System, state: &mut State) {
+    // a function of positions may switch and feed others: twice settles what depends on it
+    for _ in 0..2 {
+        let mut modes = state.modes.clone();
+        system.modes(state.at(), &mut modes);
+        state.modes = modes;
+    }
+}
+
+fn sized(what: &str, x: &[f64], size: usize) -> Result<(), Error> {
+    if x.len() == size {
+        return Ok(());
+    }
+    let message = format!("there are {} {what}, and the mechanism has {size}", x.len());
+    Err(Error::Refused { message, help: "see `Mechanism::sizes` and `Mechanism::start`".into() })
+}
+
+fn terms(system: &mut dyn System, state: &State) -> Terms {
+    let dims = system.dims();
+    let mut terms = grashof_solvers::Terms::new(dims);
+    system.terms(state.at(), Stage::Dynamics, &mut terms);
+    Terms {
+        mass: DMatrix::from_row_slice(dims.v, dims.v, &terms.mass),
+        force: DVector::from_vec(terms.force),
+        phi: DVector::from_vec(terms.phi),
+        g: DMatrix::from_row_slice(dims.rows(), dims.v, &terms.g),
+        nu: DVector::from_vec(terms.nu),
+        gamma: DVector::from_vec(terms.gamma),
+    }
+}
+
+impl<G> Built<G>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    fn new(model: &Model) -> Result<Self, Failure> {
+        let (mechanism, start) = assembled::<G>(model, &parameters(model), Coordinates::Joint)?;
+        let lifted = mechanism.lift();
+        Ok(Self { mechanism, lifted, start })
+    }
+
+    fn system<'m>(&'m self, model: &Model) -> Box<dyn System + 'm> {
+        let observer = Observer::new(model, &self.mechanism, &parameters(model), &[]);
+        Box::new(Mechanical::new(&self.mechanism, &self.lifted, &self.start, observer, Vec::new()))
+    }
+
+    fn placement(&self, body: &str, q: &[f64]) -> Result<Placement, Error> {
+        let m = &self.mechanism;
+        sized("coordinates", q, m.nq)?;
+        let index = m.bodies.iter().position(|b| b.name == body).ok_or_else(|| {
+            Error::Unknown(Unknown { what: "body", name: body.into(), known: m.bodies.iter().map(|b| b.name.clone()).collect() })
+        })?;
+        let mut dynamics = Dynamics::new(m);
+        dynamics.time(0.0, &self.start.modes);
+        dynamics.position(q, &self.start.modes);
+        let pose = dynamics.pose(index);
+        Ok(Placement {
+            position: Vector3::from_fn(|axis, _| G::component(pose.p, axis)),
+            rotation: Matrix3::from_fn(|i, k| G::entry(pose.r, i, k)),
+        })
+    }
+}

@@ -1,0 +1,15 @@
+//! The face of the library: a model file, its studies with settings, and its mechanism to evaluate by hand.
+
+mod error;
+mod files;
+mod mechanism;
+mod model;
+mod simulation;
+mod study;
+
+pub use error::{Error, explained};
+pub use files::{MOST_INCLUDED, beside, why};
+pub use mechanism::{Mechanism, Placement, Terms};
+pub use model::Model;
+pub use simulation::Simulation;
+pub use study::Study;
