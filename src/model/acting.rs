@@ -2,7 +2,7 @@
 
 use super::entities::SpringOn;
 use super::quantities::{Found, World, silent};
-use super::scope::Reach;
+use super::reach::Reach;
 use super::vocabulary::Quantity;
 use crate::expression::{Dimension, Id, Pool, Symbol, Unknown};
 

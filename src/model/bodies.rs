@@ -1,6 +1,6 @@
 //! Bodies as a model file gives them: shapes or figures, points with their frames, what is attached, and their gravity in a field.
 
-use super::entities::Place;
+use super::place::Place;
 use crate::expression::Id;
 
 /// Gravity of a body in a field: expressions of the coordinates of its centre of mass.

@@ -1,6 +1,6 @@
 //! What is wrong with a model file, said the way a compiler says it: place, what was found, what was expected, one remedy.
 
-use super::entities::Place;
+use super::place::Place;
 use std::fmt::Write;
 
 /// How grave a diagnostic is.

@@ -1,16 +1,15 @@
 //! A model file in memory, and the models that can be made of it.
 
 use super::diagnostics::{Diagnostic, Report};
-use super::entities::Model;
 use super::fault::{Fault, Spot};
-use super::include::{self, Files, Included};
-use super::inquiry::Inquiry;
+use super::include::{self, Files};
+use super::included::{Included, find};
 use super::merge::Node;
+use super::reading::{report, shown, text_of};
 use super::spans::Spans;
 use super::suggest;
 use super::yaml;
 use serde_yaml::{Mapping, Value};
-use std::collections::HashSet;
 
 /// What is asked of a model file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -123,42 +122,6 @@ impl Document {
         node.is_map().then_some(node)
     }
 
-    /// The model for a selection: variants merged, everything decoded and checked, the study too if one is named.
-    ///
-    /// # Errors
-    /// Everything that is wrong with it. Warnings alone are no error; [`Self::check_all`] shows them.
-    pub fn model(&self, selection: &Selection<'_>) -> Result<Model, Report> {
-        let mut inquiry = Inquiry::new(self, selection);
-        let mut faults = inquiry.form();
-        if faults.is_empty() {
-            match selection.study {
-                Some(name) if self.study_node(name).is_none() => faults.push(self.unknown_study(name)),
-                Some(name) => return inquiry.model_for(Some(name)),
-                None => return inquiry.model_for(None),
-            }
-        }
-        Err(self.report(&faults))
-    }
-
-    /// Everything that is wrong with the file: its form, the model as it stands, and the model of every study with the study.
-    /// Each finding once.
-    #[must_use]
-    pub fn check_all(&self, selection: &Selection<'_>) -> Report {
-        let mut inquiry = Inquiry::new(self, selection);
-        let mut faults = inquiry.form();
-        let meaning = inquiry.meaning();
-        // what follows from a fault of form is not said again; a misspelt key says nothing against its value
-        let headless = faults.iter().any(|fault| fault.code == "unknown-key" && !fault.place.contains('.'));
-        let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();
-        let consequence = |fault: &Fault| {
-            // the names of a section whose own name is misspelt are unknown
-            headless && fault.code.starts_with("unknown-")
-                || fault.spot != Spot::Key && (form.contains(&fault.cause()) || form.contains(&fault.place))
-        };
-        faults.extend(meaning.into_iter().filter(|fault| !consequence(fault)));
-        self.report(&faults)
-    }
-
     /// A finding of a later phase (building, assembly) at a path of this file, as entities carry it in `place`.
     #[must_use]
     pub fn diagnostic(
@@ -170,7 +133,7 @@ impl Document {
         help: Option<String>,
     ) -> Diagnostic {
         let spans = Spans::new(&self.text);
-        let place = if include::find(&self.included, place).is_some() { place.to_owned() } else { self.real_place(&spans, place) };
+        let place = if find(&self.included, place).is_some() { place.to_owned() } else { self.real_place(&spans, place) };
         shown(&Fault::new(code, place, message, expected).maybe_help(help), &self.file, &self.text, &spans, &self.included)
     }
 
@@ -206,49 +169,4 @@ impl Document {
             .maybe_help(help)
             .at(Spot::Outside(shown.clone(), start..shown.len()))
     }
-}
-
-/// Most findings of one report.
-const MOST_SHOWN: usize = 200;
-
-/// Bytes as text; `most` of them are shown if they are none.
-pub(super) fn text_of<'b>(bytes: &'b [u8], file: &str, most: usize) -> Result<&'b str, Report> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let good = error.valid_up_to();
-        let text = String::from_utf8_lossy(&bytes[..bytes.len().min(most)]);
-        let fault = Fault::new("not-utf8", String::new(), format!("byte {} is not UTF-8", good + 1), "a text file in UTF-8")
-            .at(Spot::Bytes(good..good + 1))
-            .help("save the file as UTF-8");
-        report(file, &text, &[fault], &[])
-    })
-}
-
-/// A finding at its place, which may lie in an included file.
-fn shown(fault: &Fault, file: &str, text: &str, spans: &Spans, included: &[Included]) -> Diagnostic {
-    match include::find(included, &fault.place) {
-        None => fault.diagnostic(file, text, spans),
-        Some((inner, path)) => match inner.asked(path) {
-            Some(place) => Fault { place, ..fault.clone() }.diagnostic(file, text, spans),
-            None => inner.diagnostic(fault, path),
-        },
-    }
-}
-
-/// Findings in a text, each once.
-pub(super) fn report(file: &str, text: &str, faults: &[Fault], included: &[Included]) -> Report {
-    if faults.is_empty() {
-        return Report::default();
-    }
-    let spans = Spans::new(text);
-    let mut seen = HashSet::new();
-    let distinct: Vec<&Fault> = faults.iter().filter(|fault| seen.insert(*fault)).collect();
-    let mut found: Vec<Diagnostic> = distinct.iter().take(MOST_SHOWN).map(|fault| shown(fault, file, text, &spans, included)).collect();
-    if let Some(rest) = distinct.len().checked_sub(MOST_SHOWN).filter(|rest| *rest > 0) {
-        // an error among the hidden ones stays an error
-        let warning = distinct.iter().skip(MOST_SHOWN).all(|fault| fault.warning);
-        let mut more = Fault::new("more", String::new(), format!("{rest} more findings are not shown"), "");
-        (more.warning, more.spot) = (warning, Spot::Nowhere);
-        found.push(more.diagnostic(file, text, &spans));
-    }
-    Report::new(found)
 }

@@ -3,14 +3,10 @@
 //! Nothing here is evaluated: a value is a node [`Id`] whose leaves are parameters and [`Quantity`] inputs. The tables of
 //! the mechanism are built from these entities by `mechanism::build`. All numbers are SI, angles in rad.
 
-use super::bodies::{Attraction, Body};
-use super::contacts::{Clutch, Friction, Limit, Stops};
-use super::rules::Check;
-use super::{study::Study, vocabulary::Quantity};
-use crate::expression::{Dimension, Id, Pool};
-
-/// A path of keys in the model file, as `bodies.crank.bar.length` or `joints.O.revolute[1]`; the source place is looked up when a fault is shown.
-pub type Place = String;
+use super::contacts::{Friction, Limit, Stops};
+use super::place::{Place, PointRef};
+use super::vocabulary::Quantity;
+use crate::expression::{Dimension, Id};
 
 /// Whether bodies move in the x-y plane or in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,61 +15,6 @@ pub enum Dimensions {
     Planar,
     /// x, y, z and rotations.
     Spatial,
-}
-
-/// A model with its variants merged: everything that a mechanism and one study are built from.
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// The file's `name`.
-    pub name: String,
-    /// The file's `about`.
-    pub about: String,
-    /// `space`.
-    pub space: Dimensions,
-    /// Every expression of the model.
-    pub pool: Pool,
-    /// What each input leaf of the pool stands for: `Node::Input(i)` is `inputs[i]`.
-    pub inputs: Vec<Quantity>,
-    /// Parameters in file order; `Node::Parameter(i)` is `parameters[i]`.
-    pub parameters: Vec<Parameter>,
-    /// Tables in file order; a table node's index points here.
-    pub tables: Vec<Table>,
-    /// 2 or 3 components, m/s²; 0 where gravity is a field.
-    pub gravity: Vec<Id>,
-    /// Gravity of each body where it is a field.
-    pub attractions: Vec<Attraction>,
-    /// Bodies in file order; the first is the ground.
-    pub bodies: Vec<Body>,
-    /// Joints in file order.
-    pub joints: Vec<Joint>,
-    /// Couplings in file order.
-    pub couplings: Vec<Coupling>,
-    /// Drivers in file order.
-    pub drivers: Vec<Driver>,
-    /// Loads in file order.
-    pub loads: Vec<Load>,
-    /// Springs in file order.
-    pub springs: Vec<Spring>,
-    /// Motors in file order.
-    pub motors: Vec<Motor>,
-    /// Clutches in file order.
-    pub clutches: Vec<Clutch>,
-    /// First-order states in file order; [`Quantity::State`] counts them.
-    pub states: Vec<FirstOrder>,
-    /// Measures in file order.
-    pub measures: Vec<Measure>,
-    /// Events in file order.
-    pub events: Vec<Event>,
-    /// Entries of `start` in file order.
-    pub start: Vec<Start>,
-    /// The study that the model was merged for, if any.
-    pub study: Option<Study>,
-    /// The variants that were applied, in order.
-    pub variants: Vec<String>,
-    /// Names of the parameters that were set from outside (`--set`), in the order given.
-    pub set: Vec<String>,
-    /// What must hold of its numbers, and of those of its study.
-    pub checks: Vec<Check>,
 }
 
 /// A named number that can be set from outside.
@@ -108,15 +49,6 @@ pub struct Table {
     pub place: Place,
 }
 pub use crate::expression::{Between, Beyond};
-
-/// A point of a body: `points[point]` of `bodies[body]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct PointRef {
-    /// Index in [`Model::bodies`]; 0 is the ground.
-    pub body: usize,
-    /// Index in [`Body::points`].
-    pub point: usize,
-}
 
 /// A connection of two points.
 #[derive(Clone, Debug)]

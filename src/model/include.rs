@@ -1,83 +1,17 @@
 //! The section `include`: robots from URDF files as a layer below the file's own sections.
 
-use super::diagnostics::{Diagnostic, Report};
-use super::document;
+use super::diagnostics::Report;
 use super::fault::{At, Fault, Spot};
+use super::included::Included;
 use super::merge::{self, Layers, Node};
 use super::names::is_name;
+use super::reading;
 use super::shape;
-use super::spans::Spans;
-use super::urdf::{self, Base, Options, Translated};
+use super::urdf::{self, Base, Options};
 use serde_yaml::{Mapping, Value};
-use std::ops::Range;
 
 /// Gives the bytes of a file that a model names, and the name by which messages call it; the error says why not.
 pub type Files<'f> = dyn Fn(&str) -> Result<(String, Vec<u8>), String> + 'f;
-
-/// A file that a model includes.
-#[derive(Clone, Debug)]
-pub(crate) struct Included {
-    /// Its name for messages.
-    file: String,
-    text: String,
-    robot: Translated,
-    /// Where the model asks for it: `include[0]`.
-    place: String,
-}
-
-/// Head of the places in the included file of this index: `urdf[0].bodies.link1`.
-pub(crate) fn head(index: usize) -> String {
-    format!("urdf[{index}].")
-}
-
-/// The included file and the path in it that a place leads to.
-pub(crate) fn find<'i, 'p>(included: &'i [Included], place: &'p str) -> Option<(&'i Included, &'p str)> {
-    let (index, path) = place.strip_prefix("urdf[")?.split_once("].")?;
-    Some((included.get(index.parse::<usize>().ok()?)?, path))
-}
-
-impl Included {
-    /// Its entries, by section.
-    pub(crate) fn sections(&self) -> &Mapping {
-        &self.robot.sections
-    }
-
-    /// Bytes of the nearest entry that contains a path.
-    fn at(&self, path: &str) -> Option<Range<usize>> {
-        let mut path = path;
-        loop {
-            if let Some(range) = self.robot.places.get(path) {
-                return Some(range.clone());
-            }
-            path = &path[..path.rfind(['.', '['])?];
-        }
-    }
-
-    /// The place in the model whose value stands at a path, if the model gives it: `at` or `rpy`.
-    pub(crate) fn asked(&self, path: &str) -> Option<String> {
-        let base = self.robot.base.as_deref()?;
-        [(format!("ground.{base}"), "at"), (format!("joints.{base}.rpy"), "rpy")].into_iter().find_map(|(head, key)| {
-            let rest = path.strip_prefix(head.as_str()).filter(|rest| rest.is_empty() || rest.starts_with('['))?;
-            Some(format!("{}.{key}{rest}", self.place))
-        })
-    }
-
-    /// A finding at a path of this file.
-    pub(crate) fn diagnostic(&self, fault: &Fault, path: &str) -> Diagnostic {
-        let spot = self.at(path).map_or(Spot::Nowhere, Spot::Bytes);
-        let spot = if matches!(fault.spot, Spot::Outside(..)) { fault.spot.clone() } else { spot };
-        Fault { spot, other: None, ..fault.clone() }.diagnostic(&self.file, &self.text, &Spans::new(""))
-    }
-
-    /// What of the file is not used, or not as it stands: `robot.urdf:12: ...`.
-    pub(crate) fn notes(&self, model: &Value) -> Vec<String> {
-        let heavy = |body: &str| {
-            let own = model.get("bodies").and_then(|bodies| bodies.get(body)).and_then(Value::as_mapping);
-            own.is_some_and(|own| own.keys().filter_map(Value::as_str).any(|key| !["points", "drawn", "com", "fictitious"].contains(&key)))
-        };
-        self.robot.notes.sentences(&self.text, &heavy).into_iter().map(|(line, note)| format!("{}:{line}: {note}", self.file)).collect()
-    }
-}
 
 /// Reads the files that a model includes.
 ///
@@ -110,7 +44,7 @@ pub(super) fn read(root: &Mapping, file: &str, text: &str, files: &Files<'_>) ->
             }
         }
     }
-    findings.extend(document::report(file, text, &faults, &[]).diagnostics);
+    findings.extend(reading::report(file, text, &faults, &[]).diagnostics);
     if findings.is_empty() { Ok(included) } else { Err(Report::new(findings)) }
 }
 
@@ -140,13 +74,13 @@ fn robot(entry: &Value, at: &At<'_, '_>, files: &Files<'_>) -> Result<Included, 
         Trouble::Here(Box::new(fault.help("check the path")))
     })?;
     let secret = |report: Report| if urdf::is_robot(&bytes) { report } else { report.without_excerpts() };
-    let text = document::text_of(&bytes, &file, bytes.len()).map_err(secret).map_err(Trouble::There)?;
+    let text = reading::text_of(&bytes, &file, bytes.len()).map_err(secret).map_err(Trouble::There)?;
     let base = if word("base") == "free" { Base::Free } else { Base::Fixed };
     let stops = entry.get("stops").and_then(Value::as_bool) == Some(true);
     let options = Options { prefix, at: entry.get("at"), rpy: entry.get("rpy"), base, stops };
     match urdf::read(text, &options) {
         Ok(robot) => Ok(Included { text: text.to_owned(), file, robot, place: merge::path(&at.steps()) }),
-        Err(faults) => Err(Trouble::There(secret(document::report(&file, text, &faults, &[])))),
+        Err(faults) => Err(Trouble::There(secret(reading::report(&file, text, &faults, &[])))),
     }
 }
 

@@ -4,12 +4,12 @@
 use super::decode::{self, Decoder, Outside, Parsed, Scalars, Taken};
 use super::diagnostics::Report;
 use super::document::{Document, Selection};
-use super::entities::Model;
 use super::fault::{At, Fault, Spot};
-use super::include::Included;
+use super::included::Included;
 use super::merge::{self, Layers, Merged, Node};
 use super::shape;
 use super::suggest;
+use super::whole::Model;
 use crate::expression::Id;
 use serde_yaml::{Mapping, Value};
 use std::collections::{HashMap, HashSet};

@@ -155,7 +155,7 @@ impl<'a> Layers<'a> {
     /// The layers from above, each with the head of its paths.
     fn all(&self) -> impl Iterator<Item = (String, &'a Mapping)> {
         let patches = self.patches.iter().rev().map(|(name, map)| (format!("variants.{name}."), *map));
-        let below = self.below.iter().enumerate().rev().map(|(index, map)| (super::include::head(index), *map));
+        let below = self.below.iter().enumerate().rev().map(|(index, map)| (head(index), *map));
         patches.chain([(String::new(), self.file)]).chain(below)
     }
 
@@ -222,6 +222,11 @@ pub(crate) fn path(steps: &[Step<'_>]) -> String {
         }
     }
     text
+}
+
+/// Head of the places in the included file of this index: `urdf[0].bodies.link1`.
+pub(crate) fn head(index: usize) -> String {
+    format!("urdf[{index}].")
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! The quantities of a mechanism by their dotted paths: `crank.angle`, `rocker.tip.x`, `O.fx`, `com.vx`.
 
 use super::coordinates::{ANGLE, Coordinate, POSITION, angle, coordinates, length};
-use super::entities::{Dimensions, Model, PointRef};
+use super::entities::Dimensions;
 use super::names::Entity;
-use super::scope::Reach;
+use super::place::PointRef;
+use super::reach::Reach;
 use super::suggest;
 use super::vocabulary::Quantity;
+use super::whole::Model;
 use crate::expression::{Dimension, Id, Pool, Symbol, Unknown};
 use std::collections::HashMap;
 

@@ -1,8 +1,7 @@
 //! What a study asks for.
 
-use super::entities::{Model, Place};
 use super::integrator::Integrator;
-use super::vocabulary::Quantity;
+use super::place::Place;
 use crate::expression::{Dimension, Id};
 
 /// One study: a kind with its own keys, and what is common to all.
@@ -302,22 +301,6 @@ pub struct Take {
     pub dimension: Dimension,
     /// Its value, once [`Model::give`](super::Model::give) has brought it; until then not a number.
     pub value: f64,
-}
-
-impl Model {
-    /// Puts numbers for the scalars that the study takes from others, in the order of its `take`.
-    pub fn give(&mut self, taken: &[f64]) {
-        for (input, quantity) in self.inputs.iter().enumerate() {
-            if let Quantity::Taken(k) = quantity
-                && let Some(value) = taken.get(*k)
-            {
-                self.pool.give(input as u32, *value);
-            }
-        }
-        if let Some(study) = &mut self.study {
-            study.take.iter_mut().zip(taken).for_each(|(take, value)| take.value = *value);
-        }
-    }
 }
 
 /// One column of the results.

@@ -1,6 +1,6 @@
 //! The quantities that an expression may name, and the derivative, level and dimension of each.
 
-use super::entities::PointRef;
+use super::place::PointRef;
 
 /// A leaf of an expression: something that the mechanism, the study or the clock supplies.
 ///
@@ -177,3 +177,39 @@ impl Quantity {
         })
     }
 }
+
+/// Names of quantities of a body, which no point may have.
+pub(crate) const BODY_QUANTITIES: [&str; 32] = [
+    "x",
+    "y",
+    "z",
+    "vx",
+    "vy",
+    "vz",
+    "ax",
+    "ay",
+    "az",
+    "speed",
+    "a",
+    "angle",
+    "omega",
+    "alpha",
+    "rotation",
+    "rpy",
+    "wx",
+    "wy",
+    "wz",
+    "qw",
+    "qx",
+    "qy",
+    "qz",
+    "alphax",
+    "alphay",
+    "alphaz",
+    "wx_own",
+    "wy_own",
+    "wz_own",
+    "alphax_own",
+    "alphay_own",
+    "alphaz_own",
+];

@@ -1,52 +1,17 @@
 //! The ground and the bodies: shapes, figures, points, attached masses.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::bodies::{Attached, Body, Point, PointAt, Shape};
-use crate::model::entities::PointRef;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::place::PointRef;
 use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;
-
-/// Names of quantities of a body, which no point may have.
-pub(crate) const QUANTITIES: [&str; 32] = [
-    "x",
-    "y",
-    "z",
-    "vx",
-    "vy",
-    "vz",
-    "ax",
-    "ay",
-    "az",
-    "speed",
-    "a",
-    "angle",
-    "omega",
-    "alpha",
-    "rotation",
-    "rpy",
-    "wx",
-    "wy",
-    "wz",
-    "qw",
-    "qx",
-    "qy",
-    "qz",
-    "alphax",
-    "alphay",
-    "alphaz",
-    "wx_own",
-    "wy_own",
-    "wz_own",
-    "alphax_own",
-    "alphay_own",
-    "alphaz_own",
-];
+use crate::model::vocabulary::BODY_QUANTITIES;
 
 impl<'n> Decoder<'n> {
     pub(super) fn bodies(&mut self) {
@@ -206,7 +171,7 @@ impl<'n> Decoder<'n> {
                 fault.help = Some("`origin` and `com` always exist, `start` and `end` in a bar".to_owned());
                 continue;
             }
-            if QUANTITIES.contains(&name) {
+            if BODY_QUANTITIES.contains(&name) {
                 let fault = self.fault("reserved-name", &here, format!("`{name}` is a quantity of the body"), "another name for the point");
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("for example `P{name}`"));

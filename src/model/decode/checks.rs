@@ -1,14 +1,11 @@
 //! Checks of numbers: what can only be seen when the parameters have values.
 
-use super::Decoder;
+use super::decoder::Check;
+use super::decoder::Decoder;
 use crate::expression::Id;
 use crate::model::fault::Fault;
 use crate::model::rules::{self, Values};
-use crate::model::spans::Step;
 use std::sync::Arc;
-
-/// A rule with its values and the steps to its place.
-pub(crate) type Check<'n> = rules::Check<Vec<Step<'n>>>;
 
 impl<'n> Decoder<'n> {
     /// Numbers of all parameters, with `set` over the file's values. `waiting` are those that a `take` decides.

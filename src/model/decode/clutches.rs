@@ -1,12 +1,13 @@
 //! Clutches and brakes: friction on a joint or between two joints by a law of its own, and one-way clutches.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::model::contacts::{Clutch, ClutchLaw, Sticking};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
+use crate::model::reach::Reach;
 use crate::model::rules::Rule;
-use crate::model::scope::{Allow, Reach};
+use crate::model::scope::Allow;
 use crate::model::vocabulary::Known;
 
 impl<'n> Decoder<'n> {

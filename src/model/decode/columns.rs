@@ -1,7 +1,7 @@
 //! Columns of a study and figures of them.
 
-use super::studies::Frame;
-use super::{Decoder, Origin};
+use super::decoder::{Decoder, Origin};
+use super::offer::Frame;
 use crate::expression::{self, Dimension, Id};
 use crate::model::fault::At;
 use crate::model::merge::Node;

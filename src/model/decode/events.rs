@@ -1,6 +1,6 @@
 //! Events: what crosses zero, and what happens then.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{CouplingKind, Crossing, Event, Motion, Restitution, SpringOn};
 use crate::model::fault::{At, Spot};

@@ -1,12 +1,13 @@
 //! Couplings, drivers, motors and loads.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
-use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor, PointRef};
+use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::place::PointRef;
 use crate::model::rules::Rule;
 use crate::model::scope::Allow;
 use crate::model::shape::clip;

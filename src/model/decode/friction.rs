@@ -1,6 +1,6 @@
 //! Dry friction of joints with one coordinate, as expressions of the rate and of the state of bristles.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::{Bristle, Friction, Pressure, Sticking};
 use crate::model::coordinates::Coordinate;

@@ -2,14 +2,15 @@
 //!
 //! A field is lowered once for each body, with the coordinates of its centre of mass in the place of `x`, `y`, `z` and `r`.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::bodies::{Attraction, AttractionLaw};
-use crate::model::entities::PointRef;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
-use crate::model::scope::{Allow, Local, Reach};
+use crate::model::place::PointRef;
+use crate::model::reach::Reach;
+use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::{Known, Quantity};
 
 /// Names of the place in a field of gravity: coordinates in the world, and the distance from its origin.

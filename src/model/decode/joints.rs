@@ -1,13 +1,14 @@
 //! Joints.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::coordinates::{Coordinate, coordinates};
-use crate::model::entities::{Joint, JointKind, PointRef};
+use crate::model::entities::{Joint, JointKind};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::place::PointRef;
 use crate::model::rules::Rule;
 use crate::model::shape::clip;
 use crate::model::suggest;

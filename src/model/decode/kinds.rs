@@ -1,7 +1,7 @@
 //! The kinds of studies: their keys, their independent variables and results.
 
-use super::studies::Offer;
-use super::{Decoder, Origin};
+use super::decoder::{Decoder, Origin};
+use super::offer::{Offer, count};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::coordinates::Coordinate;
 use crate::model::entities::LoadOn;
@@ -315,12 +315,4 @@ fn modes(inner: Node<'_>) -> Modes {
 /// `at: statics`.
 fn at_equilibrium(inner: Node<'_>) -> bool {
     inner.get("at").and_then(Node::text) == Some("statics")
-}
-
-/// A whole number that the tables have checked.
-pub(super) fn count(node: Node<'_>, key: &str) -> Option<usize> {
-    match node.get(key)? {
-        Node::Plain(Value::Number(n)) => usize::try_from(n.as_u64()?).ok(),
-        _ => None,
-    }
 }

@@ -4,7 +4,7 @@
 //! expression, which must be known first. So that there is always an order, the rate of a state may not need the rate of
 //! any state.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use super::order::order;
 use super::values::{Draft, named, needs};
 use crate::expression::{Dimension, Symbol};

@@ -1,6 +1,6 @@
 //! What is given from outside, on the command line: values of parameters, and sweeps in place of a study's own.
 
-use super::{Decoder, Origin};
+use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;

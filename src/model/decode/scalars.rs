@@ -1,14 +1,15 @@
 //! Scalars and expectations: numbers of a whole study.
 
+use super::decoder::{Decoder, Origin};
+use super::offer::Frame;
 use super::order::{order, tell};
-use super::studies::Frame;
 use super::values::needs;
-use super::{Decoder, Origin};
 use crate::expression::{Dimension, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
-use crate::model::scope::{Allow, Reach};
+use crate::model::reach::Reach;
+use crate::model::scope::Allow;
 use crate::model::study::{Expectation, Scalar, Tolerance};
 use crate::model::vocabulary::{Quantity, WORKS};
 

@@ -1,15 +1,16 @@
 //! Springs: what they measure and their laws.
 
+use super::decoder::{Decoder, Origin};
 use super::joints::wanted_of;
-use super::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::entities::{Spring, SpringLaw, SpringOn};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::reach::Reach;
 use crate::model::rules::Rule;
-use crate::model::scope::{Allow, Local, Reach};
+use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::{Known, Quantity};
 
 /// What the numbers of a spring may use.

@@ -1,6 +1,6 @@
 //! `start`: one rule for positions and velocities, exact values and guesses.
 
-use super::{Decoder, Origin};
+use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::{Start, StartValue};
 use crate::model::fault::{At, Spot};

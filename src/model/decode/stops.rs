@@ -1,6 +1,6 @@
 //! End stops of joints with one coordinate: with stiffness, as an expression of the coordinate and its rate, or rigid.
 
-use super::Decoder;
+use super::decoder::Decoder;
 use crate::expression::{Compare, Dimension, Id};
 use crate::model::contacts::{Limit, Stops};
 use crate::model::coordinates::Coordinate;

@@ -1,15 +1,16 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
-use super::kinds::count;
+use super::decoder::{Check, Decoder};
+use super::offer::{Frame, Offer, count};
 use super::outside::{Outside, retarget};
-use super::{Check, Decoder};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::reach::Reach;
 use crate::model::rules::Rule;
-use crate::model::scope::{Allow, Functionals, Local, Reach};
+use crate::model::scope::{Allow, Functionals, Local};
 use crate::model::shape::clip;
 use crate::model::study::{Solve, Study, StudyResult, Sweep, Take, Values};
 use crate::model::suggest;
@@ -41,33 +42,6 @@ pub(crate) struct Decoded<'n> {
     pub(crate) scalars: Scalars,
     /// What must hold of its own values.
     pub(crate) checks: Vec<Check<'n>>,
-}
-
-/// What a kind of study offers.
-pub(super) struct Offer {
-    pub(super) word: &'static str,
-    /// Dimension of the independent variable.
-    pub(super) independent: Option<Dimension>,
-    /// The independent variable as a path, if it is not the time.
-    pub(super) first: Option<String>,
-    /// Whether reactions are found.
-    pub(super) reactions: bool,
-    /// Whether first-order states are followed.
-    pub(super) states: bool,
-    /// Results with their dimensions.
-    pub(super) results: Vec<(String, Dimension)>,
-}
-
-/// Names of a study while it is decoded.
-pub(super) struct Frame<'s> {
-    pub(super) local: Local<'s>,
-    pub(super) offer: Offer,
-    /// Swept parameters.
-    pub(super) swept: Vec<usize>,
-    /// Names of scalars in order, for figures.
-    pub(super) scalars: Vec<(String, Dimension)>,
-    /// Results of the kind.
-    pub(super) results: Vec<(String, Symbol)>,
 }
 
 impl<'n> Decoder<'n> {

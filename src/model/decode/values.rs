@@ -1,14 +1,15 @@
 //! Parameters and tables, and the drafts of values that may need one another in any order.
 
+use super::decoder::{Decoder, Origin};
 use super::order::{order, tell};
-use super::{Decoder, Origin};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
 use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
+use crate::model::reach::Reach;
 use crate::model::rules::Rule;
-use crate::model::scope::{Allow, Local, Reach};
+use crate::model::scope::{Allow, Local};
 use serde_yaml::Value;
 use std::rc::Rc;
 

@@ -1,6 +1,6 @@
 //! Numbers that a translation has computed beyond what a double holds: a model could not be read back with them.
 
-use super::translate::Translation;
+use super::translation::Translation;
 use crate::model::fault::{Fault, Spot};
 use serde_yaml::Value;
 

@@ -3,8 +3,8 @@
 use super::guard::opening;
 use super::notes::Notes;
 use super::robot::Robot;
-use crate::model::decode::BODY_QUANTITIES;
 use crate::model::names::{is_name, taken};
+use crate::model::vocabulary::BODY_QUANTITIES;
 use std::collections::HashSet;
 
 /// Names of the parts of a robot, in the order of the file.

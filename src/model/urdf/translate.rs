@@ -9,26 +9,15 @@ use super::guard::opening;
 use super::inertia::figures;
 use super::names::Names;
 use super::notes::Notes;
+use super::options::{Base, Options};
 use super::robot::{Joint, Link, Robot, element};
 use super::rotation::{apply, axis_angle, product, roll_pitch_yaw};
-use super::{Base, Options};
+use super::translation::Translation;
 use crate::model::fault::{Fault, Spot};
 use serde_yaml::{Mapping, Value};
 use std::collections::HashMap;
 use std::ops::Range;
 use urdf_rs::{Geometry, JointType};
-
-/// Sections of a model and where their entries come from.
-pub(super) struct Translation {
-    /// `ground`, `bodies`, `joints`, `couplings`, `start`.
-    pub(super) sections: Mapping,
-    /// Joint of the root and the ground.
-    pub(super) base: Option<String>,
-    /// Bytes of the file by path: `bodies.link1.mass`.
-    pub(super) places: HashMap<String, Range<usize>>,
-    /// What the file says of an entry beyond what the model uses, by path.
-    pub(super) remarks: HashMap<String, String>,
-}
 
 /// Depth, rad and m, to which the effort of a joint presses it into its stop.
 const STOP_DEPTH: [f64; 2] = [0.01, 0.001];

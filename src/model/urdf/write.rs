@@ -1,9 +1,10 @@
 //! A translated robot as the text of a model.
 
+use super::options::{Base, Options, Translated};
+use super::read::read;
 use super::translate::shortest;
-use super::{Base, Options, Translated, read};
 use crate::model::diagnostics::Report;
-use crate::model::document;
+use crate::model::reading;
 use serde_yaml::{Mapping, Value};
 use std::fmt::Write;
 
@@ -34,10 +35,10 @@ pub struct Imported {
 /// # Errors
 /// Everything that is wrong with the URDF.
 pub fn import(bytes: &[u8], file: &str, asked: &Import) -> Result<Imported, Report> {
-    let text = document::text_of(bytes, file, bytes.len())?;
+    let text = reading::text_of(bytes, file, bytes.len())?;
     let base = if asked.free { Base::Free } else { Base::Fixed };
     let options = Options { prefix: &asked.prefix, base, stops: asked.stops, ..Options::default() };
-    let robot = read(text, &options).map_err(|faults| document::report(file, text, &faults, &[]))?;
+    let robot = read(text, &options).map_err(|faults| reading::report(file, text, &faults, &[]))?;
     let notes = robot.notes.sentences(text, &|_| false);
     Ok(Imported { text: written(&robot, file, &notes), notes, bare: robot.notes.bare() })
 }

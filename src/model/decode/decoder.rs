@@ -1,0 +1,374 @@
+//! A model on its way from the file, and what all parts of the decoder do.
+
+use crate::expression::{self, Dimension, Expr, Id, Lowered, Pool, SyntaxError};
+use crate::model::entities::Dimensions;
+use crate::model::fault::{At, Fault, Spot};
+use crate::model::fields::Want;
+use crate::model::merge::{Layers, Node};
+use crate::model::names::{self, Entity};
+use crate::model::quantities::{Sound, World};
+use crate::model::reach::Reach;
+use crate::model::rules::{self, Rule};
+use crate::model::scope::{Allow, Local, View};
+use crate::model::shape::clip;
+use crate::model::spans::Step;
+use crate::model::whole::Model;
+use serde_yaml::Value;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// A model on its way from the file.
+pub(crate) struct Decoder<'n> {
+    pub(super) layers: &'n Layers<'n>,
+    pub(super) root: Node<'n>,
+    pub(crate) pool: Pool,
+    pub(crate) world: World<'n>,
+    pub(crate) faults: Vec<Fault>,
+    pub(super) checks: Vec<Check<'n>>,
+    /// Expressions parsed so far: the same texts come again in every variant and study.
+    pub(crate) parsed: Parsed,
+}
+
+/// A rule with its values and the steps to its place.
+pub(crate) type Check<'n> = rules::Check<Vec<Step<'n>>>;
+
+/// Syntax trees by their text.
+pub(crate) type Parsed = HashMap<String, Rc<Expr>>;
+
+/// Where the text of an expression comes from, so that a fault in it is shown at its own characters.
+#[derive(Clone, Copy)]
+pub(crate) enum Origin<'t> {
+    /// A value of the file; the expression begins at a byte of it.
+    Value(&'t str, usize),
+    /// A key of the file.
+    Key(&'t str),
+    /// A text given from outside; the expression begins at a byte of it.
+    Outside(&'t str, usize),
+}
+
+impl Origin<'_> {
+    pub(super) fn spot(self, at: std::ops::Range<usize>) -> Spot {
+        match self {
+            Self::Value(full, offset) => Spot::Within(full.to_owned(), at.start + offset..at.end + offset),
+            Self::Key(full) => Spot::WithinKey(full.to_owned(), at),
+            Self::Outside(full, offset) => Spot::Outside(full.to_owned(), at.start + offset..at.end + offset),
+        }
+    }
+}
+
+impl<'n> Decoder<'n> {
+    /// Decodes a merged model with all but its studies.
+    pub(crate) fn new(layers: &'n Layers<'n>, root: Node<'n>, parsed: Parsed) -> Self {
+        let text = |key: &str| root.get(key).and_then(Node::text).unwrap_or_default().to_owned();
+        let space = if root.get("space").and_then(Node::text) == Some("spatial") { Dimensions::Spatial } else { Dimensions::Planar };
+        let mut faults = Vec::new();
+        let (names, listed) = names::collect(root, layers, &mut faults);
+        let model = Model {
+            name: text("name"),
+            about: text("about"),
+            space,
+            pool: Pool::new(),
+            inputs: Vec::new(),
+            parameters: Vec::new(),
+            tables: Vec::new(),
+            gravity: Vec::new(),
+            attractions: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            drivers: Vec::new(),
+            loads: Vec::new(),
+            springs: Vec::new(),
+            motors: Vec::new(),
+            clutches: Vec::new(),
+            states: Vec::new(),
+            measures: Vec::new(),
+            events: Vec::new(),
+            start: Vec::new(),
+            study: None,
+            variants: layers.patches.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            set: Vec::new(),
+            checks: Vec::new(),
+        };
+        let world = World {
+            model,
+            names,
+            listed,
+            parameters: Vec::new(),
+            tables: Vec::new(),
+            states: Vec::new(),
+            rates: Vec::new(),
+            measures: Vec::new(),
+            stretches: Vec::new(),
+            sound: Sound::default(),
+            input_of: HashMap::new(),
+        };
+        let mut decoder = Self { layers, root, pool: Pool::new(), world, faults, checks: Vec::new(), parsed };
+        decoder.parameters();
+        decoder.tables();
+        decoder.bodies();
+        decoder.gravity();
+        decoder.joints();
+        // drivers and motors need no measure, measures may need them
+        decoder.drivers();
+        decoder.motors();
+        decoder.springs_by_name();
+        decoder.clutches_by_name();
+        decoder.states_by_name();
+        decoder.measures();
+        decoder.springs();
+        decoder.couplings();
+        decoder.loads();
+        decoder.clutches();
+        decoder.start();
+        decoder.events();
+        decoder
+    }
+
+    /// Entries of a section, with their places.
+    pub(super) fn section(&self, key: &str) -> Vec<(&'n str, Node<'n>)> {
+        self.root.get(key).map(Node::entries).unwrap_or_default()
+    }
+
+    pub(super) fn place(&self, at: &At<'_, '_>) -> String {
+        self.layers.source(&at.steps())
+    }
+
+    pub(super) fn fault(
+        &mut self,
+        code: &'static str,
+        at: &At<'_, '_>,
+        message: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> &mut Fault {
+        let place = self.place(at);
+        self.faults.push(Fault::new(code, place, message, expected));
+        let last = self.faults.len() - 1;
+        &mut self.faults[last]
+    }
+
+    pub(super) fn check(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
+        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: false });
+    }
+
+    /// A check of values that are taken before a study varies parameters.
+    pub(super) fn check_once(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
+        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: true });
+    }
+
+    /// The syntax tree of a text.
+    pub(super) fn parse(&mut self, text: &str) -> Result<Rc<Expr>, SyntaxError> {
+        if let Some(expr) = self.parsed.get(text) {
+            return Ok(Rc::clone(expr));
+        }
+        let expr = Rc::new(expression::parse(text)?);
+        self.parsed.insert(text.to_owned(), Rc::clone(&expr));
+        Ok(expr)
+    }
+
+    /// Parses and lowers a text; faults are shown inside of it.
+    pub(super) fn lower(
+        &mut self,
+        text: &str,
+        origin: Origin<'_>,
+        at: &At<'_, '_>,
+        allow: Allow,
+        local: &mut Local<'_>,
+    ) -> Option<(Lowered, Reach)> {
+        match self.parse(text) {
+            Ok(expr) => self.lower_parsed(&expr, text, origin, at, allow, local),
+            Err(error) => {
+                let place = self.place(at);
+                let fault = Fault::new("expression", place, format!("found {}", error.found), error.expected);
+                self.faults.push(fault.maybe_help(error.help).at(origin.spot(error.at)));
+                None
+            }
+        }
+    }
+
+    pub(super) fn lower_parsed(
+        &mut self,
+        expr: &Expr,
+        text: &str,
+        origin: Origin<'_>,
+        at: &At<'_, '_>,
+        allow: Allow,
+        local: &mut Local<'_>,
+    ) -> Option<(Lowered, Reach)> {
+        let mut view =
+            View { world: &mut self.world, local, allow, reach: Reach::CONSTANT, codes: Vec::new(), refused_table: false, outside: None };
+        let result = expression::lower(&mut self.pool, expr, text, &mut view);
+        let (reach, codes, refused_table) = (view.reach, view.codes, view.refused_table);
+        match result {
+            Ok(lowered) => {
+                // `rate` raises the level of what it is taken of
+                let forbidden = reach.level > allow.level || reach.reactions && !allow.reactions;
+                if forbidden && reach.level < crate::model::vocabulary::Known::Study {
+                    let words = if reach.level == crate::model::vocabulary::Known::Acceleration { "an acceleration" } else { "a velocity" };
+                    let place = self.place(at);
+                    let fault = Fault::new("wrong-level", place, format!("this rate is {words}"), format!("{} may not use it", allow.what));
+                    self.faults.push(fault.at(origin.spot(0..text.len())));
+                    return None;
+                }
+                Some((lowered, reach))
+            }
+            Err(faults) => {
+                let place = self.place(at);
+                for fault in faults.into_iter().filter(|fault| !fault.found.is_empty()) {
+                    let code = codes.iter().find(|(found, _)| *found == fault.found).map(|(_, code)| *code);
+                    let refused = refused_table && fault.expected == "a function or a table";
+                    let made = if refused {
+                        Fault::new(
+                            "wrong-level",
+                            place.clone(),
+                            format!("found {}", fault.found),
+                            format!("{} may not call a table", allow.what),
+                        )
+                    } else {
+                        // what the scope refused is a sentence, what lowering refused a thing
+                        let message = if code.is_some() { fault.found } else { format!("found {}", fault.found) };
+                        let form =
+                            ["`", "a function", "a quantity whose", "a constant"].iter().any(|start| fault.expected.starts_with(start));
+                        let code = code.unwrap_or(if form { "expression" } else { "wrong-dimension" });
+                        let slice = text.get(fault.at.clone()).unwrap_or_default();
+                        let help = fault.help.or_else(|| fault.wanted.and_then(|wanted| self.unit_missing(slice, wanted)));
+                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(help)
+                    };
+                    self.faults.push(made.at(origin.spot(fault.at)));
+                }
+                None
+            }
+        }
+    }
+
+    /// A number, a quantity or an expression of any dimension.
+    pub(super) fn any(&mut self, node: Node<'_>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+        match node {
+            Node::Plain(Value::Number(n)) => {
+                let x = n.as_f64().filter(|x| x.is_finite())?;
+                let id = self.pool.constant(x);
+                let lowered = Lowered { id, dimension: Dimension::NONE, any: x == 0.0, bare: true, boolean: false };
+                Some((lowered, Reach::CONSTANT))
+            }
+            Node::Plain(Value::String(text)) => self.lower(text, Origin::Value(text, 0), at, allow, local),
+            _ => None,
+        }
+    }
+
+    /// Whether a value fits what is wanted; the fault is reported.
+    pub(super) fn fits(&mut self, lowered: &Lowered, want: Want, node: Node<'_>, origin: Option<Origin<'_>>, at: &At<'_, '_>) -> bool {
+        let dimension = match want {
+            Want::Of(dimension) => dimension,
+            Want::Angle => Dimension::NONE,
+            Want::Varies(_) | Want::Any => return true,
+        };
+        if let Err(found) = lowered.expect(dimension) {
+            let place = self.place(at);
+            let text = node.text().unwrap_or_default();
+            let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
+            if let Some(help) = self.unit_missing(text, dimension) {
+                fault.help = Some(help);
+            } else if lowered.dimension == Dimension::NONE {
+                fault.help = Some(format!("give it a unit: {}", dimension.si()));
+            } else {
+                fault.help = self.unit_or_name(text);
+            }
+            if let Some(origin) = origin {
+                fault.spot = origin.spot(0..text.len());
+            }
+            self.faults.push(fault);
+            return false;
+        }
+        if want == Want::Angle
+            && lowered.bare
+            && let Some(x) = self.pool.constant_value(lowered.id)
+            && x.abs() > std::f64::consts::TAU
+        {
+            let place = self.place(at);
+            let text = match node {
+                Node::Plain(Value::Number(n)) => n.to_string(),
+                _ => clip(node.text().unwrap_or_default()),
+            };
+            self.faults.push(
+                Fault::new("bare-angle", place, format!("{text} rad is more than a turn"), "an angle in rad, or with its unit")
+                    .help(format!("if degrees are meant, write `{} deg`", text.trim_start_matches('~')))
+                    .warn(),
+            );
+        }
+        true
+    }
+
+    /// What to write for a name that became a unit, since it stands directly behind a number.
+    pub(super) fn unit_or_name(&self, text: &str) -> Option<String> {
+        let (number, word) = text.trim().split_once(' ')?;
+        let named = matches!(self.world.names.get(word), Some(Entity::Parameter(_)));
+        let unit = named && number.parse::<f64>().is_ok() && expression::parse_unit(word).is_some();
+        unit.then(|| format!("`{word}` directly behind a number is the unit; for the parameter write `{number}*{word}`"))
+    }
+
+    /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
+    pub(super) fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
+        let Some(Entity::Parameter(i)) = self.world.names.get(text.trim()).copied() else { return None };
+        let value = match self.section("parameters").get(i)?.1 {
+            Node::Plain(Value::Number(n)) => n.to_string(),
+            Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => text.trim().to_owned(),
+            _ => return None,
+        };
+        let written = wanted.written(&value);
+        (written != value)
+            .then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
+    }
+
+    /// A value of a wanted dimension that may use what `allow` says.
+    pub(super) fn value(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>, want: Want, allow: Allow) -> Option<(Id, Reach)> {
+        let node = node?;
+        let (lowered, reach) = self.any(node, at, allow, &mut Local::default())?;
+        self.fits(&lowered, want, node, None, at).then_some((lowered.id, reach))
+    }
+
+    /// A value of parameters that must be finite.
+    pub(super) fn number(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Want) -> Option<Id> {
+        let (id, _) = self.value(node, at, want, Allow::CONSTANT)?;
+        self.check(Rule::Finite, &[id], at);
+        Some(id)
+    }
+
+    /// A value of parameters that may not be negative; the words say what it is.
+    pub(super) fn size(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension, what: &'static str) -> Option<Id> {
+        let (id, _) = self.value(node, at, Want::Of(want), Allow::CONSTANT)?;
+        self.check(Rule::NotNegative(what), &[id], at);
+        Some(id)
+    }
+
+    /// A list of values of parameters.
+    pub(super) fn vector(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension) -> Option<Vec<Id>> {
+        let items = node.filter(|node| node.is_list())?.items();
+        let mut ids = Vec::with_capacity(items.len());
+        for (i, item) in items.iter().enumerate() {
+            ids.push(self.number(Some(Node::Plain(item)), &at.index(i), Want::Of(want)));
+        }
+        ids.into_iter().collect()
+    }
+
+    /// A vector with as many components as the space has.
+    pub(super) fn space_vector(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension) -> Option<Vec<Id>> {
+        let components = self.world.components();
+        self.vector(node, at, want).filter(|ids| ids.len() == components)
+    }
+
+    /// A direction: a vector that is not zero.
+    pub(super) fn direction(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>) -> Option<Vec<Id>> {
+        let ids = self.space_vector(node, at, Dimension::NONE)?;
+        self.check(Rule::Direction, &ids, at);
+        Some(ids)
+    }
+
+    /// The finished model, with the checks of its study beside its own.
+    pub(crate) fn into_model(self, of_study: &[Check<'n>]) -> Model {
+        let checks = [self.kept_checks(&self.checks), self.kept_checks(of_study)].concat();
+        let mut model = self.world.model;
+        model.checks = checks;
+        model.pool = self.pool;
+        model
+    }
+}

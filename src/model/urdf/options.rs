@@ -1,0 +1,48 @@
+//! How a robot becomes part of a model, and what it is then.
+
+use super::notes::Notes;
+use serde_yaml::{Mapping, Value};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// How the root of a robot stands in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Base {
+    /// On the ground.
+    #[default]
+    Fixed,
+    /// Free.
+    Free,
+}
+
+/// How a robot becomes part of a model.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Options<'o> {
+    /// In front of every name.
+    pub(crate) prefix: &'o str,
+    /// Place of the root in the world, m; the origin if omitted. As the model says it, expressions included.
+    pub(crate) at: Option<&'o Value>,
+    /// Roll, pitch and yaw of the root, rad.
+    pub(crate) rpy: Option<&'o Value>,
+    /// Whether the root is fixed.
+    pub(crate) base: Base,
+    /// Whether position limits become end stops.
+    pub(crate) stops: bool,
+}
+
+/// A robot as part of a model.
+#[derive(Clone, Debug)]
+pub(crate) struct Translated {
+    /// The robot's own name.
+    pub(crate) name: String,
+    /// `ground`, `bodies`, `joints`, `couplings`, `start`.
+    pub(crate) sections: Mapping,
+    /// Joint by which the root stands on the ground, and its point there; none where the root is free.
+    pub(crate) base: Option<String>,
+    /// Bytes of the file by the path of an entry or of one of its values.
+    pub(crate) places: HashMap<String, Range<usize>>,
+    /// What the file says of an entry beyond what the model uses, by its path.
+    pub(crate) remarks: HashMap<String, String>,
+    /// What is not used, or not as it stands.
+    pub(crate) notes: Notes,
+}
