@@ -295,7 +295,7 @@ pub struct Event {
     pub crossing: Crossing,
     /// `action: stop`: the run ends there.
     pub stop: bool,
-    /// Parameters that change there, by index in [`Model::parameters`], and their new values. All are taken from the state
+    /// Parameters that change there, by index in [`Model::parameters`](super::whole::Model::parameters), and their new values. All are taken from the state
     /// and the parameters before the event.
     pub set: Vec<(usize, Id)>,
     /// An impact in a joint.

@@ -6,8 +6,8 @@ pub type Place = String;
 /// A point of a body: `points[point]` of `bodies[body]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PointRef {
-    /// Index in [`Model::bodies`]; 0 is the ground.
+    /// Index in [`Model::bodies`](super::whole::Model::bodies); 0 is the ground.
     pub body: usize,
-    /// Index in [`Body::points`].
+    /// Index in [`Body::points`](super::bodies::Body::points).
     pub point: usize,
 }
