@@ -1,5 +1,5 @@
 //! Singular positions are passed with and without redundant rows, in all coordinates and schemes; minimal coordinates that are driven, or
-//! rub, move as joint coordinates do; a damping that is stiff beyond measure is integrated.
+//! friction_of, move as joint coordinates do; a damping that is stiff beyond measure is integrated.
 
 use crate::common::{columns, model};
 use grashof::mechanism::Coordinates;

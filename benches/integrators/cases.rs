@@ -3,7 +3,7 @@
 use grashof::model::{Control, Document, Forward, Integrator, Kind, Model, Selection, Study};
 use grashof::studies::common::case::{self, parameters};
 use grashof::studies::dynamics;
-use grashof::studies::dynamics::Bare;
+use grashof::studies::dynamics::Unrecorded;
 use std::time::Instant;
 
 /// A step, or a tolerance.
@@ -37,7 +37,7 @@ pub(crate) struct Sample {
     pub(crate) time: f64,
     /// Largest difference of a column, SI.
     pub(crate) error: f64,
-    pub(crate) bare: Bare,
+    pub(crate) bare: Unrecorded,
 }
 
 impl Case {
@@ -67,8 +67,8 @@ impl Case {
             Forward { integrator: by, control, alpha: None, beta: None, rho: None, order: None, level: None, ..self.forward.clone() };
         let (mut begin, mut time) = (Instant::now(), 0.0);
         let mut timer = |on: bool| if on { begin = Instant::now() } else { time = begin.elapsed().as_secs_f64() };
-        let ended = dynamics::bare(case::Case { model: &model, study: &self.study, parameters: &self.values }, &forward, &mut timer);
-        let bare = ended.unwrap_or_else(|failure| Bare { stopped: Some(failure.reason()), ..Bare::default() });
+        let ended = dynamics::unrecorded(case::Case { model: &model, study: &self.study, parameters: &self.values }, &forward, &mut timer);
+        let bare = ended.unwrap_or_else(|failure| Unrecorded { stopped: Some(failure.reason()), ..Unrecorded::default() });
         let error = bare.columns.iter().zip(&self.reference).map(|(x, r)| (x - r).abs()).fold(0.0, f64::max);
         Sample { time, error: if bare.stopped.is_none() { error } else { f64::NAN }, bare }
     }

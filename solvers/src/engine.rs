@@ -199,7 +199,7 @@ impl Engine {
             a.fill(0.0);
             lambda.fill(0.0);
             self.counts.factorisations += 1;
-            friction.solve(&self.terms, &mut |l, f, slope| system.rub(at, l, f, slope), a, lambda)?;
+            friction.solve(&self.terms, &mut |l, f, slope| system.reaction_friction(at, l, f, slope), a, lambda)?;
         } else {
             self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
         }

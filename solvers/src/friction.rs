@@ -13,7 +13,7 @@ use crate::why::Why;
 use crate::{Dims, Pattern, Sparsity, Terms};
 
 /// Writes f_λ (nv) and R_λ (nv × m) of the multipliers (m) that it is given.
-pub type Rub<'a> = dyn FnMut(&[f64], &mut [f64], &mut [f64]) + 'a;
+pub type ReactionFriction<'a> = dyn FnMut(&[f64], &mut [f64], &mut [f64]) + 'a;
 
 /// The solver; sized at construction, then free of allocation.
 #[derive(Clone, Debug)]
@@ -70,9 +70,9 @@ impl Friction {
         })
     }
 
-    /// f_λ (nv) of the multipliers, by `rub`, which also writes R_λ.
-    pub fn force(&mut self, lambda: &[f64], rub: &mut Rub<'_>) -> &[f64] {
-        rub(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
+    /// f_λ (nv) of the multipliers, by `friction_of`, which also writes R_λ.
+    pub fn force(&mut self, lambda: &[f64], friction_of: &mut ReactionFriction<'_>) -> &[f64] {
+        friction_of(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
         &self.force
     }
 
@@ -80,12 +80,12 @@ impl Friction {
     ///
     /// # Errors
     /// [`Why::Friction`] if there is no solution near, [`Why::NotFinite`] if a force is not.
-    pub fn solve(&mut self, terms: &Terms, rub: &mut Rub<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Why> {
+    pub fn solve(&mut self, terms: &Terms, friction_of: &mut ReactionFriction<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Why> {
         let nv = self.dims.v;
         self.blocks.take(terms);
         let (mut last, mut factored) = (f64::INFINITY, false);
         for step in 0..STEPS {
-            rub(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
+            friction_of(lambda, &mut self.force, &mut self.blocks.tangent.r_lambda);
             self.right_hand_side(terms, a, lambda);
             if let Some(i) = self.step[..nv].iter().position(|r| !r.is_finite()) {
                 return Err(Why::NotFinite(i));

@@ -289,7 +289,11 @@ impl<S: System> System for Minimal<S> {
         }
         if stage == Stage::Dynamics {
             times(&inner.mass, &loops.bend, &mut self.row);
-            self.row.iter_mut().zip(&inner.force).zip(&loops.rubbing).for_each(|((x, f), rub)| *x = f + rub - *x);
+            self.row
+                .iter_mut()
+                .zip(&inner.force)
+                .zip(&loops.friction_by_reactions)
+                .for_each(|((x, f), friction_of)| *x = f + friction_of - *x);
             combine(&self.row, &loops.p, &mut out.force);
             out.zdot.copy_from_slice(&inner.zdot);
         }
@@ -302,7 +306,11 @@ impl<S: System> System for Minimal<S> {
         let loops = self.loops.get_mut();
         let (nv, h) = (self.inner.v, self.inner.holonomic);
         times(&loops.terms.mass, &loops.a, &mut self.row);
-        self.row.iter_mut().zip(&loops.terms.force).zip(&loops.rubbing).for_each(|((r, f), rub)| *r -= f + rub);
+        self.row
+            .iter_mut()
+            .zip(&loops.terms.force)
+            .zip(&loops.friction_by_reactions)
+            .for_each(|((r, f), friction_of)| *r -= f + friction_of);
         for (row, l) in loops.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
             self.row.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
         }

@@ -327,7 +327,7 @@ pub fn residual(system: &mut dyn System, engine: &mut Engine, at: At<'_>, a: &[f
         *r = dot(row, a) + *r - f;
     }
     if let Some(friction) = &mut engine.friction {
-        let force = friction.force(lambda, &mut |l, f, slope| system.rub(at, l, f, slope));
+        let force = friction.force(lambda, &mut |l, f, slope| system.reaction_friction(at, l, f, slope));
         r.iter_mut().zip(force).for_each(|(r, f)| *r -= f);
     }
 }

@@ -90,7 +90,7 @@ pub struct Pattern {
     pub c: Sparsity,
     /// ∂r/∂z (nv × nz).
     pub r_z: Sparsity,
-    /// ∂r/∂λ beyond Gᵀ (nv × m); without entries no force depends on the reactions, and [`System::rub`](crate::System::rub) is not asked.
+    /// ∂r/∂λ beyond Gᵀ (nv × m); without entries no force depends on the reactions, and [`System::reaction_friction`](crate::System::reaction_friction) is not asked.
     pub r_lambda: Sparsity,
     /// ∂ż/∂q (nz × nv).
     pub z_q: Sparsity,

@@ -22,7 +22,7 @@ pub struct Terms {
     /// M (nv × nv), symmetric, positive semi-definite.
     pub mass: Vec<f64>,
     /// f (nv): applied, elastic, damping and gyroscopic forces; positive along v, so that M a = f where nothing constrains.
-    /// What depends on the reactions is not in it, see [`System::rub`].
+    /// What depends on the reactions is not in it, see [`System::reaction_friction`].
     pub force: Vec<f64>,
     /// Φ (holonomic rows).
     pub phi: Vec<f64>,
@@ -146,7 +146,7 @@ pub trait System {
 
     /// The forces f_λ (nv) that depend on the reactions λ, and −∂f_λ/∂λ (nv × m): r = M a + Gᵀλ − f − f_λ. Asked only where
     /// [`Pattern::r_lambda`] has entries; a system without such forces writes zeros, which is the default.
-    fn rub(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
         let _ = (at, lambda);
         force.fill(0.0);
         r_lambda.fill(0.0);

@@ -37,11 +37,11 @@ impl<G: Space> Dynamics<'_, G> {
     fn field_energy(&mut self, modes: &[i32]) -> G::S {
         let m = self.mechanism;
         let mut sum = G::S::default();
-        if m.pulls.iter().any(|pull| pull.potential.is_some()) {
+        if m.point_loads.iter().any(|pull| pull.potential.is_some()) {
             self.fill(&m.force_program);
             let w = &mut self.work;
             m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
-            m.pulls.iter().filter_map(|pull| pull.potential).for_each(|output| sum += w.force_outputs[output]);
+            m.point_loads.iter().filter_map(|pull| pull.potential).for_each(|output| sum += w.force_outputs[output]);
         }
         sum
     }
@@ -51,7 +51,7 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn field_power(&self) -> G::S {
         let w = &self.work;
         let mut sum = G::S::default();
-        for pull in self.mechanism.pulls.iter().filter(|pull| pull.potential.is_some()) {
+        for pull in self.mechanism.point_loads.iter().filter(|pull| pull.potential.is_some()) {
             let velocity = w.twists[pull.body].at(w.places[pull.body].point(pull.at));
             for (axis, &output) in pull.force.iter().enumerate() {
                 sum += w.force_outputs[output] * G::component(velocity, axis);

@@ -107,7 +107,7 @@ impl<G: Space> Dynamics<'_, G> {
             w.inertias[b] = inertia;
             w.applied[b] = Force { n: G::moment(inertia.h, m.gravity), f: m.gravity * inertia.m };
         }
-        for pull in &m.pulls {
+        for pull in &m.point_loads {
             let frame = w.places[pull.frame].r;
             let axes = pull.axes.map_or(frame, |axes| G::multiply(frame, axes));
             let mut wrench = Force::default();

@@ -1,6 +1,6 @@
 //! Friction by reactions: normal forces of multipliers, f_λ and R_λ = −∂f_λ/∂λ.
 //!
-//! N = Σ |n| over the places where a joint rubs, with n = A λ (`Pressing`), acts on the gauge of the joint with the size
+//! N = Σ |n| over the places where a joint has friction, with n = A λ (`Pressing`), acts on the gauge of the joint with the size
 //! output · N, so that f_λ = Σ output N ∂ẋ/∂v and ∂N/∂λ = Σ nᵀA/|n|. Where n has one component, its sign is a mode: N is linear in λ
 //! between its switches. Where it has more, |n| is smooth but for n = 0, where its derivative counts as 0.
 
@@ -51,7 +51,7 @@ impl<G: Space> Dynamics<'_, G> {
     }
 
     /// Sets the sizes of the efforts that depend on reactions; after [`Dynamics::loads`].
-    pub fn rub(&mut self, lambda: &[G::S]) {
+    pub fn apply_friction(&mut self, lambda: &[G::S]) {
         for (i, effort) in self.mechanism.efforts.iter().enumerate() {
             if let EffortLaw::Friction { output, pressing: Some(pressing) } = effort.law {
                 self.work.efforts[i] = self.work.force_outputs[output] * self.normal(pressing, lambda);
@@ -62,14 +62,14 @@ impl<G: Space> Dynamics<'_, G> {
     /// −f_λ added to `r` (nv).
     pub(super) fn add_friction(&self, lambda: &[G::S], r: &mut [G::S]) {
         let Workspace { readings, columns, force_outputs, .. } = &self.work;
-        self.rubbing(|gauge, output, pressing| {
+        self.friction_by_reactions(|gauge, output, pressing| {
             let size = force_outputs[output] * self.normal(pressing, lambda);
             self.mechanism.gauges[gauge].project(&readings[gauge], columns, |k, x| r[k] -= size * x);
         });
     }
 
     /// Calls with gauge, output and pressing of each friction by reactions.
-    fn rubbing(&self, mut each: impl FnMut(usize, usize, usize)) {
+    fn friction_by_reactions(&self, mut each: impl FnMut(usize, usize, usize)) {
         for effort in &self.mechanism.efforts {
             if let (EffortLaw::Friction { output, pressing: Some(pressing) }, StretchOf::Gauge(gauge)) = (effort.law, effort.along) {
                 each(gauge, output, pressing);
@@ -92,7 +92,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         slope.fill(0.0);
         let rows = lambda.len();
         let Workspace { readings, columns, force_outputs, .. } = &self.work;
-        self.rubbing(|gauge, output, pressing| {
+        self.friction_by_reactions(|gauge, output, pressing| {
             for (place, side) in self.places(pressing) {
                 let whole = size::<G>(place, side, lambda);
                 for component in &place.components {
@@ -119,7 +119,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
 
 /// Entries that R_λ may have: what a joint with friction moves, by the rows that press on it.
 #[must_use]
-pub fn rubbed<G: Space>(m: &Mechanism<G>) -> Sparsity {
+pub fn friction_pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
     let mut entries = Vec::new();
     for effort in &m.efforts {
         let (EffortLaw::Friction { pressing: Some(pressing), .. }, StretchOf::Gauge(gauge)) = (effort.law, effort.along) else { continue };

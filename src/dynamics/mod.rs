@@ -22,7 +22,7 @@ mod undefined;
 mod workspace;
 
 pub use evaluator::Dynamics;
-pub use friction::{rubbed, slack};
+pub use friction::{friction_pattern, slack};
 pub use reaction::Reactions;
 pub use tangent::{LANES, Linearizer, Point, RowTangent, pattern};
 pub use workspace::Workspace;

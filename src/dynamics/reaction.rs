@@ -54,13 +54,13 @@ impl<G: Space> Dynamics<'_, G> {
 
     /// Accelerations, reactions, shaking force and driver efforts for `a` (nv) and `lambda` (rows); after [`Dynamics::loads`].
     pub fn react(&mut self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
-        self.rub(lambda);
+        self.apply_friction(lambda);
         self.accelerate(a, &mut out.accelerations);
         self.unbalance(&out.accelerations);
         self.distribute(a, lambda, out);
     }
 
-    /// [`Dynamics::react`] without its first steps, which [`Dynamics::rub`], [`Dynamics::accelerate`] and [`Dynamics::unbalanced`] have
+    /// [`Dynamics::react`] without its first steps, which [`Dynamics::apply_friction`], [`Dynamics::accelerate`] and [`Dynamics::unbalanced`] have
     /// done.
     pub fn distribute(&self, a: &[G::S], lambda: &[G::S], out: &mut Reactions<G>) {
         self.pairs(a, lambda, out);

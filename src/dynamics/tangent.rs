@@ -54,7 +54,7 @@ pub fn pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
     // a force given by a program may depend on every input of it and acts on its bodies
     let law = known_by(m, &m.force_program);
     if m.force_program.outputs > 0 {
-        for pull in &m.pulls {
+        for pull in &m.point_loads {
             groups.push([law.clone(), m.bodies[pull.body].path.clone(), m.bodies[pull.frame].path.clone()].concat());
         }
         for effort in &m.efforts {

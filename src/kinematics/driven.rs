@@ -1,7 +1,7 @@
 //! A mechanism whose drivers leave no freedom: position, velocity, acceleration and multipliers at any time by Newton's method.
 
 use super::assemble::Assembled;
-use crate::dynamics::{Dynamics, Reactions, rubbed, slack};
+use crate::dynamics::{Dynamics, Reactions, friction_pattern, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use grashof_solvers::kkt::ROUND_OFF;
@@ -32,7 +32,7 @@ pub struct Driven<'m, G: Space> {
     pub open: Option<usize>,
     solver: Solver,
     /// The solver where friction depends on reactions.
-    rubbing: Option<Box<Rubbing>>,
+    friction_by_reactions: Option<Box<ByReactions>>,
     /// 1 for angles, one by the size of the mechanism for lengths (nv).
     unit: Vec<f64>,
     /// The same for residuals (rows).
@@ -45,7 +45,7 @@ pub struct Driven<'m, G: Space> {
 
 /// Multipliers where friction depends on reactions: M a + Gᵀλ = f + f_λ(λ) with the a that G a = γ leaves.
 #[derive(Clone, Debug)]
-struct Rubbing {
+struct ByReactions {
     friction: Friction,
     terms: Terms,
     a: Vec<f64>,
@@ -78,7 +78,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
         let g_scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
-        let rubbing = Rubbing::new(mechanism, &start.metric, &g_scale);
+        let friction_by_reactions = ByReactions::new(mechanism, &start.metric, &g_scale);
         let solver = if rows == nv {
             let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
             // a row that is round-off keeps its natural size, so that it leaves G as singular as it is
@@ -115,7 +115,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             correction: 0.0,
             open: None,
             solver,
-            rubbing,
+            friction_by_reactions,
             unit,
             row_unit,
             delta: vec![0.0; nv],
@@ -196,9 +196,9 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     ///
     /// Multipliers are not numbers where friction by reactions has no solution.
     pub fn forces(&mut self, modes: &[i32]) {
-        if let Some(rubbing) = &mut self.rubbing {
-            rubbing.solve(&mut self.dynamics, &self.a, &mut self.lambda, modes);
-            self.dynamics.rub(&self.lambda);
+        if let Some(friction_by_reactions) = &mut self.friction_by_reactions {
+            friction_by_reactions.solve(&mut self.dynamics, &self.a, &mut self.lambda, modes);
+            self.dynamics.apply_friction(&self.lambda);
             self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
             self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.delta);
             return self.dynamics.distribute(&self.a, &self.lambda, &mut self.reactions);
@@ -233,21 +233,21 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             let Some((_, mode)) = self.pressed().find(|(n, _)| *n < 0.0) else { return };
             modes[mode] = if modes[mode] < 0 { 1 } else { -1 };
         }
-        if self.rubbing.is_some() {
+        if self.friction_by_reactions.is_some() {
             self.forces(modes);
         }
     }
 
     /// How far the force on each place that presses to one side is from changing it, N, with its mode; for the forces found last.
     pub fn pressed(&self) -> impl Iterator<Item = (f64, usize)> {
-        let slack = self.rubbing.as_ref().map_or(0.0, |r| slack(&r.metric, &self.a, &self.lambda));
+        let slack = self.friction_by_reactions.as_ref().map_or(0.0, |r| slack(&r.metric, &self.a, &self.lambda));
         self.dynamics.pressed(&self.lambda).map(move |(n, mode)| (n + slack, mode))
     }
 
     /// Whether the forces found last obey no law of friction: there are none, or a joint presses on the other side than it seems to.
     #[must_use]
     pub fn jams(&self) -> bool {
-        self.rubbing.is_some()
+        self.friction_by_reactions.is_some()
             && (self.a.iter().all(|a| a.is_finite()) && self.lambda.iter().any(|l| l.is_nan()) || self.pressed().any(|(n, _)| n < 0.0))
     }
 
@@ -293,10 +293,10 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     }
 }
 
-impl Rubbing {
+impl ByReactions {
     fn new<G: Space>(m: &Mechanism<G>, metric: &[f64], g_scale: &[f64]) -> Option<Box<Self>> {
         let dims = Dims { q: m.nq, v: m.nv, holonomic: m.rows.len(), ..Dims::default() };
-        let pattern = Pattern { r_lambda: rubbed(m), metric: metric.to_vec(), g_scale: g_scale.to_vec(), ..Pattern::dense(dims) };
+        let pattern = Pattern { r_lambda: friction_pattern(m), metric: metric.to_vec(), g_scale: g_scale.to_vec(), ..Pattern::dense(dims) };
         let friction = Friction::of_pattern(dims, &pattern)?;
         Some(Box::new(Self { friction, terms: Terms::new(dims), a: vec![0.0; m.nv], metric: metric.to_vec() }))
     }
@@ -312,8 +312,8 @@ impl Rubbing {
         t.gamma.copy_from_slice(&w.gamma);
         self.a.copy_from_slice(a);
         lambda.fill(0.0);
-        let rub = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| dynamics.friction(l, f, slope);
-        if self.friction.solve(t, rub, &mut self.a, lambda).is_err() {
+        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| dynamics.friction(l, f, slope);
+        if self.friction.solve(t, friction_of, &mut self.a, lambda).is_err() {
             lambda.fill(f64::NAN);
         }
     }

@@ -163,7 +163,7 @@ pub enum EffortLaw<G: Space> {
     },
 }
 
-/// The normal force N = Σ |n| (N) between the bodies of a joint that is cut: what its rows put on the places where it rubs.
+/// The normal force N = Σ |n| (N) between the bodies of a joint that is cut: what its rows put on the places where it has friction.
 ///
 /// The rows of a cut joint are forces along unit directions of a triad, and couples about them, so that the components of the force
 /// at a place are sums of multipliers with coefficients that do not depend on the position. The force is that on the second body.
@@ -273,7 +273,7 @@ impl Buffer {
 
 /// A load at a point of a body.
 #[derive(Clone, Debug)]
-pub struct Pull<G: Space> {
+pub struct PointLoad<G: Space> {
     /// The body.
     pub body: usize,
     /// The point in the body frame, m.
@@ -310,9 +310,9 @@ impl<G: Space> Effort<G> {
     }
 }
 
-impl<G: Space> Pull<G> {
-    pub(super) fn lift<D: Scalar>(&self) -> Pull<G::Lift<D>> {
-        Pull {
+impl<G: Space> PointLoad<G> {
+    pub(super) fn lift<D: Scalar>(&self) -> PointLoad<G::Lift<D>> {
+        PointLoad {
             body: self.body,
             at: G::lift_vector::<D>(self.at),
             force: self.force.clone(),

@@ -22,7 +22,7 @@ mod tree;
 pub use build::{BuildFault, Coordinates, build, build_beside, build_uncut, is_uncut};
 pub use contact::{Contact, ContactLaw};
 pub use force::{
-    Buffer, Drive, Effort, EffortLaw, Leaf, Pressed, Pressing, Pull, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
+    Buffer, Drive, Effort, EffortLaw, Leaf, PointLoad, Pressed, Pressing, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
 };
 pub use gauge::{Along, Gauge, Measured, Placed, Reading};
 pub use group::Group;

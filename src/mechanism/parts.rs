@@ -1,8 +1,8 @@
 //! A mechanism and its parts.
 
 use super::{
-    Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, Pressing, Pull, Rotor, Row, RowKind, RowOwner,
-    StagedProgram, Start, Step, Stop, Stretch, StretchOf,
+    Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, PointLoad, Pressing, Rotor, Row, RowKind,
+    RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
 };
 use crate::expression::Table;
 use crate::geometry::{MassProperties, Pose, Space};
@@ -119,7 +119,7 @@ pub struct Mechanism<G: Space> {
     /// Rotors that turn with gauges.
     pub rotors: Vec<Rotor<G>>,
     /// Loads at points.
-    pub pulls: Vec<Pull<G>>,
+    pub point_loads: Vec<PointLoad<G>>,
     /// Programs by stage: functions, drifts, drivers, forces.
     pub position_program: StagedProgram,
     /// Drifts of the functions.
@@ -370,7 +370,7 @@ impl<G: Space> Mechanism<G> {
             stops: self.stops.clone(),
             contacts: self.contacts.clone(),
             rotors: self.rotors.iter().map(|r| Rotor { gauge: r.gauge, inertia: c(r.inertia) }).collect(),
-            pulls: self.pulls.iter().map(Pull::lift).collect(),
+            point_loads: self.point_loads.iter().map(PointLoad::lift).collect(),
             position_program: self.position_program.clone(),
             velocity_program: self.velocity_program.clone(),
             time_program: self.time_program.clone(),

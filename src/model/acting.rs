@@ -1,12 +1,12 @@
 //! Quantities of what acts on a mechanism: drivers, springs, motors, clutches.
 
 use super::entities::SpringOn;
-use super::quantities::{Found, World, silent};
-use super::reach::Reach;
+use super::needs::Needs;
+use super::quantities::{Found, NameSpace, silent};
 use super::vocabulary::Quantity;
 use crate::expression::{Dimension, Id, Pool, Symbol, Unknown};
 
-impl World<'_> {
+impl NameSpace<'_> {
     pub(super) fn of_driver(&self, driver: usize, name: &str, rest: &str) -> Result<Found, Unknown> {
         let angle = self.single(self.model.drivers[driver].joint).is_none_or(|c| c.angle);
         match (rest, angle) {
@@ -36,7 +36,7 @@ impl World<'_> {
             "torque" => Ok(Found::Leaf(Quantity::MotorTorque { motor }, Dimension::TORQUE)),
             "power" => {
                 let (torque, omega) = (self.input(pool, Quantity::MotorTorque { motor }), self.input(pool, coordinate(1)));
-                let reach = Reach::of(Quantity::MotorTorque { motor });
+                let reach = Needs::of(Quantity::MotorTorque { motor });
                 Ok(Found::Made(Symbol { id: pool.mul(torque, omega), dimension: Dimension::POWER }, reach))
             }
             _ => Err(self.wrong(name, rest, &["angle", "omega", "torque", "power"].map(str::to_owned))),
@@ -52,7 +52,7 @@ impl World<'_> {
                 let rate = self.slip(pool, clutch, 1);
                 Ok(Found::Made(
                     Symbol { id: rate, dimension: coordinate.dimension(1) },
-                    Reach::of(Quantity::Joint { joint, slot: 0, order: 1 }),
+                    Needs::of(Quantity::Joint { joint, slot: 0, order: 1 }),
                 ))
             }
             _ if rest == effort => Ok(Found::Leaf(Quantity::ClutchEffort { clutch }, coordinate.effort())),

@@ -3,8 +3,8 @@
 use super::coordinates::{ANGLE, Coordinate, POSITION, angle, coordinates, length};
 use super::entities::Dimensions;
 use super::names::Entity;
+use super::needs::Needs;
 use super::place::PointRef;
-use super::reach::Reach;
 use super::suggest;
 use super::vocabulary::Quantity;
 use super::whole::Model;
@@ -17,11 +17,11 @@ pub(crate) enum Found {
     /// One leaf.
     Leaf(Quantity, Dimension),
     /// An expression of leaves.
-    Made(Symbol, Reach),
+    Made(Symbol, Needs),
 }
 
 /// Everything that has a name.
-pub(crate) struct World<'a> {
+pub(crate) struct NameSpace<'a> {
     /// The model as far as it is decoded; its pool is kept apart until the end.
     pub(crate) model: Model,
     /// The one name space.
@@ -35,20 +35,20 @@ pub(crate) struct World<'a> {
     /// Dimensions of first-order states; `None` where `start` is faulty.
     pub(crate) states: Vec<Option<Dimension>>,
     /// Rates of the states as far as they are lowered.
-    pub(crate) rates: Vec<Option<(Id, Reach)>>,
+    pub(crate) rates: Vec<Option<(Id, Needs)>>,
     /// Measures as far as they are lowered.
-    pub(crate) measures: Vec<Option<(Symbol, Reach)>>,
+    pub(crate) measures: Vec<Option<(Symbol, Needs)>>,
     /// Dimension of the stretch of each spring.
     pub(crate) stretches: Vec<Option<Dimension>>,
     /// Joints by their number in the file; `None` where one is faulty. Numbers in the model are the same.
-    pub(crate) sound: Sound,
+    pub(crate) renumbered: Renumbered,
     /// Number of each input leaf.
     pub(crate) input_of: HashMap<Quantity, u32>,
 }
 
 /// Which entities were decoded without faults: index in the file → index in the model.
 #[derive(Default)]
-pub(crate) struct Sound {
+pub(crate) struct Renumbered {
     pub(crate) joints: Vec<Option<usize>>,
     pub(crate) drivers: Vec<Option<usize>>,
     pub(crate) springs: Vec<Option<usize>>,
@@ -71,7 +71,7 @@ const XYZ: [&str; 3] = ["x", "y", "z"];
 /// Behind the name of a rate of rotation that is in the axes of the body.
 const OWN: &str = "_own";
 
-impl<'a> World<'a> {
+impl<'a> NameSpace<'a> {
     /// Names of one kind of things, in file order; not more than a message can use.
     pub(crate) fn known(&self, kind: impl Fn(Entity) -> bool) -> Vec<&'a str> {
         self.listed.iter().filter(|(_, entity)| kind(*entity)).map(|(name, _)| *name).take(suggest::MOST_CANDIDATES).collect()
@@ -99,26 +99,26 @@ impl<'a> World<'a> {
         pool.input(number)
     }
 
-    fn leaf(&mut self, pool: &mut Pool, quantity: Quantity, dimension: Dimension) -> (Symbol, Reach) {
-        (Symbol { id: self.input(pool, quantity), dimension }, Reach::of(quantity))
+    fn leaf(&mut self, pool: &mut Pool, quantity: Quantity, dimension: Dimension) -> (Symbol, Needs) {
+        (Symbol { id: self.input(pool, quantity), dimension }, Needs::of(quantity))
     }
 
     /// √(a² + b² + ...) of leaves.
     fn magnitude(&mut self, pool: &mut Pool, leaves: &[Quantity], dimension: Dimension) -> Found {
         let mut sum: Option<Id> = None;
-        let mut reach = Reach::CONSTANT;
+        let mut reach = Needs::CONSTANT;
         for quantity in leaves {
             let leaf = self.input(pool, *quantity);
             let square = pool.powi(leaf, 2);
             sum = Some(sum.map_or(square, |sum| pool.add(sum, square)));
-            reach = reach.join(Reach::of(*quantity));
+            reach = reach.join(Needs::of(*quantity));
         }
         let sum = sum.unwrap_or_else(|| pool.constant(0.0));
         Found::Made(Symbol { id: pool.sqrt(sum), dimension }, reach)
     }
 
     /// The symbol of something found.
-    pub(crate) fn symbol(&mut self, pool: &mut Pool, found: Found) -> (Symbol, Reach) {
+    pub(crate) fn symbol(&mut self, pool: &mut Pool, found: Found) -> (Symbol, Needs) {
         match found {
             Found::Leaf(quantity, dimension) => self.leaf(pool, quantity, dimension),
             Found::Made(symbol, reach) => (symbol, reach),
@@ -157,23 +157,23 @@ impl<'a> World<'a> {
         };
         match entity {
             Entity::Body(body) if body < self.model.bodies.len() => self.of_body(pool, body, path, rest),
-            Entity::Joint(joint) => match self.sound.joints.get(joint).copied().flatten() {
+            Entity::Joint(joint) => match self.renumbered.joints.get(joint).copied().flatten() {
                 Some(joint) => self.of_joint(pool, joint, head, rest),
                 None => Err(silent()),
             },
-            Entity::Driver(driver) => match self.sound.drivers.get(driver).copied().flatten() {
+            Entity::Driver(driver) => match self.renumbered.drivers.get(driver).copied().flatten() {
                 Some(driver) => self.of_driver(driver, head, rest),
                 None => Err(silent()),
             },
-            Entity::Spring(spring) => match self.sound.springs.get(spring).copied().flatten() {
+            Entity::Spring(spring) => match self.renumbered.springs.get(spring).copied().flatten() {
                 Some(spring) => self.of_spring(spring, head, rest),
                 None => Err(silent()),
             },
-            Entity::Motor(motor) => match self.sound.motors.get(motor).copied().flatten() {
+            Entity::Motor(motor) => match self.renumbered.motors.get(motor).copied().flatten() {
                 Some(motor) => self.of_motor(pool, motor, head, rest),
                 None => Err(silent()),
             },
-            Entity::Clutch(clutch) => match self.sound.clutches.get(clutch).copied().flatten() {
+            Entity::Clutch(clutch) => match self.renumbered.clutches.get(clutch).copied().flatten() {
                 Some(clutch) => self.of_clutch(pool, clutch, head, rest),
                 None => Err(silent()),
             },
@@ -240,7 +240,7 @@ impl<'a> World<'a> {
             "potential" => Ok(Found::Leaf(Quantity::Potential, Dimension::ENERGY)),
             "total" => {
                 let (kinetic, potential) = (self.input(pool, Quantity::Kinetic), self.input(pool, Quantity::Potential));
-                let reach = Reach::of(Quantity::Kinetic).join(Reach::of(Quantity::Potential));
+                let reach = Needs::of(Quantity::Kinetic).join(Needs::of(Quantity::Potential));
                 Ok(Found::Made(Symbol { id: pool.add(kinetic, potential), dimension: Dimension::ENERGY }, reach))
             }
             _ => Err(self.wrong("energy", rest, &["kinetic".to_owned(), "potential".to_owned(), "total".to_owned()])),
@@ -402,7 +402,7 @@ impl<'a> World<'a> {
             }
             let rate = Quantity::Joint { joint, slot: 0, order: 1 };
             let (force, speed) = (self.input(pool, stop), self.input(pool, rate));
-            return Ok(Found::Made(Symbol { id: pool.mul(force, speed), dimension: Dimension::POWER }, Reach::of(stop)));
+            return Ok(Found::Made(Symbol { id: pool.mul(force, speed), dimension: Dimension::POWER }, Needs::of(stop)));
         }
         if let (Some((quantity, unit)), [c]) = (self.model.joints[joint].friction.as_ref().and_then(|f| f.quantity(joint, rest)), all) {
             let (leaf, reach) = self.leaf(pool, quantity, if unit.is_some() { c.dimension(0) } else { c.effort() });
@@ -421,7 +421,7 @@ impl<'a> World<'a> {
     }
 }
 
-impl World<'_> {
+impl NameSpace<'_> {
     /// Whether the path begins with something of the mechanism.
     pub(super) fn known_head(&self, path: &str) -> bool {
         let head = path.split('.').next().unwrap_or(path);

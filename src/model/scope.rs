@@ -1,8 +1,8 @@
 //! What a name in an expression stands for, and whether it may stand there.
 
 use super::names::Entity;
-use super::quantities::{World, silent, unknown};
-use super::reach::Reach;
+use super::needs::Needs;
+use super::quantities::{NameSpace, silent, unknown};
 use super::suggest;
 use super::vocabulary::{Known, Quantity};
 use crate::expression::{Dimension, Id, Lowered, Pool, Scope, Symbol, Unknown};
@@ -45,7 +45,7 @@ impl Allow {
 #[derive(Default)]
 pub(crate) struct Local<'s> {
     /// Name, node, reach; `None` for one whose own fault was reported.
-    pub(crate) symbols: Vec<(&'s str, Option<(Symbol, Reach)>)>,
+    pub(crate) symbols: Vec<(&'s str, Option<(Symbol, Needs)>)>,
     /// Functionals of the study so far; `None` where none are allowed.
     pub(crate) functionals: Option<Functionals>,
 }
@@ -67,17 +67,17 @@ pub(crate) struct Functionals {
 
 /// The names as one field sees them.
 pub(crate) struct View<'v, 'a, 's> {
-    pub(crate) world: &'v mut World<'a>,
+    pub(crate) name_space: &'v mut NameSpace<'a>,
     pub(crate) local: &'v mut Local<'s>,
     pub(crate) allow: Allow,
     /// What the expression needs, so far.
-    pub(crate) reach: Reach,
+    pub(crate) reach: Needs,
     /// Codes of the refusals, found again by their text.
     pub(crate) codes: Vec<(String, &'static str)>,
     /// A table was called where none may be.
     pub(crate) refused_table: bool,
     /// What is allowed and was needed outside of the functional that is being lowered.
-    pub(crate) outside: Option<(Allow, Reach)>,
+    pub(crate) outside: Option<(Allow, Needs)>,
 }
 
 impl View<'_, '_, '_> {
@@ -88,18 +88,18 @@ impl View<'_, '_, '_> {
 
     /// Whether a path begins with something that has a name, but is not decoded yet.
     fn undecoded(&self, path: &str) -> bool {
-        let (sound, head) = (&self.world.sound, path.split('.').next().unwrap_or(path));
-        match self.world.names.get(head) {
-            Some(Entity::Driver(i)) => *i >= sound.drivers.len(),
-            Some(Entity::Motor(i)) => *i >= sound.motors.len(),
-            Some(Entity::Clutch(i)) => *i >= sound.clutches.len(),
-            Some(Entity::Spring(i)) => *i >= sound.springs.len(),
-            Some(Entity::State(i)) => *i >= self.world.states.len(),
+        let (renumbered, head) = (&self.name_space.renumbered, path.split('.').next().unwrap_or(path));
+        match self.name_space.names.get(head) {
+            Some(Entity::Driver(i)) => *i >= renumbered.drivers.len(),
+            Some(Entity::Motor(i)) => *i >= renumbered.motors.len(),
+            Some(Entity::Clutch(i)) => *i >= renumbered.clutches.len(),
+            Some(Entity::Spring(i)) => *i >= renumbered.springs.len(),
+            Some(Entity::State(i)) => *i >= self.name_space.states.len(),
             _ => false,
         }
     }
 
-    fn admit(&mut self, path: &str, (symbol, reach): (Symbol, Reach)) -> Result<Symbol, Unknown> {
+    fn admit(&mut self, path: &str, (symbol, reach): (Symbol, Needs)) -> Result<Symbol, Unknown> {
         let allow = self.allow;
         let in_scalar = self.local.functionals.is_some() && self.outside.is_none();
         if reach.level > allow.level {
@@ -160,15 +160,15 @@ impl Scope for View<'_, '_, '_> {
                 None => Err(silent()),
             };
         }
-        match self.world.names.get(path).copied() {
+        match self.name_space.names.get(path).copied() {
             Some(Entity::Parameter(i)) => {
-                return match self.world.parameters.get(i).copied().flatten() {
+                return match self.name_space.parameters.get(i).copied().flatten() {
                     Some(dimension) => Ok(Symbol { id: pool.parameter(i as u32), dimension }),
                     None => Err(silent()),
                 };
             }
             Some(Entity::Measure(i)) => {
-                return match self.world.measures.get(i).copied().flatten() {
+                return match self.name_space.measures.get(i).copied().flatten() {
                     Some(measure) => self.admit(path, measure),
                     // before the measures are lowered only parameters may be named
                     None if self.allow.level <= Known::Time => {
@@ -186,7 +186,7 @@ impl Scope for View<'_, '_, '_> {
             _ => {}
         }
         // inside of a parameter nothing of the mechanism is known yet
-        if self.allow.level == Known::Constant && self.local.functionals.is_none() && self.world.known_head(path) {
+        if self.allow.level == Known::Constant && self.local.functionals.is_none() && self.name_space.known_head(path) {
             let expected = format!("{} may use only parameters", self.allow.what);
             return Err(self.refuse("wrong-level", unknown(format!("`{path}` is no parameter"), expected, None)));
         }
@@ -195,9 +195,9 @@ impl Scope for View<'_, '_, '_> {
             let expected = format!("{} may use only `t` and parameters", self.allow.what);
             return Err(self.refuse("wrong-level", unknown(format!("`{path}` is known only with the motion"), expected, None)));
         }
-        match self.world.quantity(pool, path) {
+        match self.name_space.quantity(pool, path) {
             Ok(found) => {
-                let found = self.world.symbol(pool, found);
+                let found = self.name_space.symbol(pool, found);
                 self.admit(path, found)
             }
             Err(mut why) => {
@@ -211,34 +211,34 @@ impl Scope for View<'_, '_, '_> {
     }
 
     fn has_value(&self, word: &str) -> bool {
-        matches!(self.world.names.get(word), Some(Entity::Parameter(_) | Entity::State(_) | Entity::Measure(_)))
+        matches!(self.name_space.names.get(word), Some(Entity::Parameter(_) | Entity::State(_) | Entity::Measure(_)))
             || self.local.symbols.iter().any(|(name, _)| *name == word)
     }
 
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
-        let Some(Entity::Table(i)) = self.world.names.get(name).copied() else { return None };
+        let Some(Entity::Table(i)) = self.name_space.names.get(name).copied() else { return None };
         if !self.allow.tables {
             self.refused_table = true;
             return None;
         }
-        let (x, y) = self.world.tables.get(i).copied().flatten().unwrap_or((Dimension::NONE, Dimension::NONE));
+        let (x, y) = self.name_space.tables.get(i).copied().flatten().unwrap_or((Dimension::NONE, Dimension::NONE));
         Some((i as u32, x, y))
     }
 
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {
-        let quantity = *self.world.model.inputs.get(input as usize)?;
+        let quantity = *self.name_space.model.inputs.get(input as usize)?;
         if quantity == Quantity::Time {
             return Some(pool.constant(1.0));
         }
         if let Quantity::State(i) = quantity {
             // of one whose own fault was reported anything will do
-            let (rate, reach) = self.world.rates.get(i).copied().flatten().unwrap_or((pool.constant(0.0), Reach::CONSTANT));
+            let (rate, reach) = self.name_space.rates.get(i).copied().flatten().unwrap_or((pool.constant(0.0), Needs::CONSTANT));
             self.reach = self.reach.join(reach);
             return Some(rate);
         }
         let rate = quantity.rate()?;
-        self.reach = self.reach.join(Reach::of(rate));
-        Some(self.world.input(pool, rate))
+        self.reach = self.reach.join(Needs::of(rate));
+        Some(self.name_space.input(pool, rate))
     }
 
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
@@ -264,7 +264,7 @@ impl Scope for View<'_, '_, '_> {
     fn leave_functional(&mut self) {
         if let Some((allow, reach)) = self.outside.take() {
             self.allow = allow;
-            self.reach = reach.join(Reach { level: Known::Study, ..Reach::CONSTANT });
+            self.reach = reach.join(Needs { level: Known::Study, ..Needs::CONSTANT });
         }
     }
 
@@ -296,6 +296,6 @@ impl Scope for View<'_, '_, '_> {
             functionals.all.push(Functional { kind, of: of.id, at, text: text.to_owned(), dimension });
             functionals.all.len() - 1
         });
-        Ok(Symbol { id: self.world.input(pool, Quantity::Functional(number)), dimension })
+        Ok(Symbol { id: self.name_space.input(pool, Quantity::Functional(number)), dimension })
     }
 }

@@ -9,8 +9,8 @@
 use super::chebyshev;
 use super::chebyshev::{Basis, NODES};
 use super::continuous::{Curve, Samples};
-use super::hills;
-use super::hills::{Candidate, hills};
+use super::peaks;
+use super::peaks::{Candidate, peaks};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -131,20 +131,20 @@ impl<C: Curve> Search<'_, C> {
     fn greatest(&mut self, column: usize, sign: f64) -> Option<Extremum> {
         let samples = self.samples;
         let values = samples.column(column);
-        let magnitude = hills::magnitude(values);
+        let magnitude = peaks::magnitude(values);
         let mut best = values.iter().fold(f64::NEG_INFINITY, |m, y| f64::max(m, sign * y));
         if best == f64::NEG_INFINITY {
             return None;
         }
-        // the best sample takes part whatever becomes of its hill: of noise, only the most promising hills are looked into
+        // the best sample takes part whatever becomes of its peak: of noise, only the most promising peaks are looked into
         let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
         let mut found = vec![Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] }];
-        let mut hills = hills(samples, values, sign, best, &mut found);
+        let mut peaks = peaks(samples, values, sign, best, &mut found);
         // the most promising first, so that the others can be left out
-        let noisy = hills.len() > 16 + values.len() / 6;
-        hills.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        hills.truncate(if noisy { MOST_NOISY } else { MOST_BRACKETS });
-        for (sample, bound) in hills {
+        let noisy = peaks.len() > 16 + values.len() / 6;
+        peaks.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        peaks.truncate(if noisy { MOST_NOISY } else { MOST_BRACKETS });
+        for (sample, bound) in peaks {
             if bound < best - tie(best, magnitude) {
                 break;
             }

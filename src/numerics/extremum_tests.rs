@@ -54,13 +54,13 @@ fn noise_in_the_values_hardly_moves_the_place() {
 fn a_sharp_peak_between_two_samples_wins() {
     let n = 360;
     let h = TAU / n as f64;
-    // half-width h: two intervals wide; samples reach 0.8 of it at best. A broad hill of height 0.95 is elsewhere
+    // half-width h: two intervals wide; samples reach 0.8 of it at best. A broad peak of height 0.95 is elsewhere
     for shift in [0.5, 0.1, 0.37] {
         let at = (100.0 + shift) * h;
         let narrow = move |x: f64| h * h / ((x - at) * (x - at) + h * h);
         let peak = move |x: f64| narrow(x) + 0.95 * (-(x - 4.0) * (x - 4.0)).exp();
         let e = single(&[0.0, TAU], n, |x, _| peak(x));
-        // the hill's slope displaces the peak; a Newton step from it is exact to 1e-12
+        // the peak's slope displaces the peak; a Newton step from it is exact to 1e-12
         let slope = 0.95 * -2.0 * (at - 4.0) * (-(at - 4.0) * (at - 4.0)).exp();
         let expected = at + slope * h * h / 2.0;
         assert!((e.max.at - expected).abs() < 1e-10, "{:e}", e.max.at - expected);

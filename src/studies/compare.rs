@@ -146,16 +146,16 @@ impl Bench<'_> {
     /// Why a run without a record stops.
     fn stopped(&self, study: &Study) -> Option<String> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
-        dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut |_| {}).ok()?.stopped
+        dynamics::unrecorded(Case { model: self.model, study, parameters: self.values }, forward, &mut |_| {}).ok()?.stopped
     }
 
     /// The steps alone: time and counters of a run without a record.
-    fn bare(&self, study: &Study) -> Option<(f64, [f64; 4])> {
+    fn unrecorded(&self, study: &Study) -> Option<(f64, [f64; 4])> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
         let (mut begin, mut time) = (0.0, f64::NAN);
         let now = self.watch.now;
         let mut timer = |on: bool| if on { begin = now() } else { time = now() - begin };
-        let k = dynamics::bare(Case { model: self.model, study, parameters: self.values }, forward, &mut timer).ok()?.counts;
+        let k = dynamics::unrecorded(Case { model: self.model, study, parameters: self.values }, forward, &mut timer).ok()?.counts;
         Some((time, [k.steps, k.rejected, k.evaluations, k.factorisations].map(|n| n as f64)))
     }
 
@@ -191,7 +191,7 @@ impl Bench<'_> {
         if self.model.events.iter().all(|e| e.set.is_empty()) {
             let (mut spent, mut best) = (0.0, f64::INFINITY);
             for _ in 0..REPEATS {
-                let Some((time, counts)) = self.bare(&study) else { break };
+                let Some((time, counts)) = self.unrecorded(&study) else { break };
                 (best, spent, row.counts) = (time.min(best), spent + time, counts);
                 if spent > SHORT || (self.watch.stop)() {
                     break;

@@ -9,7 +9,7 @@ use super::common::motion::{Lost, Motion, Rows};
 use super::common::numbers::Sources;
 use super::common::observe::Observer;
 use super::common::watched::{Watched, in_variable, unresolved};
-use super::common::{contact, scene};
+use super::common::{scene, stops};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
@@ -59,8 +59,8 @@ pub(crate) fn prepared<G: Space<S = f64>>(case: Case<'_>, coordinates: Coordinat
     let Case { model, study, parameters } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
     drivers_fit(&mechanism, &start, model, study)?;
-    contact::begins(model, &mechanism, &start)?;
-    contact::driven(model, &mechanism, study)?;
+    stops::begins(model, &mechanism, &start)?;
+    stops::driven(model, &mechanism, study)?;
     Ok((mechanism, start))
 }
 
@@ -161,11 +161,11 @@ fn observe<G: Space<S = f64>>(
         }
     };
     let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
-    contact::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
+    stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
     let n = rows.places.len();
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
     findings.extend(open);
-    findings.extend(contact::dwells(study, &name, &mut motion, &resolved));
+    findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
 
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {

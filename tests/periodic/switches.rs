@@ -95,12 +95,12 @@ fn dry_friction_that_is_steep_at_rest() {
 
 #[test]
 fn friction_by_a_coefficient_under_a_load_that_varies() {
-    let rubbing = Driven {
+    let friction_by_reactions = Driven {
         load: "at: mass.origin, force: [0, -6 N - 20 N/m*x - 2 N s/m*v]",
         joint: "    friction: { coulomb: 0.25, stick_speed: 2 cm/s }",
         events: "",
     };
-    let found = rubbing.check(1e-7);
+    let found = friction_by_reactions.check(1e-7);
     assert!(found.switches.len() >= 4);
 }
 

@@ -63,7 +63,7 @@ pub(super) struct Loops<S> {
     kkt: Kkt,
     /// The whole accelerations and multipliers where forces depend on reactions, and these forces f_λ (nv; else zeros).
     friction: Option<Friction>,
-    pub(super) rubbing: Vec<f64>,
+    pub(super) friction_by_reactions: Vec<f64>,
     whole: (Vec<f64>, Vec<f64>),
     rhs: Vec<f64>,
     left: Vec<f64>,
@@ -112,7 +112,7 @@ impl<S: System> Loops<S> {
             lu: Lu::new(0),
             kkt,
             friction,
-            rubbing: vec![0.0; nv],
+            friction_by_reactions: vec![0.0; nv],
             whole: (vec![0.0; nv], vec![0.0; dims.rows()]),
             rhs: vec![0.0; nv],
             left: vec![0.0; nv],
@@ -378,20 +378,20 @@ impl<S: System> Loops<S> {
         self.bend.fill(0.0);
         self.rhs.iter().zip(&self.dependent).for_each(|(x, &j)| self.bend[j] = *x);
         if stage == Stage::Dynamics {
-            self.rub();
+            self.reaction_friction();
         }
     }
 
     /// f_λ of the accelerations and multipliers that the state has.
-    fn rub(&mut self) {
-        let Self { inner, state, terms, friction, rubbing, whole: (a, lambda), .. } = self;
+    fn reaction_friction(&mut self) {
+        let Self { inner, state, terms, friction, friction_by_reactions, whole: (a, lambda), .. } = self;
         let Some(friction) = friction else { return };
         a.fill(0.0);
         lambda.fill(0.0);
-        let rub = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| inner.rub(state.at(), l, f, slope);
-        match friction.solve(terms, rub, a, lambda) {
-            Ok(()) => rubbing.copy_from_slice(friction.force(lambda, rub)),
-            Err(_) => rubbing.fill(f64::NAN),
+        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| inner.reaction_friction(state.at(), l, f, slope);
+        match friction.solve(terms, friction_of, a, lambda) {
+            Ok(()) => friction_by_reactions.copy_from_slice(friction.force(lambda, friction_of)),
+            Err(_) => friction_by_reactions.fill(f64::NAN),
         }
     }
 
@@ -403,8 +403,8 @@ impl<S: System> Loops<S> {
         let (nv, h) = (self.dims.v, self.dims.holonomic);
         self.accelerate(a);
         let rows = self.terms.mass.chunks_exact(nv.max(1)).zip(&self.terms.force);
-        for ((r, (row, f)), rub) in self.full.iter_mut().zip(rows).zip(&self.rubbing) {
-            *r = f + rub - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
+        for ((r, (row, f)), friction_of) in self.full.iter_mut().zip(rows).zip(&self.friction_by_reactions) {
+            *r = f + friction_of - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
         }
         for (row, l) in self.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
             self.full.iter_mut().zip(row).for_each(|(r, g)| *r -= g * l);

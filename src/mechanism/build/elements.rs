@@ -2,7 +2,7 @@
 
 use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
-use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, Pull, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
+use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, PointLoad, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::builder::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -374,7 +374,7 @@ impl<G: Space> Builder<'_, G> {
                 };
                 let (force, torque) = (outputs(force), outputs(torque));
                 let axes = self.axes_of(*frame).map(|axes| G::rotation(&axes, 0.0));
-                self.mechanism.pulls.push(Pull { body, at, force, torque, frame: frame.body, axes, potential: None });
+                self.mechanism.point_loads.push(PointLoad { body, at, force, torque, frame: frame.body, axes, potential: None });
             }
             &LoadOn::Joint { joint, effort } => {
                 if let Some(gauge) = self.coordinate(joint, &load.place) {
@@ -406,7 +406,7 @@ impl<G: Space> Builder<'_, G> {
             }
         };
         let force = field.into_iter().map(|g| output(self, g)).collect();
-        self.mechanism.pulls.push(Pull { body, at, force, torque: Vec::new(), frame: 0, axes: None, potential });
+        self.mechanism.point_loads.push(PointLoad { body, at, force, torque: Vec::new(), frame: 0, axes: None, potential });
     }
 
     /// The partial derivative of an expression by a quantity.

@@ -1,4 +1,4 @@
-//! Where joints rub: their normal forces by the rows of the cut joint.
+//! Where joints have friction: their normal forces by the rows of the cut joint.
 
 use super::super::{Pressed, Pressing};
 use super::builder::Builder;

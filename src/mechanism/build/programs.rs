@@ -53,7 +53,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 contacts: vec![],
                 clutches: vec![],
                 rotors: vec![],
-                pulls: vec![],
+                point_loads: vec![],
                 position_program: none(),
                 velocity_program: none(),
                 time_program: none(),

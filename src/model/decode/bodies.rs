@@ -17,7 +17,7 @@ impl<'n> Decoder<'n> {
     pub(super) fn bodies(&mut self) {
         let mut points = vec![Point::of_shape("origin", PointAt::Origin), Point::of_shape("com", PointAt::Com)];
         self.points(self.root.get("ground"), &At::ROOT.key("ground"), &mut points);
-        self.world.model.bodies.push(Body {
+        self.name_space.model.bodies.push(Body {
             name: "ground".to_owned(),
             shape: None,
             mass: None,
@@ -32,7 +32,7 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("bodies");
         for (name, node) in self.section("bodies") {
             let body = self.body(name, node, &section.key(name));
-            self.world.model.bodies.push(body);
+            self.name_space.model.bodies.push(body);
         }
     }
 
@@ -107,7 +107,7 @@ impl<'n> Decoder<'n> {
     fn bar(&mut self, bar: Node<'n>, at: &At<'_, 'n>) -> Option<Shape> {
         let mass = self.size(bar.get("mass"), &at.key("mass"), Dimension::MASS, "the mass");
         for key in ["width", "height"] {
-            if bar.get(key).is_some() && self.world.components() == 2 {
+            if bar.get(key).is_some() && self.name_space.components() == 2 {
                 let fault = self.fault("spatial-only", &at.key(key), format!("a planar bar has no `{key}`"), "a key of a planar bar");
                 fault.spot = Spot::Key;
                 fault.help = Some("remove it: in the plane a bar is a line".to_owned());
@@ -148,7 +148,7 @@ impl<'n> Decoder<'n> {
             return self.size(Some(node), at, Dimension::INERTIA, "the inertia").into_iter().collect();
         }
         let Some(ids) = self.vector(Some(node), at, Dimension::INERTIA) else { return Vec::new() };
-        if ids.len() > 1 && self.world.components() == 2 {
+        if ids.len() > 1 && self.name_space.components() == 2 {
             let fault =
                 self.fault("spatial-only", at, format!("{} moments of inertia in the plane", ids.len()), "one number: the inertia about z");
             fault.help = Some("write `inertia: Izz`".to_owned());
@@ -178,7 +178,7 @@ impl<'n> Decoder<'n> {
             }
             let (position, rpy) = if value.is_map() {
                 let rpy_at = here.key("rpy");
-                if value.get("rpy").is_some() && self.world.components() == 2 {
+                if value.get("rpy").is_some() && self.name_space.components() == 2 {
                     let fault = self.fault("spatial-only", &rpy_at, "`rpy` does not exist in the plane", "a point `[x, y]`");
                     fault.spot = Spot::Key;
                 }
@@ -234,12 +234,12 @@ impl<'n> Decoder<'n> {
         let index = if body == "ground" {
             0
         } else {
-            match self.world.names.get(body) {
+            match self.name_space.names.get(body) {
                 Some(Entity::Body(i)) => *i,
                 other => {
                     let is = other.map(|entity| format!("`{body}` is {}", entity.what()));
                     let mut bodies = vec!["ground"];
-                    bodies.extend(self.world.known(|entity| matches!(entity, Entity::Body(_))));
+                    bodies.extend(self.name_space.known(|entity| matches!(entity, Entity::Body(_))));
                     let rest = &text[body.len()..];
                     let near = suggest::nearest(body, bodies.iter().copied()).map(|near| format!("did you mean `{near}{rest}`?"));
                     let list = suggest::known(bodies.iter().copied()).unwrap_or_default();
@@ -249,11 +249,11 @@ impl<'n> Decoder<'n> {
                 }
             }
         };
-        let found = self.world.model.bodies.get(index)?;
+        let found = self.name_space.model.bodies.get(index)?;
         match found.points.iter().position(|p| p.name == point) {
             Some(point) => Some(PointRef { body: index, point }),
             None => {
-                let why = self.world.no_point(index, point, "");
+                let why = self.name_space.no_point(index, point, "");
                 self.fault("unknown-point", at, why.found, why.expected).help = why.help;
                 None
             }

@@ -10,11 +10,11 @@ use std::sync::Arc;
 impl<'n> Decoder<'n> {
     /// Numbers of all parameters, with `set` over the file's values. `waiting` are those that a `take` decides.
     pub(crate) fn evaluate(&mut self, set: &[(usize, Id)], waiting: &[usize]) -> Values {
-        let mut ids: Vec<Id> = self.world.model.parameters.iter().map(|p| p.value).collect();
+        let mut ids: Vec<Id> = self.name_space.model.parameters.iter().map(|p| p.value).collect();
         for (i, id) in set {
             ids[*i] = *id;
         }
-        let mut unknown: Vec<bool> = self.world.parameters.iter().map(Option::is_none).collect();
+        let mut unknown: Vec<bool> = self.name_space.parameters.iter().map(Option::is_none).collect();
         for i in waiting {
             unknown[*i] = true;
         }
@@ -25,7 +25,7 @@ impl<'n> Decoder<'n> {
                 if let Some((first, _)) = set.iter().find(|(i, _)| cycle.contains(i)) {
                     let start = cycle.iter().position(|i| i == first).unwrap_or(0);
                     let cycle: Vec<usize> = cycle[start..].iter().chain(&cycle[..start]).copied().collect();
-                    let told = super::order::tell(&cycle, |i| self.world.model.parameters[i].name.clone());
+                    let told = super::order::tell(&cycle, |i| self.name_space.model.parameters[i].name.clone());
                     self.faults.push(Fault::new("cycle", String::new(), told, "parameters that do not need themselves"));
                 }
                 return Values { numbers: vec![f64::NAN; ids.len()], unknown: vec![true; ids.len()] };
@@ -42,7 +42,7 @@ impl<'n> Decoder<'n> {
             if !numbers[i].is_finite() {
                 unknown[i] = true;
                 let why = self.pool.cause(ids[i], &numbers, &Arc::from([]));
-                self.faults.push(rules::not_finite(&self.world.model.parameters[i], numbers[i], why));
+                self.faults.push(rules::not_finite(&self.name_space.model.parameters[i], numbers[i], why));
             }
         }
         Values { numbers, unknown }
@@ -50,7 +50,7 @@ impl<'n> Decoder<'n> {
 
     /// Runs all checks from the `from`-th on, with these parameters.
     pub(crate) fn run_checks(&mut self, values: &Values, from: usize) {
-        let model = (&self.pool, &self.world.model.tables[..]);
+        let model = (&self.pool, &self.name_space.model.tables[..]);
         let found = rules::broken(&self.checks[from..], model, values, &|steps| self.layers.source(steps));
         self.faults.extend(found.into_iter().map(|(_, fault)| fault));
     }

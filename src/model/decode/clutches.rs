@@ -5,7 +5,7 @@ use crate::model::contacts::{Clutch, ClutchLaw, Sticking};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
 use crate::model::rules::Rule;
 use crate::model::scope::Allow;
 use crate::model::vocabulary::Known;
@@ -18,12 +18,12 @@ impl<'n> Decoder<'n> {
             let at = section.key(name);
             let index = self.clutched(node, &at).map(|joints| {
                 let place = self.place(&at);
-                let (slipped, index) = (self.pool.constant(0.0), self.world.model.clutches.len());
-                self.world.model.clutches.push(Clutch { name: name.to_owned(), joints, slipped, law: ClutchLaw::OneWay, place });
-                self.world.model.clutches[index].slipped = self.world.slip(&mut self.pool, index, 0);
+                let (slipped, index) = (self.pool.constant(0.0), self.name_space.model.clutches.len());
+                self.name_space.model.clutches.push(Clutch { name: name.to_owned(), joints, slipped, law: ClutchLaw::OneWay, place });
+                self.name_space.model.clutches[index].slipped = self.name_space.slip(&mut self.pool, index, 0);
                 index
             });
-            self.world.sound.clutches.push(index);
+            self.name_space.renumbered.clutches.push(index);
         }
     }
 
@@ -53,15 +53,15 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("clutches");
         for (i, (name, node)) in self.section("clutches").into_iter().enumerate() {
             let at = section.key(name);
-            let Some(index) = self.world.sound.clutches.get(i).copied().flatten() else { continue };
+            let Some(index) = self.name_space.renumbered.clutches.get(i).copied().flatten() else { continue };
             if let Some(law) = self.clutch_law(index, name, node, &at) {
-                self.world.model.clutches[index].law = law;
+                self.name_space.model.clutches[index].law = law;
             }
         }
     }
 
     fn clutch_law(&mut self, index: usize, name: &str, node: Node<'n>, at: &At<'_, 'n>) -> Option<ClutchLaw> {
-        let coordinate = self.world.single(self.world.model.clutches[index].joints[1])?;
+        let coordinate = self.name_space.single(self.name_space.model.clutches[index].joints[1])?;
         let (key, other) = if coordinate.angle { ("torque", "force") } else { ("force", "torque") };
         if node.get(other).is_some() {
             let verb = if coordinate.angle { "turn" } else { "slide" };
@@ -91,7 +91,7 @@ impl<'n> Decoder<'n> {
         let largest = self.holding(node, key, at, want, allow);
         let at_rest = if node.get("static").is_some() { self.holding(node, "static", at, want, allow).map(Some) } else { Some(None) };
         let (largest, at_rest) = (largest?, at_rest?);
-        let rate = self.world.slip(&mut self.pool, index, 1);
+        let rate = self.name_space.slip(&mut self.pool, index, 1);
         let level = match (at_rest, speed) {
             (Some(at_rest), Some(speed)) => {
                 self.falling(largest, at_rest, (rate, speed), &format!("the Stribeck speed of clutch `{name}`")).0
@@ -107,7 +107,7 @@ impl<'n> Decoder<'n> {
     /// The largest torque or force; not negative where it is constant.
     fn holding(&mut self, node: Node<'n>, key: &'n str, at: &At<'_, 'n>, want: Want, allow: Allow) -> Option<crate::expression::Id> {
         let here = at.key(key);
-        let (id, Reach { level, .. }) = self.value(node.get(key), &here, want, allow)?;
+        let (id, Needs { level, .. }) = self.value(node.get(key), &here, want, allow)?;
         if level == Known::Constant {
             self.check(Rule::NotNegative("what it holds"), &[id], &here);
         }

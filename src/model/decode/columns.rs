@@ -1,7 +1,7 @@
 //! Columns of a study and figures of them.
 
 use super::decoder::{Decoder, Origin};
-use super::offer::Frame;
+use super::features::Frame;
 use crate::expression::{self, Dimension, Id};
 use crate::model::fault::At;
 use crate::model::merge::Node;
@@ -13,7 +13,7 @@ use crate::model::vocabulary::Quantity;
 
 impl<'n> Decoder<'n> {
     fn column_allow(frame: &Frame<'_>) -> Allow {
-        Allow { reactions: frame.offer.reactions, states: frame.offer.states, what: frame.offer.word, ..Allow::MEASURE }
+        Allow { reactions: frame.features.reactions, states: frame.features.states, what: frame.features.word, ..Allow::MEASURE }
     }
 
     pub(super) fn columns(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Column> {
@@ -66,30 +66,30 @@ impl<'n> Decoder<'n> {
 
     /// Independent variable, time, states, measures, drivers.
     fn default_columns(&mut self, frame: &Frame<'_>) -> Vec<Column> {
-        if frame.offer.independent.is_none() {
+        if frame.features.independent.is_none() {
             return Vec::new();
         }
         let mut columns: Vec<Column> = Vec::new();
-        if let Some(first) = &frame.offer.first
+        if let Some(first) = &frame.features.first
             && let Some(column) = self.quiet(first)
         {
             columns.push(column);
         }
-        let time = self.world.input(&mut self.pool, Quantity::Time);
+        let time = self.name_space.input(&mut self.pool, Quantity::Time);
         columns.push(Column { name: "time".to_owned(), dimension: Dimension::TIME, value: time });
-        let states = if frame.offer.states { self.section("states") } else { Vec::new() };
+        let states = if frame.features.states { self.section("states") } else { Vec::new() };
         columns.extend(states.into_iter().filter_map(|(name, _)| self.quiet(name)));
         for (i, (name, _)) in self.section("measures").into_iter().enumerate() {
-            if let Some((symbol, reach)) = self.world.measures.get(i).copied().flatten()
-                && (frame.offer.reactions || !reach.reactions)
-                && (frame.offer.states || !reach.states)
+            if let Some((symbol, reach)) = self.name_space.measures.get(i).copied().flatten()
+                && (frame.features.reactions || !reach.reactions)
+                && (frame.features.states || !reach.states)
                 && columns.iter().all(|c| c.name != name)
             {
                 columns.push(Column { name: name.to_owned(), dimension: symbol.dimension, value: symbol.id });
             }
         }
-        if frame.offer.reactions {
-            let drivers: Vec<String> = self.world.model.drivers.iter().map(|d| d.name.clone()).collect();
+        if frame.features.reactions {
+            let drivers: Vec<String> = self.name_space.model.drivers.iter().map(|d| d.name.clone()).collect();
             for name in drivers.iter().flat_map(|driver| self.parts(driver)).collect::<Vec<_>>() {
                 columns.extend(self.quiet(&name));
             }
@@ -99,18 +99,18 @@ impl<'n> Decoder<'n> {
 
     /// The column of a path that is known to be sound.
     fn quiet(&mut self, path: &str) -> Option<Column> {
-        if let Some(Entity::Measure(i)) = self.world.names.get(path) {
-            let (symbol, _) = self.world.measures.get(*i).copied().flatten()?;
+        if let Some(Entity::Measure(i)) = self.name_space.names.get(path) {
+            let (symbol, _) = self.name_space.measures.get(*i).copied().flatten()?;
             return Some(Column { name: path.to_owned(), dimension: symbol.dimension, value: symbol.id });
         }
-        let found = self.world.quantity(&mut self.pool, path).ok()?;
-        let (symbol, _) = self.world.symbol(&mut self.pool, found);
+        let found = self.name_space.quantity(&mut self.pool, path).ok()?;
+        let (symbol, _) = self.name_space.symbol(&mut self.pool, found);
         Some(Column { name: path.to_owned(), dimension: symbol.dimension, value: symbol.id })
     }
 
     /// The quantities that a name stands for in a list of columns; the name itself if it stands for none.
     fn parts(&self, name: &str) -> Vec<String> {
-        let planar = self.world.components() == 2;
+        let planar = self.name_space.components() == 2;
         let with = |parts: &[&str]| parts.iter().map(|part| format!("{name}.{part}")).collect();
         let single = |name: &str| vec![name.to_owned()];
         match name {
@@ -122,18 +122,19 @@ impl<'n> Decoder<'n> {
             _ => {}
         }
         let (head, rest) = name.split_once('.').unwrap_or((name, ""));
-        match self.world.names.get(head) {
+        match self.name_space.names.get(head) {
             Some(Entity::Joint(_)) if rest.is_empty() && planar => with(&["fx", "fy", "f"]),
             Some(Entity::Joint(_)) if rest.is_empty() => with(&["fx", "fy", "fz", "mx", "my", "mz"]),
             Some(Entity::Driver(i)) if rest.is_empty() => {
-                let driver = self.world.sound.drivers.get(*i).copied().flatten().and_then(|i| self.world.model.drivers.get(i));
-                let angle = driver.and_then(|d| self.world.single(d.joint)).is_none_or(|c| c.angle);
+                let driver =
+                    self.name_space.renumbered.drivers.get(*i).copied().flatten().and_then(|i| self.name_space.model.drivers.get(i));
+                let angle = driver.and_then(|d| self.name_space.single(d.joint)).is_none_or(|c| c.angle);
                 with(&[if angle { "torque" } else { "force" }, "power"])
             }
             entity => {
                 let body = match entity {
-                    Some(Entity::Body(i)) => self.world.model.bodies.get(*i),
-                    _ if head == "ground" => self.world.model.bodies.first(),
+                    Some(Entity::Body(i)) => self.name_space.model.bodies.get(*i),
+                    _ if head == "ground" => self.name_space.model.bodies.first(),
                     _ => None,
                 };
                 match body {
@@ -165,7 +166,7 @@ impl<'n> Decoder<'n> {
                 return Vec::new();
             }
         }
-        match self.world.names.get(text) {
+        match self.name_space.names.get(text) {
             Some(Entity::Parameter(_)) => {
                 let fault = self.fault("wrong-column", at, format!("`{text}` is a parameter"), "something that varies during the study");
                 fault.help = Some("parameters stand in the JSON; as a curve make it a measure".to_owned());
@@ -214,9 +215,9 @@ impl<'n> Decoder<'n> {
             let axis = match &over {
                 Some(over) => Some(over.dimension),
                 None if show.iter().any(|s| !matches!(s.what, ShownWhat::Column(_))) => {
-                    frame.swept.first().and_then(|i| self.world.parameters.get(*i).copied().flatten())
+                    frame.swept.first().and_then(|i| self.name_space.parameters.get(*i).copied().flatten())
                 }
-                None => frame.offer.independent,
+                None => frame.features.independent,
             };
             let unit = self.plot_unit(value, &here, axis);
             plots.push(Plot { name: name.to_owned(), show, over, unit });
@@ -273,16 +274,16 @@ impl<'n> Decoder<'n> {
         if let Some(i) = frame.scalars.iter().position(|(name, _)| name == text) {
             return one(ShownWhat::Scalar(i), frame.scalars[i].1);
         }
-        if let Some(i) = frame.offer.results.iter().position(|(name, _)| name == text) {
-            return one(ShownWhat::Result(i), frame.offer.results[i].1);
+        if let Some(i) = frame.features.results.iter().position(|(name, _)| name == text) {
+            return one(ShownWhat::Result(i), frame.features.results[i].1);
         }
         if frame.local.symbols.iter().any(|(name, symbol)| *name == text && symbol.is_none()) {
             return Vec::new();
         }
-        if let Some(Entity::Parameter(i)) = self.world.names.get(text) {
+        if let Some(Entity::Parameter(i)) = self.name_space.names.get(text) {
             let i = *i;
             if frame.swept.contains(&i) {
-                return one(ShownWhat::Parameter(i), self.world.parameters.get(i).copied().flatten().unwrap_or_default());
+                return one(ShownWhat::Parameter(i), self.name_space.parameters.get(i).copied().flatten().unwrap_or_default());
             }
             self.fault("wrong-plot", at, format!("`{text}` is a parameter that is not swept"), "a column, a scalar or a swept parameter");
             return Vec::new();

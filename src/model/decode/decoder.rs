@@ -6,8 +6,8 @@ use crate::model::fault::{At, Fault, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::{Layers, Node};
 use crate::model::names::{self, Entity};
-use crate::model::quantities::{Sound, World};
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
+use crate::model::quantities::{NameSpace, Renumbered};
 use crate::model::rules::{self, Rule};
 use crate::model::scope::{Allow, Local, View};
 use crate::model::shape::clip;
@@ -22,7 +22,7 @@ pub(crate) struct Decoder<'n> {
     pub(super) layers: &'n Layers<'n>,
     pub(super) root: Node<'n>,
     pub(crate) pool: Pool,
-    pub(crate) world: World<'n>,
+    pub(crate) name_space: NameSpace<'n>,
     pub(crate) faults: Vec<Fault>,
     pub(super) checks: Vec<Check<'n>>,
     /// Expressions parsed so far: the same texts come again in every variant and study.
@@ -90,7 +90,7 @@ impl<'n> Decoder<'n> {
             set: Vec::new(),
             checks: Vec::new(),
         };
-        let world = World {
+        let name_space = NameSpace {
             model,
             names,
             listed,
@@ -100,10 +100,10 @@ impl<'n> Decoder<'n> {
             rates: Vec::new(),
             measures: Vec::new(),
             stretches: Vec::new(),
-            sound: Sound::default(),
+            renumbered: Renumbered::default(),
             input_of: HashMap::new(),
         };
-        let mut decoder = Self { layers, root, pool: Pool::new(), world, faults, checks: Vec::new(), parsed };
+        let mut decoder = Self { layers, root, pool: Pool::new(), name_space, faults, checks: Vec::new(), parsed };
         decoder.parameters();
         decoder.tables();
         decoder.bodies();
@@ -174,7 +174,7 @@ impl<'n> Decoder<'n> {
         at: &At<'_, '_>,
         allow: Allow,
         local: &mut Local<'_>,
-    ) -> Option<(Lowered, Reach)> {
+    ) -> Option<(Lowered, Needs)> {
         match self.parse(text) {
             Ok(expr) => self.lower_parsed(&expr, text, origin, at, allow, local),
             Err(error) => {
@@ -194,9 +194,16 @@ impl<'n> Decoder<'n> {
         at: &At<'_, '_>,
         allow: Allow,
         local: &mut Local<'_>,
-    ) -> Option<(Lowered, Reach)> {
-        let mut view =
-            View { world: &mut self.world, local, allow, reach: Reach::CONSTANT, codes: Vec::new(), refused_table: false, outside: None };
+    ) -> Option<(Lowered, Needs)> {
+        let mut view = View {
+            name_space: &mut self.name_space,
+            local,
+            allow,
+            reach: Needs::CONSTANT,
+            codes: Vec::new(),
+            refused_table: false,
+            outside: None,
+        };
         let result = expression::lower(&mut self.pool, expr, text, &mut view);
         let (reach, codes, refused_table) = (view.reach, view.codes, view.refused_table);
         match result {
@@ -242,13 +249,13 @@ impl<'n> Decoder<'n> {
     }
 
     /// A number, a quantity or an expression of any dimension.
-    pub(super) fn any(&mut self, node: Node<'_>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+    pub(super) fn any(&mut self, node: Node<'_>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Needs)> {
         match node {
             Node::Plain(Value::Number(n)) => {
                 let x = n.as_f64().filter(|x| x.is_finite())?;
                 let id = self.pool.constant(x);
                 let lowered = Lowered { id, dimension: Dimension::NONE, any: x == 0.0, bare: true, boolean: false };
-                Some((lowered, Reach::CONSTANT))
+                Some((lowered, Needs::CONSTANT))
             }
             Node::Plain(Value::String(text)) => self.lower(text, Origin::Value(text, 0), at, allow, local),
             _ => None,
@@ -301,14 +308,14 @@ impl<'n> Decoder<'n> {
     /// What to write for a name that became a unit, since it stands directly behind a number.
     pub(super) fn unit_or_name(&self, text: &str) -> Option<String> {
         let (number, word) = text.trim().split_once(' ')?;
-        let named = matches!(self.world.names.get(word), Some(Entity::Parameter(_)));
+        let named = matches!(self.name_space.names.get(word), Some(Entity::Parameter(_)));
         let unit = named && number.parse::<f64>().is_ok() && expression::parse_unit(word).is_some();
         unit.then(|| format!("`{word}` directly behind a number is the unit; for the parameter write `{number}*{word}`"))
     }
 
     /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
     pub(super) fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
-        let Some(Entity::Parameter(i)) = self.world.names.get(text.trim()).copied() else { return None };
+        let Some(Entity::Parameter(i)) = self.name_space.names.get(text.trim()).copied() else { return None };
         let value = match self.section("parameters").get(i)?.1 {
             Node::Plain(Value::Number(n)) => n.to_string(),
             Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => text.trim().to_owned(),
@@ -320,7 +327,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// A value of a wanted dimension that may use what `allow` says.
-    pub(super) fn value(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>, want: Want, allow: Allow) -> Option<(Id, Reach)> {
+    pub(super) fn value(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>, want: Want, allow: Allow) -> Option<(Id, Needs)> {
         let node = node?;
         let (lowered, reach) = self.any(node, at, allow, &mut Local::default())?;
         self.fits(&lowered, want, node, None, at).then_some((lowered.id, reach))
@@ -352,7 +359,7 @@ impl<'n> Decoder<'n> {
 
     /// A vector with as many components as the space has.
     pub(super) fn space_vector(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension) -> Option<Vec<Id>> {
-        let components = self.world.components();
+        let components = self.name_space.components();
         self.vector(node, at, want).filter(|ids| ids.len() == components)
     }
 
@@ -366,7 +373,7 @@ impl<'n> Decoder<'n> {
     /// The finished model, with the checks of its study beside its own.
     pub(crate) fn into_model(self, of_study: &[Check<'n>]) -> Model {
         let checks = [self.kept_checks(&self.checks), self.kept_checks(of_study)].concat();
-        let mut model = self.world.model;
+        let mut model = self.name_space.model;
         model.checks = checks;
         model.pool = self.pool;
         model

@@ -38,7 +38,7 @@ impl<'n> Decoder<'n> {
         }
         let [alpha, beta, rho] = ["alpha", "beta", "rho"].map(|key| self.of(node, key, at, Dimension::NONE));
         self.weights(at, integrator, level, [alpha, beta, rho]);
-        let order = super::offer::count(node, "order");
+        let order = super::features::count(node, "order");
         let locate = word("switches") != Some("step-over");
         Some(Forward { until: until?, every, control: control?, integrator, alpha, beta, rho, order, level, chart, locate })
     }

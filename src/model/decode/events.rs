@@ -27,7 +27,7 @@ impl<'n> Decoder<'n> {
                 let here = set_at.key(parameter);
                 let Some(i) = self.parameter_named(parameter, &here, true) else { continue };
                 self.changeable(i, &here, fixed);
-                let Some(dimension) = self.world.parameters.get(i).copied().flatten() else { continue };
+                let Some(dimension) = self.name_space.parameters.get(i).copied().flatten() else { continue };
                 set.extend(self.varying(Some(value), &here, Want::Of(dimension), EVENT).map(|id| (i, id)));
             }
             let restitution = node.get("restitution").and_then(|inner| self.restitution(inner, &at.key("restitution")));
@@ -40,7 +40,7 @@ impl<'n> Decoder<'n> {
             let stop = word("action") == Some("stop");
             if let Some(when) = when {
                 let place = self.place(&at);
-                self.world.model.events.push(Event { name: name.to_owned(), when, crossing, stop, set, restitution, place });
+                self.name_space.model.events.push(Event { name: name.to_owned(), when, crossing, stop, set, restitution, place });
             }
         }
     }
@@ -71,7 +71,7 @@ impl<'n> Decoder<'n> {
             self.check(Rule::Within(0.0, 1.0, "the coefficient of restitution"), &[e], &e_at);
         }
         let (joint, _) = self.driven(node.get("joint"), &joint_at)?;
-        if let Some(driver) = self.world.model.drivers.iter().find(|driver| driver.joint == joint) {
+        if let Some(driver) = self.name_space.model.drivers.iter().find(|driver| driver.joint == joint) {
             let message = format!("this joint is driven by `{}`", driver.name);
             self.fault("wrong-joint", &joint_at, message, "a joint that moves freely").help =
                 Some("an impact cannot change a motion that is prescribed: remove the driver or the restitution".to_owned());
@@ -82,7 +82,7 @@ impl<'n> Decoder<'n> {
     /// Refuses to change a parameter that the mechanism is built of, or that other parameters are computed of. `checks` were
     /// registered before the events: each number that is fixed when the mechanism is built has one.
     fn changeable(&mut self, parameter: usize, at: &At<'_, 'n>, checks: usize) {
-        let model = &self.world.model;
+        let model = &self.name_space.model;
         let uses = |id: &Id| self.pool.parameters_of(&[*id]).contains(&(parameter as u32));
         let name = &model.parameters[parameter].name;
         let (message, help) = if let Some(other) = model.parameters.iter().find(|p| uses(&p.value)) {
@@ -101,7 +101,7 @@ impl<'n> Decoder<'n> {
 
     /// The first place of the mechanism whose value is fixed when it is built and uses something.
     fn built_of(&self, uses: &impl Fn(&Id) -> bool, checks: usize) -> Option<String> {
-        let model = &self.world.model;
+        let model = &self.name_space.model;
         let fixed = |steps: &[Step<'_>]| {
             let varies = matches!(steps, [Step::Key("loads" | "clutches" | "states" | "start"), ..]);
             !varies && !matches!(steps, [Step::Key("joints"), _, Step::Key("limits" | "friction"), ..])

@@ -48,7 +48,7 @@ impl<'n> Decoder<'n> {
             let at = section.key(name);
             if let Some(kind) = self.coupling(node, &at) {
                 let place = self.place(&at);
-                self.world.model.couplings.push(Coupling { name: name.to_owned(), kind, place });
+                self.name_space.model.couplings.push(Coupling { name: name.to_owned(), kind, place });
             }
         }
     }
@@ -112,10 +112,10 @@ impl<'n> Decoder<'n> {
             let at = section.key(name);
             let driver = self.driver(name, node, &at);
             let index = driver.map(|driver| {
-                self.world.model.drivers.push(driver);
-                self.world.model.drivers.len() - 1
+                self.name_space.model.drivers.push(driver);
+                self.name_space.model.drivers.len() - 1
             });
-            self.world.sound.drivers.push(index);
+            self.name_space.renumbered.drivers.push(index);
         }
     }
 
@@ -127,7 +127,7 @@ impl<'n> Decoder<'n> {
             }
             return None;
         };
-        if let Some(other) = self.world.model.drivers.iter().find(|d| d.joint == joint) {
+        if let Some(other) = self.name_space.model.drivers.iter().find(|d| d.joint == joint) {
             let message = format!("this joint is driven by `{}` already", other.name);
             self.fault("driven-twice", &at.key("joint"), message, "one driver for a joint").help = Some("remove one of the two".to_owned());
         }
@@ -143,7 +143,7 @@ impl<'n> Decoder<'n> {
         } else {
             let (key, other) = if coordinate.angle { ("angle", "position") } else { ("position", "angle") };
             if node.get(other).is_some() {
-                let joint = self.world.model.joints[joint].name.clone();
+                let joint = self.name_space.model.joints[joint].name.clone();
                 let message = format!("`{joint}` has no `{other}`");
                 let fault = self.fault("wrong-joint", &at.key(other), message, format!("`{key}`: an expression of `t`"));
                 fault.spot = Spot::Key;
@@ -162,10 +162,10 @@ impl<'n> Decoder<'n> {
             let at = section.key(name);
             let motor = self.motor(name, node, &at);
             let index = motor.map(|motor| {
-                self.world.model.motors.push(motor);
-                self.world.model.motors.len() - 1
+                self.name_space.model.motors.push(motor);
+                self.name_space.model.motors.len() - 1
             });
-            self.world.sound.motors.push(index);
+            self.name_space.renumbered.motors.push(index);
         }
     }
 
@@ -180,14 +180,14 @@ impl<'n> Decoder<'n> {
             return None;
         }
         let torque = curve.and_then(|table| {
-            let (x, y) = self.world.tables.get(table).copied().flatten()?;
+            let (x, y) = self.name_space.tables.get(table).copied().flatten()?;
             if (x, y) != (Dimension::ANGULAR_SPEED, Dimension::TORQUE) {
                 let message = format!("a table of {} over {}", y.name(), x.name());
                 self.fault("wrong-dimension", &at.key("curve"), message, "torque (N m) over angular speed (rad/s)").help =
                     Some("give its points units: `[[0 rpm, 200 N m], [1500 rpm, 0 N m]]`".to_owned());
                 return None;
             }
-            let omega = self.world.input(&mut self.pool, Quantity::Joint { joint, slot: 0, order: 1 });
+            let omega = self.name_space.input(&mut self.pool, Quantity::Joint { joint, slot: 0, order: 1 });
             let text = format!("motor `{name}`");
             Some(match gear {
                 Some(gear) => {
@@ -203,10 +203,10 @@ impl<'n> Decoder<'n> {
 
     fn table_named(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>) -> Option<usize> {
         let text = node?.text()?;
-        if let Some(Entity::Table(i)) = self.world.names.get(text) {
+        if let Some(Entity::Table(i)) = self.name_space.names.get(text) {
             return Some(*i);
         }
-        let tables = self.world.known(|entity| matches!(entity, Entity::Table(_)));
+        let tables = self.name_space.known(|entity| matches!(entity, Entity::Table(_)));
         let near = suggest::nearest(text, tables.iter().copied()).map(|near| format!("did you mean `{near}`?"));
         let list = suggest::known(tables.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
         self.fault("unknown-table", at, format!("unknown table `{}`", clip(text)), format!("one of the tables {list}")).help = near;
@@ -219,7 +219,7 @@ impl<'n> Decoder<'n> {
             let at = section.key(name);
             if let Some(on) = self.load(node, &at) {
                 let place = self.place(&at);
-                self.world.model.loads.push(Load { name: name.to_owned(), on, place });
+                self.name_space.model.loads.push(Load { name: name.to_owned(), on, place });
             }
         }
     }
@@ -251,7 +251,7 @@ impl<'n> Decoder<'n> {
         if node.get("force").is_none() && node.get("torque").is_none() {
             self.fault("missing-key", at, "a load without `force` and `torque`", "at least one of the two").spot = Spot::Key;
         }
-        let components = self.world.components();
+        let components = self.name_space.components();
         let force = self.load_vector(node, "force", at, Dimension::FORCE, components);
         let torque = self.load_vector(node, "torque", at, Dimension::TORQUE, if components == 2 { 1 } else { 3 });
         let world = PointRef { body: 0, point: 0 };
@@ -291,11 +291,11 @@ impl<'n> Decoder<'n> {
 
     /// The parameter of a name; the fault is reported, at the key or at the value.
     pub(super) fn parameter_named(&mut self, name: &str, at: &At<'_, '_>, key: bool) -> Option<usize> {
-        match self.world.names.get(name) {
+        match self.name_space.names.get(name) {
             Some(Entity::Parameter(i)) => Some(*i),
             other => {
                 let is = other.map(|entity| format!("`{name}` is {}", entity.what()));
-                let names = self.world.known(|entity| matches!(entity, Entity::Parameter(_)));
+                let names = self.name_space.known(|entity| matches!(entity, Entity::Parameter(_)));
                 let near = suggest::nearest(name, names.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 let list = suggest::known(names.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown parameter `{}`", clip(name)));

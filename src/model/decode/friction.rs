@@ -198,8 +198,8 @@ impl<'n> Decoder<'n> {
         let damping = self.of(node, "damping", at, level.dimension.div(coordinate.dimension(1)));
         self.check_key(Rule::NotNegative("the damping"), damping, at, "damping");
         let rate = self.own(1);
-        let joint = self.world.model.joints.len();
-        let y = self.world.input(&mut self.pool, Quantity::Bristle { joint });
+        let joint = self.name_space.model.joints.len();
+        let y = self.name_space.input(&mut self.pool, Quantity::Bristle { joint });
         let p = &mut self.pool;
         let deflection = p.div(level.coulomb, stiffness?);
         let speed = p.abs(rate, &format!("friction of joint `{name}`"));

@@ -8,8 +8,8 @@ use crate::model::bodies::{Attraction, AttractionLaw};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
+use crate::model::needs::Needs;
 use crate::model::place::PointRef;
-use crate::model::reach::Reach;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::{Known, Quantity};
 
@@ -26,14 +26,14 @@ impl<'n> Decoder<'n> {
         let at = At::ROOT.key("gravity");
         let node = self.root.get("gravity");
         let zero = self.pool.constant(0.0);
-        self.world.model.gravity = vec![zero; self.world.components()];
+        self.name_space.model.gravity = vec![zero; self.name_space.components()];
         let Some(node) = node else { return };
         if let Some(potential) = node.get("potential") {
             self.attractions(|decoder, body, local| {
                 let want = Dimension::ENERGY.div(Dimension::MASS);
                 decoder.in_field(potential, &at.key("potential"), want, POTENTIAL, body, local).map(AttractionLaw::Potential)
             });
-        } else if node.is_list() && node.items().len() == self.world.components() {
+        } else if node.is_list() && node.items().len() == self.name_space.components() {
             let components = |decoder: &mut Self, body: usize, local: &mut Local<'_>| {
                 let items = node.items().iter().enumerate();
                 let found =
@@ -45,7 +45,7 @@ impl<'n> Decoder<'n> {
                 for (i, id) in first.iter().enumerate() {
                     self.check(crate::model::rules::Rule::Finite, &[*id], &at.index(i));
                 }
-                self.world.model.gravity = first;
+                self.name_space.model.gravity = first;
                 return;
             }
             self.attractions(|decoder, body, local| components(decoder, body, local).map(AttractionLaw::Field));
@@ -54,9 +54,9 @@ impl<'n> Decoder<'n> {
 
     /// The law of each body; faults are reported for the first.
     fn attractions(&mut self, law: impl Fn(&mut Self, usize, &mut Local<'_>) -> Option<AttractionLaw>) {
-        for body in 1..self.world.model.bodies.len() {
+        for body in 1..self.name_space.model.bodies.len() {
             let Some(law) = law(self, body, &mut Local::default()) else { return };
-            self.world.model.attractions.push(Attraction { body, law });
+            self.name_space.model.attractions.push(Attraction { body, law });
         }
     }
 
@@ -72,10 +72,10 @@ impl<'n> Decoder<'n> {
     ) -> Option<Id> {
         local.symbols = self.place_of(body);
         let named = node.text().and_then(|text| self.parse(text).ok()).map(|expr| super::values::paths_of(&expr)).unwrap_or_default();
-        let components = self.world.components();
+        let components = self.name_space.components();
         for name in PLACE.into_iter().filter(|name| named.iter().any(|path| path == name)) {
-            if self.world.names.contains_key(name) {
-                let is = self.world.names[name].what();
+            if self.name_space.names.contains_key(name) {
+                let is = self.name_space.names[name].what();
                 let message = format!("`{name}` is the place in gravity, and {is} of this file");
                 self.fault("reserved-name", at, message, "one meaning").help = Some(format!("give {is} another name"));
                 return None;
@@ -90,14 +90,14 @@ impl<'n> Decoder<'n> {
     }
 
     /// The names of the place, for a body.
-    fn place_of(&mut self, body: usize) -> Vec<(&'static str, Option<(Symbol, Reach)>)> {
-        let components = self.world.components();
+    fn place_of(&mut self, body: usize) -> Vec<(&'static str, Option<(Symbol, Needs)>)> {
+        let components = self.name_space.components();
         let point = |axis: usize| Quantity::Point { at: PointRef { body, point: 1 }, axis, order: 0 };
-        let coordinates: Vec<Id> = (0..components).map(|axis| self.world.input(&mut self.pool, point(axis))).collect();
+        let coordinates: Vec<Id> = (0..components).map(|axis| self.name_space.input(&mut self.pool, point(axis))).collect();
         let squares: Vec<Id> = coordinates.iter().map(|x| self.pool.powi(*x, 2)).collect();
         let sum = squares.into_iter().reduce(|sum, square| self.pool.add(sum, square));
         let distance = sum.map(|sum| self.pool.sqrt(sum));
-        let symbol = |id: Id| Some((Symbol { id, dimension: Dimension::LENGTH }, Reach::CONSTANT));
+        let symbol = |id: Id| Some((Symbol { id, dimension: Dimension::LENGTH }, Needs::CONSTANT));
         let names = PLACE[..components].iter().copied().zip(coordinates);
         names.chain(distance.map(|r| (PLACE[3], r))).map(|(name, id)| (name, symbol(id))).collect()
     }

@@ -24,10 +24,10 @@ impl<'n> Decoder<'n> {
         for (name, node) in self.section("joints") {
             let joint = self.joint(name, node, &section.key(name));
             let index = joint.map(|joint| {
-                self.world.model.joints.push(joint);
-                self.world.model.joints.len() - 1
+                self.name_space.model.joints.push(joint);
+                self.name_space.model.joints.len() - 1
             });
-            self.world.sound.joints.push(index);
+            self.name_space.renumbered.joints.push(index);
         }
     }
 
@@ -39,7 +39,7 @@ impl<'n> Decoder<'n> {
             return None;
         };
         let ends = self.ends(node, word, at);
-        let planar = self.world.components() == 2;
+        let planar = self.name_space.components() == 2;
         let (wrong, here) = if planar { (SPATIAL.contains(&word), "planar") } else { (PLANAR.contains(&word), "spatial") };
         if wrong {
             let code = if planar { "spatial-only" } else { "planar-only" };
@@ -95,7 +95,7 @@ impl<'n> Decoder<'n> {
         let b = self.point(Some(Node::Plain(b)), &here.index(1));
         let (a, b) = (a?, b?);
         if a.body == b.body {
-            let name = self.world.model.bodies[a.body].name.clone();
+            let name = self.name_space.model.bodies[a.body].name.clone();
             self.fault("same-body", &here, format!("both points belong to `{name}`"), "points of two bodies");
             return None;
         }
@@ -179,11 +179,11 @@ impl<'n> Decoder<'n> {
     /// The joint that a text names, by its index in the model; the fault is reported.
     pub(super) fn joint_named(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>) -> Option<usize> {
         let text = node?.text()?;
-        match self.world.names.get(text) {
-            Some(Entity::Joint(i)) => self.world.sound.joints.get(*i).copied().flatten(),
+        match self.name_space.names.get(text) {
+            Some(Entity::Joint(i)) => self.name_space.renumbered.joints.get(*i).copied().flatten(),
             other => {
                 let is = other.map(|entity| format!("`{text}` is {}", entity.what()));
-                let joints = self.world.known(|entity| matches!(entity, Entity::Joint(_)));
+                let joints = self.name_space.known(|entity| matches!(entity, Entity::Joint(_)));
                 let near = suggest::nearest(text, joints.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 let list = suggest::known(joints.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown joint `{}`", clip(text)));
@@ -196,10 +196,10 @@ impl<'n> Decoder<'n> {
     /// The joint that a text names and its one coordinate; the fault is reported.
     pub(super) fn driven(&mut self, node: Option<Node<'_>>, at: &At<'_, '_>) -> Option<(usize, &'static Coordinate)> {
         let joint = self.joint_named(node, at)?;
-        match self.world.single(joint) {
+        match self.name_space.single(joint) {
             Some(coordinate) => Some((joint, coordinate)),
             None => {
-                let name = self.world.model.joints[joint].name.clone();
+                let name = self.name_space.model.joints[joint].name.clone();
                 self.fault(
                     "wrong-joint",
                     at,

@@ -1,7 +1,7 @@
 //! The kinds of studies: their keys, their independent variables and results.
 
 use super::decoder::{Decoder, Origin};
-use super::offer::{Offer, count};
+use super::features::{Features, count};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::coordinates::Coordinate;
 use crate::model::entities::LoadOn;
@@ -26,7 +26,7 @@ const ROWS: usize = 360;
 const STEPS: usize = 10;
 
 impl<'n> Decoder<'n> {
-    pub(super) fn kind(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Offer)> {
+    pub(super) fn kind(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Features)> {
         let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some())?;
         let inner = node.get(word)?;
         let here = at.key(word);
@@ -41,29 +41,29 @@ impl<'n> Decoder<'n> {
                     "kinematics" => (Kind::Kinematics(range), false, turns),
                     _ => (Kind::Inverse(range), true, Vec::new()),
                 };
-                Some((kind, Offer { word, independent: Some(independent), first, reactions, states: false, results }))
+                Some((kind, Features { word, independent: Some(independent), first, reactions, states: false, results }))
             }
             "balance" => self.balance(inner, &here),
             "dynamics" => {
                 let (independent, results) = (Some(Dimension::TIME), Vec::new());
-                let offer = Offer { word, independent, first: None, reactions: true, states: true, results };
-                Some((Kind::Dynamics(self.forward(inner, &here)?), offer))
+                let features = Features { word, independent, first: None, reactions: true, states: true, results };
+                Some((Kind::Dynamics(self.forward(inner, &here)?), features))
             }
             "periodic" => self.periodic(inner, &here),
             "statics" => {
                 let results = vec![("stable".to_owned(), Dimension::NONE)];
                 let independent = Some(Dimension::TIME);
-                Some((Kind::Statics, Offer { word, independent, first: None, reactions: true, states: true, results }))
+                Some((Kind::Statics, Features { word, independent, first: None, reactions: true, states: true, results }))
             }
             "linearize" => {
                 let kind = Kind::Linearize(self.linearize(inner, &here)?);
-                Some((kind, Offer { word, independent: None, first: None, reactions: true, states: true, results: Vec::new() }))
+                Some((kind, Features { word, independent: None, first: None, reactions: true, states: true, results: Vec::new() }))
             }
             _ => {
                 self.no_columns(node, at);
                 let results = (1..=NAMED_MODES).map(|i| (format!("frequency_{i}"), Dimension::ANGULAR_SPEED)).collect();
-                let offer = Offer { word, independent: None, first: None, reactions: true, states: true, results };
-                Some((Kind::Modes(modes(inner)), offer))
+                let features = Features { word, independent: None, first: None, reactions: true, states: true, results };
+                Some((Kind::Modes(modes(inner)), features))
             }
         }
     }
@@ -97,7 +97,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// `periodic: { over, by or through, of, ... }`.
-    fn periodic(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> Option<(Kind, Offer)> {
+    fn periodic(&mut self, inner: Node<'n>, here: &At<'_, 'n>) -> Option<(Kind, Features)> {
         let named = |decoder: &mut Self, key: &'n str, allow: Allow| {
             let text = inner.get(key)?.text()?;
             let (lowered, _) = decoder.lower(text, Origin::Value(text, 0), &here.key(key), allow, &mut Local::default())?;
@@ -129,7 +129,7 @@ impl<'n> Decoder<'n> {
         });
         let first = (!timed).then(|| over.to_owned());
         let independent = Some(progress.dimension);
-        Some((kind, Offer { word: "periodic", independent, first, reactions: true, states: true, results }))
+        Some((kind, Features { word: "periodic", independent, first, reactions: true, states: true, results }))
     }
 
     /// `by` or `through`.
@@ -163,7 +163,7 @@ impl<'n> Decoder<'n> {
         let from = inner.get("from").and_then(|node| {
             let at = here.key("from");
             let parameter = self.parameter_named(node.get("vary")?.text()?, &at.key("vary"), false)?;
-            let dimension = self.world.parameters.get(parameter).copied().flatten()?;
+            let dimension = self.name_space.parameters.get(parameter).copied().flatten()?;
             let begin = self.number(node.get("at"), &at.key("at"), Want::Of(dimension))?;
             Some(Continued { parameter, at: begin, steps: count(node, "steps").unwrap_or(STEPS) })
         });
@@ -172,7 +172,7 @@ impl<'n> Decoder<'n> {
 
     /// Loads by first-order states are known in motion in time alone.
     fn no_states_in_loads(&mut self, at: &At<'_, 'n>) {
-        let model = &self.world.model;
+        let model = &self.name_space.model;
         let state_in = |ids: &[Id]| {
             self.pool.inputs_of(ids).into_iter().find_map(|input| match model.inputs[input as usize] {
                 Quantity::State(i) => Some(model.states[i].name.clone()),
@@ -204,8 +204,8 @@ impl<'n> Decoder<'n> {
             self.check(Rule::Positive("the time"), &[lowered.id], &over_at);
             return Some((Range { over: Over::Time(lowered.id), samples }, Dimension::TIME, None));
         }
-        let [driver] = &self.world.model.drivers[..] else {
-            let n = self.world.model.drivers.len();
+        let [driver] = &self.name_space.model.drivers[..] else {
+            let n = self.name_space.model.drivers.len();
             let drivers = self.section("drivers").len();
             // a faulty driver was reported already
             if drivers == n {
@@ -216,7 +216,7 @@ impl<'n> Decoder<'n> {
             return None;
         };
         let joint = driver.joint;
-        let coordinate: &'static Coordinate = self.world.single(joint)?;
+        let coordinate: &'static Coordinate = self.name_space.single(joint)?;
         let dimension = coordinate.dimension(0);
         let want = if coordinate.angle { Want::Angle } else { Want::Of(dimension) };
         if lowered.expect(dimension).is_err() {
@@ -226,13 +226,13 @@ impl<'n> Decoder<'n> {
         }
         self.fits(&lowered, want, over, None, &over_at);
         self.check(Rule::NotZero("the range"), &[lowered.id], &over_at);
-        let path = format!("{}.{}", self.world.model.joints[joint].name, coordinate.names[0]);
+        let path = format!("{}.{}", self.name_space.model.joints[joint].name, coordinate.names[0]);
         Some((Range { over: Over::Driver(lowered.id), samples }, dimension, Some(path)))
     }
 
-    fn balance(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Offer)> {
+    fn balance(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(Kind, Features)> {
         let move_at = at.key("move");
-        if !self.world.model.attractions.is_empty() {
+        if !self.name_space.model.attractions.is_empty() {
             let message = "a balance in a field of gravity, where weights depend on the places that are looked for";
             self.fault("gravity-field", at, message, "gravity that is the same everywhere").spot = Spot::Key;
             return None;
@@ -244,20 +244,20 @@ impl<'n> Decoder<'n> {
             let here = move_at.index(i);
             let Some(text) = item.as_str() else { continue };
             let (body, mass) = text.split_once('.').unwrap_or((text, ""));
-            let index = match self.world.names.get(body) {
+            let index = match self.name_space.names.get(body) {
                 Some(Entity::Body(i)) => {
-                    self.world.model.bodies.get(*i).map(|found| (*i, found.attached.iter().position(|a| a.name == mass)))
+                    self.name_space.model.bodies.get(*i).map(|found| (*i, found.attached.iter().position(|a| a.name == mass)))
                 }
                 _ => None,
             };
             match index {
                 Some((b, Some(a))) => {
-                    let attached = &self.world.model.bodies[b].attached[a];
+                    let attached = &self.name_space.model.bodies[b].attached[a];
                     if attached.at == 0 {
                         let message = format!("`{text}` sits at the body's origin: there is no line to move it along");
                         self.fault("no-line", &here, message, "a mass at another point of its body");
                         sound = false;
-                    } else if self.world.model.bodies[b].attached[a].mass.is_none() {
+                    } else if self.name_space.model.bodies[b].attached[a].mass.is_none() {
                         self.fault("no-mass", &here, format!("`{text}` has no mass"), "an attached point mass");
                         sound = false;
                     }
@@ -270,8 +270,13 @@ impl<'n> Decoder<'n> {
                 }
                 other => {
                     sound = false;
-                    let known: Vec<String> =
-                        self.world.model.bodies.iter().flat_map(|b| b.attached.iter().map(|a| format!("{}.{}", b.name, a.name))).collect();
+                    let known: Vec<String> = self
+                        .name_space
+                        .model
+                        .bodies
+                        .iter()
+                        .flat_map(|b| b.attached.iter().map(|a| format!("{}.{}", b.name, a.name)))
+                        .collect();
                     let near = suggest::nearest(text, known.iter().map(String::as_str)).map(|near| format!("did you mean `{near}`?"));
                     let list = suggest::known(known.iter().map(String::as_str)).unwrap_or_else(|| "(there are none)".to_owned());
                     let message = match other {
@@ -286,8 +291,8 @@ impl<'n> Decoder<'n> {
         results.push(("residual".to_owned(), Dimension::LENGTH));
         let (range, independent, first) = self.range(node, at)?;
         sound.then(|| {
-            let offer = Offer { word: "balance", independent: Some(independent), first, reactions: false, states: false, results };
-            (Kind::Balance { moved, range }, offer)
+            let features = Features { word: "balance", independent: Some(independent), first, reactions: false, states: false, results };
+            (Kind::Balance { moved, range }, features)
         })
     }
 }

@@ -76,16 +76,16 @@ impl<'n> Decoder<'n> {
                     }
                 }
             };
-            self.world.states.push(dimension);
-            self.world.rates.push(None);
+            self.name_space.states.push(dimension);
+            self.name_space.rates.push(None);
             let (dimension, place) = (dimension.unwrap_or_default(), self.place(&at));
-            self.world.model.states.push(FirstOrder { name: name.to_owned(), dimension, start, rate: zero, place });
+            self.name_space.model.states.push(FirstOrder { name: name.to_owned(), dimension, start, rate: zero, place });
         }
     }
 
     pub(super) fn measures(&mut self) {
         let entries = self.entries();
-        self.world.measures = vec![None; entries.measures.len()];
+        self.name_space.measures = vec![None; entries.measures.len()];
         for i in self.arranged(&entries) {
             if i < entries.measures.len() {
                 self.measure(&entries, i);
@@ -97,9 +97,9 @@ impl<'n> Decoder<'n> {
         }
         let section = At::ROOT.key("measures");
         for (i, (name, _)) in entries.measures.iter().enumerate() {
-            if let Some((symbol, _)) = self.world.measures[i] {
+            if let Some((symbol, _)) = self.name_space.measures[i] {
                 let (name, place) = ((*name).to_owned(), self.place(&section.key(name)));
-                self.world.model.measures.push(Measure { name, dimension: symbol.dimension, value: symbol.id, place });
+                self.name_space.model.measures.push(Measure { name, dimension: symbol.dimension, value: symbol.id, place });
             }
         }
     }
@@ -123,7 +123,7 @@ impl<'n> Decoder<'n> {
 
     /// The entries in an order in which what they need comes first; those that need themselves are reported and left out.
     fn arranged(&mut self, entries: &Entries<'n>) -> Vec<usize> {
-        let names = &self.world.names;
+        let names = &self.name_space.names;
         let entity = |name: &str| names.get(name).copied();
         let mut all: Vec<Vec<usize>> = entries.drafts.iter().map(|draft| needs(draft, |name| entries.find(entity(name)?))).collect();
         // one more, that stands for the rates of all states
@@ -177,7 +177,7 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("measures");
         let at = section.key(entries.measures[i].0);
         if let Some((lowered, reach)) = self.finish(&entries.drafts[i], &at, Allow::MEASURE, &mut Local::default()) {
-            self.world.measures[i] = Some((Symbol { id: lowered.id, dimension: lowered.dimension }, reach));
+            self.name_space.measures[i] = Some((Symbol { id: lowered.id, dimension: lowered.dimension }, reach));
         }
     }
 
@@ -187,15 +187,15 @@ impl<'n> Decoder<'n> {
         let spring_at = section.key(name);
         let allow = Allow { what: "a spring's `stretch`", ..Allow::POSITION };
         let lowered = self.finish(&entries.drafts[i], &spring_at.key("stretch"), allow, &mut Local::default());
-        if let (Some((lowered, _)), Some(index)) = (lowered, self.world.sound.springs.get(file).copied().flatten()) {
-            self.world.stretches[index] = Some(lowered.dimension);
-            self.world.model.springs[index].on = SpringOn::Stretch(lowered.id);
+        if let (Some((lowered, _)), Some(index)) = (lowered, self.name_space.renumbered.springs.get(file).copied().flatten()) {
+            self.name_space.stretches[index] = Some(lowered.dimension);
+            self.name_space.model.springs[index].on = SpringOn::Stretch(lowered.id);
         }
     }
 
     fn state_rate(&mut self, entries: &Entries<'n>, state: usize) {
         let (name, node) = entries.states[state];
-        let Some(dimension) = self.world.states[state] else { return };
+        let Some(dimension) = self.name_space.states[state] else { return };
         let section = At::ROOT.key("states");
         let state_at = section.key(name);
         let at = state_at.key("rate");
@@ -205,8 +205,8 @@ impl<'n> Decoder<'n> {
         if let Some((lowered, reach)) = lowered {
             let wanted = dimension.div(Dimension::TIME);
             if lowered.expect(wanted).is_ok() {
-                self.world.rates[state] = Some((lowered.id, reach));
-                self.world.model.states[state].rate = lowered.id;
+                self.name_space.rates[state] = Some((lowered.id, reach));
+                self.name_space.model.states[state].rate = lowered.id;
                 return;
             }
             let expected = match dimension.si() {
@@ -228,7 +228,7 @@ impl<'n> Decoder<'n> {
 
     /// Says with faults of dimension in a rate which of the states that it names have no unit.
     fn blame_start(&mut self, before: usize, entries: &Entries<'n>, state: usize) {
-        let names = &self.world.names;
+        let names = &self.name_space.names;
         let without = needs(&entries.drafts[entries.rates() + state], |name| match names.get(name) {
             Some(Entity::State(i)) if entries.states.get(*i).is_some_and(|(_, node)| plain(*node)) => Some(*i),
             _ => None,

@@ -68,7 +68,7 @@ impl<'n> Decoder<'n> {
         for fault in &mut self.faults[before..] {
             fault.spot = argument.name(name);
         }
-        found.map(|i| (i, self.world.parameters.get(i).copied().flatten()))
+        found.map(|i| (i, self.name_space.parameters.get(i).copied().flatten()))
     }
 
     /// The value in a part of an argument's text.

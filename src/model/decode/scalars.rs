@@ -1,14 +1,14 @@
 //! Scalars and expectations: numbers of a whole study.
 
 use super::decoder::{Decoder, Origin};
-use super::offer::Frame;
+use super::features::Frame;
 use super::order::{order, tell};
 use super::values::needs;
 use crate::expression::{Dimension, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
 use crate::model::scope::Allow;
 use crate::model::study::{Expectation, Scalar, Tolerance};
 use crate::model::vocabulary::{Quantity, WORKS};
@@ -26,7 +26,7 @@ impl<'n> Decoder<'n> {
             let here = section.key(name);
             self.free_name(name, &here, "a scalar");
             let double =
-                frame.local.symbols.iter().any(|(known, _)| known == name) || frame.offer.results.iter().any(|(known, _)| known == name);
+                frame.local.symbols.iter().any(|(known, _)| known == name) || frame.features.results.iter().any(|(known, _)| known == name);
             if double {
                 let message = format!("`{name}` is a scalar of this study already");
                 let fault = self.fault("duplicate-name", &here, message, "another name for the scalar");
@@ -35,18 +35,18 @@ impl<'n> Decoder<'n> {
             }
         }
         // results are known first: the names are the decoder's own, so they are looked up by position
-        let results: Vec<(String, Dimension)> = frame.offer.results.clone();
+        let results: Vec<(String, Dimension)> = frame.features.results.clone();
         for (i, (name, dimension)) in results.iter().enumerate() {
-            let id = self.world.input(&mut self.pool, Quantity::Result(i));
+            let id = self.name_space.input(&mut self.pool, Quantity::Result(i));
             frame.results.push((name.clone(), Symbol { id, dimension: *dimension }));
         }
         // names that the file gives come first
-        if frame.offer.word == "dynamics" {
-            let names = &self.world.names;
+        if frame.features.word == "dynamics" {
+            let names = &self.name_space.names;
             let free = |name: &str| entries.iter().all(|(known, _)| *known != name) && !names.contains_key(name);
             let works: Vec<(usize, &str)> = WORKS.into_iter().enumerate().filter(|(_, name)| free(name)).collect();
             for (i, name) in works {
-                let id = self.world.input(&mut self.pool, Quantity::Work(i));
+                let id = self.name_space.input(&mut self.pool, Quantity::Work(i));
                 frame.results.push((name.to_owned(), Symbol { id, dimension: Dimension::ENERGY }));
             }
         }
@@ -67,7 +67,7 @@ impl<'n> Decoder<'n> {
             let (name, _) = entries[i];
             let lowered = if in_cycle[i] { None } else { self.finish_scalar(&drafts[i], &section.key(name), frame) };
             // a scalar is a number once the study is done, and may be used by others like a parameter
-            let symbol = lowered.map(|symbol| (symbol, Reach::CONSTANT));
+            let symbol = lowered.map(|symbol| (symbol, Needs::CONSTANT));
             frame.local.symbols.push((name, symbol));
             found[i] = lowered;
         }
@@ -85,7 +85,7 @@ impl<'n> Decoder<'n> {
     fn finish_scalar(&mut self, draft: &super::values::Draft<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Option<Symbol> {
         let results = std::mem::take(&mut frame.results);
         let lowered = {
-            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Reach::CONSTANT))));
+            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Needs::CONSTANT))));
             let mut local = crate::model::scope::Local {
                 symbols: frame.local.symbols.iter().copied().chain(known).collect(),
                 functionals: frame.local.functionals.take(),
@@ -124,7 +124,7 @@ impl<'n> Decoder<'n> {
     fn expected_value(&mut self, text: &'n str, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Option<(crate::expression::Id, Dimension)> {
         let results = std::mem::take(&mut frame.results);
         let lowered = {
-            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Reach::CONSTANT))));
+            let known = results.iter().map(|(name, symbol)| (name.as_str(), Some((*symbol, Needs::CONSTANT))));
             let mut local = crate::model::scope::Local {
                 symbols: frame.local.symbols.iter().copied().chain(known).collect(),
                 functionals: frame.local.functionals.take(),

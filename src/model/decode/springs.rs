@@ -8,7 +8,7 @@ use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::vocabulary::{Known, Quantity};
@@ -32,13 +32,13 @@ impl<'n> Decoder<'n> {
                 None
             };
             let index = on.map(|on| {
-                self.world.stretches.push(self.world.stretch_dimension(&on));
+                self.name_space.stretches.push(self.name_space.stretch_dimension(&on));
                 let place = self.place(&at);
                 let (rest, law, damping, preload) = (None, SpringLaw::None, None, None);
-                self.world.model.springs.push(Spring { name: name.to_owned(), on, rest, law, damping, preload, place });
-                self.world.model.springs.len() - 1
+                self.name_space.model.springs.push(Spring { name: name.to_owned(), on, rest, law, damping, preload, place });
+                self.name_space.model.springs.len() - 1
             });
-            self.world.sound.springs.push(index);
+            self.name_space.renumbered.springs.push(index);
         }
     }
 
@@ -46,9 +46,9 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("springs");
         for (i, (name, node)) in self.section("springs").into_iter().enumerate() {
             let at = section.key(name);
-            let Some(index) = self.world.sound.springs.get(i).copied().flatten() else { continue };
-            let Some(stretch) = self.world.stretches.get(index).copied().flatten() else { continue };
-            let (word, rest, wrong) = match self.world.model.springs[index].on {
+            let Some(index) = self.name_space.renumbered.springs.get(i).copied().flatten() else { continue };
+            let Some(stretch) = self.name_space.stretches.get(index).copied().flatten() else { continue };
+            let (word, rest, wrong) = match self.name_space.model.springs[index].on {
                 SpringOn::Between(..) => ("between", "length", "rest"),
                 SpringOn::Joint(_) => ("joint", "rest", "length"),
                 SpringOn::Stretch(_) => ("stretch", "rest", "length"),
@@ -60,10 +60,10 @@ impl<'n> Decoder<'n> {
             }
             let force = Dimension::ENERGY.div(stretch);
             let stiffness = force.div(stretch);
-            let rest = match self.world.model.springs[index].on {
+            let rest = match self.name_space.model.springs[index].on {
                 SpringOn::Between(..) => self.timed(node, rest, &at, Want::Of(stretch), Rule::NotNegative("the free length")),
                 SpringOn::Joint(joint) => {
-                    let want = wanted_of(self.world.single(joint));
+                    let want = wanted_of(self.name_space.single(joint));
                     self.timed(node, rest, &at, want, Rule::Finite)
                 }
                 SpringOn::Stretch(_) => self.timed(node, rest, &at, Want::Of(stretch), Rule::Finite),
@@ -82,7 +82,7 @@ impl<'n> Decoder<'n> {
                 }
                 None
             };
-            let spring = &mut self.world.model.springs[index];
+            let spring = &mut self.name_space.model.springs[index];
             (spring.rest, spring.damping, spring.preload) = (rest, damping, preload);
             spring.law = law.unwrap_or(SpringLaw::None);
         }
@@ -99,11 +99,11 @@ impl<'n> Decoder<'n> {
 
     /// A table by its name, or an expression of `stretch` and `t`.
     fn spring_law(&mut self, spring: usize, node: Node<'n>, at: &At<'_, 'n>, stretch: Dimension, force: Dimension) -> Option<Id> {
-        let id = self.world.input(&mut self.pool, Quantity::Stretch { spring, order: 0 });
+        let id = self.name_space.input(&mut self.pool, Quantity::Stretch { spring, order: 0 });
         let symbol = Symbol { id, dimension: stretch };
-        let mut local = Local { symbols: vec![("stretch", Some((symbol, Reach::CONSTANT)))], functionals: None };
+        let mut local = Local { symbols: vec![("stretch", Some((symbol, Needs::CONSTANT)))], functionals: None };
         let allow = Allow { what: "a law of `stretch`", ..TIMED };
-        let table = node.text().filter(|text| matches!(self.world.names.get(text), Some(Entity::Table(_))));
+        let table = node.text().filter(|text| matches!(self.name_space.names.get(text), Some(Entity::Table(_))));
         let (lowered, _) = match table {
             Some(table) => self.lower(&format!("{table}(stretch)"), Origin::Value(table, 0), at, allow, &mut local)?,
             None => self.any(node, at, allow, &mut local)?,

@@ -40,7 +40,7 @@ impl<'n> Decoder<'n> {
         for (path, node) in self.section("start") {
             let at = section.key(path);
             let Some((quantity, form)) = self.start_quantity(path, &at) else { continue };
-            if let Some(other) = self.world.model.start.iter().find(|s| s.quantity == quantity) {
+            if let Some(other) = self.name_space.model.start.iter().find(|s| s.quantity == quantity) {
                 let message = format!("this quantity is given already, in `{}`", other.place);
                 let fault = self.fault("duplicate-start", &at, message, "one value for a quantity");
                 fault.spot = Spot::Key;
@@ -75,7 +75,7 @@ impl<'n> Decoder<'n> {
             };
             if let Some((value, guess)) = value {
                 let place = self.place(&at);
-                self.world.model.start.push(Start { name: path.to_owned(), quantity, value, guess, place });
+                self.name_space.model.start.push(Start { name: path.to_owned(), quantity, value, guess, place });
             }
         }
     }
@@ -113,8 +113,8 @@ impl<'n> Decoder<'n> {
 
     /// What of a body a start may give, and which of it a wrong word may mean.
     fn of_body_at_start(&self, head: &str, rest: &str) -> Option<(String, Option<String>)> {
-        let Some(Entity::Body(_)) = self.world.names.get(head) else { return None };
-        let known: &[&str] = match self.world.components() {
+        let Some(Entity::Body(_)) = self.name_space.names.get(head) else { return None };
+        let known: &[&str] = match self.name_space.components() {
             2 => &["x", "y", "angle", "vx", "vy", "omega"],
             _ => &["x", "y", "z", "rotation", "rpy", "vx", "vy", "vz", "wx", "wy", "wz", "wx_own", "wy_own", "wz_own"],
         };
@@ -130,10 +130,10 @@ impl<'n> Decoder<'n> {
     fn start_quantity(&mut self, path: &str, at: &At<'_, '_>) -> Option<(Quantity, Form)> {
         const EXPECTED: &str = "a position or velocity of a joint or body, as `O.angle`, `S.velocity`, `crank.x`";
         let (head, rest) = path.split_once('.').unwrap_or((path, ""));
-        if let Some(Entity::Body(body)) = self.world.names.get(head)
+        if let Some(Entity::Body(body)) = self.name_space.names.get(head)
             && matches!(rest, "rotation" | "rpy")
         {
-            if self.world.components() == 2 {
+            if self.name_space.components() == 2 {
                 let fault = self.fault("spatial-only", at, format!("`{rest}` does not exist in the plane"), EXPECTED);
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("write `{head}.angle`"));
@@ -142,7 +142,7 @@ impl<'n> Decoder<'n> {
             let form = if rest == "rpy" { Form::Angles } else { Form::Rotation };
             return Some((Quantity::Quaternion { body: *body, component: 0, order: 0 }, form));
         }
-        let found = match self.world.quantity(&mut self.pool, path) {
+        let found = match self.name_space.quantity(&mut self.pool, path) {
             Ok(found) => found,
             Err(why) if why.found.is_empty() => return None,
             Err(why) => {

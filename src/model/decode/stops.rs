@@ -15,8 +15,8 @@ pub(crate) const REST_SPEED: f64 = 1e-3;
 impl<'n> Decoder<'n> {
     /// The coordinate (order 0) or rate (order 1) of the joint that is being read.
     pub(super) fn own(&mut self, order: usize) -> Id {
-        let joint = self.world.model.joints.len();
-        self.world.input(&mut self.pool, Quantity::Joint { joint, slot: 0, order })
+        let joint = self.name_space.model.joints.len();
+        self.name_space.input(&mut self.pool, Quantity::Joint { joint, slot: 0, order })
     }
 
     /// `limits: { from, to, .. }`: stops with stiffness as a force on the second body, or rigid ones.

@@ -1,14 +1,14 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
 use super::decoder::{Check, Decoder};
-use super::offer::{Frame, Offer, count};
+use super::features::{Features, Frame, count};
 use super::outside::{Outside, retarget};
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::Want;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Functionals, Local};
 use crate::model::shape::clip;
@@ -58,21 +58,24 @@ impl<'n> Decoder<'n> {
         all.extend(outside.set.iter().copied());
         let first_check = self.checks_so_far();
         let kind = self.kind(node, &at);
-        let (kind, offer) = match kind {
-            Some((kind, offer)) => (Some(kind), offer),
+        let (kind, features) = match kind {
+            Some((kind, features)) => (Some(kind), features),
             None => {
                 // so that the rest is still read
                 let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some()).unwrap_or("study");
-                (None, Offer { word, independent: Some(Dimension::NONE), first: None, reactions: true, states: true, results: Vec::new() })
+                (
+                    None,
+                    Features { word, independent: Some(Dimension::NONE), first: None, reactions: true, states: true, results: Vec::new() },
+                )
             }
         };
         let own = self.sweep(node, &at, &mut local);
         let over = self.over(outside.over, node, &mut local);
         let first = if own.is_empty() { &over } else { &own };
         let swept = first.iter().map(|s| s.parameter).collect();
-        let mut frame = Frame { local, offer, swept, scalars: Vec::new(), results: Vec::new() };
+        let mut frame = Frame { local, features, swept, scalars: Vec::new(), results: Vec::new() };
         let result = |(name, dimension): &(String, Dimension)| StudyResult { name: name.clone(), dimension: *dimension };
-        let results = frame.offer.results.iter().map(result).collect();
+        let results = frame.features.results.iter().map(result).collect();
         let columns_given = node.get("columns").is_some();
         let columns = self.columns(node, &at, &mut frame);
         let scalars = self.scalars(node, &at, &mut frame);
@@ -107,7 +110,7 @@ impl<'n> Decoder<'n> {
             }
         }
         let checks = self.checks_from(first_check);
-        let mut offered: Scalars = frame.offer.results.iter().map(|(name, dimension)| (name.clone(), Some(*dimension))).collect();
+        let mut offered: Scalars = frame.features.results.iter().map(|(name, dimension)| (name.clone(), Some(*dimension))).collect();
         for (scalar, symbol) in &frame.local.symbols {
             if !offered.iter().any(|(name, _)| name == scalar) {
                 offered.push(((*scalar).to_owned(), symbol.map(|(symbol, _)| symbol.dimension)));
@@ -125,7 +128,7 @@ impl<'n> Decoder<'n> {
             columns,
             undefined,
             columns_given,
-            independent: frame.offer.independent,
+            independent: frame.features.independent,
             scalars,
             results,
             functionals,
@@ -160,8 +163,8 @@ impl<'n> Decoder<'n> {
                     Taken::Known(scalars) => match scalars.iter().find(|(known, _)| known == scalar) {
                         Some((_, Some(known))) => {
                             dimension = *known;
-                            let id = self.world.input(&mut self.pool, Quantity::Taken(takes.len()));
-                            symbol = Some((Symbol { id, dimension }, Reach::CONSTANT));
+                            let id = self.name_space.input(&mut self.pool, Quantity::Taken(takes.len()));
+                            symbol = Some((Symbol { id, dimension }, Needs::CONSTANT));
                         }
                         Some((_, None)) => {}
                         None => {
@@ -184,7 +187,7 @@ impl<'n> Decoder<'n> {
 
     /// Refuses a local name that means something else in the model.
     pub(super) fn free_name(&mut self, name: &str, at: &At<'_, '_>, what: &str) {
-        let why = match self.world.names.get(name) {
+        let why = match self.name_space.names.get(name) {
             Some(entity @ (Entity::Parameter(_) | Entity::State(_) | Entity::Measure(_) | Entity::Table(_))) => {
                 Some(format!("the name of {}", entity.what()))
             }
@@ -210,7 +213,7 @@ impl<'n> Decoder<'n> {
         for (name, value) in node.get("set").map(Node::entries).unwrap_or_default() {
             let here = section.key(name);
             let Some(i) = self.parameter_named(name, &here, true) else { continue };
-            let Some(dimension) = self.world.parameters.get(i).copied().flatten() else { continue };
+            let Some(dimension) = self.name_space.parameters.get(i).copied().flatten() else { continue };
             let allow = Allow { tables: false, what: "`set`", ..Allow::PARAMETER };
             let Some((lowered, _)) = self.any(value, &here, allow, local) else { continue };
             if !self.fits(&lowered, Want::of(dimension), value, None, &here) || outside.iter().any(|(j, _)| *j == i) {
@@ -231,7 +234,7 @@ impl<'n> Decoder<'n> {
         for (name, value) in node.get("sweep").map(Node::entries).unwrap_or_default() {
             let here = section.key(name);
             let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
-            let Some(dimension) = self.world.parameters.get(parameter).copied().flatten() else { continue };
+            let Some(dimension) = self.name_space.parameters.get(parameter).copied().flatten() else { continue };
             let want = Want::of(dimension);
             let values = if value.is_list() {
                 let mut ids = Vec::new();
@@ -287,7 +290,7 @@ impl<'n> Decoder<'n> {
         if sweep.iter().any(|s| s.parameter == parameter) {
             self.fault("swept-and-solved", &vary_at, format!("`{name}` is swept too"), "another parameter");
         }
-        let dimension = self.world.parameters.get(parameter).copied().flatten()?;
+        let dimension = self.name_space.parameters.get(parameter).copied().flatten()?;
         let between_at = here.key("between");
         let [from_node, to] = inner.get("between")?.items() else { return None };
         let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::of(dimension), frame);
@@ -320,7 +323,7 @@ impl<'n> Decoder<'n> {
     /// A bound or target of `solve`, which is known before a run.
     fn before(&mut self, node: Node<'n>, at: &At<'_, 'n>, want: Want, frame: &mut Frame<'n>) -> Option<Id> {
         let id = self.setting(node, at, want, &mut frame.local)?;
-        let taken = |input: &u32| matches!(self.world.model.inputs.get(*input as usize), Some(Quantity::Taken(_)));
+        let taken = |input: &u32| matches!(self.name_space.model.inputs.get(*input as usize), Some(Quantity::Taken(_)));
         if self.pool.inputs_of(&[id]).iter().all(taken) {
             return Some(id);
         }
@@ -342,10 +345,10 @@ impl<'n> Decoder<'n> {
     pub(super) fn open_functionals(frame: &mut Frame<'_>) {
         frame.local.functionals = Some(Functionals {
             all: Vec::new(),
-            independent: frame.offer.independent,
-            reactions: frame.offer.reactions,
-            states: frame.offer.states,
-            kind: frame.offer.word,
+            independent: frame.features.independent,
+            reactions: frame.features.reactions,
+            states: frame.features.states,
+            kind: frame.features.word,
         });
     }
 }
@@ -365,11 +368,11 @@ impl Frame<'_> {
             .iter()
             .find(|(known, _)| *known == name)
             .map(|(_, symbol)| symbol.map(|(s, _)| s.dimension))
-            .or_else(|| self.offer.results.iter().find(|(known, _)| known == name).map(|(_, dimension)| Some(*dimension)))
+            .or_else(|| self.features.results.iter().find(|(known, _)| known == name).map(|(_, dimension)| Some(*dimension)))
     }
 
     /// Names of all scalars and results.
     pub(super) fn known_scalars(&self) -> Vec<&str> {
-        self.local.symbols.iter().map(|(name, _)| *name).chain(self.offer.results.iter().map(|(name, _)| name.as_str())).collect()
+        self.local.symbols.iter().map(|(name, _)| *name).chain(self.features.results.iter().map(|(name, _)| name.as_str())).collect()
     }
 }

@@ -7,7 +7,7 @@ use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
-use crate::model::reach::Reach;
+use crate::model::needs::Needs;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use serde_yaml::Value;
@@ -46,11 +46,11 @@ impl<'n> Decoder<'n> {
     }
 
     /// Lowers a draft.
-    pub(super) fn finish(&mut self, draft: &Draft<'n>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Reach)> {
+    pub(super) fn finish(&mut self, draft: &Draft<'n>, at: &At<'_, '_>, allow: Allow, local: &mut Local<'_>) -> Option<(Lowered, Needs)> {
         match draft {
             Draft::Number(x) => {
                 let id = self.pool.constant(*x);
-                Some((Lowered { id, dimension: Dimension::NONE, any: *x == 0.0, bare: true, boolean: false }, Reach::CONSTANT))
+                Some((Lowered { id, dimension: Dimension::NONE, any: *x == 0.0, bare: true, boolean: false }, Needs::CONSTANT))
             }
             Draft::Parsed(expr, text) => self.lower_parsed(expr, text, Origin::Value(text, 0), at, allow, local),
             Draft::Faulty => None,
@@ -61,13 +61,13 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("parameters");
         let entries = self.section("parameters");
         let drafts: Vec<Draft<'n>> = entries.iter().map(|(name, node)| self.draft(Some(*node), &section.key(name))).collect();
-        let find = |world: &crate::model::quantities::World<'_>, name: &str| match world.names.get(name) {
+        let find = |name_space: &crate::model::quantities::NameSpace<'_>, name: &str| match name_space.names.get(name) {
             Some(Entity::Parameter(i)) => Some(*i),
             _ => None,
         };
-        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, |name| find(&self.world, name))).collect();
+        let needs: Vec<Vec<usize>> = drafts.iter().map(|draft| needs(draft, |name| find(&self.name_space, name))).collect();
         let (order, cycles) = order(&needs);
-        self.world.parameters = vec![None; entries.len()];
+        self.name_space.parameters = vec![None; entries.len()];
         let zero = self.pool.constant(0.0);
         let mut values = vec![zero; entries.len()];
         let mut in_cycle = vec![false; entries.len()];
@@ -81,14 +81,14 @@ impl<'n> Decoder<'n> {
                 continue;
             }
             if let Some((lowered, _)) = self.finish(&drafts[i], &at, Allow::PARAMETER, &mut Local::default()) {
-                self.world.parameters[i] = Some(lowered.dimension);
+                self.name_space.parameters[i] = Some(lowered.dimension);
                 values[i] = lowered.id;
             }
         }
         for (i, (name, _)) in entries.iter().enumerate() {
             let place = self.place(&section.key(name));
-            let dimension = self.world.parameters[i].unwrap_or_default();
-            self.world.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], place });
+            let dimension = self.name_space.parameters[i].unwrap_or_default();
+            self.name_space.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], place });
         }
     }
 
@@ -144,7 +144,7 @@ impl<'n> Decoder<'n> {
                 }
             }
             let [x, y] = sides.map(|side| side.map_or(Dimension::NONE, |s| s.dimension));
-            self.world.tables.push(Some((x, y)));
+            self.name_space.tables.push(Some((x, y)));
             let word = |key: &str| node.get(key).and_then(Node::text);
             let between = if word("between") == Some("cubic") { Between::Cubic } else { Between::Linear };
             let beyond = match word("beyond") {
@@ -158,7 +158,7 @@ impl<'n> Decoder<'n> {
                 self.check(Rule::Table(i), &ids, &points_at);
             }
             let place = self.place(&at);
-            self.world.model.tables.push(Table { name: name.to_owned(), points, x, y, between, beyond, place });
+            self.name_space.model.tables.push(Table { name: name.to_owned(), points, x, y, between, beyond, place });
         }
     }
 }

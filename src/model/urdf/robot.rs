@@ -20,7 +20,7 @@ pub(super) struct Robot<'a, 'i> {
     pub(super) name: String,
     pub(super) links: Vec<Link<'a, 'i>>,
     pub(super) joints: Vec<Joint<'a, 'i>>,
-    /// The one link that is nobody's child.
+    /// The one link that is the child of no joint.
     pub(super) root: usize,
 }
 
@@ -304,12 +304,12 @@ impl Checks<'_> {
                 self.fault("no-links", opening(root), "the robot has no links", "at least one `<link>`").help =
                     Some("add `<link name=\"...\">`".to_owned());
             } else if roots.is_empty() {
-                self.fault("cycle", opening(root), "every link is the child of a joint", "one link that is nobody's child").help =
+                self.fault("cycle", opening(root), "every link is the child of a joint", "one link that is the child of no joint").help =
                     Some("remove the joint that leads to the root".to_owned());
             }
             for pair in roots.windows(2) {
                 let (first, other) = (&links[pair[0]], &links[pair[1]]);
-                let message = format!("`{}` is nobody's child, and neither is `{}`", clip(&other.data.name), clip(&first.data.name));
+                let message = format!("`{}` is the child of no joint, and neither is `{}`", clip(&other.data.name), clip(&first.data.name));
                 let fault = self.fault("two-roots", opening(other.node), message, "one root");
                 fault.help = Some(format!("join it by a joint, as `<joint type=\"fixed\">` with the child `{}`", clip(&other.data.name)));
                 fault.other = Some((opening(first.node), "the other root".to_owned()));

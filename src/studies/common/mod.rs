@@ -2,7 +2,6 @@
 
 pub mod case;
 pub mod clock;
-pub(crate) mod contact;
 pub(crate) mod functional;
 pub mod motion;
 pub mod named;
@@ -11,5 +10,6 @@ pub mod observe;
 pub mod outcome;
 pub(crate) mod pieces;
 pub(crate) mod scene;
+pub(crate) mod stops;
 pub mod switching;
 pub mod watched;

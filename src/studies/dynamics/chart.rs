@@ -3,8 +3,8 @@
 //! Where a position is singular there are no independent coordinates. A run that comes near one stops, goes on with all coordinates by
 //! explicit steps, which cross (`solvers/src/schemes/dop853/crossing.rs`), and returns to independent ones behind it.
 
-use super::eras::Eras;
 use super::explain;
+use super::phases::Phases;
 use super::setup::Plan;
 use super::system::Mechanical;
 use crate::dynamics::LANES;
@@ -37,7 +37,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
         study: &Study,
         plan: &Plan,
         system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
-        era: &Eras<G>,
+        phase: &Phases<G>,
         state: &State,
         sound: &mut f64,
     ) -> Result<Self, Failure> {
@@ -45,14 +45,14 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
             return Ok(Self::Whole(Box::new(system)));
         }
         // a joint that rests on a stop, sticks or stands in a change point may be the one that was asked for: then others are
-        let rests = era.start.change.is_some()
-            || era.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_) | RowOwner::Contact(_)));
-        let asked = era.mechanism.starts.iter().filter(|s| !s.guess && !rests);
-        let velocity = |gauge: usize| match era.mechanism.gauges[gauge].measured {
+        let rests = phase.start.change.is_some()
+            || phase.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_) | RowOwner::Contact(_)));
+        let asked = phase.mechanism.starts.iter().filter(|s| !s.guess && !rests);
+        let velocity = |gauge: usize| match phase.mechanism.gauges[gauge].measured {
             Measured::Coordinate { along, .. } => Some(along.v),
             _ => None,
         };
-        let driven = |v: &usize| era.mechanism.drives.iter().any(|d| velocity(d.gauge) == Some(*v));
+        let driven = |v: &usize| phase.mechanism.drives.iter().any(|d| velocity(d.gauge) == Some(*v));
         let independent: Vec<usize> = asked
             .filter_map(|s| match s.asked {
                 Asked::Gauge { gauge, order: 0 } => velocity(gauge).filter(|v| !driven(v)),

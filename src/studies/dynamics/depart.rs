@@ -6,7 +6,7 @@
 //! a = V (VᵀM V)⁻¹ Vᵀf, V the velocities of a branch; where nobody names the branch it is the one with the largest fᵀa, which is
 //! nearest to what the forces alone would do (Gauss's principle of least constraint).
 
-use super::eras::Eras;
+use super::phases::Phases;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
 use crate::dynamics::LANES;
@@ -94,14 +94,14 @@ struct Beside<'a, 'm, G: Space<S = f64>> {
     size: Vec<f64>,
 }
 
-/// The step away from the start of an era, if that is a change point from which something moves.
+/// The step away from the start of a phase, if that is a change point from which something moves.
 pub(super) fn depart<'m, G: Space<S = f64>>(
-    era: &Eras<G>,
+    phase: &Phases<G>,
     system: &mut Mechanical<'m, G, G::Lift<Dual<LANES>>>,
     start: &State,
     until: f64,
 ) -> Option<Departure> {
-    let change = era.start.change.as_ref()?;
+    let change = phase.start.change.as_ref()?;
     if start.t != 0.0 || system.pattern().roots_by_reactions {
         return None;
     }
@@ -109,7 +109,7 @@ pub(super) fn depart<'m, G: Space<S = f64>>(
     let row = pattern.g_scale.iter().map(|s| if *s > 0.0 { s.sqrt().recip() } else { 1.0 }).collect();
     let terms = Terms::new(system.dims());
     let mut beside = Beside { system, terms, metric: pattern.metric, row, size: pattern.size_v };
-    let moves = era.mechanism.rows.iter().any(|row| era.mechanism.is_moved(row)) && change.rests;
+    let moves = phase.mechanism.rows.iter().any(|row| phase.mechanism.is_moved(row)) && change.rests;
     let branches = if change.open { &change.branches[..] } else { &change.branches[..1] };
     // the acceleration of the branch that the forces move most
     let first = branches.iter().map(|branch| beside.first(start, &branch.ways)).max_by(|x, y| x.1.total_cmp(&y.1))?.0;

@@ -1,6 +1,6 @@
 //! Why a run did not begin or did not end, in words: what happened to which joint at what time, and what to try.
 
-use super::eras::Eras;
+use super::phases::Phases;
 use super::setup::Plan;
 use super::system::{Mechanical, Met, Root};
 use crate::dynamics::{Dynamics, LANES};
@@ -114,7 +114,7 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
         Why::NotFinite(v) => format!("a force on {} is not a number: look at tables and expressions of loads that act there", name_of_velocity(mechanism, v)),
         Why::Friction => format!(
             "the friction of {} has no accelerations that obey its law: with this coefficient the joint jams (Painlevé's paradox); give a smaller `coulomb`, a longer guide, or drive the motion from the other side",
-            rubbing(mechanism)
+            friction_by_reactions(mechanism)
         ),
         Why::Singular => "the accelerations are not determined: a body that can move has no mass or inertia, or the position is singular; give masses to all moving bodies".into(),
         Why::Constraints { row, residual } => format!(
@@ -130,22 +130,22 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
 pub(super) const LESS_FRICTION: &str = "give a smaller `coulomb`, a longer guide, or drive the motion from the other side";
 
 /// Why contacts cannot be decided.
-pub(super) fn jams<G: Space<S = f64>>(eras: &Eras<G>, t: f64) -> String {
-    let m = &eras.mechanism;
+pub(super) fn jams<G: Space<S = f64>>(phases: &Phases<G>, t: f64) -> String {
+    let m = &phases.mechanism;
     format!("at t = {t:.6} s no accelerations obey the laws of friction of {}: it jams (Painlevé's paradox)", names(m, 0..m.contacts.len()))
 }
 
 /// Why a run ends where contacts stick and slide without end.
-pub(super) fn chatters<G: Space<S = f64>>(eras: &Eras<G>, met: &[Met], t: f64) -> String {
+pub(super) fn chatters<G: Space<S = f64>>(phases: &Phases<G>, met: &[Met], t: f64) -> String {
     format!(
         "at t = {t:.6} s {} begins and ceases to stick without end: its force, or what holds it, changes too often; give it a `stick_speed`",
-        names(&eras.mechanism, met.iter().map(|met| met.contact))
+        names(&phases.mechanism, met.iter().map(|met| met.contact))
     )
 }
 
 /// Contacts at rest that other joints or drivers hold as well.
-pub(super) fn not_unique<G: Space<S = f64>>(eras: &Eras<G>, open: &[usize]) -> Vec<Finding> {
-    let contacts = eras.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
+pub(super) fn not_unique<G: Space<S = f64>>(phases: &Phases<G>, open: &[usize]) -> Vec<Finding> {
+    let contacts = phases.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
     let finding = |(_, contact): (usize, &Contact)| Finding {
         code: "friction-not-unique".into(),
         message: format!(
@@ -165,7 +165,7 @@ fn names<G: Space<S = f64>>(mechanism: &Mechanism<G>, contacts: impl Iterator<It
 }
 
 /// The joints with friction by reactions, in words.
-fn rubbing<G: Space>(mechanism: &Mechanism<G>) -> String {
+fn friction_by_reactions<G: Space>(mechanism: &Mechanism<G>) -> String {
     let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", mechanism.joints[p.joint].name)).collect();
     format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, names.join(", "))
 }

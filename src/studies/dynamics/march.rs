@@ -1,12 +1,12 @@
 //! One run of an integrator over a mechanism, recorded: steps, events, changes of parameters, energies.
 
-use super::balance::{Balance, Begins};
 use super::chart::Charted;
 use super::contradiction;
 use super::depart::depart;
-use super::eras::{Eras, Holds};
+use super::energy::{Balance, Begins};
 use super::explain;
 use super::pace::Pace;
+use super::phases::{Holds, Phases};
 use super::setup::Plan;
 use super::system::{Mechanical, Met};
 use super::trajectory::Trajectory;
@@ -45,18 +45,18 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     case: Case<'_>,
     plan: &Plan,
     ids: &[Id],
-    eras: &'m Eras<G>,
+    phases: &'m Phases<G>,
     from: Option<&State>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Recorded<'m, G>, Failure> {
     let Case { model, study, parameters } = case;
     let (all, watched) = watched(model, ids);
     let follow = !plan.settings.locate;
-    let machine = |era: &'m Eras<G>| {
-        let observer = Observer::new(model, &era.mechanism, &era.parameters, &all);
-        Mechanical::new(&era.mechanism, &era.lifted, &era.start, observer, watched.clone())
+    let machine = |phase: &'m Phases<G>| {
+        let observer = Observer::new(model, &phase.mechanism, &phase.parameters, &all);
+        Mechanical::new(&phase.mechanism, &phase.lifted, &phase.start, observer, watched.clone())
     };
-    let first = machine(eras);
+    let first = machine(phases);
     let dims = first.dims();
     let mut trajectory = Trajectory::new(&first, ids.len(), follow);
     let mut flow = Flow {
@@ -79,22 +79,24 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
         sound: 0.0,
         undefined: None,
     };
-    let mut state = from.cloned().unwrap_or_else(|| begin(eras, dims));
-    let (mut present, mut zeno, mut met) = (eras.parameters.clone(), Zeno::default(), false);
+    let mut state = from.cloned().unwrap_or_else(|| begin(phases, dims));
+    let (mut present, mut zeno, mut met) = (phases.parameters.clone(), Zeno::default(), false);
     let stopped = loop {
-        let chosen = flow.choose(eras, &present, &machine, &mut state);
-        let era = match chosen {
-            Ok(Some(era)) => era,
-            Ok(None) if flow.begins == Begins::Run => return Err(Failure::numerical(explain::jams(eras, state.t), explain::LESS_FRICTION)),
-            Ok(None) => break Some(format!("{}; {}", explain::jams(eras, state.t), explain::LESS_FRICTION)),
+        let chosen = flow.choose(phases, &present, &machine, &mut state);
+        let phase = match chosen {
+            Ok(Some(phase)) => phase,
+            Ok(None) if flow.begins == Begins::Run => {
+                return Err(Failure::numerical(explain::jams(phases, state.t), explain::LESS_FRICTION));
+            }
+            Ok(None) => break Some(format!("{}; {}", explain::jams(phases, state.t), explain::LESS_FRICTION)),
             Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
             Err(failure) => break Some(failure.reason()),
         };
         if met && zeno.pile_up(state.t, 0.0) {
-            break Some(explain::chatters(eras, &flow.met, state.t));
+            break Some(explain::chatters(phases, &flow.met, state.t));
         }
-        flow.trajectory.era(std::ptr::from_ref(era).addr(), || machine(era));
-        match flow.era(era, machine(era), &mut state)? {
+        flow.trajectory.phase(std::ptr::from_ref(phase).addr(), || machine(phase));
+        match flow.phase(phase, machine(phase), &mut state)? {
             After::Done => break None,
             After::Stopped(why) => break Some(why),
             After::Changed => {
@@ -108,7 +110,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
             }
         }
     };
-    flow.findings.extend(explain::not_unique(eras, &flow.open));
+    flow.findings.extend(explain::not_unique(phases, &flow.open));
     let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan, &study.place);
     unresolved.dedup_by(|a, b| a.path == b.path);
@@ -118,18 +120,18 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
 }
 
 /// The state at the assembled start.
-pub(crate) fn begin<G: Space<S = f64>>(eras: &Eras<G>, dims: Dims) -> State {
+pub(crate) fn begin<G: Space<S = f64>>(phases: &Phases<G>, dims: Dims) -> State {
     let mut state = State::new(dims);
-    state.q.copy_from_slice(&eras.start.q);
-    state.v.copy_from_slice(&eras.start.v);
-    state.z.copy_from_slice(&eras.mechanism.state_starts);
+    state.q.copy_from_slice(&phases.start.q);
+    state.v.copy_from_slice(&phases.start.v);
+    state.z.copy_from_slice(&phases.mechanism.state_starts);
     // forces may have no value in modes that are not those of the state
-    let modes = settled(&eras.mechanism, [&state.q, &state.v, &state.z], &eras.start.modes);
+    let modes = settled(&phases.mechanism, [&state.q, &state.v, &state.z], &phases.start.modes);
     state.modes[..modes.len()].copy_from_slice(&modes);
     state
 }
 
-/// How an era has ended.
+/// How a phase has ended.
 enum After {
     Done,
     Stopped(String),
@@ -151,7 +153,7 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     changed: Vec<(usize, f64)>,
     /// Stops on which joints rest, and contacts that stick.
     holds: Holds,
-    /// Contacts that stopped or gave way at the end of the era before, and whether all were let go for a blow.
+    /// Contacts that stopped or gave way at the end of the phase before, and whether all were let go for a blow.
     met: Vec<Met>,
     loosened: bool,
     /// Contacts whose friction was not determined at some time.
@@ -170,14 +172,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
     /// laws of friction.
     fn choose(
         &mut self,
-        eras: &'m Eras<G>,
+        phases: &'m Phases<G>,
         parameters: &[f64],
-        machine: &impl Fn(&'m Eras<G>) -> Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G, G::Lift<Dual<LANES>>>,
         state: &mut State,
-    ) -> Result<Option<&'m Eras<G>>, Failure> {
+    ) -> Result<Option<&'m Phases<G>>, Failure> {
         let coordinates = self.plan.coordinates;
         let free = Holds { held: Vec::new(), ..self.holds.clone() };
-        let base = eras.with(self.model, parameters, coordinates, &free)?;
+        let base = phases.with(self.model, parameters, coordinates, &free)?;
         if base.mechanism.contacts.is_empty() {
             return Ok(Some(base));
         }
@@ -195,30 +197,37 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
         state.live = system.extents(state);
         self.open.extend(decided.open);
         self.holds.held = decided.held;
-        eras.with(self.model, parameters, coordinates, &self.holds).map(Some)
+        phases.with(self.model, parameters, coordinates, &self.holds).map(Some)
     }
 
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
-    fn era(&mut self, era: &'m Eras<G>, mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>, state: &mut State) -> Result<After, Failure> {
+    fn phase(
+        &mut self,
+        phase: &'m Phases<G>,
+        mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        state: &mut State,
+    ) -> Result<After, Failure> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
-        let departure = if first { depart(era, &mut system, state, self.plan.until) } else { None };
+        let departure = if first { depart(phase, &mut system, state, self.plan.until) } else { None };
         if let Some(departure) = &departure {
             state.copy_from(&departure.to);
         }
-        let mut chart = Charted::new(self.study, self.plan, system, era, state, &mut self.sound)?;
+        let mut chart = Charted::new(self.study, self.plan, system, phase, state, &mut self.sound)?;
         let mut run = match chart.run(self.plan.settings, state) {
             Ok(run) => run,
             Err(halt) if first => {
                 let at = [&state.q[..], &state.v, &state.z];
-                let modes = settled(&era.mechanism, at, &era.start.modes);
-                let undefined = in_state(self.model, &era.mechanism, at, &modes, "the start");
-                return Err(undefined.map_or_else(|| explain::no_start(self.study, &era.mechanism, &era.start, &halt), Failure::Undefined));
+                let modes = settled(&phase.mechanism, at, &phase.start.modes);
+                let undefined = in_state(self.model, &phase.mechanism, at, &modes, "the start");
+                return Err(
+                    undefined.map_or_else(|| explain::no_start(self.study, &phase.mechanism, &phase.start, &halt), Failure::Undefined)
+                );
             }
             Err(halt) => {
                 self.undefined = explain::undefined(self.model, self.study, chart.mechanical(), &state.modes, halt.t);
-                return Ok(After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)));
+                return Ok(After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt)));
             }
         };
         let (mut last, mut node) = (Node::new(dims), Node::new(dims));
@@ -234,7 +243,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 self.balance.begin(chart.mechanical(), &node, self.begins);
             }
         }
-        // what crosses in the same instant as the event that began this era
+        // what crosses in the same instant as the event that began this phase
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {
             self.note(&at_once, node.state.t);
@@ -251,7 +260,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 Ok(progress) => progress,
                 Err(halt) => {
                     self.undefined = self.gap(&mut chart, &run, halt.t);
-                    break After::Stopped(self.explain(era, &mut chart, &mut run, &halt));
+                    break After::Stopped(self.explain(phase, &mut chart, &mut run, &halt));
                 }
             };
             let happened = matches!(progress, Progress::Event | Progress::Stopped);
@@ -261,10 +270,10 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 break After::Done;
             }
             if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
-                break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt));
+                break After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt));
             }
             if self.balance.step(chart.mechanical(), &node, self.plan.until)
-                && let Some(told) = contradiction::told(chart.mechanical(), era.start.size, node.state.t)
+                && let Some(told) = contradiction::told(chart.mechanical(), phase.start.size, node.state.t)
             {
                 break After::Stopped(told);
             }
@@ -287,13 +296,13 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));
                 run = match chart.run(self.plan.settings, &node.state) {
                     Ok(run) => run,
-                    Err(halt) => break After::Stopped(explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, &halt)),
+                    Err(halt) => break After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt)),
                 };
                 chart.whole(run.node(), &mut node);
                 self.trajectory.piece(&node);
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
-                break After::Stopped(slow.told(self.model, era, self.plan, &node));
+                break After::Stopped(slow.told(self.model, phase, self.plan, &node));
             }
             if progress == Progress::End {
                 break After::Done;
@@ -308,9 +317,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
     }
 
     /// Why a run cannot go on, with the joints and drivers that lock.
-    fn explain(&self, era: &Eras<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
-        let locked = if chart.is_whole() { explain::locked(&era.mechanism, halt, &run.dependence(chart.system())) } else { None };
-        locked.unwrap_or_else(|| explain::halt(self.model, &era.mechanism, chart.mechanical(), self.plan, halt))
+    fn explain(&self, phase: &Phases<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
+        let locked = if chart.is_whole() { explain::locked(&phase.mechanism, halt, &run.dependence(chart.system())) } else { None };
+        locked.unwrap_or_else(|| explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, halt))
     }
 
     /// What has no value where a run cannot go on.

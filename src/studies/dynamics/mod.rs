@@ -3,22 +3,22 @@
 //! `system` shows a mechanism to the integrators, `march` runs one of them and records, `trajectory` is the motion as a curve,
 //! `setup` translates what the study asks for, `explain` says in words why a run stopped. Here is the whole: rows, functionals, certificate.
 
-pub(crate) mod balance;
-mod bare;
 mod chart;
 mod contradiction;
 mod depart;
-pub(crate) mod eras;
+pub(crate) mod energy;
 pub(crate) mod explain;
 pub(crate) mod march;
 mod pace;
+pub(crate) mod phases;
 pub(crate) mod setup;
 pub(crate) mod system;
 pub(crate) mod trajectory;
+mod unrecorded;
 mod watch;
 
-pub use bare::Bare;
 pub use setup::{is_available, method};
+pub use unrecorded::Unrecorded;
 
 use super::common::case::Case;
 use super::common::clock::Clock;
@@ -37,8 +37,8 @@ use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, Resolution};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
-use eras::Eras;
 use march::Recorded;
+use phases::Phases;
 use trajectory::{Off, Trajectory};
 
 /// Most numbers in the rows of a run: 4 GB of them.
@@ -56,10 +56,10 @@ where
     let Case { model, study, parameters } = case;
     let plan = setup::plan(case, forward)?;
     let watched = Watched::of(study);
-    let eras = Eras::<G>::new(model, parameters, plan.coordinates)?;
+    let phases = Phases::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
     let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
-        march::march(case, &plan, &watched.ids, &eras, None, stop)?;
+        march::march(case, &plan, &watched.ids, &phases, None, stop)?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
         return Err(match undefined {
@@ -89,18 +89,18 @@ where
     let (from, to) = (breaks[0], breaks[breaks.len() - 1]);
     events.retain(|e| e.at <= to);
     let stopped = undefined.as_ref().map(|u| u.message.clone()).or(stopped);
-    let tables = &eras.first().mechanism.tables;
+    let tables = &phases.first().mechanism.tables;
     let works = certificate.march.as_ref().map_or([f64::NAN; WORKS.len()], |march| march.works().map(|(_, work)| work));
     let numbers = Sources { case, tables, functionals: &functionals, results: &[], works: &works }.numbers(stopped.is_none());
     let undefined = undefined.or(numbers.undefined);
     let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
-    let certificate = Certificate { resolved: Some(resolution), ..balance::residuals(&mut trajectory, &rows, certificate) };
+    let certificate = Certificate { resolved: Some(resolution), ..energy::residuals(&mut trajectory, &rows, certificate) };
     let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
     let n = rows.places.len();
     let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
     findings.extend(numbers.findings);
     findings.extend(blank(study, "t", &rows.places, &shown));
-    let scene = scene::scene(&eras.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
+    let scene = scene::scene(&phases.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
     Ok(Outcome {
         stopped,
         undefined,
@@ -113,7 +113,7 @@ where
         scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations: numbers.expectations,
-        findings: eras.start.findings().chain(findings).collect(),
+        findings: phases.start.findings().chain(findings).collect(),
         certificate,
         events,
         scenes: vec![(scene::MECHANISM.into(), scene)],
@@ -121,20 +121,20 @@ where
     })
 }
 
-/// Integrates a dynamic study without recording anything but its end; see [`Bare`].
+/// Integrates a dynamic study without recording anything but its end; see [`Unrecorded`].
 ///
 /// # Errors
 /// If it never began.
-pub fn bare(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Bare, Failure> {
-    fn in_space<G>(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Bare, Failure>
+pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Unrecorded, Failure> {
+    fn in_space<G>(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Unrecorded, Failure>
     where
         G: Space<S = f64>,
         G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let plan = setup::plan(case, forward)?;
-        let eras = Eras::<G>::new(case.model, case.parameters, plan.coordinates)?;
+        let phases = Phases::<G>::new(case.model, case.parameters, plan.coordinates)?;
         let ids: Vec<_> = case.study.columns.iter().map(|c| c.value).collect();
-        bare::bare(case, &plan, &ids, &eras, timer)
+        unrecorded::unrecorded(case, &plan, &ids, &phases, timer)
     }
     match case.model.space {
         Dimensions::Planar => in_space::<Planar<f64>>(case, forward, timer),

@@ -4,7 +4,7 @@
 //! a stiff damper holds an explicit scheme to steps that never end. After some steps the run tells how many it would need; if these
 //! are more than could be kept, it stops and says what is so fast. Fixed steps are as many as the user has asked for.
 
-use super::eras::Eras;
+use super::phases::Phases;
 use super::setup::Plan;
 use crate::dynamics::{LANES, Linearizer, Point};
 use crate::geometry::Space;
@@ -68,7 +68,7 @@ impl Pace {
 
 impl Slow {
     /// What the run says at a node, and how to go on.
-    pub(super) fn told<G>(&self, model: &Model, era: &Eras<G>, plan: &Plan, node: &Node) -> String
+    pub(super) fn told<G>(&self, model: &Model, phase: &Phases<G>, plan: &Plan, node: &Node) -> String
     where
         G: Space<S = f64>,
         G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
@@ -81,7 +81,7 @@ impl Slow {
             }
             Self::Memory(count) => (count, format!("{count} steps fill the memory that a run may take")),
         };
-        let fastest = fastest(model, era, node);
+        let fastest = fastest(model, phase, node);
         let what = fastest.as_ref().map_or_else(String::new, |(names, value)| format!(": {names} {}", pace_of(*value)));
         let stiff = fastest.is_some_and(|(_, value)| value.re < -value.im.abs());
         let explicit = matches!(plan.settings.method, Method::Dop853 | Method::Rk4 | Method::CentralDifference);
@@ -109,18 +109,18 @@ fn pace_of(value: Complex<f64>) -> String {
 }
 
 /// The coordinates that move in the fastest motion near a node, and its eigenvalue, 1/s; none if it cannot be told.
-fn fastest<G>(model: &Model, era: &Eras<G>, node: &Node) -> Option<(String, Complex<f64>)>
+fn fastest<G>(model: &Model, phase: &Phases<G>, node: &Node) -> Option<(String, Complex<f64>)>
 where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let (m, s) = (&era.mechanism, &node.state);
+    let (m, s) = (&phase.mechanism, &node.state);
     if m.nv > MOST_VELOCITIES {
         return None;
     }
     let modes = &s.modes[..m.switches + m.windings];
     let at = Point { t: s.t, q: &s.q, v: &s.v, z: &s.z, a: &node.a, lambda: &node.lambda, modes };
-    let linear = Linear::new(m, &mut Linearizer::new(&era.lifted), &at, &era.start.metric).ok()?;
+    let linear = Linear::new(m, &mut Linearizer::new(&phase.lifted), &at, &phase.start.metric).ok()?;
     let reduced = linear.reduce(&preferred(m)).ok()?;
     let own = &reduced.partition.independent;
     if !measurable(&reduced.a) {

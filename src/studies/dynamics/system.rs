@@ -6,11 +6,11 @@
 //! | switch of a column alone | the same | the same mode number, without effect on the motion |
 //! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
 //! | side on which a joint with friction by reactions presses | its force points there | the other side |
-//! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the era |
+//! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the phase |
 //! | stop just left | beyond its neighbourhood | it is watched exactly again |
-//! | stop on which a joint rests | the stop pushes | it is left, which ends the era |
-//! | contact that slides | it slides on | it sticks or turns round, which ends the era |
-//! | contact that sticks | less holds it than may | it slides, which ends the era |
+//! | stop on which a joint rests | the stop pushes | it is left, which ends the phase |
+//! | contact that slides | it slides on | it sticks or turns round, which ends the phase |
+//! | contact that sticks | less holds it than may | it slides, which ends the phase |
 //! | event of the model | on its present side of zero | the other side; what the event does; an impact is a blow, as of a stop |
 //!
 //! `modes` hold the switches of all expressions, then the windings, the side of each event, and for each rigid stop whether it was
@@ -25,12 +25,12 @@ mod root;
 mod sticking;
 mod works;
 
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, pattern, rubbed};
+use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, friction_pattern, pattern};
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
 use crate::scalar::Dual;
-use crate::studies::common::contact::PASSED;
 use crate::studies::common::observe::{Needs, Observer};
+use crate::studies::common::stops::PASSED;
 use ahead::Timed;
 use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 use patterns::known_by_rows;
@@ -159,7 +159,7 @@ where
             k: block.clone(),
             c: block,
             r_z: Sparsity::dense(nv, nz),
-            r_lambda: rubbed(mechanism),
+            r_lambda: friction_pattern(mechanism),
             z_q: Sparsity::dense(nz, nv),
             z_v: Sparsity::dense(nz, nv),
             z_z: Sparsity::dense(nz, nz),
@@ -323,7 +323,7 @@ where
         self.dynamics.residual(a, lambda, r);
     }
 
-    fn rub(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
         self.kinematics(&at);
         self.dynamics.loads(at.modes);
         self.dynamics.friction(lambda, force, r_lambda);

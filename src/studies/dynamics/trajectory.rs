@@ -35,7 +35,7 @@ struct Step {
 /// A stretch of the motion without switches: its parameters. Windings may change on it.
 #[derive(Clone, Debug)]
 struct Piece {
-    era: usize,
+    phase: usize,
     /// Where contacts are held.
     live: Vec<f64>,
     /// First step and the one behind the last.
@@ -62,7 +62,7 @@ pub(crate) struct Off {
 
 /// A motion in time.
 pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(crate) eras: Vec<Era<'m, G, D>>,
+    pub(crate) phases: Vec<Era<'m, G, D>>,
     /// State, accelerations and multipliers evaluated last.
     pub(crate) node: Node,
     steps: Vec<Step>,
@@ -77,7 +77,7 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     follow: bool,
     /// The step found last.
     near: usize,
-    /// The present era.
+    /// The present phase.
     current: usize,
 }
 
@@ -86,12 +86,12 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    /// An empty one of `columns` columns, to be filled from an era on.
+    /// An empty one of `columns` columns, to be filled from a phase on.
     pub(crate) fn new(first: &Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
         let dims = first.dims();
         let outputs = first.observer.program().outputs();
         Self {
-            eras: Vec::new(),
+            phases: Vec::new(),
             node: Node::new(dims),
             steps: Vec::new(),
             pieces: Vec::new(),
@@ -106,13 +106,13 @@ where
         }
     }
 
-    /// Begins an era of a mechanism by its key, which `make` makes if it is new.
-    pub(crate) fn era(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G, D>) {
-        self.current = self.eras.iter().position(|era| era.key == key).unwrap_or_else(|| {
+    /// Begins a phase of a mechanism by its key, which `make` makes if it is new.
+    pub(crate) fn phase(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G, D>) {
+        self.current = self.phases.iter().position(|phase| phase.key == key).unwrap_or_else(|| {
             let system = make();
             let engine = Engine::new(&system, Control::Tolerance(1e-8));
-            self.eras.push(Era { key, system, engine });
-            self.eras.len() - 1
+            self.phases.push(Era { key, system, engine });
+            self.phases.len() - 1
         });
     }
 
@@ -125,7 +125,7 @@ where
             self.pieces.pop();
         }
         let live = node.state.live.clone();
-        self.pieces.push(Piece { era: self.current, live, steps: (n, n), from: t, to: t });
+        self.pieces.push(Piece { phase: self.current, live, steps: (n, n), from: t, to: t });
     }
 
     /// Goes on in the present piece behind a node where only the count of an angle's turns changes, which is no switch: the step that
@@ -235,15 +235,15 @@ where
 
     /// The mechanism of the piece that was evaluated last.
     pub(crate) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
-        let era = self.pieces.get(piece).map_or(0, |p| p.era);
-        &mut self.eras[era].system
+        let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
+        &mut self.phases[phase].system
     }
 
     /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
     /// the constraints.
     pub(crate) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
         let own = self.take(t, piece)?;
-        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         // next to a singular position a state may not be moved to the constraints: there it counts as it is
         if own || engine.settle(system, &mut self.node).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
@@ -256,12 +256,12 @@ where
 
     /// As [`Trajectory::go`], but without accelerations where no column needs them.
     fn glance(&mut self, t: f64, piece: usize) -> Result<(), Off> {
-        let era = self.pieces.get(piece).map_or(0, |p| p.era);
-        if self.eras[era].system.observer.needs_forces() {
+        let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
+        if self.phases[phase].system.observer.needs_forces() {
             return self.go(t, piece);
         }
         let own = self.take(t, piece)?;
-        let Era { system, engine, .. } = &mut self.eras[era];
+        let Era { system, engine, .. } = &mut self.phases[phase];
         if !own && engine.project(system, &mut self.node.state).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
         }
@@ -286,8 +286,8 @@ where
         self.dense.evaluate(t, &mut self.node.state);
         self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
         self.node.state.live.copy_from_slice(&p.live);
-        let Era { system, engine, .. } = &mut self.eras[p.era];
-        // eras differ in the rows that hold joints on their stops
+        let Era { system, engine, .. } = &mut self.phases[p.phase];
+        // phases differ in the rows that hold joints on their stops
         self.node.lambda.resize(system.dims().rows(), 0.0);
         if self.follow {
             engine.follow_modes(system, &mut self.node.state);
@@ -297,15 +297,15 @@ where
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
     pub(crate) fn residuals(&mut self, piece: usize) -> [f64; 2] {
-        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         engine.evaluate(system, self.node.state.at(), Stage::Velocity);
         [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
     }
 
     /// All outputs of the observer at the state evaluated last.
     pub(crate) fn outputs(&mut self, piece: usize) -> &[f64] {
-        let era = self.pieces[piece].era;
-        self.eras[era].system.columns(&self.node.state.modes, &mut self.out);
+        let phase = self.pieces[piece].phase;
+        self.phases[phase].system.columns(&self.node.state.modes, &mut self.out);
         &self.out
     }
 }
@@ -320,7 +320,7 @@ where
         self.glance(t, piece)?;
         let n = self.columns;
         out.copy_from_slice(&self.outputs(piece)[..n]);
-        let observer = &self.eras[self.pieces[piece].era].system.observer;
+        let observer = &self.phases[self.pieces[piece].phase].system.observer;
         match observer.undefined(&self.node.state.modes, &self.out) {
             Some(gap) => Err(Off { at: t, gap: Some(gap) }),
             None => Ok(()),
@@ -384,13 +384,13 @@ where
         if self.go(self.pieces[piece].from, piece).is_err() {
             return true;
         }
-        let Era { system, engine, .. } = &mut self.eras[self.pieces[piece].era];
+        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         let (pattern, mut weakest) = (system.pattern(), Sigma::new(self.node.lambda.len()));
         weakest.begin(engine, &pattern.metric, &pattern.g_scale);
         if self.go(at, piece).is_err() {
             return true;
         }
-        weakest.follow(&mut self.eras[self.pieces[piece].era].engine, 4) < SINGULAR
+        weakest.follow(&mut self.phases[self.pieces[piece].phase].engine, 4) < SINGULAR
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {

@@ -7,7 +7,7 @@ use super::shooting::Lost;
 use super::timed::timed;
 use crate::geometry::Space;
 use crate::results::Failure;
-use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::phases::Phases;
 
 /// A difference in percent.
 fn percent(x: f64) -> String {
@@ -94,14 +94,14 @@ pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
 }
 
 /// A search without success.
-pub(super) fn lost<G: Space<S = f64>>(search: &Search<'_>, eras: &Eras<G>, why: Lost) -> Failure {
+pub(super) fn lost<G: Space<S = f64>>(search: &Search<'_>, phases: &Phases<G>, why: Lost) -> Failure {
     let apart = match why {
         Lost::Broken(why) => return broken(search, why),
         Lost::Rough(why) => return rough(search, why),
         Lost::Apart(apart) => apart,
     };
     let hint = match search.section {
-        Section::Time(_) if !timed(&search.model, &eras.mechanism) => {
+        Section::Time(_) if !timed(&search.model, &phases.mechanism) => {
             "nothing in the model depends on time, so that its periods are its own: count them by what advances (`over: theta, by: 1 turn`) or by where they end (`over: t, through: ...`)"
         }
         _ => {

@@ -9,9 +9,9 @@ use crate::results::{Certificate, Failure, Finding, Happened};
 use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::observe::Observer;
-use crate::studies::dynamics::eras::Eras;
 use crate::studies::dynamics::march;
 use crate::studies::dynamics::march::Recorded;
+use crate::studies::dynamics::phases::Phases;
 use crate::studies::dynamics::setup::Plan;
 use crate::studies::dynamics::system::Mechanical;
 use crate::studies::dynamics::trajectory::{Era, Trajectory};
@@ -94,8 +94,8 @@ impl Search<'_> {
     }
 
     /// Runs from a state to the end of the period, at a tolerance.
-    pub(super) fn lap<'e, G: Space<S = f64>>(&mut self, eras: &'e Eras<G>, from: &State, tolerance: f64) -> Result<Lap<'e, G>, Broken> {
-        let begin = self.value(eras, from);
+    pub(super) fn lap<'e, G: Space<S = f64>>(&mut self, phases: &'e Phases<G>, from: &State, tolerance: f64) -> Result<Lap<'e, G>, Broken> {
+        let begin = self.value(phases, from);
         let (until, ends) = match self.section {
             Section::Time(period) => (from.t + period, None),
             Section::Advance(id, by) => {
@@ -110,7 +110,7 @@ impl Search<'_> {
             let event = Event { name: ENDS.into(), when, crossing, stop: true, set: Vec::new(), restitution: None, place };
             self.model.events.push(event);
         }
-        let run = self.march(eras, from, until, tolerance);
+        let run = self.march(phases, from, until, tolerance);
         if ends.is_some() {
             self.model.events.pop();
         }
@@ -121,7 +121,7 @@ impl Search<'_> {
     /// The run itself, and whether it took too many steps.
     fn march<'e, G: Space<S = f64>>(
         &self,
-        eras: &'e Eras<G>,
+        phases: &'e Phases<G>,
         from: &State,
         until: f64,
         tolerance: f64,
@@ -139,11 +139,11 @@ impl Search<'_> {
             coordinates: self.coordinates,
             minimal: false,
         };
-        let m = &eras.mechanism;
-        let modes = self.alone(eras, &[]).dims().modes + self.model.events.len();
+        let m = &phases.mechanism;
+        let modes = self.alone(phases, &[]).dims().modes + self.model.events.len();
         let state = with_modes(from, m.switches + m.windings, modes);
-        let case = Case { model: &self.model, study: self.study, parameters: &eras.parameters };
-        let recorded = march::march(case, &plan, &self.ids, eras, Some(&state), &stop)?;
+        let case = Case { model: &self.model, study: self.study, parameters: &phases.parameters };
+        let recorded = march::march(case, &plan, &self.ids, phases, Some(&state), &stop)?;
         Ok((recorded, steps.get() > MOST_STEPS))
     }
 
@@ -189,15 +189,15 @@ impl Search<'_> {
     }
 
     /// The state at the assembled start.
-    pub(super) fn start<G: Space<S = f64>>(&self, eras: &Eras<G>) -> State {
-        march::begin(eras, self.alone(eras, &[]).dims())
+    pub(super) fn start<G: Space<S = f64>>(&self, phases: &Phases<G>) -> State {
+        march::begin(phases, self.alone(phases, &[]).dims())
     }
 
     /// The expression of the section in a state; 0 where only time counts.
-    pub(super) fn value<G: Space<S = f64>>(&self, eras: &Eras<G>, state: &State) -> f64 {
+    pub(super) fn value<G: Space<S = f64>>(&self, phases: &Phases<G>, state: &State) -> f64 {
         let Some(id) = self.marked() else { return 0.0 };
-        let m = &eras.mechanism;
-        let mut system = self.alone(eras, &[id]);
+        let m = &phases.mechanism;
+        let mut system = self.alone(phases, &[id]);
         let mut at = with_modes(state, m.switches + m.windings, system.dims().modes);
         let from = at.clone();
         system.modes(from.at(), &mut at.modes);
@@ -208,9 +208,9 @@ impl Search<'_> {
     }
 
     /// The mechanism with columns and without events.
-    fn alone<'e, G: Space<S = f64>>(&self, eras: &'e Eras<G>, ids: &[Id]) -> Mechanical<'e, G, G::Lift<Dual<LANES>>> {
-        let observer = Observer::new(&self.model, &eras.mechanism, &eras.parameters, ids);
-        Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, Vec::new())
+    fn alone<'e, G: Space<S = f64>>(&self, phases: &'e Phases<G>, ids: &[Id]) -> Mechanical<'e, G, G::Lift<Dual<LANES>>> {
+        let observer = Observer::new(&self.model, &phases.mechanism, &phases.parameters, ids);
+        Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, Vec::new())
     }
 }
 
@@ -222,9 +222,9 @@ fn with_modes(state: &State, kept: usize, all: usize) -> State {
     state
 }
 
-/// The first era of a trajectory: a system with its engine, to evaluate other states with.
+/// The first phase of a trajectory: a system with its engine, to evaluate other states with.
 pub(super) fn tools<'t, 'e, G: Space<S = f64>>(
     trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
 ) -> &'t mut Era<'e, G, G::Lift<Dual<LANES>>> {
-    &mut trajectory.eras[0]
+    &mut trajectory.phases[0]
 }

@@ -18,7 +18,7 @@ mod turn;
 
 use super::common::case::{Case, parameters_with};
 use super::common::watched::Watched;
-use super::dynamics::eras::Eras;
+use super::dynamics::phases::Phases;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::Coordinates;
@@ -53,25 +53,25 @@ where
     let columns = Columns::of(&watched, asked);
     let mut search = search(case, asked, &columns, stop)?;
     let ways = ways(case, asked);
-    let eras = Eras::<G>::new(model, &ways[0], search.coordinates)?;
+    let phases = Phases::<G>::new(model, &ways[0], search.coordinates)?;
     let until = asked.settle.map_or(Until::Alike, |id| Until::Time(case.value(id)));
-    let start = search.start(&eras);
+    let start = search.start(&phases);
     let rough = ROUGH.max(search.tolerance);
     search.section = section(case.at(&ways[0]), asked);
-    let settled = settle::settle(&mut search, &eras, &start, until, rough).map_err(|why| explain::unsettled(&search, why))?;
+    let settled = settle::settle(&mut search, &phases, &start, until, rough).map_err(|why| explain::unsettled(&search, why))?;
     let mut states: Vec<State> = vec![settled.state];
     for (step, values) in ways.iter().enumerate() {
-        let eras = Eras::<G>::new(model, values, search.coordinates)?;
+        let phases = Phases::<G>::new(model, values, search.coordinates)?;
         let guess = predicted(&states);
         search.section = section(case.at(values), asked);
-        search.begin = if matches!(search.section, Section::Return(_)) { 0.0 } else { search.value(&eras, &search.start(&eras)) };
-        let found = by_time(&mut search, &eras, &guess)
-            .and_then(|()| shooting::shoot(&mut search, &eras, &guess).map_err(|why| explain::lost(&search, &eras, why)));
+        search.begin = if matches!(search.section, Section::Return(_)) { 0.0 } else { search.value(&phases, &search.start(&phases)) };
+        let found = by_time(&mut search, &phases, &guess)
+            .and_then(|()| shooting::shoot(&mut search, &phases, &guess).map_err(|why| explain::lost(&search, &phases, why)));
         let last = step + 1 == ways.len();
         match (found, asked.from) {
             (Ok(orbit), _) if last => {
                 return Regime { search: &search, asked, case, watched: &watched, columns: &columns }.outcome(
-                    &eras,
+                    &phases,
                     orbit,
                     settled.periods,
                 );
@@ -153,24 +153,24 @@ fn search<'a>(case: Case<'a>, asked: &Periodic, columns: &Columns, stop: &'a dyn
 
 /// A mechanism on which time acts repeats itself after a time: where what advances is driven by time, after the time in which it
 /// does.
-fn by_time<G>(search: &mut Search<'_>, eras: &Eras<G>, state: &State) -> Result<(), Failure>
+fn by_time<G>(search: &mut Search<'_>, phases: &Phases<G>, state: &State) -> Result<(), Failure>
 where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    if !timed(&search.model, &eras.mechanism) {
+    if !timed(&search.model, &phases.mechanism) {
         return Ok(());
     }
     if !matches!(search.section, Section::Time(_)) {
-        let mut lap = search.lap(eras, state, search.tolerance).map_err(|why| explain::broken(search, why))?;
-        let map = lap.map(search, eras).map_err(|why| explain::rough(search, why))?;
+        let mut lap = search.lap(phases, state, search.tolerance).map_err(|why| explain::broken(search, why))?;
+        let map = lap.map(search, phases).map_err(|why| explain::rough(search, why))?;
         let free = map.surface.is_some_and(|surface| surface.normal.amax() > 1e-9 * surface.pace.abs());
         if free {
             return Err(explain::not_driven(search));
         }
         search.section = Section::Time(lap.period());
     }
-    let mut lap = search.lap(eras, state, search.tolerance).map_err(|why| explain::broken(search, why))?;
+    let mut lap = search.lap(phases, state, search.tolerance).map_err(|why| explain::broken(search, why))?;
     match repeats(&mut lap) {
         Some(t) => Err(explain::not_repeated(search, t)),
         None => Ok(()),
@@ -180,7 +180,7 @@ where
 /// The first of some times at which the accelerations of a state are others one period later.
 fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<f64> {
     const LOOKS: usize = 7;
-    if lap.trajectory.eras.len() > 1 {
+    if lap.trajectory.phases.len() > 1 {
         // a joint that rests on a stop is told where the map is asked for
         return None;
     }
@@ -192,9 +192,9 @@ fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<f64> {
         let here = lap.trajectory.node.clone();
         let mut later = here.clone();
         later.state.t += period;
-        let era = lap::tools(&mut lap.trajectory);
-        era.engine.follow_modes(&mut era.system, &mut later.state);
-        era.engine.accelerate(&mut era.system, &mut later).ok()?;
+        let phase = lap::tools(&mut lap.trajectory);
+        phase.engine.follow_modes(&mut phase.system, &mut later.state);
+        phase.engine.accelerate(&mut phase.system, &mut later).ok()?;
         let size = here.a.iter().chain(&here.zdot).fold(0.0, |m, x| f64::max(m, x.abs()));
         let both = |node: &grashof_solvers::Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
         if both(&here).iter().zip(both(&later)).any(|(a, b)| (a - b).abs() > ALIKE * size) {

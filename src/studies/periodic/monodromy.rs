@@ -13,7 +13,7 @@ use crate::geometry::Space;
 use crate::kinematics::linear::{Linear, Singular};
 use crate::kinematics::partition::preferred;
 use crate::scalar::Dual;
-use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::phases::Phases;
 use grashof_solvers::{Node, System};
 use nalgebra::{DMatrix, DVector};
 
@@ -55,14 +55,14 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     /// The derivative of its map.
-    pub(super) fn map(&mut self, search: &Search<'_>, eras: &Eras<G>) -> Result<Map, Rough> {
-        if self.trajectory.eras.len() > 1 {
+    pub(super) fn map(&mut self, search: &Search<'_>, phases: &Phases<G>) -> Result<Map, Rough> {
+        if self.trajectory.phases.len() > 1 {
             return Err(Rough::Rests);
         }
         let by_reactions = tools(&mut self.trajectory).system.pattern().r_lambda.entries() > 0;
-        let mut flow = Flow { eras, linearizer: Linearizer::new(&eras.lifted), gauss: Gauss::new(), by_reactions };
+        let mut flow = Flow { phases, linearizer: Linearizer::new(&phases.lifted), gauss: Gauss::new(), by_reactions };
         let t = self.start.state.t;
-        let reduced = flow.linear(&self.start).and_then(|l| l.reduce(&preferred(&eras.mechanism))).map_err(|_| Rough::Singular(t))?;
+        let reduced = flow.linear(&self.start).and_then(|l| l.reduce(&preferred(&phases.mechanism))).map_err(|_| Rough::Singular(t))?;
         let (independent, p, w) = (reduced.partition.independent, reduced.partition.p, reduced.w);
         let (nv, n, nz) = (p.nrows(), p.ncols(), self.start.state.z.len());
         let mut basis = DMatrix::zeros(2 * nv + nz, 2 * n + nz);
@@ -113,7 +113,7 @@ where
 
 /// What linearises.
 struct Flow<'e, G: Space<S = f64>> {
-    eras: &'e Eras<G>,
+    phases: &'e Phases<G>,
     linearizer: Linearizer<'e, G::Lift<Dual<LANES>>>,
     gauss: Gauss,
     /// Whether forces depend on the reactions: their tangents are differences.
@@ -126,11 +126,11 @@ where
 {
     /// The motion near a node.
     fn linear(&mut self, node: &Node) -> Result<Linear, Singular> {
-        let m = &self.eras.mechanism;
+        let m = &self.phases.mechanism;
         let s = &node.state;
         let modes = &s.modes[..m.switches + m.windings];
         let at = Point { t: s.t, q: &s.q, v: &s.v, z: &s.z, a: &node.a, lambda: &node.lambda, modes };
-        Linear::new(m, &mut self.linearizer, &at, &self.eras.start.metric)
+        Linear::new(m, &mut self.linearizer, &at, &self.phases.start.metric)
     }
 }
 

@@ -23,10 +23,10 @@ use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::scene;
 use crate::studies::common::watched::{Watched, in_variable, unresolved};
-use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::phases::Phases;
 use crate::studies::dynamics::setup::resolution;
 use crate::studies::dynamics::trajectory::Off;
-use crate::studies::dynamics::{balance, pose};
+use crate::studies::dynamics::{energy, pose};
 use grashof_solvers::{Control, Node};
 
 /// Part of the largest acceleration by which those at the two ends may differ.
@@ -94,7 +94,7 @@ fn lost(search: &Search<'_>, off: Off) -> Failure {
 
 impl Regime<'_> {
     /// Its outcome; `periods` were run before the search.
-    pub(super) fn outcome<G: Space<S = f64>>(&self, eras: &Eras<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
+    pub(super) fn outcome<G: Space<S = f64>>(&self, phases: &Phases<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
         let Self { search, asked, case, watched, columns } = *self;
         let Orbit { mut lap, multipliers, closure, steps } = orbit;
         check_closed(search, &mut lap, closure[1])?;
@@ -109,11 +109,11 @@ impl Regime<'_> {
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];
-        let tables = &eras.mechanism.tables;
+        let tables = &phases.mechanism.tables;
         let numbers =
             Sources { case: Case { model, study, ..case }, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         let trajectory = &mut lap.trajectory;
-        let scene = scene::scene(&eras.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
+        let scene = scene::scene(&phases.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
         let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
@@ -134,7 +134,7 @@ impl Regime<'_> {
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
             findings: lap.findings,
-            certificate: Certificate { resolved: Some(resolution), ..balance::residuals(&mut lap.trajectory, &at, lap.certificate) },
+            certificate: Certificate { resolved: Some(resolution), ..energy::residuals(&mut lap.trajectory, &at, lap.certificate) },
             events: lap.events,
             scenes: vec![(scene::MECHANISM.into(), scene)],
             ..Outcome::default()
@@ -171,14 +171,14 @@ fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, ap
     let start = rates(&lap.start);
     let size = start.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
     let sizes = vec![size; start.len()];
-    let era = tools(&mut lap.trajectory);
+    let phase = tools(&mut lap.trajectory);
     let mut followed = lap.end.clone();
-    era.engine.follow_modes(&mut era.system, &mut followed.state);
+    phase.engine.follow_modes(&mut phase.system, &mut followed.state);
     let mut differs = f64::INFINITY;
     for modes in [&lap.end.state.modes, &lap.start.state.modes, &followed.state.modes] {
         let mut end = lap.end.clone();
         end.state.modes.clone_from(modes);
-        if era.engine.accelerate(&mut era.system, &mut end).is_ok() {
+        if phase.engine.accelerate(&mut phase.system, &mut end).is_ok() {
             let difference: Vec<f64> = rates(&end).iter().zip(&start).map(|(a, b)| a - b).collect();
             differs = differs.min(largest(&difference, &sizes));
         }

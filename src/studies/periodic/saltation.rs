@@ -49,8 +49,8 @@ pub(super) struct Side<'a, 'm, G: Space<S = f64>> {
 }
 
 impl<'a, 'm, G: Space<S = f64>> From<&'a mut Era<'m, G, G::Lift<Dual<LANES>>>> for Side<'a, 'm, G> {
-    fn from(era: &'a mut Era<'m, G, G::Lift<Dual<LANES>>>) -> Self {
-        Self { system: &mut era.system, engine: &mut era.engine }
+    fn from(phase: &'a mut Era<'m, G, G::Lift<Dual<LANES>>>) -> Self {
+        Self { system: &mut phase.system, engine: &mut phase.engine }
     }
 }
 
@@ -248,7 +248,7 @@ pub(super) fn pass<G: Space<S = f64>>(lap: &mut Lap<'_, G>, piece: usize, at: f6
     let after = trajectory.node.clone();
     trajectory.go(at, piece).ok()?;
     let mut node = trajectory.node.clone();
-    let mut side = Side::from(&mut trajectory.eras[0]);
+    let mut side = Side::from(&mut trajectory.phases[0]);
     let roots = side.between(&mut node.clone(), &after);
     let mut psi = psi.clone();
     for (i, &root) in roots.iter().enumerate() {

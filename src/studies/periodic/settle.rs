@@ -3,7 +3,7 @@
 use super::lap::{Broken, Lap, Search, Section};
 use super::states::{Scale, between, largest, unwind};
 use crate::geometry::Space;
-use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::phases::Phases;
 use grashof_solvers::State;
 
 /// Two periods are alike if they differ by less than this part of their size.
@@ -40,15 +40,15 @@ pub(super) enum Unsettled {
 /// Runs from a state.
 pub(super) fn settle<G: Space<S = f64>>(
     search: &mut Search<'_>,
-    eras: &Eras<G>,
+    phases: &Phases<G>,
     from: &State,
     until: Until,
     tolerance: f64,
 ) -> Result<Settled, Unsettled> {
     let mut state = from.clone();
-    if matches!(search.section, Section::Return(_)) && search.value(eras, from) != 0.0 {
+    if matches!(search.section, Section::Return(_)) && search.value(phases, from) != 0.0 {
         // to the surface on which periods begin
-        state = search.lap(eras, &state, tolerance).map_err(Unsettled::Broken)?.end.state;
+        state = search.lap(phases, &state, tolerance).map_err(Unsettled::Broken)?.end.state;
     }
     let mut before: Option<Lap<'_, G>> = None;
     let mut differs = f64::INFINITY;
@@ -60,16 +60,16 @@ pub(super) fn settle<G: Space<S = f64>>(
         };
         if settled {
             if let Some(lap) = &before {
-                unwind(&eras.mechanism, [&lap.start.state, &lap.end.state], periods, &mut state);
+                unwind(&phases.mechanism, [&lap.start.state, &lap.end.state], periods, &mut state);
             }
             state.t = 0.0;
             return Ok(Settled { state, periods });
         }
-        let mut lap = search.lap(eras, &state, tolerance).map_err(Unsettled::Broken)?;
+        let mut lap = search.lap(phases, &state, tolerance).map_err(Unsettled::Broken)?;
         periods += 1;
-        let all: Vec<usize> = (0..eras.mechanism.nv).collect();
+        let all: Vec<usize> = (0..phases.mechanism.nv).collect();
         let sizes = Scale::of(&mut lap).on(&all);
-        let apart = |from: &State| largest(&between(&eras.mechanism, &all, [from, &lap.end.state]), &sizes);
+        let apart = |from: &State| largest(&between(&phases.mechanism, &all, [from, &lap.end.state]), &sizes);
         let time = before.as_ref().map_or(f64::INFINITY, |b| (b.period() / lap.period() - 1.0).abs());
         differs = apart(&lap.start.state).max(time);
         if let (Some(b), MOST) = (&before, periods)

@@ -19,7 +19,7 @@ use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::eigenvalues::eigenvalues;
 use crate::scalar::Dual;
-use crate::studies::dynamics::eras::Eras;
+use crate::studies::dynamics::phases::Phases;
 use grashof_solvers::svd::Svd;
 use grashof_solvers::{Span, State, System};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -62,43 +62,43 @@ pub(super) enum Lost {
 }
 
 /// The periodic motion near a state.
-pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, eras: &'e Eras<G>, guess: &State) -> Result<Orbit<'e, G>, Lost>
+pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e Phases<G>, guess: &State) -> Result<Orbit<'e, G>, Lost>
 where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let tolerance = search.tolerance;
-    let mut lap = search.lap(eras, guess, tolerance).map_err(Lost::Broken)?;
+    let mut lap = search.lap(phases, guess, tolerance).map_err(Lost::Broken)?;
     let mut last = f64::INFINITY;
     for steps in 0..MOST {
-        let map = lap.map(search, eras).map_err(Lost::Rough)?;
+        let map = lap.map(search, phases).map_err(Lost::Rough)?;
         let sizes = Scale::of(&mut lap).on(&map.independent);
-        let missed = miss(eras, &map, &lap);
+        let missed = miss(phases, &map, &lap);
         let apart = largest(&missed, &sizes);
         let (y, multipliers) = step(&map, &missed, &sizes).ok_or(Lost::Apart(apart))?;
         let size = y.amax();
         let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
         let size = size.max(late.abs() / lap.period());
         if size <= CLOSED || (size <= NEARLY && size > 0.25 * last) {
-            let all: Vec<usize> = (0..eras.mechanism.nv).collect();
-            let every = between(&eras.mechanism, &all, [&lap.start.state, &lap.end.state]);
+            let all: Vec<usize> = (0..phases.mechanism.nv).collect();
+            let every = between(&phases.mechanism, &all, [&lap.start.state, &lap.end.state]);
             let whole = largest(&every, &Scale::of(&mut lap).on(&all));
             return Ok(Orbit { lap, multipliers, closure: [apart, whole], steps });
         }
         last = size;
-        lap = advance(search, eras, lap, &map, &y, &sizes, apart)?;
+        lap = advance(search, phases, lap, &map, &y, &sizes, apart)?;
     }
     Err(Lost::Apart(last))
 }
 
 /// Ends of a lap: F(x) − x.
-fn miss<G: Space<S = f64>>(eras: &Eras<G>, map: &Map, lap: &Lap<'_, G>) -> Vec<f64> {
-    between(&eras.mechanism, &map.independent, [&lap.start.state, &lap.end.state])
+fn miss<G: Space<S = f64>>(phases: &Phases<G>, map: &Map, lap: &Lap<'_, G>) -> Vec<f64> {
+    between(&phases.mechanism, &map.independent, [&lap.start.state, &lap.end.state])
 }
 
 /// The lap from where a step leads to, halved until the ends come nearer.
 fn advance<'e, G: Space<S = f64>>(
     search: &mut Search<'_>,
-    eras: &'e Eras<G>,
+    phases: &'e Phases<G>,
     mut lap: Lap<'e, G>,
     map: &Map,
     y: &DVector<f64>,
@@ -115,10 +115,11 @@ where
     for _ in 0..HALVINGS {
         let delta = DVector::from_iterator(y.len(), y.iter().zip(sizes).map(|(y, s)| part * y * s));
         let from = moved(&mut lap, &(&map.basis * delta + &along));
-        let next = from.map_or(Err(Broken::Stopped("the loops cannot be closed".into())), |from| search.lap(eras, &from, search.tolerance));
+        let next =
+            from.map_or(Err(Broken::Stopped("the loops cannot be closed".into())), |from| search.lap(phases, &from, search.tolerance));
         match next {
             Ok(next) => {
-                let left = largest(&miss(eras, map, &next), sizes);
+                let left = largest(&miss(phases, map, &next), sizes);
                 if left <= (1.0 - 0.25 * part) * apart || y.amax() * part <= NEARLY {
                     return Ok(next);
                 }
@@ -134,13 +135,13 @@ where
 /// The start of a lap moved by (δq, δv, δz) and set on the constraints.
 fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Option<State> {
     let mut node = lap.start.clone();
-    let era = tools(&mut lap.trajectory);
+    let phase = tools(&mut lap.trajectory);
     let nv = node.state.v.len();
     let delta = delta.as_slice();
-    era.system.retract(Span::at(node.state.t), &mut node.state.q, &delta[..nv]);
+    phase.system.retract(Span::at(node.state.t), &mut node.state.q, &delta[..nv]);
     node.state.v.iter_mut().zip(&delta[nv..]).for_each(|(v, d)| *v += d);
     node.state.z.iter_mut().zip(&delta[2 * nv..]).for_each(|(z, d)| *z += d);
-    era.engine.settle(&mut era.system, &mut node).ok()?;
+    phase.engine.settle(&mut phase.system, &mut node).ok()?;
     Some(node.state)
 }
 

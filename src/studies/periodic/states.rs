@@ -78,7 +78,7 @@ impl Scale {
                 continue;
             }
             let state = &lap.trajectory.node.state;
-            let way = difference(lap.trajectory.eras[0].system.dynamics.mechanism, &lap.start.state.q, &state.q);
+            let way = difference(lap.trajectory.phases[0].system.dynamics.mechanism, &lap.start.state.q, &state.q);
             let grow = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(s, x)| *s = s.max(x.abs()));
             grow(&mut scale.q, &way);
             grow(&mut scale.v, &state.v);

@@ -3,21 +3,21 @@
 //! How the zero is searched stands in `search`, with p = a + x (b − a) over the bounds a and b. A run that cannot be computed, or
 //! that stops on its way, gives no value.
 
+mod explain;
 mod search;
 mod task;
-mod words;
 
 use super::common::case::{Case, parameters_with};
 use super::run::run;
 use crate::model::Study;
 use crate::results::{Failure, Finding};
 use crate::studies::common::outcome::Outcome;
+use explain::Explain;
 use search::{Search, Zero};
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 pub use task::Task;
 use task::Trial;
-use words::Words;
 
 /// The result that a run has although it stops on its way.
 const TURNS: &str = "turns_fully";
@@ -50,7 +50,7 @@ pub fn solve(task: &Task<'_>) -> Result<(Outcome, Solved), Failure> {
     let mut search = Search::new(&f, task.threads);
     let zero = search.zero().map_err(|Interrupted| Failure::interrupted())?;
     let (jumps, gaps) = (search.jumps.first().copied(), search.gaps.first().copied());
-    let words = Words { task, log: trials.log(), place: &|x| trials.parameter(x) };
+    let words = Explain { task, log: trials.log(), place: &|x| trials.parameter(x) };
     let Some(zero) = zero else {
         // a model that is wrong for all values is told as it would be without `solve`
         if words.log.iter().all(|run| run.why.is_some()) {
@@ -148,7 +148,7 @@ impl<'a> Trials<'a> {
         let there = log.iter().find(|run| run.x == zero.at);
         let (found, target) = there.map_or((f64::NAN, f64::NAN), |run| (run.scalar, run.target));
         let runs = log.len();
-        let words = Words { task: self.task, log, place: &|x| self.parameter(x) };
+        let words = Explain { task: self.task, log, place: &|x| self.parameter(x) };
         let solved = Solved {
             value: self.parameter(zero.at),
             found,

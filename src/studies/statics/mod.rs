@@ -12,12 +12,12 @@
 //! Drivers hold the position of time 0; nothing moves, so that damping does not act and motors have their torque at rest. A start that
 //! exact friction holds is an equilibrium, with rows that hold what sticks (`grip`); smooth laws of friction do not act.
 
+mod explain;
 mod grip;
 mod others;
 mod pose;
 mod search;
 mod stability;
-mod words;
 
 use super::common::case::Case;
 use super::common::numbers::Sources;
@@ -37,10 +37,10 @@ use crate::numerics::extremum::{Extremes, Extremum};
 use crate::results::{Certificate, Failure, Finding, List};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
+use explain::{Names, six};
 use grip::Gripped;
 use pose::{Pose, Rest};
 use search::{Ended, Found};
-use words::{Names, six};
 
 /// A mechanism that stands still at time 0, by itself (Φ(q) = 0 and Gᵀλ = f(q, v = 0, z)) or held.
 #[derive(Clone, Debug)]

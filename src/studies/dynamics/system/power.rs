@@ -17,7 +17,7 @@ where
     pub(super) fn powers(&mut self, at: &At<'_>, lambda: &[f64], w: &mut [f64]) {
         self.kinematics(at);
         self.dynamics.loads(at.modes);
-        self.dynamics.rub(lambda);
+        self.dynamics.apply_friction(lambda);
         let m = self.dynamics.mechanism;
         self.modes.copy_from_slice(&at.modes[..m.switches + m.windings]);
         let by_springs: f64 = (0..m.stretches.len()).map(|spring| self.dynamics.spring_power(spring, &mut self.modes)).sum();

@@ -214,7 +214,7 @@ where
         let gradients: Vec<Vec<f64>> = resting.iter().map(|&c| self.gradient(m.contacts[c].along)).collect();
         let responses: Vec<Response> = gradients.iter().map(|g| self.response(g)).collect();
         // efforts by reactions of what slides
-        let rubbing: Vec<(f64, usize, Response)> = m
+        let friction_by_reactions: Vec<(f64, usize, Response)> = m
             .efforts
             .iter()
             .filter_map(|effort| match effort.law {
@@ -240,11 +240,12 @@ where
         let mut places = begin.clone();
         let mut last: Vec<f64> = Vec::new();
         for round in 0..MOST_ROUNDS {
-            let rubs: Vec<f64> =
-                rubbing.iter().map(|(size, pressing, _)| size * self.dynamics.pressing_force(*pressing, &lambda)).collect();
+            let friction_forces: Vec<f64> =
+                friction_by_reactions.iter().map(|(size, pressing, _)| size * self.dynamics.pressing_force(*pressing, &lambda)).collect();
             let caps: Vec<f64> = resting.iter().map(|&c| self.most(&m.contacts[c], &lambda)).collect();
             let b = DVector::from_fn(n, |i, _| {
-                alone[i] + rubbing.iter().zip(&rubs).map(|((_, _, r), f)| f * dot(&gradients[i], &r.a)).sum::<f64>()
+                alone[i]
+                    + friction_by_reactions.iter().zip(&friction_forces).map(|((_, _, r), f)| f * dot(&gradients[i], &r.a)).sum::<f64>()
             });
             let slack = slack(&self.pattern.metric, &free.a, &lambda);
             let bounded_by = |j: &usize| caps[*j].is_finite();
@@ -274,21 +275,30 @@ where
             }
             let part = if round < PATIENCE { 1.0 } else { PART };
             let before = std::mem::replace(&mut lambda, free.lambda.clone());
-            let all = rubbing.iter().map(|(_, _, r)| r).zip(rubs.iter().copied()).chain(responses.iter().zip(forces.iter().copied()));
+            let all = friction_by_reactions
+                .iter()
+                .map(|(_, _, r)| r)
+                .zip(friction_forces.iter().copied())
+                .chain(responses.iter().zip(forces.iter().copied()));
             for (response, f) in all {
                 lambda.iter_mut().zip(&response.lambda).for_each(|(l, r)| *l += f * r);
             }
             lambda.iter_mut().zip(&before).for_each(|(l, before)| *l = before + part * (*l - before));
-            let now: Vec<f64> = rubs.iter().copied().chain(caps.iter().copied().filter(|c| c.is_finite())).collect();
+            let now: Vec<f64> = friction_forces.iter().copied().chain(caps.iter().copied().filter(|c| c.is_finite())).collect();
             let largest = now.iter().fold(slack, |m, x| m.max(x.abs()));
             let stays = last.len() == now.len() && now.iter().zip(&last).all(|(x, y)| (x - y).abs() <= SETTLED * largest);
             if stays
-                || rubbing.is_empty() && resting.iter().all(|&c| m.contacts[c].friction().is_none_or(|(_, pressing)| pressing.is_none()))
+                || friction_by_reactions.is_empty()
+                    && resting.iter().all(|&c| m.contacts[c].friction().is_none_or(|(_, pressing)| pressing.is_none()))
             {
                 let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely(i) * largest);
                 let determined = (0..n).map(|i| fixed[i].then(|| if still(i) { 0 } else { b[i].signum() as i32 })).collect();
                 let mut accelerations = free.a;
-                let all = rubbing.iter().map(|(_, _, r)| r).zip(rubs).chain(responses.iter().zip(forces.iter().copied()));
+                let all = friction_by_reactions
+                    .iter()
+                    .map(|(_, _, r)| r)
+                    .zip(friction_forces)
+                    .chain(responses.iter().zip(forces.iter().copied()));
                 for (response, f) in all {
                     accelerations.iter_mut().zip(&response.a).for_each(|(x, r)| *x += f * r);
                 }

@@ -19,7 +19,7 @@ pub(super) fn depends<G: Space<S = f64>>(m: &Mechanism<G>) -> Power {
         return Power::Reactions;
     }
     let stores = |law: &EffortLaw<G>| matches!(law, EffortLaw::Linear { damping, .. } if *damping == 0.0);
-    let conserves = m.pulls.iter().all(|pull| pull.potential.is_some())
+    let conserves = m.point_loads.iter().all(|pull| pull.potential.is_some())
         && m.efforts.iter().all(|effort| stores(&effort.law))
         && m.stretches.iter().all(|stretch| stretch.moving.is_none());
     if conserves { Power::Zero } else { Power::State }

@@ -23,9 +23,9 @@ pub(crate) fn magnitude(values: &[f64]) -> f64 {
 
 /// Local maxima of the samples with an upper bound of what the curve can reach there; the ends of pieces and the beginnings of
 /// dwells at the top go to `found` as they are. `best` is the greatest of sign · values.
-pub(crate) fn hills(samples: Samples<'_>, values: &[f64], sign: f64, best: f64, found: &mut Vec<Candidate>) -> Vec<(usize, f64)> {
+pub(crate) fn peaks(samples: Samples<'_>, values: &[f64], sign: f64, best: f64, found: &mut Vec<Candidate>) -> Vec<(usize, f64)> {
     let top = best - LEVEL * magnitude(values);
-    let mut hills = Vec::new();
+    let mut peaks = Vec::new();
     for run in samples.runs() {
         let (x, y) = (&samples.places[run.clone()], &values[run.clone()]);
         let piece = samples.pieces[run.start];
@@ -45,13 +45,13 @@ pub(crate) fn hills(samples: Samples<'_>, values: &[f64], sign: f64, best: f64, 
                 let rises = i == 0 || y[i - 1].is_nan() || sign * y[i - 1] < sign * y[i];
                 let falls = i + 1 == y.len() || y[i + 1].is_nan() || sign * y[i + 1] <= sign * y[i];
                 if rises && falls && !y[i].is_nan() {
-                    hills.push((run.start + i, sign * y[i] + 0.5 * bend(x, y, i)));
+                    peaks.push((run.start + i, sign * y[i] + 0.5 * bend(x, y, i)));
                 }
             }
             k = end;
         }
     }
-    hills
+    peaks
 }
 
 /// How much the samples around sample i bend: |difference of the slopes| · width; four times what a parabola can hide between
@@ -91,8 +91,8 @@ mod tests {
         let x: Vec<f64> = (0..y.len()).map(|k| k as f64).collect();
         let samples = Samples { places: &x, pieces: &[0; 13], values: &y };
         let mut found = Vec::new();
-        let hills: Vec<usize> = hills(samples, &y, 1.0, 2.0, &mut found).iter().map(|h| h.0).collect();
-        assert_eq!(hills, [1, 4]);
+        let peaks: Vec<usize> = peaks(samples, &y, 1.0, 2.0, &mut found).iter().map(|h| h.0).collect();
+        assert_eq!(peaks, [1, 4]);
         // both ends and the beginning of the dwell
         assert_eq!(found.iter().map(|c| c.at).collect::<Vec<_>>(), [0.0, 12.0, 7.0]);
     }

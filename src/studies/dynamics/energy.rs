@@ -13,7 +13,7 @@ use crate::scalar::Dual;
 use crate::studies::common::motion::Rows;
 use grashof_solvers::{Control, Counts, Integration, Node};
 
-/// What an era begins with.
+/// What a phase begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Begins {
     /// The run.
@@ -38,7 +38,7 @@ const ROUNDING: f64 = 1e5;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Balance {
     start: f64,
-    /// Work before the present era.
+    /// Work before the present phase.
     before: [f64; WORKS],
     work: [f64; WORKS],
     impacts: f64,
@@ -73,7 +73,7 @@ where
 }
 
 impl Balance {
-    /// Begins an era at a node; energies that change because parameters do count as done by the event.
+    /// Begins a phase at a node; energies that change because parameters do count as done by the event.
     pub(super) fn begin<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, begins: Begins)
     where
         G: Space<S = f64>,
@@ -146,7 +146,7 @@ impl Balance {
         }
     }
 
-    /// Ends an era.
+    /// Ends a phase.
     pub(super) fn end<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, run: &Integration, inner: Counts)
     where
         G: Space<S = f64>,

@@ -4,7 +4,7 @@ use super::vocabulary::{Known, Quantity};
 
 /// What an expression needs to be known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Reach {
+pub(crate) struct Needs {
     /// The highest level of a name in it.
     pub(crate) level: Known,
     /// Whether reactions are in it.
@@ -15,7 +15,7 @@ pub(crate) struct Reach {
     pub(crate) states: bool,
 }
 
-impl Reach {
+impl Needs {
     /// Of a number.
     pub(crate) const CONSTANT: Self = Self { level: Known::Constant, reactions: false, springs: false, states: false };
 

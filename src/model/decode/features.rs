@@ -6,7 +6,7 @@ use crate::model::scope::Local;
 use serde_yaml::Value;
 
 /// What a kind of study offers.
-pub(super) struct Offer {
+pub(super) struct Features {
     pub(super) word: &'static str,
     /// Dimension of the independent variable.
     pub(super) independent: Option<Dimension>,
@@ -23,7 +23,7 @@ pub(super) struct Offer {
 /// Names of a study while it is decoded.
 pub(super) struct Frame<'s> {
     pub(super) local: Local<'s>,
-    pub(super) offer: Offer,
+    pub(super) features: Features,
     /// Swept parameters.
     pub(super) swept: Vec<usize>,
     /// Names of scalars in order, for figures.

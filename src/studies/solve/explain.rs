@@ -11,7 +11,7 @@ use crate::results::{Finding, Unsolved};
 const COARSE: f64 = 1e-6;
 
 /// A search that has ended.
-pub(super) struct Words<'a> {
+pub(super) struct Explain<'a> {
     pub(super) task: &'a Task<'a>,
     /// All runs, by place.
     pub(super) log: Vec<Trial>,
@@ -19,7 +19,7 @@ pub(super) struct Words<'a> {
     pub(super) place: &'a dyn Fn(f64) -> f64,
 }
 
-impl Words<'_> {
+impl Explain<'_> {
     /// Why no value of the parameter meets the target.
     pub(super) fn missed(&self, jump: Option<Root>, gap: Option<[f64; 2]>) -> Unsolved {
         let [parameter, scalar] = self.names();

@@ -20,7 +20,7 @@ pub(super) struct Names {
     preferred: Vec<usize>,
     metric: Vec<f64>,
     /// Whether joints have friction, which does not count.
-    rubs: bool,
+    has_friction: bool,
 }
 
 impl Names {
@@ -37,7 +37,7 @@ impl Names {
             q: in_q,
             preferred: preferred(m),
             metric: metric.to_vec(),
-            rubs: model.joints.iter().any(|j| j.friction.is_some()),
+            has_friction: model.joints.iter().any(|j| j.friction.is_some()),
         }
     }
 
@@ -96,8 +96,9 @@ impl Names {
                 "begin elsewhere with `start`, or see with a study of the kind `dynamics` and some damping where it comes to rest",
             ),
         };
-        let rubs = if self.rubs { "; the friction of joints does not count here, where it may hold: see with `dynamics`" } else { "" };
-        unsolved(format!("there is no equilibrium: {how}, {what}{rubs}"), place, help)
+        let friction =
+            if self.has_friction { "; the friction of joints does not count here, where it may hold: see with `dynamics`" } else { "" };
+        unsolved(format!("there is no equilibrium: {how}, {what}{friction}"), place, help)
     }
 
     /// The failure of a search that has gone through a rigid stop.

@@ -1,12 +1,12 @@
 //! An integration alone, for measurements: nothing is recorded but its end.
 
-use super::balance::Balance;
-use super::balance::Begins;
 use super::chart::Charted;
 use super::depart::depart;
-use super::eras::Eras;
+use super::energy::Balance;
+use super::energy::Begins;
 use super::explain;
 use super::march::begin;
+use super::phases::Phases;
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::watch::watched;
@@ -19,7 +19,7 @@ use grashof_solvers::{Control, Counts, Engine, Node, Progress, Settings, Stage, 
 
 /// What an integration alone has come to: nothing is recorded but its end.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bare {
+pub struct Unrecorded {
     /// Time reached, s.
     pub t: f64,
     /// Columns of the study there.
@@ -38,28 +38,28 @@ pub struct Bare {
 ///
 /// # Errors
 /// If the run did not begin.
-pub(super) fn bare<G: Space<S = f64>>(
+pub(super) fn unrecorded<G: Space<S = f64>>(
     case: Case<'_>,
     plan: &Plan,
     ids: &[Id],
-    eras: &Eras<G>,
+    phases: &Phases<G>,
     timer: &mut dyn FnMut(bool),
-) -> Result<Bare, Failure> {
+) -> Result<Unrecorded, Failure> {
     let Case { model, study, .. } = case;
     let (all, watched) = watched(model, ids);
-    let observer = Observer::new(model, &eras.mechanism, &eras.parameters, &all);
-    let mut system = Mechanical::new(&eras.mechanism, &eras.lifted, &eras.start, observer, watched);
+    let observer = Observer::new(model, &phases.mechanism, &phases.parameters, &all);
+    let mut system = Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, watched);
     let dims = system.dims();
-    let mut state = begin(eras, dims);
-    if let Some(departure) = depart(eras, &mut system, &state, plan.until) {
+    let mut state = begin(phases, dims);
+    if let Some(departure) = depart(phases, &mut system, &state, plan.until) {
         state = departure.to;
     }
-    let mut chart = Charted::new(study, plan, system, eras, &state, &mut 0.0)?;
+    let mut chart = Charted::new(study, plan, system, phases, &state, &mut 0.0)?;
     let mut node = Node::new(dims);
     let mut balance = Balance::default();
     let settings = Settings { balance: false, ..plan.settings };
     timer(true);
-    let mut run = chart.run(settings, &state).map_err(|halt| explain::no_start(study, &eras.mechanism, &eras.start, &halt))?;
+    let mut run = chart.run(settings, &state).map_err(|halt| explain::no_start(study, &phases.mechanism, &phases.start, &halt))?;
     chart.whole(run.node(), &mut node);
     balance.begin(chart.mechanical(), &node, Begins::Run);
     let stopped = loop {
@@ -72,13 +72,13 @@ pub(super) fn bare<G: Space<S = f64>>(
                     balance.turn(&run, chart.is_bridge().then_some(node.state.t));
                     match chart.run(settings, &node.state) {
                         Ok(next) => run = next,
-                        Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+                        Err(halt) => break Some(explain::halt(model, &phases.mechanism, chart.mechanical(), plan, &halt)),
                     }
                 } else if progress == Progress::Stopped {
                     break None;
                 }
             }
-            Err(halt) => break Some(explain::halt(model, &eras.mechanism, chart.mechanical(), plan, &halt)),
+            Err(halt) => break Some(explain::halt(model, &phases.mechanism, chart.mechanical(), plan, &halt)),
         }
     };
     timer(false);
@@ -92,5 +92,5 @@ pub(super) fn bare<G: Space<S = f64>>(
     chart.mechanical().columns(&node.state.modes, &mut columns);
     columns.truncate(ids.len());
     let (energy_drift, counts) = balance.finish(plan, &study.place).0.march.map_or_else(Default::default, |m| (m.energy_drift, m.counts));
-    Ok(Bare { t: node.state.t, columns, energy_drift, residuals, counts, stopped })
+    Ok(Unrecorded { t: node.state.t, columns, energy_drift, residuals, counts, stopped })
 }

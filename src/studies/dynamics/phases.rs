@@ -8,11 +8,11 @@ use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::Model;
 use crate::results::Failure;
 use crate::scalar::Dual;
-use crate::studies::common::contact;
+use crate::studies::common::stops;
 use std::cell::OnceCell;
 
 /// Parameters that no earlier mechanism of a run had may be set so many times.
-pub(super) const MOST_ERAS: usize = 5000;
+pub(super) const MOST_PHASES: usize = 5000;
 
 /// What holds a mechanism beside its own rows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,28 +24,28 @@ pub(super) struct Holds {
 }
 
 /// A mechanism with the same on dual numbers, at given parameters and holds; and those that the run came to need after it.
-pub(crate) struct Eras<G: Space<S = f64>> {
+pub(crate) struct Phases<G: Space<S = f64>> {
     pub(crate) mechanism: Mechanism<G>,
     pub(crate) lifted: Mechanism<G::Lift<Dual<LANES>>>,
     pub(crate) parameters: Vec<f64>,
     pub(crate) start: Assembled,
     holds: Holds,
-    next: OnceCell<Box<Eras<G>>>,
+    next: OnceCell<Box<Phases<G>>>,
 }
 
-impl<G: Space<S = f64>> Eras<G> {
+impl<G: Space<S = f64>> Phases<G> {
     /// The mechanism at the start.
     ///
     /// # Errors
     /// If the model has none, or it cannot be assembled.
     pub(crate) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
-        contact::begins(model, &mechanism, &start)?;
+        stops::begins(model, &mechanism, &start)?;
         let lifted = mechanism.lift();
         Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, holds: Holds::default(), next: OnceCell::new() })
     }
 
-    /// The first era.
+    /// The first phase.
     pub(super) fn first(&self) -> &Self {
         self
     }
@@ -55,21 +55,21 @@ impl<G: Space<S = f64>> Eras<G> {
     /// # Errors
     /// If the parameters allow no mechanism, or were set anew too many times.
     pub(super) fn with(&self, model: &Model, parameters: &[f64], coordinates: Coordinates, holds: &Holds) -> Result<&Self, Failure> {
-        let (mut era, mut same, mut count) = (self, None, 0);
+        let (mut phase, mut same, mut count) = (self, None, 0);
         loop {
-            if era.parameters == parameters {
-                if era.holds == *holds {
-                    return Ok(era);
+            if phase.parameters == parameters {
+                if phase.holds == *holds {
+                    return Ok(phase);
                 }
-                if era.holds == Holds::default() {
-                    same = Some(era);
+                if phase.holds == Holds::default() {
+                    same = Some(phase);
                 }
             }
-            let Some(next) = era.next.get() else { break };
-            (era, count) = (next, count + 1);
+            let Some(next) = phase.next.get() else { break };
+            (phase, count) = (next, count + 1);
         }
-        if count > MOST_ERAS {
-            let message = format!("parameters, stops on which joints rest or contacts that stick have changed to {MOST_ERAS} others");
+        if count > MOST_PHASES {
+            let message = format!("parameters, stops on which joints rest or contacts that stick have changed to {MOST_PHASES} others");
             return Err(Failure::numerical(message, "end the run before, or let parameters take fewer values"));
         }
         let mut mechanism = match same {
@@ -86,6 +86,6 @@ impl<G: Space<S = f64>> Eras<G> {
         let lifted = mechanism.lift();
         let (parameters, start) = (parameters.to_vec(), self.start.clone());
         let next = Self { mechanism, lifted, parameters, start, holds: holds.clone(), next: OnceCell::new() };
-        Ok(era.next.get_or_init(|| Box::new(next)))
+        Ok(phase.next.get_or_init(|| Box::new(next)))
     }
 }
