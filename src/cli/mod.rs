@@ -84,9 +84,9 @@ enum Command {
         after_help = "Examples:\n  grashof import robot.urdf -o robot.yaml\n  grashof import robot.urdf --free --stops | grashof check -"
     )]
     Import(import::Arguments),
-    /// Print the JSON Schema of model files
-    #[command(after_help = "Examples:\n  grashof schema > grashof.schema.json\n  grashof schema | head")]
-    Schema,
+    /// Print the JSON Schema of model files, or of results
+    #[command(after_help = "Examples:\n  grashof schema > grashof.schema.json\n  grashof schema --results > results.schema.json")]
+    Schema(schema::Arguments),
     /// Print a completion script for a shell
     #[command(
         after_help = "Examples:\n  grashof completions bash > /etc/bash_completion.d/grashof\n  grashof completions fish > ~/.config/fish/completions/grashof.fish"
@@ -124,7 +124,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::check(arguments, &cli.common),
         Command::New(arguments) => new::new(arguments, &cli.common),
         Command::Import(arguments) => import::import(arguments, &cli.common),
-        Command::Schema => schema::print(),
+        Command::Schema(arguments) => schema::print(arguments),
         Command::Completions(arguments) => completions::print(arguments, &mut Cli::command()),
     };
     ended(code, take_errors())

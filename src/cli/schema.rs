@@ -2,8 +2,16 @@
 
 use super::{code, say};
 
-/// Prints the JSON Schema of model files.
-pub(super) fn print() -> u8 {
-    say(&serde_json::to_string_pretty(&grashof::model::schema()).unwrap_or_default());
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// That of the JSON files of results instead
+    #[arg(long)]
+    results: bool,
+}
+
+/// Prints the JSON Schema of model files, or of results.
+pub(super) fn print(arguments: &Arguments) -> u8 {
+    let schema = if arguments.results { grashof::output::results_schema() } else { grashof::model::schema() };
+    say(&serde_json::to_string_pretty(&schema).unwrap_or_default());
     code::DONE
 }

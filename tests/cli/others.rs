@@ -89,6 +89,34 @@ fn fits(schema: &Value, value: &Value, root: &Value) -> Result<(), String> {
 }
 
 #[test]
+fn the_schema_of_results_fits_what_is_written() {
+    let place = Place::new("schema-results");
+    let schema = place.run(&["schema", "--results"]).ends(0).json();
+    assert!(schema["$schema"].is_string());
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let mut kinds = BTreeMap::new();
+    // motions in time, driven ones, modes, sweeps and solutions, with all that each certifies
+    for model in ["slider_crank.yaml", "pendulum.yaml", "truss.yaml", "heavy_top.yaml"] {
+        let path = root.join(model);
+        let run = place.run(&["run", path.to_str().unwrap(), "--json", "--no-plots", "-o", model]);
+        let all = run.ends(0).json();
+        for results in all.as_array().unwrap() {
+            fits(&schema, results, &schema).unwrap_or_else(|error| panic!("{model}, {}: {error}", results["study"]));
+            // what is written is described
+            for key in results["certificate"].as_object().unwrap().keys() {
+                let known = &schema["properties"]["certificate"]["properties"][key];
+                assert!(known.is_object() || key.starts_with("work_"), "{model}: `{key}` is not described");
+                *kinds.entry(key.clone()).or_insert(0) += 1;
+            }
+        }
+    }
+    assert!(kinds.len() > 15, "{kinds:?}");
+    let mut wrong = place.run(&["run", root.join("pendulum.yaml").to_str().unwrap(), "--json", "--no-plots"]).ends(0).json()[0].clone();
+    wrong["status"] = "perhaps".into();
+    assert!(fits(&schema, &wrong, &schema).is_err());
+}
+
+#[test]
 fn the_schema_fits_the_models_and_refuses_bad_ones() {
     let place = Place::new("schema");
     let done = place.run(&["schema"]).ends(0);
