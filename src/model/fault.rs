@@ -134,9 +134,9 @@ impl<'p, 'k> At<'p, 'k> {
     /// The file itself.
     pub(crate) const ROOT: At<'static, 'static> = At { parent: None, step: None };
 
-    /// A key below.
-    pub(crate) fn key(&'p self, key: &'k str) -> At<'p, 'k> {
-        At { parent: Some(self), step: Some(Step::Key(key)) }
+    /// A key below, by its name or as it was declared.
+    pub(crate) fn key(&'p self, key: impl Into<&'k str>) -> At<'p, 'k> {
+        At { parent: Some(self), step: Some(Step::Key(key.into())) }
     }
 
     /// An item below.

@@ -174,3 +174,49 @@ impl Shape {
         }
     }
 }
+
+/// Most intervals of a study.
+pub(crate) const MOST_SAMPLES: u64 = 10_000_000;
+/// Most steps of a continuation.
+pub(crate) const MOST_STEPS: u64 = 100_000;
+/// Most runs of a sweep.
+pub(crate) const MOST_RUNS: u64 = 1_000_000;
+
+pub(crate) const fn need(key: &'static str, shape: Shape, doc: &'static str) -> Field {
+    Field { key, shape, required: true, doc }
+}
+pub(crate) const fn may(key: &'static str, shape: Shape, doc: &'static str) -> Field {
+    Field { key, shape, required: false, doc }
+}
+pub(crate) const fn one_of(keys: &'static [&'static str]) -> Choice {
+    Choice { keys, required: true }
+}
+pub(crate) const fn at_most_one(keys: &'static [&'static str]) -> Choice {
+    Choice { keys, required: false }
+}
+
+pub(crate) const LENGTH: Shape = Shape::Value(Want::Of(Dimension::LENGTH));
+pub(crate) const MASS: Shape = Shape::Value(Want::Of(Dimension::MASS));
+pub(crate) const INERTIA: Shape = Shape::Value(Want::Of(Dimension::INERTIA));
+pub(crate) const TIME: Shape = Shape::Value(Want::Of(Dimension::TIME));
+pub(crate) const NUMBER: Shape = Shape::Value(Want::Of(Dimension::NONE));
+pub(crate) const ANGLE: Shape = Shape::Value(Want::Angle);
+pub(crate) const ANY: Shape = Shape::Value(Want::Any);
+/// Angle or length, as the joint has it.
+pub(crate) const COORDINATE: Shape = Shape::Value(Want::Varies("an angle (rad) or a length (m), as the joint has it"));
+pub(crate) const EFFORT: Shape = Shape::Value(Want::Varies("a torque (N m) or a force (N), as the joint has it"));
+pub(crate) const STIFFNESS: Shape = Shape::Value(Want::Varies("a stiffness: N/m, or N m/rad for an angle"));
+pub(crate) const DAMPING: Shape = Shape::Value(Want::Varies("a damping: N s/m, or N m s/rad for an angle"));
+pub(crate) const RATE: Shape = Shape::Value(Want::Varies("a speed (m/s) or an angular speed (rad/s)"));
+pub(crate) const FRICTION_LEVEL: Shape =
+    Shape::Value(Want::Varies("a torque (N m) or a force (N), as the joint has it, or a coefficient of friction"));
+pub(crate) const BRISTLE_STIFFNESS: Shape =
+    Shape::Value(Want::Varies("a stiffness: N/m or N m/rad; with a coefficient of friction 1/m, or a plain number"));
+pub(crate) const BRISTLE_DAMPING: Shape =
+    Shape::Value(Want::Varies("a damping: N s/m or N m s/rad; with a coefficient of friction s/m, or s"));
+pub(crate) const ROLL_PITCH_YAW: Shape = Shape::List(&ANGLE, Size::Exactly(3));
+pub(crate) const POSITION: Shape = Shape::List(&LENGTH, Size::Space);
+pub(crate) const DIRECTION: Shape = Shape::List(&NUMBER, Size::Space);
+pub(crate) const POINT: Shape = Shape::Name("a point `body.point`, or a body for its origin");
+pub(crate) const JOINT_NAME: Shape = Shape::Name("the name of a joint");
+pub(crate) const FIGURES: Shape = Shape::Either(&[INERTIA, Shape::List(&INERTIA, Size::OneOf(&[1, 3, 6]))]);

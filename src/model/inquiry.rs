@@ -1,7 +1,7 @@
 //! One reading of a file: which variants and studies, in which order, and decoded models shared by all studies with the
 //! same variants.
 
-use super::decode::{self, Decoder, Outside, Parsed, Scalars, Taken};
+use super::decode::{self, Decoder, Outside, Parsed, Scalars, StudyKeys, Taken};
 use super::diagnostics::Report;
 use super::document::{Document, Selection};
 use super::fault::{At, Fault, Spot};
@@ -89,7 +89,7 @@ impl<'d, 's> Inquiry<'d, 's> {
             None => {
                 let known = self.document.variant_names();
                 let help = suggest::help(name, known.iter().map(String::as_str));
-                let message = format!("unknown variant `{}`", shape::clip(name));
+                let message = format!("unknown variant `{}`", suggest::clip(name));
                 let place = at.map(|at| merge::path(&at.steps())).unwrap_or_default();
                 let mut fault = Fault::new("unknown-variant", place, message, "a variant of this file").maybe_help(help);
                 if at.is_none() {
@@ -109,7 +109,7 @@ impl<'d, 's> Inquiry<'d, 's> {
             let section = At::ROOT.key("studies");
             let study_at = section.key(study);
             let at = study_at.key("variant");
-            match node.get("variant") {
+            match StudyKeys::of(node).variant.node {
                 Some(Node::Plain(Value::String(name))) => names.extend(self.patch(name, Some(&at)).map(|(name, _)| name)),
                 Some(node) => {
                     for (i, item) in node.items().iter().enumerate() {
@@ -134,7 +134,7 @@ impl<'d, 's> Inquiry<'d, 's> {
         let needs: Vec<Vec<usize>> = all
             .iter()
             .map(|(_, node)| {
-                let takes = node.get("take").map(Node::entries).unwrap_or_default();
+                let takes = StudyKeys::of(*node).take.entries();
                 let studies = takes.iter().filter_map(|(_, value)| value.text()?.split('.').next());
                 studies.filter_map(|study| index.get(study).copied()).collect()
             })
@@ -220,7 +220,7 @@ impl<'d, 's> Inquiry<'d, 's> {
     /// Scalars of a study, if it was decoded.
     fn taken(&self, scalars: &HashMap<&str, Scalars>, study: &str) -> Taken {
         match scalars.get(study) {
-            Some(_) if self.document.study_node(study).is_some_and(|node| node.get("sweep").is_some()) => Taken::Swept,
+            Some(_) if self.document.study_node(study).is_some_and(|node| StudyKeys::of(node).sweep.given()) => Taken::Swept,
             Some(scalars) => Taken::Known(scalars.clone()),
             None if self.document.study_node(study).is_some() => Taken::Waiting,
             None => Taken::NoStudy,

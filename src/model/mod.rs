@@ -20,6 +20,7 @@ mod include;
 mod included;
 mod inquiry;
 mod integrator;
+mod keys;
 mod merge;
 mod names;
 mod needs;

@@ -4,7 +4,7 @@
 use super::fault::{At, Fault, Spot};
 use super::fields::{Keys, Shape, Size, Table};
 use super::merge::{Layers, Node};
-use super::suggest;
+use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
 use serde_yaml::Value;
 
@@ -331,16 +331,6 @@ pub(crate) fn describe(node: Node<'_>) -> String {
 
 /// Longest name of what files are named after: two of them make the name of a figure.
 const LONGEST_TITLE: usize = 100;
-
-/// A text short enough for a message.
-pub(crate) fn clip(text: &str) -> String {
-    let line = text.lines().next().unwrap_or("");
-    if line.chars().count() > 60 || line.len() < text.trim_end().len() {
-        format!("{}...", line.chars().take(57).collect::<String>())
-    } else {
-        line.to_owned()
-    }
-}
 
 fn lower_first(text: &str) -> String {
     let mut chars = text.trim_end_matches('.').chars();

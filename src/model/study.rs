@@ -1,6 +1,7 @@
 //! What a study asks for.
 
 use super::integrator::Integrator;
+use super::keys::words;
 use super::place::Place;
 use crate::expression::{Dimension, Id};
 
@@ -158,15 +159,16 @@ pub struct Linearize {
     pub mat: bool,
 }
 
-/// How eigenvalues are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Eigensolver {
-    /// By the linear algebra library.
-    Library,
-    /// Jacobi's rotations.
-    Jacobi,
-    /// Inverse iteration with deflation.
-    Power,
+words! {
+    /// How eigenvalues are found.
+    pub enum Eigensolver {
+        /// By the linear algebra library.
+        Library = "library",
+        /// Jacobi's rotations.
+        Jacobi = "jacobi",
+        /// Inverse iteration with deflation.
+        Power = "power",
+    }
 }
 
 /// The regime in which a mechanism settles: `periodic`.
@@ -230,28 +232,30 @@ pub enum Control {
     Step(Id),
 }
 
-/// Which constraint rows an integrator imposes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// Positions and velocities (Gear, Gupta and Leimkuhler), index 2.
-    Stabilized,
-    /// Positions, index 3.
-    Position,
-    /// Velocities, index 2.
-    Velocity,
-    /// Accelerations, index 1, with projection.
-    Acceleration,
+words! {
+    /// Which constraint rows an integrator imposes.
+    pub enum Level {
+        /// Positions and velocities (Gear, Gupta and Leimkuhler), index 2.
+        Stabilized = "stabilized",
+        /// Positions, index 3.
+        Position = "position",
+        /// Velocities, index 2.
+        Velocity = "velocity",
+        /// Accelerations, index 1, with projection.
+        Acceleration = "acceleration",
+    }
 }
 
-/// Coordinates of motion in time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Chart {
-    /// Joint coordinates of a spanning tree, closed loops as rows.
-    Joint,
-    /// Every body free, every joint as rows.
-    Cartesian,
-    /// Independent coordinates alone.
-    Minimal,
+words! {
+    /// Coordinates of motion in time.
+    pub enum Chart {
+        /// Joint coordinates of a spanning tree, closed loops as rows.
+        Joint = "joint",
+        /// Every body free, every joint as rows.
+        Cartesian = "cartesian",
+        /// Independent coordinates alone.
+        Minimal = "minimal",
+    }
 }
 
 /// A swept parameter.

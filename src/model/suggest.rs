@@ -22,3 +22,13 @@ pub(crate) fn known<'c>(candidates: impl IntoIterator<Item = &'c str>) -> Option
     }
     Some(list)
 }
+
+/// A text short enough for a message.
+pub(crate) fn clip(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    if line.chars().count() > 60 || line.len() < text.trim_end().len() {
+        format!("{}...", line.chars().take(57).collect::<String>())
+    } else {
+        line.to_owned()
+    }
+}

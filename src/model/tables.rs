@@ -1,17 +1,14 @@
-//! The tables of fields: every key of the format, once. Those of studies stand in `studies`.
+//! The tables of fields: every key of the format, once.
 
-mod shapes;
-mod studies;
-
-pub(crate) use studies::{MOST_RUNS, STUDY, STUDY_KINDS};
+use super::decode::STUDY;
 
 use super::fields::Shape::{Count, Either, Flag, Formula, Later, List, Map, Name, Named, Patch, Text, Value, Word};
-use super::fields::{Keys, Shape, Size, Table, Want};
-use crate::expression::Dimension as D;
-use shapes::{
+use super::fields::{
     ANGLE, ANY, BRISTLE_DAMPING, BRISTLE_STIFFNESS, COORDINATE, DAMPING, DIRECTION, EFFORT, FIGURES, FRICTION_LEVEL, INERTIA, JOINT_NAME,
     LENGTH, MASS, NUMBER, POINT, POSITION, RATE, ROLL_PITCH_YAW, STIFFNESS, TIME, at_most_one, may, need, one_of,
 };
+use super::fields::{Keys, Shape, Size, Table, Want};
+use crate::expression::Dimension as D;
 
 const PLACED: Shape = Either(&[POSITION, Map(&FRAME)]);
 

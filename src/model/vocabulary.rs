@@ -10,7 +10,7 @@ use super::place::PointRef;
 pub enum Quantity {
     /// Time, s.
     Time,
-    /// NameSpace coordinate (`order` 0), velocity (1) or acceleration (2) of a body's point; `axis` 0 x, 1 y, 2 z. m, m/s, m/s².
+    /// World coordinate (`order` 0), velocity (1) or acceleration (2) of a body's point; `axis` 0 x, 1 y, 2 z. m, m/s, m/s².
     Point { at: PointRef, axis: usize, order: usize },
     /// Planar angle of a body from +x, counter-clockwise and unwrapped, or its rates. rad, rad/s, rad/s².
     Angle { body: usize, order: usize },

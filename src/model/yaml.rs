@@ -211,7 +211,7 @@ fn glued(text: &str, line_start: usize) -> Option<Fault> {
         glued.then(|| {
             Fault::new("yaml-syntax", String::new(), format!("no space behind the colon of `{key}:`"), "`key: value`, with a space")
                 .at(Spot::Bytes(at..at + key.len() + 1))
-                .help(format!("write `{key}: {}`", super::shape::clip(value.split(" #").next().unwrap_or(value).trim_end())))
+                .help(format!("write `{key}: {}`", super::suggest::clip(value.split(" #").next().unwrap_or(value).trim_end())))
         })
     })
 }

@@ -9,8 +9,8 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::place::PointRef;
 use crate::model::rules::Rule;
-use crate::model::shape::clip;
 use crate::model::suggest;
+use crate::model::suggest::clip;
 use crate::model::vocabulary::BODY_QUANTITIES;
 
 impl<'n> Decoder<'n> {

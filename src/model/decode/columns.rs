@@ -1,25 +1,39 @@
 //! Columns of a study and figures of them.
 
 use super::decoder::{Decoder, Origin};
-use super::features::Frame;
+use super::frame::Frame;
 use crate::expression::{self, Dimension, Id};
 use crate::model::fault::At;
+use crate::model::fields::{Shape, Size};
+use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::scope::{Allow, Local};
-use crate::model::shape::clip;
 use crate::model::study::{Column, Plot, Shown, ShownWhat};
+use crate::model::suggest::clip;
 use crate::model::vocabulary::Quantity;
+
+/// What names a column.
+pub(super) const COLUMN: Shape = Shape::Name("the name of a measure or a quantity such as `rocker.tip.x`");
+
+keys! {
+    /// `plot`, one figure.
+    pub(super) PLOT = PlotKeys "a figure" [] {
+        show: need Shape::List(&COLUMN, Size::AtLeast(1)), "What is drawn.";
+        over: may COLUMN, "What it is drawn over; the independent variable if omitted.";
+        unit("in"): may Shape::Text, "Unit of the horizontal axis.";
+    }
+}
 
 impl<'n> Decoder<'n> {
     fn column_allow(frame: &Frame<'_>) -> Allow {
-        Allow { reactions: frame.features.reactions, states: frame.features.states, what: frame.features.word, ..Allow::MEASURE }
+        Allow { reactions: frame.features.reactions, states: frame.features.states, what: frame.word, ..Allow::MEASURE }
     }
 
-    pub(super) fn columns(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Column> {
-        let here = at.key("columns");
+    pub(super) fn columns(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Column> {
+        let here = at.key(asked);
         let mut columns: Vec<Column> = Vec::new();
-        let Some(list) = node.get("columns") else { return self.default_columns(frame) };
+        let Some(list) = asked.node else { return self.default_columns(frame) };
         for (i, item) in list.items().iter().enumerate() {
             let Some(text) = item.as_str() else { continue };
             for column in self.expand(text, &here.index(i), frame) {
@@ -38,18 +52,18 @@ impl<'n> Decoder<'n> {
     /// What `undefined` names among the columns and the curves of figures.
     pub(super) fn may_be_undefined(
         &mut self,
-        node: Node<'n>,
+        asked: Entry<'n>,
         at: &At<'_, 'n>,
         frame: &mut Frame<'n>,
         columns: &[Column],
         plots: &[Plot],
     ) -> Vec<Id> {
-        let here = at.key("undefined");
+        let here = at.key(asked);
         let shown = plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
         let curves = shown.filter_map(|s| if let ShownWhat::Column(id) = s.what { Some(id) } else { None });
         let known: Vec<Id> = columns.iter().map(|c| c.value).chain(curves).collect();
         let mut ids = Vec::new();
-        for (i, item) in node.get("undefined").map(Node::items).unwrap_or_default().iter().enumerate() {
+        for (i, item) in asked.items().iter().enumerate() {
             let Some(text) = item.as_str() else { continue };
             for column in self.expand(text, &here.index(i), frame) {
                 if known.contains(&column.value) {
@@ -189,20 +203,21 @@ impl<'n> Decoder<'n> {
         columns
     }
 
-    pub(super) fn plots(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Plot> {
-        let section = at.key("plot");
+    pub(super) fn plots(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Plot> {
+        let section = at.key(asked);
         let mut plots = Vec::new();
-        for (name, value) in node.get("plot").map(Node::entries).unwrap_or_default() {
+        for (name, value) in asked.entries() {
             let here = section.key(name);
-            let (list, list_at) = if value.is_list() { (Some(value), here) } else { (value.get("show"), here.key("show")) };
+            let keys = PlotKeys::of(value);
+            let (list, list_at) = if value.is_list() { (Some(value), here) } else { (keys.show.node, here.key(keys.show)) };
             let mut show = Vec::new();
             for (i, item) in list.map(Node::items).unwrap_or_default().iter().enumerate() {
                 let Some(text) = item.as_str() else { continue };
                 show.extend(self.shown(text, &list_at.index(i), frame));
             }
-            let over_at = here.key("over");
+            let over_at = here.key(keys.over);
             let mut over = None;
-            if let Some(text) = value.get("over").and_then(Node::text) {
+            if let Some(text) = keys.over.text() {
                 let found = self.shown(text, &over_at, frame);
                 if found.len() > 1 {
                     let message = format!("`{}` stands for {} quantities", clip(text), found.len());
@@ -219,7 +234,7 @@ impl<'n> Decoder<'n> {
                 }
                 None => frame.features.independent,
             };
-            let unit = self.plot_unit(value, &here, axis);
+            let unit = self.plot_unit(keys.unit, &here, axis);
             plots.push(Plot { name: name.to_owned(), show, over, unit });
         }
         plots
@@ -249,9 +264,9 @@ impl<'n> Decoder<'n> {
         }
     }
 
-    fn plot_unit(&mut self, value: Node<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
-        let text = value.get("in")?.text()?;
-        let here = at.key("in");
+    fn plot_unit(&mut self, unit: Entry<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
+        let text = unit.text()?;
+        let here = at.key(unit);
         match expression::parse_unit(text) {
             Some((factor, dimension)) => {
                 if axis.is_some_and(|axis| axis != dimension) {

@@ -4,14 +4,15 @@ use crate::expression::{self, Dimension, Expr, Id, Lowered, Pool, SyntaxError};
 use crate::model::entities::Dimensions;
 use crate::model::fault::{At, Fault, Spot};
 use crate::model::fields::Want;
+use crate::model::keys::Entry;
 use crate::model::merge::{Layers, Node};
 use crate::model::names::{self, Entity};
 use crate::model::needs::Needs;
 use crate::model::quantities::{NameSpace, Renumbered};
 use crate::model::rules::{self, Rule};
 use crate::model::scope::{Allow, Local, View};
-use crate::model::shape::clip;
 use crate::model::spans::Step;
+use crate::model::suggest::clip;
 use crate::model::whole::Model;
 use serde_yaml::Value;
 use std::collections::HashMap;
@@ -338,6 +339,16 @@ impl<'n> Decoder<'n> {
         let (id, _) = self.value(node, at, want, Allow::CONSTANT)?;
         self.check(Rule::Finite, &[id], at);
         Some(id)
+    }
+
+    /// The number of an entry, of what was declared for it.
+    pub(super) fn read(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Option<Id> {
+        self.read_as(entry, at, entry.want())
+    }
+
+    /// The number of an entry whose dimension depends on its neighbours.
+    pub(super) fn read_as(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, want: Want) -> Option<Id> {
+        self.number(entry.node, &at.key(entry), want)
     }
 
     /// A value of parameters that may not be negative; the words say what it is.

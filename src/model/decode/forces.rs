@@ -10,8 +10,8 @@ use crate::model::names::Entity;
 use crate::model::place::PointRef;
 use crate::model::rules::Rule;
 use crate::model::scope::Allow;
-use crate::model::shape::clip;
 use crate::model::suggest;
+use crate::model::suggest::clip;
 use crate::model::vocabulary::{Known, Quantity};
 
 impl<'n> Decoder<'n> {
@@ -29,7 +29,7 @@ impl<'n> Decoder<'n> {
         for key in keys {
             if node.get(key).is_some() {
                 let fault =
-                    self.fault("unknown-key", &at.key(key), format!("`{key}` beside `{kind}`"), format!("a key that belongs to `{kind}`"));
+                    self.fault("unknown-key", &at.key(*key), format!("`{key}` beside `{kind}`"), format!("a key that belongs to `{kind}`"));
                 fault.spot = Spot::Key;
                 fault.help = Some("remove it".to_owned());
             }

@@ -10,8 +10,8 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::place::PointRef;
 use crate::model::rules::Rule;
-use crate::model::shape::clip;
 use crate::model::suggest;
+use crate::model::suggest::clip;
 use crate::model::tables::JOINT_KINDS;
 
 /// Kinds that exist only in space, and those that exist only in the plane.
@@ -212,7 +212,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// Registers that values of a rule hold at a key.
-    pub(super) fn check_key(&mut self, rule: Rule, id: Option<Id>, at: &At<'_, 'n>, key: &'n str) {
+    pub(super) fn check_key(&mut self, rule: Rule, id: Option<Id>, at: &At<'_, 'n>, key: impl Into<&'n str>) {
         if let Some(id) = id {
             self.check(rule, &[id], &at.key(key));
         }

@@ -98,7 +98,7 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("measures");
         for (i, (name, _)) in entries.measures.iter().enumerate() {
             if let Some((symbol, _)) = self.name_space.measures[i] {
-                let (name, place) = ((*name).to_owned(), self.place(&section.key(name)));
+                let (name, place) = ((*name).to_owned(), self.place(&section.key(*name)));
                 self.name_space.model.measures.push(Measure { name, dimension: symbol.dimension, value: symbol.id, place });
             }
         }
@@ -107,7 +107,7 @@ impl<'n> Decoder<'n> {
     fn entries(&mut self) -> Entries<'n> {
         let (measures, states) = (self.section("measures"), self.section("states"));
         let sections = ["measures", "springs", "states"].map(|key| At::ROOT.key(key));
-        let mut drafts: Vec<Draft<'n>> = measures.iter().map(|(name, node)| self.draft(Some(*node), &sections[0].key(name))).collect();
+        let mut drafts: Vec<Draft<'n>> = measures.iter().map(|(name, node)| self.draft(Some(*node), &sections[0].key(*name))).collect();
         let mut stretched = Vec::new();
         for (i, (name, node)) in self.section("springs").into_iter().enumerate() {
             if let Some(stretch) = node.get("stretch") {
@@ -116,7 +116,7 @@ impl<'n> Decoder<'n> {
             }
         }
         for (name, node) in &states {
-            drafts.push(self.draft(node.get("rate"), &sections[2].key(name).key("rate")));
+            drafts.push(self.draft(node.get("rate"), &sections[2].key(*name).key("rate")));
         }
         Entries { measures, stretched, states, drafts }
     }

@@ -3,13 +3,12 @@
 use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::fault::{At, Spot};
-use crate::model::merge::Node;
+use crate::model::fields::MOST_RUNS;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
-use crate::model::shape::clip;
 use crate::model::study::{Plot, ShownWhat, Sweep, Values};
 use crate::model::suggest;
-use crate::model::tables::MOST_RUNS;
+use crate::model::suggest::clip;
 use std::ops::Range;
 
 /// What is given for a study.
@@ -101,8 +100,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// Sweeps given from outside.
-    pub(super) fn over(&mut self, over: &[(String, String)], node: Node<'n>, local: &mut Local<'n>) -> Vec<Sweep> {
-        let solved = node.get("solve").and_then(|solve| solve.get("vary")).and_then(Node::text);
+    pub(super) fn over(&mut self, over: &[(String, String)], solved: Option<&str>, local: &mut Local<'n>) -> Vec<Sweep> {
         let mut sweeps: Vec<Sweep> = Vec::new();
         let mut runs: u64 = 1;
         for (name, value) in over {

@@ -1,13 +1,13 @@
 //! Scalars and expectations: numbers of a whole study.
 
 use super::decoder::{Decoder, Origin};
-use super::features::Frame;
+use super::frame::Frame;
 use super::order::{order, tell};
 use super::values::needs;
 use crate::expression::{Dimension, Symbol};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
-use crate::model::merge::Node;
+use crate::model::fields::{ANY, NUMBER, Want, one_of};
+use crate::model::keys::{Entry, keys};
 use crate::model::needs::Needs;
 use crate::model::scope::Allow;
 use crate::model::study::{Expectation, Scalar, Tolerance};
@@ -16,14 +16,23 @@ use crate::model::vocabulary::{Quantity, WORKS};
 /// Outside of functionals a scalar may use parameters and other numbers of the whole study.
 const SCALAR: Allow = Allow { what: "a scalar", ..Allow::CONSTANT };
 
+keys! {
+    /// `expect`, of one scalar.
+    pub(super) EXPECT = ExpectKeys "an expectation" [one_of(&["within", "relative"])] {
+        is: need ANY, "The value.";
+        within: may ANY, "Largest absolute difference.";
+        relative: may NUMBER, "Largest difference relative to the value.";
+    }
+}
+
 impl<'n> Decoder<'n> {
-    pub(super) fn scalars(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Scalar> {
+    pub(super) fn scalars(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Scalar> {
         Self::open_functionals(frame);
-        let section = at.key("scalars");
-        let entries = node.get("scalars").map(Node::entries).unwrap_or_default();
-        let drafts: Vec<_> = entries.iter().map(|(name, value)| self.draft(Some(*value), &section.key(name))).collect();
+        let section = at.key(asked);
+        let entries = asked.entries();
+        let drafts: Vec<_> = entries.iter().map(|(name, value)| self.draft(Some(*value), &section.key(*name))).collect();
         for (name, _) in &entries {
-            let here = section.key(name);
+            let here = section.key(*name);
             self.free_name(name, &here, "a scalar");
             let double =
                 frame.local.symbols.iter().any(|(known, _)| known == name) || frame.features.results.iter().any(|(known, _)| known == name);
@@ -41,7 +50,7 @@ impl<'n> Decoder<'n> {
             frame.results.push((name.clone(), Symbol { id, dimension: *dimension }));
         }
         // names that the file gives come first
-        if frame.features.word == "dynamics" {
+        if frame.features.works {
             let names = &self.name_space.names;
             let free = |name: &str| entries.iter().all(|(known, _)| *known != name) && !names.contains_key(name);
             let works: Vec<(usize, &str)> = WORKS.into_iter().enumerate().filter(|(_, name)| free(name)).collect();
@@ -74,7 +83,7 @@ impl<'n> Decoder<'n> {
         let mut scalars = Vec::new();
         for (i, (name, _)) in entries.iter().enumerate() {
             if let Some(symbol) = found[i] {
-                let place = self.place(&section.key(name));
+                let place = self.place(&section.key(*name));
                 frame.scalars.push(((*name).to_owned(), symbol.dimension));
                 scalars.push(Scalar { name: (*name).to_owned(), dimension: symbol.dimension, value: symbol.id, place });
             }
@@ -98,19 +107,20 @@ impl<'n> Decoder<'n> {
         lowered.map(|(lowered, _)| Symbol { id: lowered.id, dimension: lowered.dimension })
     }
 
-    pub(super) fn expectations(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Expectation> {
-        let section = at.key("expect");
+    pub(super) fn expectations(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Expectation> {
+        let section = at.key(asked);
         let mut all = Vec::new();
-        for (text, inner) in node.get("expect").map(Node::entries).unwrap_or_default() {
+        for (text, inner) in asked.entries() {
             let here = section.key(text);
             let value = self.expected_value(text, &here, frame);
             let Some((value, dimension)) = value else { continue };
             let want = Want::Of(dimension);
-            let is = self.number(inner.get("is"), &here.key("is"), want);
-            let tolerance = if inner.get("within").is_some() {
-                self.size(inner.get("within"), &here.key("within"), dimension, "the tolerance").map(Tolerance::Within)
+            let keys = ExpectKeys::of(inner);
+            let is = self.read_as(keys.is, &here, want);
+            let tolerance = if keys.within.given() {
+                self.size(keys.within.node, &here.key(keys.within), dimension, "the tolerance").map(Tolerance::Within)
             } else {
-                self.size(inner.get("relative"), &here.key("relative"), Dimension::NONE, "the tolerance").map(Tolerance::Relative)
+                self.size(keys.relative.node, &here.key(keys.relative), Dimension::NONE, "the tolerance").map(Tolerance::Relative)
             };
             if let (Some(is), Some(tolerance)) = (is, tolerance) {
                 let place = self.place(&here);

@@ -1,20 +1,23 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
+use super::columns::{COLUMN, PLOT};
 use super::decoder::{Check, Decoder};
-use super::features::{Features, Frame, count};
+use super::frame::Frame;
+use super::kinds::{Features, KINDS};
 use super::outside::{Outside, retarget};
+use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{ANY, Choice, Field, Keys, MOST_RUNS, Shape, Size, Table, Want};
+use crate::model::keys::{Entry, Words, keys, words};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::needs::Needs;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Functionals, Local};
-use crate::model::shape::clip;
 use crate::model::study::{Solve, Study, StudyResult, Sweep, Take, Values};
 use crate::model::suggest;
-use crate::model::tables::{MOST_RUNS, STUDY_KINDS};
+use crate::model::suggest::clip;
 use crate::model::vocabulary::Quantity;
 
 /// What a study has that others may take.
@@ -44,6 +47,80 @@ pub(crate) struct Decoded<'n> {
     pub(crate) checks: Vec<Check<'n>>,
 }
 
+words! {
+    /// How the values of a span are spaced.
+    enum Spacing {
+        /// Equal differences.
+        Linear = "linear",
+        /// Equal ratios.
+        Log = "log",
+    }
+}
+
+keys! {
+    /// A study, beside its kind.
+    pub(crate) COMMON = StudyKeys "a study" [] {
+        about: may Shape::Text, "What the study is for.";
+        variant: may Shape::Either(&[Shape::Name("the name of a variant"), Shape::List(&Shape::Name("the name of a variant"), Size::AtLeast(0))]),
+            "Variants, applied in order.";
+        set: may Shape::Named(Keys::Reference, "a parameter", &ANY), "Parameters for this study.";
+        take: may Shape::Named(Keys::Name, "a scalar of another study", &Shape::Name("a scalar of another study, `STUDY.SCALAR`")),
+            "Scalars of other studies.";
+        sweep: may Shape::Named(Keys::Reference, "a parameter", &Shape::Either(&[Shape::Map(&SPAN), Shape::List(&ANY, Size::AtLeast(1))])),
+            "Parameters that run through values; several: the grid.";
+        solve: may Shape::Map(&SOLVE), "A parameter varied until a scalar meets its target.";
+        columns: may Shape::List(&COLUMN, Size::AtLeast(1)), "Columns of the CSV, in order.";
+        undefined: may Shape::List(&COLUMN, Size::AtLeast(1)), "Columns that may be undefined: their cells are blank there.";
+        scalars: may Shape::Named(Keys::Name, "a scalar", &Shape::Formula("an expression of functionals, parameters and scalars")),
+            "Numbers of the whole study.";
+        plot: may Shape::Named(Keys::Title, "a figure", &Shape::Either(&[Shape::Map(&PLOT), Shape::List(&COLUMN, Size::AtLeast(1))])), "Figures.";
+        expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)), "What must come out; if not, exit code 1.";
+    }
+}
+
+/// A study: the key of one of the kinds, and what all kinds have.
+pub(crate) static STUDY: Table = {
+    const N: usize = KINDS.len() + StudyKeys::FIELDS.len();
+    const FIELDS: [Field; N] = {
+        let mut fields = [KINDS[0].field; N];
+        let mut i = 0;
+        while i < N {
+            fields[i] = if i < KINDS.len() { KINDS[i].field } else { StudyKeys::FIELDS[i - KINDS.len()] };
+            i += 1;
+        }
+        fields
+    };
+    const NAMES: [&str; KINDS.len()] = {
+        let mut names = [""; KINDS.len()];
+        let mut i = 0;
+        while i < names.len() {
+            names[i] = KINDS[i].field.key;
+            i += 1;
+        }
+        names
+    };
+    Table { what: COMMON.what, choices: &[Choice { keys: &NAMES, required: true }], fields: &FIELDS }
+};
+
+keys! {
+    /// `sweep`, of one parameter.
+    SPAN = SpanKeys "a span of values" [] {
+        from: need ANY, "First value.";
+        to: need ANY, "Last value.";
+        count: need Shape::Count(1, MOST_RUNS), "Number of values.";
+        spacing: may Shape::Word(Spacing::WORDS), "Equal differences or equal ratios.";
+    }
+}
+
+keys! {
+    /// `solve`.
+    SOLVE = SolveKeys "a solve" [] {
+        vary: need Shape::Name("the name of a parameter"), "The parameter.";
+        between: need Shape::List(&ANY, Size::Exactly(2)), "Its bounds.";
+        target: need Shape::Named(Keys::Reference, "a scalar", &ANY), "The scalar and its target.";
+    }
+}
+
 impl<'n> Decoder<'n> {
     /// Decodes a study of the file. `taken` gives the scalars of the studies that it takes from; what `outside` sweeps takes the
     /// place of the study's own sweep.
@@ -51,44 +128,42 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("studies");
         let at = section.key(name);
         let mut local = Local::default();
-        let take = self.take(node, &at, taken, &mut local);
+        let keys = StudyKeys::of(node);
+        let take = self.take(keys.take, &at, taken, &mut local);
         let mut waiting = Vec::new();
-        let set = self.set(node, &at, &mut local, outside.set, &mut waiting);
+        let set = self.set(keys.set, &at, &mut local, outside.set, &mut waiting);
         let mut all = set.clone();
         all.extend(outside.set.iter().copied());
         let first_check = self.checks_so_far();
-        let kind = self.kind(node, &at);
+        let (word, kind) = self.kind(node, &at);
         let (kind, features) = match kind {
             Some((kind, features)) => (Some(kind), features),
-            None => {
-                // so that the rest is still read
-                let word = STUDY_KINDS.into_iter().find(|kind| node.get(kind).is_some()).unwrap_or("study");
-                (
-                    None,
-                    Features { word, independent: Some(Dimension::NONE), first: None, reactions: true, states: true, results: Vec::new() },
-                )
-            }
+            None => (None, Features::faulty()),
         };
-        let own = self.sweep(node, &at, &mut local);
-        let over = self.over(outside.over, node, &mut local);
+        if !features.columns {
+            self.no_columns(keys.columns, word, &at);
+        }
+        let solved = keys.solve.node.and_then(|solve| SolveKeys::of(solve).vary.text());
+        let own = self.sweep(keys.sweep, &at, &mut local);
+        let over = self.over(outside.over, solved, &mut local);
         let first = if own.is_empty() { &over } else { &own };
         let swept = first.iter().map(|s| s.parameter).collect();
-        let mut frame = Frame { local, features, swept, scalars: Vec::new(), results: Vec::new() };
+        let mut frame = Frame { local, word, features, swept, scalars: Vec::new(), results: Vec::new() };
         let result = |(name, dimension): &(String, Dimension)| StudyResult { name: name.clone(), dimension: *dimension };
         let results = frame.features.results.iter().map(result).collect();
-        let columns_given = node.get("columns").is_some();
-        let columns = self.columns(node, &at, &mut frame);
-        let scalars = self.scalars(node, &at, &mut frame);
-        let solve = self.solve(node, &at, &mut frame, &own);
-        let mut plots = self.plots(node, &at, &mut frame);
+        let columns_given = keys.columns.given();
+        let columns = self.columns(keys.columns, &at, &mut frame);
+        let scalars = self.scalars(keys.scalars, &at, &mut frame);
+        let solve = self.solve(keys.solve, &at, &mut frame, &own);
+        let mut plots = self.plots(keys.plot, &at, &mut frame);
         let sweep = if outside.over.is_empty() {
             own
         } else {
             retarget(&mut plots, &own, &over);
             over
         };
-        let expect = self.expectations(node, &at, &mut frame);
-        let undefined = self.may_be_undefined(node, &at, &mut frame, &columns, &plots);
+        let expect = self.expectations(keys.expect, &at, &mut frame);
+        let undefined = self.may_be_undefined(keys.undefined, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
         let values = self.evaluate(&all, &waiting);
         for fault in &mut self.faults[before..] {
@@ -117,10 +192,9 @@ impl<'n> Decoder<'n> {
             }
         }
         let functionals = frame.local.functionals.map(|f| f.all).unwrap_or_default();
-        let text = |key: &str| node.get(key).and_then(Node::text).unwrap_or_default().to_owned();
         let study = kind.map(|kind| Study {
             name: name.to_owned(),
-            about: text("about"),
+            about: keys.about.text().unwrap_or_default().to_owned(),
             kind,
             sweep,
             solve,
@@ -139,10 +213,20 @@ impl<'n> Decoder<'n> {
         Decoded { study, set: all, scalars: offered, checks }
     }
 
-    fn take(&mut self, node: Node<'n>, at: &At<'_, 'n>, taken: &dyn Fn(&str) -> Taken, local: &mut Local<'n>) -> Vec<Take> {
-        let section = at.key("take");
+    /// The rows of some kinds are their own.
+    fn no_columns(&mut self, columns: Entry<'n>, kind: &str, at: &At<'_, 'n>) {
+        if columns.given() {
+            let message = format!("a study of the kind `{kind}` has no columns");
+            let fault = self.fault("wrong-key", &at.key(columns), message, "no `columns`: its rows are the modes");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove `columns`, or use `linearize`, whose columns are the outputs".to_owned());
+        }
+    }
+
+    fn take(&mut self, take: Entry<'n>, at: &At<'_, 'n>, taken: &dyn Fn(&str) -> Taken, local: &mut Local<'n>) -> Vec<Take> {
+        let section = at.key(take);
         let mut takes = Vec::new();
-        for (name, value) in node.get("take").map(Node::entries).unwrap_or_default() {
+        for (name, value) in take.entries() {
             let here = section.key(name);
             self.free_name(name, &here, "a taken scalar");
             let Some(text) = value.text() else { continue };
@@ -202,15 +286,15 @@ impl<'n> Decoder<'n> {
 
     fn set(
         &mut self,
-        node: Node<'n>,
+        set: Entry<'n>,
         at: &At<'_, 'n>,
         local: &mut Local<'n>,
         outside: &[(usize, Id)],
         waiting: &mut Vec<usize>,
     ) -> Vec<(usize, Id)> {
-        let section = at.key("set");
-        let mut set = Vec::new();
-        for (name, value) in node.get("set").map(Node::entries).unwrap_or_default() {
+        let section = at.key(set);
+        let mut values = Vec::new();
+        for (name, value) in set.entries() {
             let here = section.key(name);
             let Some(i) = self.parameter_named(name, &here, true) else { continue };
             let Some(dimension) = self.name_space.parameters.get(i).copied().flatten() else { continue };
@@ -222,16 +306,16 @@ impl<'n> Decoder<'n> {
             if !self.pool.inputs_of(&[lowered.id]).is_empty() {
                 waiting.push(i);
             }
-            set.push((i, lowered.id));
+            values.push((i, lowered.id));
         }
-        set
+        values
     }
 
-    fn sweep(&mut self, node: Node<'n>, at: &At<'_, 'n>, local: &mut Local<'n>) -> Vec<Sweep> {
-        let section = at.key("sweep");
-        let mut sweep: Vec<Sweep> = Vec::new();
+    fn sweep(&mut self, sweep: Entry<'n>, at: &At<'_, 'n>, local: &mut Local<'n>) -> Vec<Sweep> {
+        let section = at.key(sweep);
+        let mut swept: Vec<Sweep> = Vec::new();
         let mut runs: u64 = 1;
-        for (name, value) in node.get("sweep").map(Node::entries).unwrap_or_default() {
+        for (name, value) in sweep.entries() {
             let here = section.key(name);
             let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
             let Some(dimension) = self.name_space.parameters.get(parameter).copied().flatten() else { continue };
@@ -247,25 +331,26 @@ impl<'n> Decoder<'n> {
                     None => continue,
                 }
             } else {
-                let count = count(value, "count").unwrap_or(1);
+                let keys = SpanKeys::of(value);
+                let count = keys.count.count().unwrap_or(1);
                 runs = runs.saturating_mul(count as u64);
-                let log = value.get("spacing").and_then(Node::text) == Some("log");
-                let end = |decoder: &mut Self, key: &'n str, local: &mut Local<'n>| {
-                    value.get(key).and_then(|node| decoder.setting(node, &here.key(key), want, local))
+                let log = keys.spacing.word() == Some(Spacing::Log);
+                let end = |decoder: &mut Self, entry: Entry<'n>, local: &mut Local<'n>| {
+                    decoder.setting(entry.node?, &here.key(entry), want, local)
                 };
-                let (from, to) = (end(self, "from", local), end(self, "to", local));
+                let (from, to) = (end(self, keys.from, local), end(self, keys.to, local));
                 let (Some(from), Some(to)) = (from, to) else { continue };
                 if log && self.pool.inputs_of(&[from, to]).is_empty() {
                     self.check_once(Rule::Ratio, &[from, to], &here);
                 }
                 Values::Span { from, to, count, log }
             };
-            sweep.push(Sweep { parameter, values, place: self.place(&here) });
+            swept.push(Sweep { parameter, values, place: self.place(&here) });
         }
         if runs > MOST_RUNS {
             self.fault("too-many-runs", &section, format!("a sweep of {runs} runs"), format!("at most {MOST_RUNS} runs")).spot = Spot::Key;
         }
-        sweep
+        swept
     }
 
     /// A value for a parameter: it may use parameters and taken scalars.
@@ -281,18 +366,18 @@ impl<'n> Decoder<'n> {
         Some(lowered.id)
     }
 
-    fn solve(&mut self, node: Node<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>, sweep: &[Sweep]) -> Option<Solve> {
-        let inner = node.get("solve")?;
-        let here = at.key("solve");
-        let name = inner.get("vary")?.text()?;
-        let vary_at = here.key("vary");
+    fn solve(&mut self, solve: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>, sweep: &[Sweep]) -> Option<Solve> {
+        let keys = SolveKeys::of(solve.node?);
+        let here = at.key(solve);
+        let name = keys.vary.text()?;
+        let vary_at = here.key(keys.vary);
         let parameter = self.parameter_named(name, &vary_at, false)?;
         if sweep.iter().any(|s| s.parameter == parameter) {
             self.fault("swept-and-solved", &vary_at, format!("`{name}` is swept too"), "another parameter");
         }
         let dimension = self.name_space.parameters.get(parameter).copied().flatten()?;
-        let between_at = here.key("between");
-        let [from_node, to] = inner.get("between")?.items() else { return None };
+        let between_at = here.key(keys.between);
+        let [from_node, to] = keys.between.items() else { return None };
         let from = self.before(Node::Plain(from_node), &between_at.index(0), Want::of(dimension), frame);
         let to = self.before(Node::Plain(to), &between_at.index(1), Want::of(dimension), frame);
         if let (Some(from), Some(to)) = (from, to)
@@ -300,8 +385,8 @@ impl<'n> Decoder<'n> {
         {
             self.check_once(Rule::Differ("bounds"), &[from, to], &between_at);
         }
-        let target_at = here.key("target");
-        let targets = inner.get("target")?.entries();
+        let target_at = here.key(keys.target);
+        let targets = keys.target.entries();
         let [(scalar, value_node)] = targets[..] else {
             let message = format!("{} targets", targets.len());
             self.fault("wrong-size", &target_at, message, "one scalar and its value, `{ delta: 0.01 }`").spot = Spot::Key;
@@ -348,7 +433,7 @@ impl<'n> Decoder<'n> {
             independent: frame.features.independent,
             reactions: frame.features.reactions,
             states: frame.features.states,
-            kind: frame.features.word,
+            kind: frame.word,
         });
     }
 }

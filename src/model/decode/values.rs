@@ -60,7 +60,7 @@ impl<'n> Decoder<'n> {
     pub(super) fn parameters(&mut self) {
         let section = At::ROOT.key("parameters");
         let entries = self.section("parameters");
-        let drafts: Vec<Draft<'n>> = entries.iter().map(|(name, node)| self.draft(Some(*node), &section.key(name))).collect();
+        let drafts: Vec<Draft<'n>> = entries.iter().map(|(name, node)| self.draft(Some(*node), &section.key(*name))).collect();
         let find = |name_space: &crate::model::quantities::NameSpace<'_>, name: &str| match name_space.names.get(name) {
             Some(Entity::Parameter(i)) => Some(*i),
             _ => None,
@@ -86,7 +86,7 @@ impl<'n> Decoder<'n> {
             }
         }
         for (i, (name, _)) in entries.iter().enumerate() {
-            let place = self.place(&section.key(name));
+            let place = self.place(&section.key(*name));
             let dimension = self.name_space.parameters[i].unwrap_or_default();
             self.name_space.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], place });
         }
@@ -98,7 +98,7 @@ impl<'n> Decoder<'n> {
         let told = tell(cycle, |i| name(i).0);
         let at = At::ROOT.key(section);
         let expected = if section == "parameters" { "parameters" } else { "expressions" };
-        let fault = self.fault("cycle", &at.key(&entry), told, format!("{expected} that do not need themselves"));
+        let fault = self.fault("cycle", &at.key(entry.as_str()), told, format!("{expected} that do not need themselves"));
         fault.spot = Spot::Key;
         fault.help = Some("give one of them a value of its own".to_owned());
     }

@@ -7,8 +7,8 @@
 use super::guard::opening;
 use super::notes::Notes;
 use crate::model::fault::{Fault, Spot};
-use crate::model::shape::clip;
 use crate::model::suggest;
+use crate::model::suggest::clip;
 use roxmltree::{Attribute, Node};
 use std::ops::Range;
 
