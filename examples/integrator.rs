@@ -1,11 +1,12 @@
-//! An integrator of one's own, the explicit midpoint rule, beside those of the library on a double pendulum.
+//! An integrator of one's own, the explicit midpoint rule, compared with those of the library on a double pendulum.
 //!
 //! `cargo run --release --example integrator`
 
 #![allow(clippy::print_stdout, reason = "it is a program of its own")]
 
 use grashof::Model;
-use grashof::solvers::{Control, Dense, Engine, Method, Node, Rejected, Scheme, Settings, System, Why};
+use grashof::solvers::{Dense, Engine, Node, Rejected, Scheme, System, Why};
+use std::time::Instant;
 
 const PENDULUM: &str = "
 grashof: 1
@@ -15,6 +16,7 @@ gravity: [0, -9.81 m/s^2]
 bodies: { rod: { bar: { length: 1 m, mass: 1 kg } }, lower: { bar: { length: 1 m, mass: 1 kg } } }
 joints: { P: { revolute: [ground, rod.start] }, Q: { revolute: [rod.end, lower.start] } }
 start: { P.angle: -30 deg, Q.angle: 20 deg, P.omega: 0, Q.omega: 0 }
+studies: { swing: { dynamics: { until: 1 s }, columns: [P.angle, Q.angle, P.fx, P.fy] } }
 ";
 
 /// The explicit midpoint rule: y₊ = y + h F(t + ½h, y + ½h F(t, y)) with y = (q, v, z), order 2, projected on the constraints.
@@ -76,19 +78,10 @@ impl Scheme for Midpoint {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mechanism = Model::parse(PENDULUM)?.mechanism()?;
-    let precise = Settings { method: Method::Dop853, control: Control::Tolerance(1e-12), ..Settings::default() };
-    let right = mechanism.simulate(precise)?.advance(1.0)?.q.clone();
-    let off = |q: &[f64]| q.iter().zip(&right).fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()));
-    let mut before = f64::NAN;
-    println!("step [s]  error of rk4  error of midpoint, and its order");
-    for h in [0.02, 0.01, 0.005, 0.0025] {
-        let fixed = Settings { method: Method::Rk4, control: Control::Steps([h, h]), ..Settings::default() };
-        let rk4 = off(&mechanism.simulate(fixed)?.advance(1.0)?.q);
-        let own = Box::new(Midpoint::new(&*mechanism.system()));
-        let midpoint = off(&mechanism.simulate_by(own, fixed)?.advance(1.0)?.q);
-        println!("{h:<8}  {rk4:<12.2e}  {midpoint:.2e}  {:.2}", (before / midpoint).log2());
-        before = midpoint;
-    }
+    let model = Model::parse(PENDULUM)?;
+    let begin = Instant::now();
+    let swing = model.study("swing")?.integrator("midpoint", |system| Box::new(Midpoint::new(system)));
+    let compared = swing.compare_steps(&["midpoint", "rk4", "newmark"], &[0.02, 0.01, 0.005, 0.0025], &|| begin.elapsed().as_secs_f64())?;
+    print!("{}", grashof::output::comparison::table(&compared));
     Ok(())
 }

@@ -58,8 +58,9 @@
 //! # Ok::<(), grashof::Error>(())
 //! ```
 //!
-//! An integrator of one's own is a [`solvers::Scheme`], which [`Mechanism::simulate_by`] takes; a system of one's own is a
-//! [`solvers::System`]. How the rooms below depend on each other is drawn in `docs/architecture.md`.
+//! A force law of one's own is a closure on the motion of points, which [`Mechanism::with_force`] takes. An integrator of one's own is a
+//! [`solvers::Scheme`]: [`Mechanism::simulate_by`] steps with it, [`Study::integrator`] brings it into [`Study::compare`]. A system of
+//! one's own is a [`solvers::System`]. How the rooms below depend on each other is drawn in `docs/architecture.md`.
 
 pub mod api;
 pub mod dynamics;

@@ -21,6 +21,7 @@ mod hand_written;
 mod joints;
 mod kills;
 mod laws;
+mod library;
 mod linear;
 mod models;
 mod modes;

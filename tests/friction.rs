@@ -26,7 +26,7 @@ fn forms() -> impl Iterator<Item = (String, f64)> {
 fn tried(text: &str, name: &str) -> Result<Outcome, Failure> {
     let model = common::model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false)
+    run(Case::new(&model, &study, &parameters(&model)), &|| false)
 }
 
 /// A study of a text, run to its end.

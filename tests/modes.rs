@@ -359,10 +359,7 @@ fn what_cannot_vibrate_says_so() {
     let study = model.study.clone().expect("the study");
     let parameters = grashof::studies::common::case::parameters(&model);
     let failure =
-        grashof::studies::run::run(grashof::studies::common::case::Case { model: &model, study: &study, parameters: &parameters }, &|| {
-            false
-        })
-        .expect_err("no mass");
+        grashof::studies::run::run(grashof::studies::common::case::Case::new(&model, &study, &parameters), &|| false).expect_err("no mass");
     assert!(failure.reason().contains("the motion of `j2.position` moves no mass"), "{}", failure.reason());
 }
 

@@ -213,7 +213,7 @@ fn surveyed(text: &str) -> Survey {
 fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
     let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false);
+    let outcome = run_in(Case::new(&model, &study, &parameters(&model)), coordinates, &|| false);
     let outcome = outcome.unwrap_or_else(|f| panic!("{name}: {}\n{text}", f.reason()));
     assert_eq!(outcome.stopped, None, "{name} stopped\n{text}");
     outcome

@@ -216,7 +216,7 @@ studies:
         );
         let model = model(&text, Some("swing"));
         let asked = model.study.clone().expect("the study");
-        run(Case { model: &model, study: &asked, parameters: &parameters(&model) }, &|| false).unwrap_or_else(|f| panic!("{}", f.reason()))
+        run(Case::new(&model, &asked, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{}", f.reason()))
     };
     // coupler and rocker in line
     let end = |reach: f64| ((0.15_f64.powi(2) + 1.0 - reach * reach) / 0.3).acos();

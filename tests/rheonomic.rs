@@ -323,10 +323,7 @@ fn refused(text: &str, name: &str) -> String {
     let model = common::model(text, Some(name));
     let asked = model.study.clone().expect("the study");
     let parameters = grashof::studies::common::case::parameters(&model);
-    match grashof::studies::run::run(
-        grashof::studies::common::case::Case { model: &model, study: &asked, parameters: &parameters },
-        &|| false,
-    ) {
+    match grashof::studies::run::run(grashof::studies::common::case::Case::new(&model, &asked, &parameters), &|| false) {
         Ok(outcome) => outcome.stopped.expect("a reason to stop"),
         Err(failure) => failure.reason(),
     }

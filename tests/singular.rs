@@ -134,7 +134,7 @@ fn ran(text: &str) -> Outcome {
     let model = model(text, Some("run"));
     let study = model.study.clone().expect("the study");
     let coordinates = if text.contains("cartesian") { Coordinates::Cartesian } else { Coordinates::Joint };
-    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false);
+    let outcome = run_in(Case::new(&model, &study, &parameters(&model)), coordinates, &|| false);
     let outcome = outcome.unwrap_or_else(|f| panic!("{}\n{text}", f.reason()));
     assert_eq!(outcome.stopped, None, "{text}");
     outcome

@@ -30,7 +30,7 @@ studies:
 fn result(text: &str) -> Result<Outcome, Failure> {
     let model = model(text, Some("s"));
     let study = model.study.clone().expect("the study");
-    run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false)
+    run(Case::new(&model, &study, &parameters(&model)), &|| false)
 }
 
 /// A run that has stopped at something undefined.

@@ -67,7 +67,7 @@ impl Case {
             Forward { integrator: by, control, alpha: None, beta: None, rho: None, order: None, level: None, ..self.forward.clone() };
         let (mut begin, mut time) = (Instant::now(), 0.0);
         let mut timer = |on: bool| if on { begin = Instant::now() } else { time = begin.elapsed().as_secs_f64() };
-        let ended = dynamics::unrecorded(case::Case { model: &model, study: &self.study, parameters: &self.values }, &forward, &mut timer);
+        let ended = dynamics::unrecorded(case::Case::new(&model, &self.study, &self.values), &forward, &mut timer);
         let bare = ended.unwrap_or_else(|failure| Unrecorded { stopped: Some(failure.reason()), ..Unrecorded::default() });
         let error = bare.columns.iter().zip(&self.reference).map(|(x, r)| (x - r).abs()).fold(0.0, f64::max);
         Sample { time, error: if bare.stopped.is_none() { error } else { f64::NAN }, bare }

@@ -1,6 +1,7 @@
 //! A mechanism to evaluate by hand.
 
 use super::error::Error;
+use super::force::{Element, Elements, PointMotion, Wrench};
 use super::simulation::Simulation;
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::{Planar, Space, Spatial};
@@ -14,8 +15,9 @@ use crate::scalar::Dual;
 use crate::studies::common::case::parameters;
 use crate::studies::common::observe::Observer;
 use crate::studies::dynamics::system::Mechanical;
-use grashof_solvers::{Kkt, Scheme, Settings, Stage, State, System};
+use grashof_solvers::{Kkt, Loaded, Scheme, Settings, Stage, State, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use std::sync::Arc;
 
 /// A mechanism assembled at its start, with nq coordinates q, nv velocities v and m constraint rows.
 ///
@@ -25,6 +27,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 pub struct Mechanism {
     model: Model,
     of: Of,
+    elements: Vec<Element>,
 }
 
 /// In the plane or in space.
@@ -87,7 +90,22 @@ impl Mechanism {
             Dimensions::Planar => Of::Planar(Box::new(Built::new(&model)?)),
             Dimensions::Spatial => Of::Spatial(Box::new(Built::new(&model)?)),
         };
-        Ok(Self { model, of })
+        Ok(Self { model, of, elements: Vec::new() })
+    }
+
+    /// The same with a force law of one's own between points, `rocker.tip` or a body for its origin: `law` takes the time, s, and the
+    /// motion of each point, and writes what acts at each. It has to be smooth in the motion; what switches belongs into the model file.
+    ///
+    /// # Errors
+    /// If there is no such point.
+    pub fn with_force<L>(mut self, points: &[&str], law: L) -> Result<Self, Error>
+    where
+        L: Fn(f64, &[PointMotion], &mut [Wrench]) + Send + Sync + 'static,
+    {
+        let law = Arc::new(law);
+        let element = built!(self, b => Element::new(&b.mechanism, points, law))?;
+        self.elements.push(element);
+        Ok(self)
     }
 
     /// Names of the coordinates behind the velocities (nv): `O.angle`; parts of a turn are `ball.turn_x`.
@@ -184,7 +202,7 @@ impl Mechanism {
     /// The mechanism as the integrators see it: for schemes of one's own.
     #[must_use]
     pub fn system(&self) -> Box<dyn System + '_> {
-        built!(self, b => b.system(&self.model))
+        built!(self, b => b.system(&self.model, &self.elements))
     }
 
     /// Whether its motion is that of one mechanism from begin to end.
@@ -266,9 +284,13 @@ where
         Ok(Self { mechanism, lifted, start })
     }
 
-    fn system<'m>(&'m self, model: &Model) -> Box<dyn System + 'm> {
+    fn system<'m>(&'m self, model: &Model, elements: &'m [Element]) -> Box<dyn System + 'm> {
         let observer = Observer::new(model, &self.mechanism, &parameters(model), &[]);
-        Box::new(Mechanical::new(&self.mechanism, &self.lifted, &self.start, observer, Vec::new()))
+        let own = Box::new(Mechanical::new(&self.mechanism, &self.lifted, &self.start, observer, Vec::new()));
+        if elements.is_empty() {
+            return own;
+        }
+        Box::new(Loaded::new(own, Box::new(Elements::new(&self.mechanism, elements))))
     }
 
     fn placement(&self, body: &str, q: &[f64]) -> Result<Placement, Error> {

@@ -2,6 +2,7 @@
 
 mod error;
 mod files;
+mod force;
 mod mechanism;
 mod model;
 mod simulation;
@@ -9,6 +10,7 @@ mod study;
 
 pub use error::{Error, explained};
 pub use files::{MOST_INCLUDED, beside, why};
+pub use force::{PointMotion, Wrench};
 pub use mechanism::{Mechanism, Placement, Terms};
 pub use model::Model;
 pub use simulation::Simulation;

@@ -1,15 +1,17 @@
 //! A study of a model file with settings, to run.
 
 use super::error::Error;
-use crate::model::{Document, Integrator, Kind, Model, Selection};
+use super::mechanism::Mechanism;
+use crate::model::{Document, INTEGRATORS, Integrator, Kind, Model, Selection};
 use crate::par;
 use crate::results::{Compared, Results, Unknown};
 use crate::studies::common::case::parameters;
 use crate::studies::compare::{NoReference, Watch, compare};
-use crate::studies::integrators::Steps;
+use crate::studies::integrators::{By, OwnIntegrator, Steps};
 use crate::studies::loader::Loader;
 use crate::studies::sweep::{at, grid, single, sweep, together};
 use crate::studies::verify::{Verdict, verify};
+use grashof_solvers::{Scheme, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -18,6 +20,7 @@ pub struct Study<'a> {
     document: &'a Document,
     selection: Selection<'a>,
     name: String,
+    integrators: Vec<OwnIntegrator>,
     threads: usize,
     progress: Box<dyn Fn(usize, usize) + Sync + 'a>,
     stop: Box<dyn Fn() -> bool + Sync + 'a>,
@@ -29,6 +32,7 @@ impl<'a> Study<'a> {
             document,
             selection: Selection::default(),
             name: name.into(),
+            integrators: Vec::new(),
             threads: par::processors(),
             progress: Box::new(|_, _| {}),
             stop: Box::new(|| false),
@@ -77,6 +81,13 @@ impl<'a> Study<'a> {
         self
     }
 
+    /// Brings an integrator of one's own for [`Self::compare`]: its name, and what makes its scheme for a system.
+    #[must_use]
+    pub fn integrator(mut self, name: &str, scheme: impl Fn(&dyn System) -> Box<dyn Scheme> + Send + Sync + 'static) -> Self {
+        self.integrators.push(OwnIntegrator::new(name, scheme));
+        self
+    }
+
     /// Runs the study, and first those from which it takes scalars.
     ///
     /// A motion that stops on its way has results up to there, with [`Results::stopped`]; so has a sweep of which runs fail, each with
@@ -108,21 +119,31 @@ impl<'a> Study<'a> {
         verify(&model, &[parameters(&model)], &*self.stop).map_err(|failure| Error::failed(self.document, &self.name, failure))
     }
 
-    /// Computes a motion in time by several integrators at several tolerances; `now` gives a time in seconds.
+    /// Computes a motion in time by several integrators at several tolerances; `now` gives a time in seconds. Integrators are those of
+    /// the model language and those that [`Self::integrator`] brought.
     ///
     /// # Errors
     /// If the study is no motion in time, an integrator is not known, or there is no reference.
     pub fn compare(&self, integrators: &[&str], tolerances: &[f64], now: &dyn Fn() -> f64) -> Result<Compared, Error> {
+        self.compared(integrators, &tolerances.iter().map(|x| Steps::Tolerance(*x)).collect::<Vec<_>>(), now)
+    }
+
+    /// [`Self::compare`] with fixed steps of several sizes, s.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn compare_steps(&self, integrators: &[&str], steps: &[f64], now: &dyn Fn() -> f64) -> Result<Compared, Error> {
+        self.compared(integrators, &steps.iter().map(|h| Steps::Fixed(*h)).collect::<Vec<_>>(), now)
+    }
+
+    fn compared(&self, integrators: &[&str], sizes: &[Steps], now: &dyn Fn() -> f64) -> Result<Compared, Error> {
         let mut model = self.model()?;
         let Some(study) = model.study.clone() else { return Err(self.unknown()) };
         let Kind::Dynamics(forward) = study.kind.clone() else {
             let message = format!("study `{}` is no motion in time, so no integrator computes it", self.name);
             return Err(Error::Refused { message, help: "name a study of the kind `dynamics`".into() });
         };
-        let known = || crate::model::INTEGRATORS.iter().map(|d| d.name.to_string()).collect();
-        let unknown = |name: &str| Unknown { what: "integrator", name: name.into(), known: known() };
-        let by = integrators.iter().map(|name| Integrator::named(name).ok_or_else(|| unknown(name))).collect::<Result<Vec<_>, _>>()?;
-        let sizes: Vec<Steps> = tolerances.iter().map(|x| Steps::Tolerance(*x)).collect();
+        let by = integrators.iter().map(|name| self.by(name, &model)).collect::<Result<Vec<_>, _>>()?;
         let done = Cell::new(0);
         let all = 2 + by.len() * sizes.len();
         let count = || {
@@ -130,7 +151,7 @@ impl<'a> Study<'a> {
             (self.progress)(done.get(), all);
         };
         let watch = Watch { stop: &*self.stop, now, done: &count };
-        compare(&mut model, &study, &forward, (&by, &sizes), watch).map_err(|why| match why {
+        compare(&mut model, &study, &forward, (&by, sizes), watch).map_err(|why| match why {
             NoReference::Failure(failure) => Error::failed(self.document, &self.name, failure),
             NoReference::Stopped(why) => Error::Refused { message: format!("there is no reference: {why}"), help: "run the study".into() },
             NoReference::Apart(off) => Error::Refused {
@@ -139,6 +160,18 @@ impl<'a> Study<'a> {
             },
             NoReference::Interrupted => Error::Refused { message: "interrupted".into(), help: "let it run on".into() },
         })
+    }
+
+    /// The integrator of a name.
+    fn by(&self, name: &str, model: &Model) -> Result<By, Error> {
+        if let Some(own) = self.integrators.iter().find(|own| own.name == name) {
+            let mechanism = Mechanism::new(model.clone()).map_err(|failure| Error::failed(self.document, &self.name, failure))?;
+            let implicit = own.scheme(&*mechanism.system()).is_implicit();
+            return Ok(By::Own(own.clone(), if implicit { Integrator::Radau5 } else { Integrator::Dop853 }));
+        }
+        let known = || INTEGRATORS.iter().map(|d| d.name.to_string()).chain(self.integrators.iter().map(|own| own.name.clone())).collect();
+        let unknown = || Unknown { what: "integrator", name: name.into(), known: known() };
+        Ok(By::Known(Integrator::named(name).ok_or_else(unknown)?))
     }
 
     fn model(&self) -> Result<Model, Error> {

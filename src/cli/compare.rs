@@ -13,7 +13,7 @@ use grashof::output::{Staging, comparison, render_figure};
 use grashof::results::{Compared, Failure};
 use grashof::studies::common::case::parameters;
 use grashof::studies::compare::{NoReference, Watch};
-use grashof::studies::integrators::{self, Steps};
+use grashof::studies::integrators::{self, By, Steps};
 use grashof::studies::loader::Loader;
 use grashof::studies::{self, dynamics};
 use std::path::Path;
@@ -87,8 +87,9 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let steps: Vec<Steps> = sizes.iter().map(|&size| if fixed { Steps::Fixed(size) } else { Steps::Tolerance(size) }).collect();
     let begun = Instant::now();
     let watch = Watch { stop: &interrupted, now: &|| begun.elapsed().as_secs_f64(), done: &|| progress.step() };
-    let compared = studies::compare::compare(&mut model, &study, &forward, (&integrators, &steps), watch)
-        .map_err(|why| told(why, &study.name, &explain))?;
+    let by: Vec<By> = integrators.iter().copied().map(By::Known).collect();
+    let compared =
+        studies::compare::compare(&mut model, &study, &forward, (&by, &steps), watch).map_err(|why| told(why, &study.name, &explain))?;
     drop(progress);
     finish(&compared, &directory, arguments, common)
 }

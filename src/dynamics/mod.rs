@@ -11,6 +11,7 @@
 
 mod energy;
 mod evaluator;
+mod external;
 mod forces;
 mod friction;
 mod kinematics;

@@ -6,7 +6,7 @@
 
 use super::common::case::Case;
 use super::dynamics;
-use super::integrators::{self, Steps, is_explicit};
+use super::integrators::{self, By, OwnIntegrator, Steps, is_explicit};
 use super::run::run;
 use crate::model::{Forward, Integrator, Kind, Model, Study};
 use crate::results::{Compared, ComparedRun, Failure, References};
@@ -38,7 +38,7 @@ pub fn compare(
     model: &mut Model,
     study: &Study,
     forward: &Forward,
-    asked: (&[Integrator], &[Steps]),
+    asked: (&[By], &[Steps]),
     watch: Watch<'_>,
 ) -> Result<Compared, NoReference> {
     let values = super::common::case::parameters(model);
@@ -48,9 +48,9 @@ pub fn compare(
     let mut bench = Bench { model, study, forward, values: &values, watch };
     let references = bench.references(if fixed { 1e-8 } else { tightest })?;
     let mut rows = Vec::new();
-    for &by in integrators {
+    for by in integrators {
         for &steps in sizes {
-            let row = bench.row(by, steps, &references.columns[usize::from(is_explicit(by))]);
+            let row = bench.row(by, steps, &references.columns[usize::from(is_explicit(by.like()))]);
             if (watch.stop)() {
                 return Err(NoReference::Interrupted);
             }
@@ -122,14 +122,19 @@ impl Bench<'_> {
     /// Columns at the end of a run.
     fn end(&mut self, by: Integrator, tolerance: f64) -> Result<Vec<f64>, NoReference> {
         let study = integrators::changed(self.model, self.study, self.forward, by, Steps::Tolerance(tolerance), None);
-        let ended = self.recorded(&study).map_err(NoReference::Failure)?;
+        let ended = self.recorded(&study, None).map_err(NoReference::Failure)?;
         if ended.reason.is_empty() { Ok(ended.columns) } else { Err(NoReference::Stopped(format!("`{}`: {}", by.name(), ended.reason))) }
     }
 
+    /// A study under the bench, by an integrator of its own or one from outside.
+    fn case<'c>(&'c self, study: &'c Study, integrator: Option<&'c OwnIntegrator>) -> Case<'c> {
+        Case { integrator, ..Case::new(self.model, study, self.values) }
+    }
+
     /// A run with everything but its time.
-    fn recorded(&self, study: &Study) -> Result<Ended, Failure> {
+    fn recorded(&self, study: &Study, own: Option<&OwnIntegrator>) -> Result<Ended, Failure> {
         let begin = (self.watch.now)();
-        let outcome = run(Case { model: self.model, study, parameters: self.values }, self.watch.stop)?;
+        let outcome = run(self.case(study, own), self.watch.stop)?;
         let time = (self.watch.now)() - begin;
         let march = outcome.certificate.march.unwrap_or_default();
         let k = march.counts;
@@ -144,24 +149,25 @@ impl Bench<'_> {
     }
 
     /// Why a run without a record stops.
-    fn stopped(&self, study: &Study) -> Option<String> {
+    fn stopped(&self, study: &Study, own: Option<&OwnIntegrator>) -> Option<String> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
-        dynamics::unrecorded(Case { model: self.model, study, parameters: self.values }, forward, &mut |_| {}).ok()?.stopped
+        dynamics::unrecorded(self.case(study, own), forward, &mut |_| {}).ok()?.stopped
     }
 
     /// The steps alone: time and counters of a run without a record.
-    fn unrecorded(&self, study: &Study) -> Option<(f64, [f64; 4])> {
+    fn unrecorded(&self, study: &Study, own: Option<&OwnIntegrator>) -> Option<(f64, [f64; 4])> {
         let Kind::Dynamics(forward) = &study.kind else { return None };
         let (mut begin, mut time) = (0.0, f64::NAN);
         let now = self.watch.now;
         let mut timer = |on: bool| if on { begin = now() } else { time = now() - begin };
-        let k = dynamics::unrecorded(Case { model: self.model, study, parameters: self.values }, forward, &mut timer).ok()?.counts;
+        let k = dynamics::unrecorded(self.case(study, own), forward, &mut timer).ok()?.counts;
         Some((time, [k.steps, k.rejected, k.evaluations, k.factorisations].map(|n| n as f64)))
     }
 
     /// One integrator with steps of one size.
-    fn row(&mut self, by: Integrator, steps: Steps, reference: &[f64]) -> ComparedRun {
-        let study = integrators::changed(self.model, self.study, self.forward, by, steps, None);
+    fn row(&mut self, by: &By, steps: Steps, reference: &[f64]) -> ComparedRun {
+        let study = integrators::changed(self.model, self.study, self.forward, by.like(), steps, None);
+        let own = by.own();
         let nan = f64::NAN;
         let mut row = ComparedRun {
             integrator: by.name().into(),
@@ -173,11 +179,11 @@ impl Bench<'_> {
             residuals: [nan; 2],
             reason: String::new(),
         };
-        let ended = match self.recorded(&study) {
+        let ended = match self.recorded(&study, own) {
             Ok(ended) => ended,
             Err(failure) => {
                 // a run that fails in its first step has no record, but a reason of its own
-                row.reason = self.stopped(&study).unwrap_or_else(|| failure.reason());
+                row.reason = self.stopped(&study, own).unwrap_or_else(|| failure.reason());
                 return row;
             }
         };
@@ -191,7 +197,7 @@ impl Bench<'_> {
         if self.model.events.iter().all(|e| e.set.is_empty()) {
             let (mut spent, mut best) = (0.0, f64::INFINITY);
             for _ in 0..REPEATS {
-                let Some((time, counts)) = self.unrecorded(&study) else { break };
+                let Some((time, counts)) = self.unrecorded(&study, own) else { break };
                 (best, spent, row.counts) = (time.min(best), spent + time, counts);
                 if spent > SHORT || (self.watch.stop)() {
                     break;

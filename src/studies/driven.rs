@@ -25,7 +25,7 @@ use crate::studies::common::outcome::Outcome;
 
 /// A study of a motion that its drivers prescribe.
 pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates: Coordinates) -> Result<Outcome, Failure> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (mut mechanism, start) = prepared::<G>(case, coordinates)?;
     let mut results = Vec::new();
     if let Kind::Balance { moved, .. } = &study.kind {
@@ -56,7 +56,7 @@ pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates:
 /// # Errors
 /// Why the study cannot begin.
 pub(crate) fn prepared<G: Space<S = f64>>(case: Case<'_>, coordinates: Coordinates) -> Result<(Mechanism<G>, Assembled), Failure> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
     drivers_fit(&mechanism, &start, model, study)?;
     stops::begins(model, &mechanism, &start)?;
@@ -139,7 +139,7 @@ fn observe<G: Space<S = f64>>(
     range: &Range,
     mut results: Vec<f64>,
 ) -> Result<Outcome, Failure> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let watched = Watched::of(study);
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(case, mechanism, start, range)?;

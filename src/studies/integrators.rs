@@ -1,6 +1,9 @@
 //! Studies with another integrator.
 
 use crate::model::{Control, Family, Forward, INTEGRATORS, Integrator, Kind, Model, Study};
+use grashof_solvers::{Scheme, System};
+use std::fmt;
+use std::sync::Arc;
 
 /// All names, for a message.
 pub fn names() -> String {
@@ -15,6 +18,66 @@ pub fn is_explicit(integrator: Integrator) -> bool {
 /// An accurate scheme of another family: Radau IIA for explicit ones, Dormand and Prince for all others.
 pub fn other(integrator: Integrator) -> Integrator {
     if is_explicit(integrator) { Integrator::Radau5 } else { Integrator::Dop853 }
+}
+
+/// Makes a scheme for a system.
+type Make = dyn Fn(&dyn System) -> Box<dyn Scheme> + Send + Sync;
+
+/// An integrator from outside of the library.
+#[derive(Clone)]
+pub struct OwnIntegrator {
+    /// Its name.
+    pub name: String,
+    make: Arc<Make>,
+}
+
+impl OwnIntegrator {
+    /// An integrator by its name and what makes its scheme for a system.
+    pub fn new(name: &str, make: impl Fn(&dyn System) -> Box<dyn Scheme> + Send + Sync + 'static) -> Self {
+        Self { name: name.into(), make: Arc::new(make) }
+    }
+
+    /// Its scheme for a system.
+    pub fn scheme(&self, system: &dyn System) -> Box<dyn Scheme> {
+        (self.make)(system)
+    }
+}
+
+impl fmt::Debug for OwnIntegrator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OwnIntegrator").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+/// What computes a motion.
+#[derive(Clone, Debug)]
+pub enum By {
+    /// An integrator of the library.
+    Known(Integrator),
+    /// One from outside, and one of the library that takes constraints as it does.
+    Own(OwnIntegrator, Integrator),
+}
+
+impl By {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Known(integrator) => integrator.name(),
+            Self::Own(own, _) => &own.name,
+        }
+    }
+
+    /// The integrator of the library, or the one that takes constraints as it does.
+    pub fn like(&self) -> Integrator {
+        match self {
+            Self::Known(integrator) | Self::Own(_, integrator) => *integrator,
+        }
+    }
+
+    /// The one from outside.
+    pub fn own(&self) -> Option<&OwnIntegrator> {
+        if let Self::Own(own, _) = self { Some(own) } else { None }
+    }
 }
 
 /// How steps are chosen.

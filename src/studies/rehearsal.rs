@@ -47,7 +47,7 @@ pub fn rehearse(model: &Model, study: &Study) -> Result<(), Hindrance> {
         let point = &points[k * (points.len() - 1) / (tried - 1).max(1)];
         let swept: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(point.iter().copied()).collect();
         for set in solved(model, study, &swept) {
-            let Err(failure) = begin(Case { model, study, parameters: &parameters_with(model, &set) }) else { return Ok(()) };
+            let Err(failure) = begin(Case::new(model, study, &parameters_with(model, &set))) else { return Ok(()) };
             let at = || set.iter().map(|&(parameter, x)| (model.parameters[parameter].name.clone(), x)).collect();
             first.get_or_insert_with(|| Hindrance { at: at(), failure });
         }
@@ -88,7 +88,7 @@ fn begin(case: Case<'_>) -> Result<(), Failure> {
 }
 
 fn driven<G: Space<S = f64>>(case: Case<'_>, range: &Range) -> Result<(), Failure> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = prepared::<G>(case, Coordinates::Joint)?;
     let clock = clock(case, &mechanism, &start, range)?.part(BEGIN);
     let watched = Watched::of(study);

@@ -65,7 +65,7 @@ pub fn at(
             Ok((outcome, solved)) => (Some(solved), Ok(outcome)),
             Err(failure) => (None, Err(failure)),
         },
-        None => (None, run(Case { model, study, parameters: &parameters_with(model, &set) }, stop)),
+        None => (None, run(Case::new(model, study, &parameters_with(model, &set)), stop)),
     };
     Run { at: point, solved, result }
 }

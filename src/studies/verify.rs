@@ -61,7 +61,7 @@ pub fn verify(model: &Model, computed: &[Vec<f64>], stop: &dyn Fn() -> bool) -> 
     let Kind::Dynamics(forward) = &study.kind else { return Ok(None) };
     let mut worst: Option<[Verified; 2]> = None;
     for values in computed {
-        let found = one(Case { model, study, parameters: values }, forward, stop)?;
+        let found = one(Case::new(model, study, values), forward, stop)?;
         if stop() {
             return Ok(None);
         }
@@ -96,7 +96,7 @@ fn one(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Opt
     let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
     let compute = |model: &mut Model, by: Integrator, steps: Steps| {
         let study = integrators::changed(model, study, forward, by, steps, Some(every));
-        run(Case { model, study: &study, parameters }, stop)
+        run(Case::new(model, &study, parameters), stop)
     };
     let base = compute(&mut model, forward.integrator, steps)?;
     if base.stopped.is_some() {

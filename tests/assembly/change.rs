@@ -252,7 +252,7 @@ start: { O.angle: 0 deg, coupler.angle: ~40 deg, rocker.angle: ~90 deg }
 studies: { k: { kinematics: { over: 1 deg, samples: 2 }, columns: [crank.angle] } }\n";
     let refused = |text: &str| {
         let model = model(text, Some("k"));
-        run(Case { model: &model, study: &model.study.clone().expect("a study"), parameters: &parameters(&model) }, &|| false).map(|_| ())
+        run(Case::new(&model, &model.study.clone().expect("a study"), &parameters(&model)), &|| false).map(|_| ())
     };
     let Err(Failure::Study { code: "dead-point", message, help, .. }) = refused(text) else { panic!("a dead point") };
     assert!(message.contains("`B` has its least value, 36.87 deg"), "{message}");

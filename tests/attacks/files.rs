@@ -117,7 +117,7 @@ fn live(bytes: &[u8], choice: usize) -> Fate {
     // motions in time may be long without a hang: they have to hear that they shall stop
     let begun = Instant::now();
     let stop = || begun.elapsed() > Duration::from_millis(500);
-    match run(Case { model: &model, study: &study, parameters: &parameters_with(&model, &set) }, &stop) {
+    match run(Case::new(&model, &study, &parameters_with(&model, &set)), &stop) {
         Ok(outcome) => {
             assert!(outcome.places.iter().all(|x| x.is_finite()), "places {:?}", outcome.places);
             if outcome.stopped.is_some() { Fate::Failed } else { Fate::Ran }

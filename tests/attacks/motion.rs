@@ -9,8 +9,7 @@ use grashof::studies::run::run;
 pub(crate) fn moved(text: &str) -> Result<Outcome, String> {
     let model = model(text, Some("move"));
     let study = model.study.clone().expect("the study");
-    let outcome =
-        run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false).map_err(|f| f.reason().to_owned())?;
+    let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).map_err(|f| f.reason().to_owned())?;
     match outcome.stopped {
         Some(reason) => Err(reason),
         None => Ok(outcome),

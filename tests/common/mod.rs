@@ -46,8 +46,8 @@ pub(crate) fn assembled<G: Space<S = f64>>(text: &str, coordinates: Coordinates)
 pub(crate) fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
     let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
-    let outcome = run_in(Case { model: &model, study: &study, parameters: &parameters(&model) }, coordinates, &|| false)
-        .unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
+    let outcome =
+        run_in(Case::new(&model, &study, &parameters(&model)), coordinates, &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
     assert_eq!(outcome.stopped, None, "{name} stopped");
     outcome
 }

@@ -9,7 +9,7 @@ use grashof::studies::run::run;
 fn failure(text: &str) -> Failure {
     let model = model(text, Some("regime"));
     let study = model.study.clone().unwrap();
-    match run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false) {
+    match run(Case::new(&model, &study, &parameters(&model)), &|| false) {
         Err(failure) => failure,
         Ok(outcome) => panic!("a regime: {:?}", outcome.results),
     }

@@ -142,7 +142,7 @@ studies: {{ fall: {{ dynamics: {{ until: 1 s }} }} }}
     let reason = |text: &str| {
         let model = crate::common::model(text, Some("fall"));
         let study = model.study.clone().expect("the study");
-        match run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false) {
+        match run(Case::new(&model, &study, &parameters(&model)), &|| false) {
             Ok(outcome) => outcome.stopped.unwrap_or_default(),
             Err(grashof::results::Failure::Study { message, help, .. }) => format!("{message}; {help}"),
             Err(failure) => failure.reason(),

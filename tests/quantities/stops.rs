@@ -157,7 +157,7 @@ studies:
         let text = text(settings);
         let model = crate::common::model(&text, Some("swing"));
         let study = model.study.clone().expect("the study");
-        let outcome = run(Case { model: &model, study: &study, parameters: &parameters(&model) }, &|| false).expect("a run");
+        let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).expect("a run");
         outcome.findings.into_iter().find(|f| f.code == "energy")
     };
     for bad in ["integrator: rk4, step: 0.2 s", "integrator: central-difference, step: 0.1 s"] {

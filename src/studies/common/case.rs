@@ -2,6 +2,7 @@
 
 use crate::expression::Id;
 use crate::model::{Model, Study};
+use crate::studies::integrators::OwnIntegrator;
 
 /// A study of a model at values of its parameters.
 #[derive(Clone, Copy, Debug)]
@@ -12,9 +13,17 @@ pub struct Case<'a> {
     pub study: &'a Study,
     /// Values of the parameters, in file order, SI.
     pub parameters: &'a [f64],
+    /// The integrator of a motion in time, if it is not the one that the study names.
+    pub integrator: Option<&'a OwnIntegrator>,
 }
 
 impl<'a> Case<'a> {
+    /// A study of a model at values of its parameters, by the integrator that it names.
+    #[must_use]
+    pub fn new(model: &'a Model, study: &'a Study, parameters: &'a [f64]) -> Self {
+        Case { model, study, parameters, integrator: None }
+    }
+
     /// The value of an expression of parameters, SI.
     #[must_use]
     pub fn value(&self, id: Id) -> f64 {

@@ -96,20 +96,27 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
         }
     }
 
-    /// An integration from a state in all coordinates.
+    /// An integration of a plan from a state in all coordinates.
     ///
     /// # Errors
     /// If it cannot begin there.
-    pub(super) fn run(&mut self, settings: Settings, state: &State) -> Result<Integration, Halt> {
+    pub(super) fn run(&mut self, plan: &Plan, settings: Settings, state: &State) -> Result<Integration, Halt> {
+        let begin = |system: &mut dyn System, state: &State| match &plan.integrator {
+            Some(own) => {
+                let scheme = own.scheme(system);
+                Integration::with_scheme(system, scheme, settings, state)
+            }
+            None => Integration::new(system, settings, state),
+        };
         match self {
-            Self::Whole(system) => Integration::new(&mut **system, settings, state),
+            Self::Whole(system) => begin(&mut **system, state),
             Self::Minimal { system, bridging: true } => {
                 let control = if let Control::Steps(_) = settings.control { Control::Tolerance(BRIDGE) } else { settings.control };
                 Integration::new(system.inner_mut(), Settings { method: Method::Dop853, control, ..settings }, state)
             }
             Self::Minimal { system, .. } => {
                 let start = system.reduced(state);
-                Integration::new(&mut **system, settings, &start)
+                begin(&mut **system, &start)
             }
         }
     }

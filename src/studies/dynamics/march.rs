@@ -49,7 +49,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     from: Option<&State>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Recorded<'m, G>, Failure> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (all, watched) = watched(model, ids);
     let follow = !plan.settings.locate;
     let machine = |phase: &'m Phases<G>| {
@@ -215,7 +215,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             state.copy_from(&departure.to);
         }
         let mut chart = Charted::new(self.study, self.plan, system, phase, state, &mut self.sound)?;
-        let mut run = match chart.run(self.plan.settings, state) {
+        let mut run = match chart.run(self.plan, self.plan.settings, state) {
             Ok(run) => run,
             Err(halt) if first => {
                 let at = [&state.q[..], &state.v, &state.z];
@@ -294,7 +294,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
             if progress == Progress::Stopped || progress != Progress::End && chart.turns(&node.state, false) {
                 self.balance.turn(&run, chart.is_bridge().then_some(node.state.t));
-                run = match chart.run(self.plan.settings, &node.state) {
+                run = match chart.run(self.plan, self.plan.settings, &node.state) {
                     Ok(run) => run,
                     Err(halt) => break After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt)),
                 };

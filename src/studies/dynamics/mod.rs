@@ -53,7 +53,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let plan = setup::plan(case, forward)?;
     let watched = Watched::of(study);
     let phases = Phases::<G>::new(model, parameters, plan.coordinates)?;

@@ -145,7 +145,7 @@ mod tests {
     /// Steps until a run of 1 s is stopped, of steps of these lengths.
     fn stopped(control: Control, length: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let settings = Settings { control, ..Settings::default() };
-        let plan = Plan { until: 1.0, every: None, settings, coordinates: Coordinates::Joint, minimal: false };
+        let plan = Plan { until: 1.0, every: None, settings, coordinates: Coordinates::Joint, minimal: false, integrator: None };
         let (mut pace, mut t) = (Pace::default(), 0.0);
         for k in 0..2_000_000 {
             let next = t + length(k);

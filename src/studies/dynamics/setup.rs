@@ -5,6 +5,7 @@ use crate::model::{self, Chart, Forward, Integrator};
 use crate::results::Failure;
 use crate::studies::common::case::Case;
 use crate::studies::common::pieces::WIDTH;
+use crate::studies::integrators::OwnIntegrator;
 use grashof_solvers::{Control, Level, Method, Settings, schemes};
 
 /// A study in numbers.
@@ -15,6 +16,8 @@ pub(crate) struct Plan {
     pub(crate) settings: Settings,
     pub(crate) coordinates: Coordinates,
     pub(crate) minimal: bool,
+    /// An integrator from outside, instead of the method of the settings.
+    pub(crate) integrator: Option<OwnIntegrator>,
 }
 
 impl Plan {
@@ -123,5 +126,6 @@ pub(super) fn plan(case: Case<'_>, forward: &Forward) -> Result<Plan, Failure> {
         },
         coordinates: if forward.chart == Chart::Cartesian { Coordinates::Cartesian } else { Coordinates::Joint },
         minimal: forward.chart == Chart::Minimal,
+        integrator: case.integrator.cloned(),
     })
 }

@@ -59,7 +59,7 @@ pub(super) fn unrecorded<G: Space<S = f64>>(
     let mut balance = Balance::default();
     let settings = Settings { balance: false, ..plan.settings };
     timer(true);
-    let mut run = chart.run(settings, &state).map_err(|halt| explain::no_start(study, &phases.mechanism, &phases.start, &halt))?;
+    let mut run = chart.run(plan, settings, &state).map_err(|halt| explain::no_start(study, &phases.mechanism, &phases.start, &halt))?;
     chart.whole(run.node(), &mut node);
     balance.begin(chart.mechanical(), &node, Begins::Run);
     let stopped = loop {
@@ -70,7 +70,7 @@ pub(super) fn unrecorded<G: Space<S = f64>>(
                 chart.whole(run.node(), &mut node);
                 if chart.turns(&node.state, progress == Progress::Stopped) {
                     balance.turn(&run, chart.is_bridge().then_some(node.state.t));
-                    match chart.run(settings, &node.state) {
+                    match chart.run(plan, settings, &node.state) {
                         Ok(next) => run = next,
                         Err(halt) => break Some(explain::halt(model, &phases.mechanism, chart.mechanical(), plan, &halt)),
                     }

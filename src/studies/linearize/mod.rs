@@ -48,7 +48,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     without_friction(&mechanism, study)?;
     let lifted = mechanism.lift();

@@ -61,7 +61,7 @@ where
     G: Space<S = f64>,
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let lifted = mechanism.lift();
     let rest =

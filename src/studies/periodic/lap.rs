@@ -138,11 +138,12 @@ impl Search<'_> {
             settings: Settings { method: Method::Auto, control, balance: true, ..Settings::default() },
             coordinates: self.coordinates,
             minimal: false,
+            integrator: None,
         };
         let m = &phases.mechanism;
         let modes = self.alone(phases, &[]).dims().modes + self.model.events.len();
         let state = with_modes(from, m.switches + m.windings, modes);
-        let case = Case { model: &self.model, study: self.study, parameters: &phases.parameters };
+        let case = Case::new(&self.model, self.study, &phases.parameters);
         let recorded = march::march(case, &plan, &self.ids, phases, Some(&state), &stop)?;
         Ok((recorded, steps.get() > MOST_STEPS))
     }

@@ -108,7 +108,7 @@ fn section(case: Case<'_>, asked: &Periodic) -> Section {
 
 /// Parameters with one of them at another value; those that the study varies keep theirs.
 fn with(case: Case<'_>, parameter: usize, x: f64) -> Vec<f64> {
-    let Case { model, study, parameters } = case;
+    let Case { model, study, parameters, .. } = case;
     let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
     let kept = varied.filter(|p| *p != parameter).map(|p| (p, parameters[p]));
     parameters_with(model, &kept.chain([(parameter, x)]).collect::<Vec<_>>())

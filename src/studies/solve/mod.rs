@@ -100,7 +100,7 @@ impl<'a> Trials<'a> {
         let set = [set, &[(solve.parameter, self.parameter(x))]].concat();
         let values = parameters_with(model, &set);
         let target = model.pool.value(solve.target.1, &values);
-        let outcome = run(Case { model, study, parameters: &values }, self.task.stop)?;
+        let outcome = run(Case::new(model, study, &values), self.task.stop)?;
         Ok((outcome, target))
     }
 

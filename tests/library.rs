@@ -1,0 +1,185 @@
+//! What other programs add to the library: force laws and integrators of their own.
+
+use grashof::api::{PointMotion, Wrench};
+use grashof::solvers::{Control, Level, Method, Settings, Span, State, Tangent, schemes};
+use grashof::{Mechanism, Model};
+use nalgebra::Vector3;
+
+/// The tip of the second bar held by a spring with a damper.
+const SPRING: &str = "springs: { s: { between: [ground.post, lower.end], stiffness: 30 N/m, length: 0.5 m, damping: 2 N s/m } }";
+
+/// Two bars that hang on each other, with more sections.
+fn bars(space: &str, more: &str) -> Mechanism {
+    let (gravity, post, axis) = match space {
+        "planar" => ("[0, -9.81 m/s^2]", "[1.2 m, 0.4 m]", ""),
+        _ => ("[0, -9.81 m/s^2, 0]", "[1.2 m, 0.4 m, 0.3 m]", ", axis: [0, 0, 1]"),
+    };
+    let second = if space == "planar" { "{ revolute: [upper.end, lower.start] }" } else { "{ spherical: [upper.end, lower.start] }" };
+    let start = if space == "planar" { "Q.angle: 20 deg, Q.omega: 0" } else { "lower.rotation: { axis: [1, 1, 0], angle: 20 deg }" };
+    let text = format!(
+        "
+grashof: 1
+name: bars
+space: {space}
+gravity: {gravity}
+ground: {{ post: {post} }}
+bodies: {{ upper: {{ bar: {{ length: 1 m, mass: 1 kg, width: 5 cm, height: 5 cm }} }}, lower: {{ bar: {{ length: 1 m, mass: 2 kg, width: 5 cm, height: 5 cm }} }} }}
+joints: {{ P: {{ revolute: [ground, upper.start]{axis} }}, Q: {second} }}
+start: {{ P.angle: -30 deg, P.omega: 0, {start} }}
+{more}
+"
+    );
+    let text = if space == "planar" { text.replace(", width: 5 cm, height: 5 cm", "") } else { text };
+    Model::parse(&text).unwrap_or_else(|e| panic!("{e}")).mechanism().unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The same spring as a law.
+fn spring(_: f64, points: &[PointMotion], out: &mut [Wrench]) {
+    let (d, v) = (points[1].position - points[0].position, points[1].velocity - points[0].velocity);
+    let along = d.normalize();
+    let pull = 30.0 * (d.norm() - 0.5) + 2.0 * along.dot(&v);
+    (out[0].force, out[1].force) = (pull * along, -pull * along);
+}
+
+#[test]
+fn a_force_law_from_outside_is_that_of_the_file() {
+    for space in ["planar", "spatial"] {
+        let file = bars(space, SPRING);
+        let own = bars(space, "").with_force(&["ground.post", "lower.end"], spring).unwrap();
+        let (q, v) = file.start();
+        let v: Vec<f64> = v.iter().enumerate().map(|(i, _)| 0.3 + 0.2 * i as f64).collect();
+        let [a, b] = [&file, &own].map(|m| m.accelerations(0.0, &q, &v).unwrap().0);
+        assert!((&a - &b).norm() < 1e-12 * a.norm(), "{space}: {a} {b}");
+        for (method, tolerance) in [(Method::Dop853, 1e-10), (Method::Radau5, 1e-10), (Method::GeneralizedAlpha { rho: 0.8 }, 1e-6)] {
+            let settings = Settings { method, control: Control::Tolerance(tolerance), balance: true, ..Settings::default() };
+            let mut runs = [&file, &own].map(|m| m.simulate(settings).unwrap());
+            let [x, y] = runs.each_mut().map(|run| run.advance(1.0).unwrap().clone());
+            let off = x.q.iter().zip(&y.q).fold(0.0_f64, |most, (x, y)| most.max((x - y).abs()));
+            assert!(off < 30.0 * tolerance, "{space} {method:?}: {off:e}");
+            // the derivatives by differences serve as well as the exact ones
+            let [exact, differences] = runs.map(|run| run.counts().steps);
+            assert!(differences <= exact + exact / 10 + 2, "{space} {method:?}: {differences} steps for {exact}");
+        }
+    }
+}
+
+#[test]
+fn its_power_is_the_change_of_energy() {
+    // a constant couple and a force that turns with the body: the energy is that of their work alone
+    let mechanism = bars("spatial", "")
+        .with_force(&["lower.end"], |_, points, out| {
+            out[0].moment = Vector3::new(0.1, 0.2, -0.3);
+            out[0].force = points[0].rotation * Vector3::new(0.0, 1.0, 2.0) - 0.5 * points[0].spin;
+        })
+        .unwrap();
+    let energy = |t: f64, q: &[f64], v: &[f64]| {
+        let terms = mechanism.terms(t, q, v).unwrap();
+        let v = nalgebra::DVector::from_column_slice(v);
+        let height = |body: &str| {
+            let p = mechanism.placement(body, q).unwrap();
+            (p.position + p.rotation * Vector3::new(0.5, 0.0, 0.0)).y
+        };
+        0.5 * v.dot(&(&terms.mass * &v)) + 9.81 * (height("upper") + 2.0 * height("lower"))
+    };
+    let settings = Settings { method: Method::Dop853, control: Control::Tolerance(1e-12), balance: true, ..Settings::default() };
+    let mut run = mechanism.simulate(settings).unwrap();
+    let (q, v) = mechanism.start();
+    let begin = energy(0.0, &q, &v);
+    let end = run.advance(1.0).unwrap().clone();
+    let work: f64 = end.work.iter().sum();
+    assert!(work.abs() > 0.1, "{work}");
+    let off = energy(1.0, &end.q, &end.v) - begin - work;
+    assert!(off.abs() < 1e-9, "{off:e} J of {work} J");
+}
+
+#[test]
+fn forces_and_moments_are_those_of_a_load_of_the_file() {
+    for (space, load, force, moment) in [
+        ("planar", "{ at: lower.end, force: [1 N, -2 N], torque: 0.7 N m }", [1.0, -2.0, 0.0], [0.0, 0.0, 0.7]),
+        ("spatial", "{ at: lower.end, force: [1 N, -2 N, 3 N], torque: [0.5 N m, -0.4 N m, 0.7 N m] }", [1.0, -2.0, 3.0], [0.5, -0.4, 0.7]),
+    ] {
+        let file = bars(space, &format!("loads: {{ push: {load} }}"));
+        let own = bars(space, "").with_force(&["lower.end"], move |_, _, out| {
+            out[0] = Wrench { force: force.into(), moment: moment.into() };
+        });
+        let (q, v) = file.start();
+        let [a, b] = [&file, &own.unwrap()].map(|m| m.accelerations(0.0, &q, &v).unwrap().0);
+        assert!((&a - &b).norm() < 1e-12 * a.norm(), "{space}: {a} {b}");
+    }
+}
+
+#[test]
+fn tangents_are_the_differences_of_residuals() {
+    let mechanism = bars("spatial", "").with_force(&["ground.post", "lower.end"], spring).unwrap();
+    let mut system = mechanism.system();
+    let dims = system.dims();
+    let (q, _) = mechanism.start();
+    let v: Vec<f64> = (0..dims.v).map(|i| 0.3 - 0.4 * i as f64).collect();
+    let a: Vec<f64> = (0..dims.v).map(|i| 1.0 + i as f64).collect();
+    let lambda = vec![0.5; dims.rows()];
+    let state = State { q, v, ..State::new(dims) };
+    let mut tangent = Tangent::new(dims);
+    system.tangent(state.at(), &a, &lambda, &mut tangent);
+    let h = 1e-5;
+    for j in 0..dims.v {
+        let [mut k, mut c] = [[vec![0.0; dims.v], vec![0.0; dims.v]], [vec![0.0; dims.v], vec![0.0; dims.v]]];
+        for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let mut moved = state.clone();
+            let delta: Vec<f64> = (0..dims.v).map(|i| if i == j { sign * h } else { 0.0 }).collect();
+            system.retract(Span::at(0.0), &mut moved.q, &delta);
+            system.residual(moved.at(), &a, &lambda, &mut k[side]);
+            let mut faster = state.clone();
+            faster.v[j] += sign * h;
+            system.residual(faster.at(), &a, &lambda, &mut c[side]);
+        }
+        for i in 0..dims.v {
+            for (what, sides, got) in [("k", &k, tangent.k[i * dims.v + j]), ("c", &c, tangent.c[i * dims.v + j])] {
+                let expected = (sides[0][i] - sides[1][i]) / (2.0 * h);
+                assert!((got - expected).abs() < 1e-7 * (1.0 + expected.abs()), "{what}[{i}, {j}]: {got} for {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_point_that_is_not_there_is_named() {
+    let error = bars("planar", "").with_force(&["lower.tip"], spring).unwrap_err();
+    assert!(error.to_string().contains("lower.tip"), "{error}");
+}
+
+const SWING: &str = "
+grashof: 1
+name: double pendulum
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: { rod: { bar: { length: 1 m, mass: 1 kg } }, lower: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { P: { revolute: [ground, rod.start] }, Q: { revolute: [rod.end, lower.start] } }
+start: { P.angle: -30 deg, Q.angle: 20 deg, P.omega: 0, Q.omega: 0 }
+studies:
+  swing: { dynamics: { until: 1 s }, columns: [P.angle, Q.angle, P.fx] }
+";
+
+#[test]
+fn an_integrator_from_outside_is_compared_as_those_of_the_library() {
+    let model = Model::parse(SWING).unwrap();
+    // schemes of the library under other names: the same steps, the same digits
+    let own = |method: Method| {
+        move |system: &dyn grashof::solvers::System| {
+            let control = Control::Steps([0.01, 0.01]);
+            schemes::new(method, Settings { method, control, level: Level::Stabilized, ..Settings::default() }, system)
+        }
+    };
+    let study = model.study("swing").unwrap();
+    let newmark = Method::Newmark { displacement: 0.25, velocity: 0.5 };
+    let study = study.integrator("mine", own(Method::Rk4)).integrator("ours", own(newmark));
+    let compared = study.compare_steps(&["rk4", "mine", "newmark", "ours"], &[0.01], &|| 0.0).unwrap();
+    let rows = &compared.rows;
+    assert_eq!(rows.iter().map(|r| r.integrator.as_str()).collect::<Vec<_>>(), ["rk4", "mine", "newmark", "ours"]);
+    for pair in rows.chunks(2) {
+        assert!(pair.iter().all(|r| r.reason.is_empty()), "{pair:?}");
+        assert!(pair[0].error > 0.0 && pair[0].error == pair[1].error, "{pair:?}");
+        assert_eq!(pair[0].counts, pair[1].counts);
+    }
+    let error = study.compare(&["yours"], &[1e-6], &|| 0.0).unwrap_err().to_string();
+    assert!(error.contains("yours"), "{error}");
+}
