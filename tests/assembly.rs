@@ -35,7 +35,7 @@ start: {{ O.angle: {crank} rad, {guess} }}
 studies: {{ k: {{ inverse: {{ over: 0.001 s, samples: 1 }}, columns: [coupler.angle, rocker.angle] }} }}
 "
     );
-    let row = common::study(&text, "k", Coordinates::Joint).rows[0].clone();
+    let row = common::study(&text, "k", Coordinates::Joint).rows[0].to_vec();
     [row[0], row[1]]
 }
 
@@ -94,7 +94,7 @@ start: {{ O.angle: 90 deg, W.position: ~{guess} m }}
 studies: {{ k: {{ kinematics: {{ over: 1 turn, samples: 4 }}, columns: [W.position, rod.angle] }} }}
 "
         );
-        let row = common::study(&text, "k", Coordinates::Joint).rows[0].clone();
+        let row = common::study(&text, "k", Coordinates::Joint).rows[0].to_vec();
         assert!((row[0] - guess).abs() < 1e-12 && apart(row[1], rod).abs() < 1e-6, "{row:?}");
     }
 }

@@ -4,6 +4,7 @@ use crate::common;
 use crate::common::{columns, study};
 use grashof::geometry::Spatial;
 use grashof::mechanism::Coordinates;
+use grashof::results::Rows;
 use grashof::studies::common::outcome::Outcome;
 use std::fmt::Write;
 
@@ -251,9 +252,9 @@ fn a_pin_in_a_slot_is_a_block_that_slides_and_turns() {
     };
     for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
         let mut in_space = study(&space, "turn", coordinates);
-        for row in &mut in_space.rows {
-            *row = kept.iter().map(|c| row[*c]).collect();
-        }
+        let mut rows = Rows::new(kept.len());
+        in_space.rows.iter().for_each(|row| rows.push(kept.iter().map(|c| row[*c])));
+        in_space.rows = rows;
         same("quick return", &names, &in_space, &in_plane, |_| true, TOLERANCE);
     }
 }
@@ -315,6 +316,6 @@ studies:
     let steps = study(&wheel("coordinates: cartesian"), "turn", Coordinates::Joint);
     assert_eq!(steps.switches.len(), joint.switches.len());
     // the next half turn is counted three quarters of π from the middle of the last one
-    let behind = |row: &Vec<f64>| (row[0] / std::f64::consts::PI - 0.75).rem_euclid(1.0);
+    let behind = |row: &[f64]| (row[0] / std::f64::consts::PI - 0.75).rem_euclid(1.0);
     assert!(steps.rows.iter().all(|row| behind(row) > 1e-6 && behind(row) < 1.0 - 1e-6), "a row where a half turn was counted");
 }

@@ -95,7 +95,7 @@ fn motion(mechanism: &Mechanism, [x, u]: [f64; 2], dynamics: &str) -> (Vec<Vec<f
         format!("{text}{measures}studies:\n  move: {{ dynamics: {{ until: 2 s, every: 0.25 s, {dynamics} }}, columns: [{columns}] }}\n");
     let outcome = study(&study_text, "move", Coordinates::Joint);
     let steps = outcome.certificate.march.expect("a motion in time").counts.steps;
-    (outcome.rows, steps)
+    (outcome.rows.iter().map(<[f64]>::to_vec).collect(), steps)
 }
 
 /// Holds motions in all frames against that at the origin: `rounding` is what they may differ by, in parts of the largest value of a

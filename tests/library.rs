@@ -1,9 +1,11 @@
 //! What other programs add to the library: force laws and integrators of their own.
 
 use grashof::api::{PointMotion, Wrench};
+use grashof::results::{Column, Sink};
 use grashof::solvers::{Control, Level, Method, Settings, Span, State, Tangent, schemes};
 use grashof::{Mechanism, Model};
 use nalgebra::Vector3;
+use std::sync::Mutex;
 
 /// The tip of the second bar held by a spring with a damper.
 const SPRING: &str = "springs: { s: { between: [ground.post, lower.end], stiffness: 30 N/m, length: 0.5 m, damping: 2 N s/m } }";
@@ -182,4 +184,52 @@ fn an_integrator_from_outside_is_compared_as_those_of_the_library() {
     }
     let error = study.compare(&["yours"], &[1e-6], &|| 0.0).unwrap_err().to_string();
     assert!(error.contains("yours"), "{error}");
+}
+
+/// Keeps what it gets.
+#[derive(Default)]
+struct Kept(Mutex<(Vec<String>, Vec<Vec<f64>>)>);
+
+impl Sink for Kept {
+    fn begin(&self, independent: &Column, columns: &[Column]) {
+        let names = std::iter::once(independent).chain(columns).map(|c| format!("{} [{}]", c.name, c.unit)).collect();
+        *self.0.lock().unwrap() = (names, Vec::new());
+    }
+
+    fn row(&self, place: f64, values: &[f64]) {
+        self.0.lock().unwrap().1.push(std::iter::once(place).chain(values.iter().copied()).collect());
+    }
+}
+
+#[test]
+fn a_sink_gets_the_rows_of_the_table() {
+    let turn = "
+grashof: 1
+name: crank
+space: planar
+gravity: none
+bodies: { crank: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { O: { revolute: [ground, crank.start] } }
+drivers: { drive: { joint: O, speed: 3 rad/s } }
+studies: { turn: { inverse: { over: 1 turn, samples: 36 }, columns: [O.angle, O.fx, shape] } }
+measures:
+  shape: if(crank.end.x > 0, 1, 2)
+";
+    for (text, name, least) in [(SWING, "swing", 10), (turn, "turn", 39)] {
+        let model = Model::parse(text).unwrap_or_else(|e| panic!("{e}"));
+        let table = model.study(name).unwrap().run().unwrap_or_else(|e| panic!("{e}"));
+        let kept = Kept::default();
+        let results = model.study(name).unwrap().rows_to(&kept).run().unwrap();
+        assert_eq!((results.table.rows(), results.independent.values.len()), (0, 0));
+        assert_eq!(results.extremes, table.extremes);
+        assert_eq!(results.certificate.constraint, table.certificate.constraint);
+        let (names, rows) = kept.0.into_inner().unwrap();
+        let unit = |c: &Column| format!("{} [{}]", c.name, c.unit);
+        assert_eq!(names, std::iter::once(&table.independent).chain(&table.table.columns).map(unit).collect::<Vec<_>>());
+        assert!(rows.len() >= least && rows.len() == table.table.rows(), "{}", rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            assert_eq!(row[0], table.independent.values[i]);
+            assert!(row[1..].iter().copied().eq(table.table.row(i)));
+        }
+    }
 }

@@ -34,7 +34,7 @@ fn multipliers(outcome: &Outcome) -> Vec<[f64; 2]> {
 
 /// The last row of a text's study `lap`.
 fn end(text: &str) -> Vec<f64> {
-    study(text, "lap", Coordinates::Joint).rows.pop().expect("a row")
+    study(text, "lap", Coordinates::Joint).rows.last().expect("a row").to_vec()
 }
 
 /// The derivative of a map at x (columns: by each of x), by differences of fourth order with steps h.

@@ -13,7 +13,7 @@ fn study(text: &str, name: &str) -> Outcome {
 fn same(what: &str, a: &Outcome, b: &Outcome, within: f64) {
     // beside the rows of the grid there are those of switches, which not all coordinates have
     let grid = |o: &Outcome| -> Vec<(f64, Vec<f64>)> {
-        let rows = o.places.iter().copied().zip(o.rows.iter().cloned());
+        let rows = o.places.iter().copied().zip(o.rows.iter().map(<[f64]>::to_vec));
         rows.filter(|(t, _)| (10.0 * t - (10.0 * t).round()).abs() < 1e-9).collect()
     };
     let (a, b) = (grid(a), grid(b));

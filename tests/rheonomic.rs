@@ -379,5 +379,5 @@ fn a_start_moves_as_time_says() {
     let coupling = format!("couplings: {{ shake: {{ zero: A.position - {SHAKE} }} }}");
     let text = cart(&coupling, &dynamics(0.1, "tolerance: 1e-10", "A.position, A.velocity"));
     let found = study(&text, "d");
-    assert!(found.rows[0][0].abs() < 1e-14 && (found.rows[0][1] - 0.2).abs() < 1e-13, "{:?}", found.rows[0]);
+    assert!(found.rows[0][0].abs() < 1e-14 && (found.rows[0][1] - 0.2).abs() < 1e-13, "{:?}", &found.rows[0]);
 }

@@ -161,7 +161,7 @@ fn a_force_that_is_defined_at_the_start_lets_the_motion_begin() {
         let study = format!("    dynamics: {{ until: 0.01 s, every: 0.01 s, integrator: {integrator} }}\n    columns: [O.alpha]");
         let outcome = result(&arm(parts, &study)).expect("a motion");
         let right = (0.997_f64.sqrt() - 9.81 * 1.0_f64.cos()) / (2.0 / 3.0);
-        assert!(outcome.stopped.is_none() && (outcome.rows[0][0] - right).abs() < 1e-9, "{integrator}: {:?}", outcome.rows[0]);
+        assert!(outcome.stopped.is_none() && (outcome.rows[0][0] - right).abs() < 1e-9, "{integrator}: {:?}", &outcome.rows[0]);
     }
 }
 

@@ -2,13 +2,15 @@
 
 use super::error::Error;
 use super::mechanism::Mechanism;
-use crate::model::{Document, INTEGRATORS, Integrator, Kind, Model, Selection};
+use crate::model::{self, Document, INTEGRATORS, Integrator, Kind, Model, Selection};
 use crate::par;
-use crate::results::{Compared, Results, Unknown};
-use crate::studies::common::case::parameters;
+use crate::results::{Compared, Results, Sink, Unknown};
+use crate::studies::common::case::{Case, parameters};
+use crate::studies::common::named::named;
 use crate::studies::compare::{NoReference, Watch, compare};
 use crate::studies::integrators::{By, OwnIntegrator, Steps};
 use crate::studies::loader::Loader;
+use crate::studies::run::run;
 use crate::studies::sweep::{at, grid, single, sweep, together};
 use crate::studies::verify::{Verdict, verify};
 use grashof_solvers::{Scheme, System};
@@ -21,6 +23,7 @@ pub struct Study<'a> {
     selection: Selection<'a>,
     name: String,
     integrators: Vec<OwnIntegrator>,
+    sink: Option<&'a dyn Sink>,
     threads: usize,
     progress: Box<dyn Fn(usize, usize) + Sync + 'a>,
     stop: Box<dyn Fn() -> bool + Sync + 'a>,
@@ -33,6 +36,7 @@ impl<'a> Study<'a> {
             selection: Selection::default(),
             name: name.into(),
             integrators: Vec::new(),
+            sink: None,
             threads: par::processors(),
             progress: Box::new(|_, _| {}),
             stop: Box::new(|| false),
@@ -81,6 +85,13 @@ impl<'a> Study<'a> {
         self
     }
 
+    /// Gives the rows of [`Self::run`] to a sink as they are computed; the table of its results is then empty. For studies of one run.
+    #[must_use]
+    pub fn rows_to(mut self, sink: &'a dyn Sink) -> Self {
+        self.sink = Some(sink);
+        self
+    }
+
     /// Brings an integrator of one's own for [`Self::compare`]: its name, and what makes its scheme for a system.
     #[must_use]
     pub fn integrator(mut self, name: &str, scheme: impl Fn(&dyn System) -> Box<dyn Scheme> + Send + Sync + 'static) -> Self {
@@ -98,6 +109,9 @@ impl<'a> Study<'a> {
     pub fn run(&self) -> Result<Results, Error> {
         let model = self.model()?;
         let Some(study) = &model.study else { return Err(self.unknown()) };
+        if let Some(sink) = self.sink {
+            return self.streamed(&model, study, sink);
+        }
         let done = AtomicUsize::new(0);
         let count = |all: usize| (self.progress)(done.fetch_add(1, Ordering::Relaxed) + 1, all);
         if study.sweep.is_empty() {
@@ -107,6 +121,18 @@ impl<'a> Study<'a> {
         let all = grid(&model, study).len();
         let runs = sweep(&model, study, self.threads, Vec::new(), &*self.stop, &|_, _| count(all));
         Ok(together(&model, study, &runs))
+    }
+
+    /// A study of one run whose rows go to a sink.
+    fn streamed(&self, model: &Model, study: &model::Study, sink: &dyn Sink) -> Result<Results, Error> {
+        if !study.sweep.is_empty() || study.solve.is_some() {
+            let message = format!("study `{}` has many runs, and rows go out from one", self.name);
+            return Err(Error::Refused { message, help: "take the table of each of its runs from the results".into() });
+        }
+        let values = parameters(model);
+        let case = Case { sink: Some(sink), ..Case::new(model, study, &values) };
+        let outcome = run(case, &*self.stop).map_err(|failure| Error::failed(self.document, &self.name, failure))?;
+        Ok(named(model, study, &outcome))
     }
 
     /// Computes a motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and says how many digits

@@ -7,7 +7,7 @@ use crate::expression::{Cause, Id};
 use crate::geometry::Space;
 use crate::mechanism::{self, Coordinates, Mechanism, build};
 use crate::model::{Model, Study};
-use crate::results::{Failure, Finding, Undefined};
+use crate::results::{Failure, Undefined};
 
 /// Something without a value at a place of a motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,25 +122,4 @@ pub(crate) fn assembled<G: Space<S = f64>>(
         let undefined = in_state(model, &mechanism, [&q, &v, &z], &modes, "the start");
         undefined.map_or(failure, Failure::Undefined)
     })
-}
-
-/// Columns that have no value in some rows although the file does not expect it and no expression is at fault: what they show is not
-/// determined there.
-pub(crate) fn blank(study: &Study, independent: &str, places: &[f64], rows: &[Vec<f64>]) -> Vec<Finding> {
-    let blank = |c: usize| (0..rows.len()).filter(move |&i| rows[i].get(c).is_some_and(|x| !x.is_finite()));
-    let told = |(c, column): (usize, &crate::model::Column)| {
-        let first = blank(c).next()?;
-        let count = blank(c).count();
-        Some(Finding {
-            code: "blank-cells".into(),
-            message: format!(
-                "`{}` is not defined in {count} of {} rows, first at {independent} = {}: its cells are blank there",
-                column.name,
-                rows.len(),
-                (places.get(first)? * 1e6).round() / 1e6 + 0.0
-            ),
-            path: format!("{}.columns", study.place),
-        })
-    };
-    study.columns.iter().enumerate().filter(|(_, c)| !study.undefined.contains(&c.value)).filter_map(told).collect()
 }

@@ -5,9 +5,10 @@ use super::balance::Unbalanced;
 use super::common::case::Case;
 use super::common::clock::Clock;
 use super::common::functional::Functionals;
-use super::common::motion::{Lost, Motion, Rows};
+use super::common::motion::{Lost, Motion};
 use super::common::numbers::Sources;
 use super::common::observe::Observer;
+use super::common::recorder::{Recorded, Recorder};
 use super::common::watched::{Watched, in_variable, unresolved};
 use super::common::{scene, stops};
 use crate::dynamics::Dynamics;
@@ -15,9 +16,10 @@ use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::mobility::drivers_fit;
 use crate::kinematics::path::{MOST_NODES, NoPath};
-use crate::kinematics::undefined::{Gap, assembled, blank};
+use crate::kinematics::undefined::{Gap, assembled};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Kind, Model, Over, Quantity, Range};
+use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve::Resolved;
 use crate::results::{Certificate, Failure, Finding};
@@ -162,7 +164,6 @@ fn observe<G: Space<S = f64>>(
     };
     let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
     stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
-    let n = rows.places.len();
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
     findings.extend(open);
     findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
@@ -196,25 +197,24 @@ fn observe<G: Space<S = f64>>(
     let sources = Sources { case, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
     let numbers = sources.numbers(undefined.is_none());
     let undefined = undefined.or(numbers.undefined);
-    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
-    let places: Vec<f64> = rows.places.iter().map(|s| clock.value(*s)).collect();
-    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
     findings.extend(numbers.findings);
-    findings.extend(blank(study, &name, &places, &shown));
+    findings.extend(rows.findings());
+    let certificate = Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) };
+    let Recorded { places, switches, rows } = rows.recorded();
     Ok(Outcome {
         stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
         undefined,
         parameters: case.named(),
-        independent: name,
+        independent: name.clone(),
         places,
-        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-        rows: shown,
+        switches,
+        rows,
         results,
         scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
         expectations: numbers.expectations,
         findings,
-        certificate: Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) },
+        certificate,
         events: Vec::new(),
         scenes: vec![(scene::MECHANISM.into(), scene::of_motion(&mut motion))],
         ..Outcome::default()
@@ -222,27 +222,28 @@ fn observe<G: Space<S = f64>>(
 }
 
 /// What is seen of a motion.
-pub(crate) struct Seen {
+pub(crate) struct Seen<'a> {
     resolved: Resolved,
     extremes: Vec<Option<Extremes>>,
-    rows: Rows,
+    rows: Recorder<'a>,
     functionals: Vec<f64>,
     findings: Vec<Finding>,
 }
 
 /// Resolves a motion: its extremes, rows and functionals.
-pub(crate) fn see<G: Space<S = f64>>(
+pub(crate) fn see<'a, G: Space<S = f64>>(
     motion: &mut Motion<'_, G>,
-    case: Case<'_>,
+    case: Case<'a>,
     watched: &Watched,
     samples: usize,
-    name: &str,
-) -> Result<Seen, Lost> {
+    name: &'a str,
+) -> Result<Seen<'a>, Lost> {
     let resolved = motion.resolve()?;
     motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
     let extremes = extrema(motion, resolved.samples(), &breaks);
-    let rows = motion.rows(samples)?;
+    let mut rows = Recorder::new(case, watched, clock, [name, name]);
+    motion.rows(samples, &mut rows)?;
     let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, name, clock);
     let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = all.all(case, &watched.functionals, &mut findings)?;
@@ -297,13 +298,12 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
 }
 
 /// Residuals over the rows.
-fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Rows) -> Certificate {
+fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Recorder<'_>) -> Certificate {
     let mut certificate =
-        Certificate { evaluations: rows.places.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
-    let mut nothing = vec![0.0; rows.values.first().map_or(0, Vec::len)];
-    let every = (rows.places.len() / 64).max(1);
-    for (s, piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {
-        use crate::numerics::continuous::Curve;
+        Certificate { evaluations: rows.progress.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
+    let mut nothing = vec![0.0; Curve::columns(motion)];
+    let every = (rows.progress.len() / 64).max(1);
+    for (s, piece) in rows.progress.iter().zip(&rows.pieces).step_by(every) {
         if motion.eval(*s, *piece, &mut nothing).is_err() {
             continue;
         }

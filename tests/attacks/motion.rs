@@ -17,7 +17,7 @@ pub(crate) fn moved(text: &str) -> Result<Outcome, String> {
 }
 
 /// Rows at the instants k `every`; a located switch has further ones.
-fn asked(outcome: &Outcome, every: f64) -> Vec<&Vec<f64>> {
+fn asked(outcome: &Outcome, every: f64) -> Vec<&[f64]> {
     let end = outcome.rows.last().map_or(0.0, |row| row[0]);
     let near = |k: u32| outcome.rows.iter().find(|r| (r[0] - every * f64::from(k)).abs() < 1e-12).expect("a row at each instant");
     (0..).take_while(|k| every * f64::from(*k) < end + 1e-9).map(near).collect()

@@ -96,7 +96,7 @@ fn inverse_dynamics_asks_for_what_motion_in_time_needs() {
     let inverse = of("inverse: { over: 0.5 s, samples: 50 }");
     let forward = of("dynamics: { until: 0.5 s, every: 10 ms, tolerance: 1e-11 }");
     let at = |outcome: &grashof::studies::common::outcome::Outcome, t: f64| {
-        outcome.rows.iter().find(|r| (r[0] - t).abs() < 1e-9).expect("a row").clone()
+        outcome.rows.iter().find(|r| (r[0] - t).abs() < 1e-9).expect("a row").to_vec()
     };
     for t in [0.1, 0.2, 0.3, 0.45] {
         for (k, (found, right)) in at(&inverse, t).iter().zip(at(&forward, t)).enumerate() {

@@ -44,7 +44,7 @@ fn a_block_on_a_belt_sticks_and_slips_with_its_closed_form_period() {
         for row in outcome.rows.iter().filter(|row| row[0] <= breaks + std::f64::consts::TAU / w) {
             close(&format!("x at {}, {of}", row[0]), row[1], at(row[0]), 20.0 * tolerance.max(1e-9));
         }
-        let stuck: Vec<&Vec<f64>> = outcome.rows.iter().filter(|row| row[0] < breaks - 1e-6).collect();
+        let stuck: Vec<&[f64]> = outcome.rows.iter().filter(|row| row[0] < breaks - 1e-6).collect();
         assert!(stuck.len() > 90);
         for row in stuck {
             close(&format!("friction holds, {of}"), row[3], k * v * row[0], 1e-7);

@@ -2,10 +2,11 @@
 
 use crate::expression::Id;
 use crate::model::{Model, Study};
+use crate::results::Sink;
 use crate::studies::integrators::OwnIntegrator;
 
 /// A study of a model at values of its parameters.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Case<'a> {
     /// The model.
     pub model: &'a Model,
@@ -15,13 +16,15 @@ pub struct Case<'a> {
     pub parameters: &'a [f64],
     /// The integrator of a motion in time, if it is not the one that the study names.
     pub integrator: Option<&'a OwnIntegrator>,
+    /// Takes the rows instead of the table.
+    pub sink: Option<&'a dyn Sink>,
 }
 
 impl<'a> Case<'a> {
     /// A study of a model at values of its parameters, by the integrator that it names.
     #[must_use]
     pub fn new(model: &'a Model, study: &'a Study, parameters: &'a [f64]) -> Self {
-        Case { model, study, parameters, integrator: None }
+        Case { model, study, parameters, integrator: None, sink: None }
     }
 
     /// The value of an expression of parameters, SI.

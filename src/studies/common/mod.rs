@@ -9,6 +9,7 @@ pub(crate) mod numbers;
 pub mod observe;
 pub mod outcome;
 pub(crate) mod pieces;
+pub(crate) mod recorder;
 pub(crate) mod scene;
 pub(crate) mod stops;
 pub mod switching;

@@ -48,17 +48,6 @@ pub struct Motion<'m, G: Space<S = f64>> {
     columns: usize,
 }
 
-/// Rows of a motion.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Rows {
-    /// Progress of each row, never falling.
-    pub places: Vec<f64>,
-    /// Piece of each row.
-    pub pieces: Vec<usize>,
-    /// Columns of each row.
-    pub values: Vec<Vec<f64>>,
-}
-
 impl<'m, G: Space<S = f64>> Motion<'m, G> {
     /// Traces the path of a mechanism over the range of a clock.
     ///

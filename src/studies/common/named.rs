@@ -83,7 +83,7 @@ fn tables(study: &Study, outcome: &Outcome) -> (Table, Vec<Column>) {
         Kind::Linearize(_) => return (outcome.linear.as_ref().map_or_else(Table::default, state), Vec::new()),
         _ => {}
     }
-    let values = |k: usize| outcome.rows.iter().map(|row| row.get(k).copied().unwrap_or(f64::NAN)).collect::<Vec<f64>>();
+    let values = |k: usize| if k < outcome.rows.width() { outcome.rows.column(k).collect() } else { Vec::new() };
     let columns = study.columns.iter().enumerate().map(|(k, c)| column(&c.name, c.dimension, values(k))).collect();
     let shown = study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
     let named = |id| shown.clone().find(|s| s.what == ShownWhat::Column(id));

@@ -1,7 +1,7 @@
 //! What one run of a study has come to: numbers in the order in which the study asks for them.
 
 use crate::numerics::extremum::Extremes;
-use crate::results::{Certificate, Checked, Finding, Happened, LinearSystem, List, Scene, Undefined};
+use crate::results::{Certificate, Checked, Finding, Happened, LinearSystem, List, Rows, Scene, Undefined};
 use serde::{Deserialize, Serialize};
 
 /// What one run of a study has come to; [`Results`](crate::results::Results) have names to it.
@@ -21,7 +21,7 @@ pub struct Outcome {
     /// Rows before each located switch; the next row is behind it.
     pub switches: Vec<usize>,
     /// Columns of each row, in the order of `study.columns`, then the curves that only figures show.
-    pub rows: Vec<Vec<f64>>,
+    pub rows: Rows,
     /// Results of the kind, in the order of `study.results`.
     pub results: Vec<f64>,
     /// Lists that the kind gives, as the eigenvalues of `modes`.

@@ -6,7 +6,8 @@
 //! the distance comes below zero by less than that part of its size on the stretch. The earliest end cuts the piece, and what lies
 //! behind it is looked at in the new modes.
 
-use super::motion::{Lost, Motion, Rows};
+use super::motion::{Lost, Motion};
+use super::recorder::Recorder;
 use super::switching::Distance;
 use crate::geometry::Space;
 use crate::numerics::continuous::Curve;
@@ -157,7 +158,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     ///
     /// # Errors
     /// If a place cannot be reached.
-    pub fn rows(&mut self, samples: usize) -> Result<Rows, Lost> {
+    pub(crate) fn rows(&mut self, samples: usize, recorder: &mut Recorder<'_>) -> Result<(), Lost> {
         let spacing = self.clock.length / samples as f64;
         let at = |k: i64| if k == samples as i64 { self.clock.length } else { k as f64 * spacing };
         // a switch that stands on the grid but for rounding is written there
@@ -174,15 +175,12 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             let grid = inside.map(at).filter(|s| *s > from + near && *s < to - near);
             places.extend(std::iter::once(from).chain(grid).chain([to]).map(|s| (s, piece)));
         }
-        let mut rows = Rows::default();
+        let mut out = vec![0.0; self.columns()];
         for (s, piece) in places {
-            let mut out = vec![0.0; self.columns()];
             self.row(s, piece, &mut out)?;
-            rows.places.push(s);
-            rows.pieces.push(piece);
-            rows.values.push(out);
+            recorder.row(s, piece, &out);
         }
-        Ok(rows)
+        Ok(())
     }
 }
 

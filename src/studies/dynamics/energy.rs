@@ -10,7 +10,6 @@ use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::results::{Certificate, Finding, March};
 use crate::scalar::Dual;
-use crate::studies::common::motion::Rows;
 use grashof_solvers::{Control, Counts, Integration, Node};
 
 /// What a phase begins with.
@@ -231,15 +230,19 @@ fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<F
 }
 
 /// Largest residuals over the rows of a run.
-pub(crate) fn residuals<G, D>(trajectory: &mut Trajectory<'_, G, D>, rows: &Rows, mut certificate: Certificate) -> Certificate
+pub(crate) fn residuals<G, D>(
+    trajectory: &mut Trajectory<'_, G, D>,
+    (times, pieces): (&[f64], &[usize]),
+    mut certificate: Certificate,
+) -> Certificate
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    certificate.evaluations = rows.places.len();
-    let every = (rows.places.len() / 128).max(1);
+    certificate.evaluations = times.len();
+    let every = (times.len() / 128).max(1);
     let mut velocity: f64 = 0.0;
-    for (&t, &piece) in rows.places.iter().zip(&rows.pieces).step_by(every) {
+    for (&t, &piece) in times.iter().zip(pieces).step_by(every) {
         if trajectory.go(t, piece).is_err() {
             continue;
         }

@@ -23,13 +23,13 @@ pub use unrecorded::Unrecorded;
 use super::common::case::Case;
 use super::common::clock::Clock;
 use super::common::functional::Functionals;
-use super::common::motion::Rows;
 use super::common::numbers::Sources;
+use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene;
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
-use crate::kinematics::undefined::{Gap, blank};
+use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
 use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::{Extremes, extrema};
@@ -94,21 +94,20 @@ where
     let numbers = Sources { case, tables, functionals: &functionals, results: &[], works: &works }.numbers(stopped.is_none());
     let undefined = undefined.or(numbers.undefined);
     let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
-    let certificate = Certificate { resolved: Some(resolution), ..energy::residuals(&mut trajectory, &rows, certificate) };
-    let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
-    let n = rows.places.len();
-    let shown: Vec<Vec<f64>> = rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect();
+    let certificate =
+        Certificate { resolved: Some(resolution), ..energy::residuals(&mut trajectory, (&rows.progress, &rows.pieces), certificate) };
     findings.extend(numbers.findings);
-    findings.extend(blank(study, "t", &rows.places, &shown));
+    findings.extend(rows.findings());
+    let Kept { places, switches, rows } = rows.recorded();
     let scene = scene::scene(&phases.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
     Ok(Outcome {
         stopped,
         undefined,
         parameters: case.named(),
         independent: "time".into(),
-        switches: (0..n.saturating_sub(1)).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-        rows: shown,
-        places: rows.places,
+        switches,
+        rows,
+        places,
         results: Vec::new(),
         scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
@@ -143,9 +142,9 @@ pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)
 }
 
 /// A motion seen over time.
-struct Seen {
+struct Seen<'a> {
     breaks: Vec<f64>,
-    rows: Rows,
+    rows: Recorder<'a>,
     extremes: Vec<Option<Extremes>>,
     functionals: Vec<f64>,
     findings: Vec<Finding>,
@@ -153,7 +152,7 @@ struct Seen {
 }
 
 /// Rows, extremes and functionals of a motion.
-fn see<G, D>(trajectory: &mut Trajectory<'_, G, D>, case: Case<'_>, watched: &Watched, plan: &setup::Plan) -> Result<Seen, Off>
+fn see<'a, G, D>(trajectory: &mut Trajectory<'_, G, D>, case: Case<'a>, watched: &Watched, plan: &setup::Plan) -> Result<Seen<'a>, Off>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
@@ -164,22 +163,23 @@ where
     let resolved = resolve::on(trajectory, &stretches, &breaks, setup::resolution(plan.settings.control))?;
     trajectory.all_defined(&resolved)?;
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
-    let rows = rows(trajectory, &breaks, plan.every)?;
     let clock = Clock::of_time(plan.until);
+    let mut recorder = Recorder::new(case, watched, clock, ["time", "t"]);
+    rows(trajectory, &breaks, plan.every, &mut recorder)?;
     let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], "time", clock);
     let mut functionals =
         Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = functionals.all(case, &watched.functionals, &mut findings)?;
-    Ok(Seen { breaks, rows, extremes, functionals, findings, resolution: resolved.quality() })
+    Ok(Seen { breaks, rows: recorder, extremes, functionals, findings, resolution: resolved.quality() })
 }
 
 /// Rows on the grid of the study, or at every step, with both sides of every switch.
-fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>) -> Result<Rows, Off>
+fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>, recorder: &mut Recorder<'_>) -> Result<(), Off>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    let mut rows = Rows::default();
+    let mut out = vec![0.0; trajectory.columns()];
     for (piece, ends) in breaks.windows(2).enumerate() {
         let places = match every {
             None => trajectory.ends_of(piece),
@@ -191,14 +191,11 @@ where
             }
         };
         for t in places {
-            let mut out = vec![0.0; trajectory.columns()];
             trajectory.row(t, piece, &mut out)?;
-            rows.places.push(t);
-            rows.pieces.push(piece);
-            rows.values.push(out);
+            recorder.row(t, piece, &out);
         }
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// Poses of the bodies at a time.

@@ -30,7 +30,7 @@ use crate::kinematics::undefined::assembled;
 use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
-use crate::results::{Certificate, Failure, Finding, LinearSystem, List};
+use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
@@ -80,13 +80,15 @@ where
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values };
     let numbers = Sources { case, tables: &mechanism.tables, functionals: &[], results: &[], works: &[] }.numbers(true);
     findings.extend(numbers.findings);
+    let mut rows = Rows::new(base.outputs.len());
+    rows.push(base.outputs.iter().copied());
     Ok(Outcome {
         stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
         undefined: numbers.undefined,
         parameters: case.named(),
         independent: "time".into(),
         places: vec![0.0],
-        rows: vec![base.outputs.clone()],
+        rows,
         lists: vec![list("poles_real", poles.iter().map(|p| p.0).collect()), list("poles_imaginary", poles.iter().map(|p| p.1).collect())],
         linear: Some(system),
         scalars: numbers.scalars,

@@ -18,9 +18,9 @@ use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::clock::Clock;
 use crate::studies::common::functional::Functionals;
-use crate::studies::common::motion::Rows;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::recorder::{Recorded, Recorder};
 use crate::studies::common::scene;
 use crate::studies::common::watched::{Watched, in_variable, unresolved};
 use crate::studies::dynamics::phases::Phases;
@@ -71,11 +71,11 @@ pub(super) struct Regime<'a> {
 }
 
 /// A period seen over the independent variable.
-struct Seen {
+struct Seen<'a> {
     clock: Clock,
-    rows: Rows,
-    /// The same places in time.
-    at: Rows,
+    rows: Recorder<'a>,
+    /// Times of the rows in the lap.
+    times: Vec<f64>,
     extremes: Vec<Option<Extremes>>,
     functionals: Vec<f64>,
     findings: Vec<Finding>,
@@ -92,7 +92,7 @@ fn lost(search: &Search<'_>, off: Off) -> Failure {
     )
 }
 
-impl Regime<'_> {
+impl<'a> Regime<'a> {
     /// Its outcome; `periods` were run before the search.
     pub(super) fn outcome<G: Space<S = f64>>(&self, phases: &Phases<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
         let Self { search, asked, case, watched, columns } = *self;
@@ -104,7 +104,7 @@ impl Regime<'_> {
         let mut single = Single { trajectory: &mut lap.trajectory, column: columns.of };
         let resolved = resolve::on(&mut single, &stretches, &times, width).map_err(|off| lost(search, off))?;
         integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(|off| lost(search, off))?;
-        let Seen { clock, rows, at, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
+        let Seen { clock, rows, times: of_rows, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
         lap.findings.extend(findings);
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
@@ -114,18 +114,19 @@ impl Regime<'_> {
             Sources { case: Case { model, study, ..case }, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         let trajectory = &mut lap.trajectory;
         let scene = scene::scene(&phases.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
-        let order: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
         lap.findings.extend(numbers.findings);
         lap.findings.push(stability::finding(&multipliers, &study.place));
+        let pieces = rows.pieces.clone();
+        let Recorded { places, switches, rows } = rows.recorded();
         Ok(Outcome {
             parameters: case.named(),
             independent: if asked.over.is_some() { search.over.clone() } else { "time".into() },
-            places: rows.places.iter().map(|s| clock.value(*s)).collect(),
-            switches: (0..rows.places.len() - 1).filter(|&i| rows.pieces[i] != rows.pieces[i + 1]).collect(),
-            rows: rows.values.iter().map(|r| order.iter().map(|&c| r[c]).collect()).collect(),
+            places,
+            switches,
+            rows,
             stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
             undefined: numbers.undefined,
             scalars: numbers.scalars,
@@ -134,7 +135,10 @@ impl Regime<'_> {
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
             findings: lap.findings,
-            certificate: Certificate { resolved: Some(resolution), ..energy::residuals(&mut lap.trajectory, &at, lap.certificate) },
+            certificate: Certificate {
+                resolved: Some(resolution),
+                ..energy::residuals(&mut lap.trajectory, (&of_rows, &pieces), lap.certificate)
+            },
             events: lap.events,
             scenes: vec![(scene::MECHANISM.into(), scene)],
             ..Outcome::default()
@@ -142,25 +146,26 @@ impl Regime<'_> {
     }
 
     /// Rows, extremes and functionals of a period.
-    fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen, Failure> {
+    fn see<G: Space<S = f64>>(&self, lap: &mut Lap<'_, G>) -> Result<Seen<'a>, Failure> {
         let Self { search, asked, case, watched, columns } = *self;
         let (clock, advance) = clock(asked, case, columns, lap, search).map_err(|off| lost(search, off))?;
         let mut turn = Turn::new(&mut lap.trajectory, advance, clock.length).map_err(|why| match why {
             NoTurn::Off(off) => lost(search, off),
             NoTurn::Back(t) => explain::turns_back(search, t),
         })?;
-        let (rows, at) = rows(&mut turn, asked.samples).map_err(|off| lost(search, off))?;
+        let name = if asked.over.is_some() { &search.over } else { "time" };
+        let mut recorder = Recorder::new(case, watched, clock, [name, name]);
+        let times = rows(&mut turn, asked.samples, &mut recorder).map_err(|off| lost(search, off))?;
         let breaks = turn.breaks.clone();
         let width = resolution(Control::Tolerance(search.tolerance));
         let resolved = resolve::on(&mut turn, &resolve::stretches(&breaks), &breaks, width).map_err(|off| lost(search, off))?;
         turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
         let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
-        let name = if asked.over.is_some() { &search.over } else { "time" };
         let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
         let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
         let functionals = all.all(case, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
-        Ok(Seen { clock, rows, at, extremes, functionals, findings, resolution: resolved.quality() })
+        Ok(Seen { clock, rows: recorder, times, extremes, functionals, findings, resolution: resolved.quality() })
     }
 }
 
@@ -206,26 +211,22 @@ fn clock<G: Space<S = f64>>(
     Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
 }
 
-/// Rows on a grid of progress with both sides of every switch, and the same places in time.
-fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize) -> Result<(Rows, Rows), Off>
+/// Rows on a grid of progress with both sides of every switch; gives their times.
+fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize, recorder: &mut Recorder<'_>) -> Result<Vec<f64>, Off>
 where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let breaks = turn.breaks.clone();
     let length = breaks[breaks.len() - 1];
     let near = 1e-9 * length / samples as f64;
-    let (mut rows, mut at) = (Rows::default(), Rows::default());
+    let (mut times, mut out) = (Vec::new(), vec![0.0; turn.columns()]);
     for (piece, ends) in breaks.windows(2).enumerate() {
         let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
         for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
-            let mut out = vec![0.0; turn.columns()];
             turn.row(s, piece, &mut out)?;
-            at.places.push(turn.time(s, piece)?);
-            at.pieces.push(piece);
-            rows.places.push(s);
-            rows.pieces.push(piece);
-            rows.values.push(out);
+            times.push(turn.time(s, piece)?);
+            recorder.row(s, piece, &out);
         }
     }
-    Ok((rows, at))
+    Ok(times)
 }

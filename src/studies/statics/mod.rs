@@ -34,7 +34,7 @@ use crate::kinematics::undefined::{assembled, in_state};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::FunctionalKind;
 use crate::numerics::extremum::{Extremes, Extremum};
-use crate::results::{Certificate, Failure, Finding, List};
+use crate::results::{Certificate, Failure, Finding, List, Rows};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use explain::{Names, six};
@@ -372,11 +372,13 @@ where
         let numbers = Sources { case, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         findings.extend(numbers.findings);
         let alone = |value: f64| Extremum { value, at: 0.0, piece: 0 };
+        let mut shown = Rows::new(watched.columns.len() + watched.shown.len());
+        shown.push(watched.columns.iter().chain(&watched.shown).map(|&c| row[c]));
         Ok(Outcome {
             parameters: case.named(),
             independent: "time".into(),
             places: vec![0.0],
-            rows: vec![watched.columns.iter().chain(&watched.shown).map(|&c| row[c]).collect()],
+            rows: shown,
             lists,
             stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
             undefined: numbers.undefined,
