@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::terminal::{tell_interrupted, tell_report};
 use super::{Common, code, files, tell};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
-use grashof::output::{Figure, Picture, Staging, drawing, figures, matrices, summary, ten_digits, write_csv, write_json};
+use grashof::output::{Figure, Picture, Staging, drawing, figures, summary, ten_digits, write_json};
 use grashof::par;
 use grashof::results::{Failure, Results};
 use grashof::studies::sweep::{at, single};
@@ -106,17 +106,12 @@ impl Job<'_> {
             code = code.max(self.expectations(&results));
         }
         let mut staging = Staging::new();
-        staging.add(format!("{}.csv", self.study), write_csv(&results.table));
-        let report = write_json(&results);
-        staging.add(format!("{}.json", self.study), report.clone());
-        for (end, bytes) in matrix_files(study, &results) {
-            staging.add(format!("{}{end}", self.study), bytes);
-        }
+        grashof::output::files(self.study, &results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
         // who interrupts a motion wants its rows, and no waiting for figures
         if self.plots && !interrupted() {
             self.draw(&mut staging, figures(&results), &results);
         }
-        let output = Output { table: summary(&results), report, columns: units(&results) };
+        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results) };
         Finished { computed: vec![values(&results)], ..self.write(&staging, code, output) }
     }
 
@@ -215,10 +210,4 @@ fn values(results: &Results) -> Vec<f64> {
 /// Columns with their units.
 fn units(results: &Results) -> Vec<(String, String)> {
     results.table.columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect()
-}
-
-/// The files that a study asks for beside its CSV and JSON: ends of their names, and what they hold.
-fn matrix_files(study: &Study, results: &Results) -> Vec<(String, Vec<u8>)> {
-    let Kind::Linearize(asked) = &study.kind else { return Vec::new() };
-    matrices(results, asked.csv, asked.mat)
 }

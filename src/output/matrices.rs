@@ -3,16 +3,16 @@
 use super::{MatValue, write_csv, write_mat};
 use crate::results::{Column, LinearSystem, Results, Table};
 
-/// Ends of the names of files, and what they hold.
-pub fn matrices(results: &Results, csv: bool, mat: bool) -> Vec<(String, Vec<u8>)> {
+/// Ends of the names of the files that the study asks for, and what they hold.
+pub fn matrices(results: &Results) -> Vec<(String, Vec<u8>)> {
     let Some(system) = &results.linear else { return Vec::new() };
     let mut files = Vec::new();
-    if csv {
+    if system.csv {
         files.extend(
             system.matrices.iter().map(|(name, rows)| (format!("-{name}.csv"), write_csv(&table(system, name, rows)).into_bytes())),
         );
     }
-    if mat {
+    if system.mat {
         let matrices =
             system.matrices.iter().map(|(name, rows)| (name.clone(), MatValue::Matrix(system.columns(name).len(), rows.clone())));
         let values = LinearSystem::VALUES.iter().zip(&system.values);

@@ -45,6 +45,9 @@ fn range(results: &Results) -> String {
         1 => ", 1 switch".into(),
         n => format!(", {n} switches"),
     };
+    if results.independent.name.is_empty() {
+        return String::new();
+    }
     let (from, to) = (place(places.first()), place(places.last()));
     format!("  {} rows over {} from {from} to {to}{switches}\n", places.len(), results.independent.name)
 }

@@ -162,6 +162,10 @@ pub struct LinearSystem {
     pub values: [Vec<f64>; 4],
     /// Names and values of the matrices: A, B, C, D, then `mass`, `damping` and `stiffness`.
     pub matrices: Vec<(String, Vec<Vec<f64>>)>,
+    /// Whether the study asks for a CSV file of each matrix.
+    pub csv: bool,
+    /// Whether it asks for a MAT-file.
+    pub mat: bool,
 }
 
 impl LinearSystem {

@@ -4,9 +4,9 @@ use super::super::interrupt::{self, interrupted};
 use super::super::kept::Kept;
 use super::super::progress::Progress;
 use super::super::{code, fail, tell};
-use super::{Finished, Job, Output, matrix_files, units, values};
+use super::{Finished, Job, Output, units, values};
 use grashof::model::Study;
-use grashof::output::{Staging, figures, summary, write_csv, write_json};
+use grashof::output::{Staging, figures, files, summary, write_json};
 use grashof::results::Results;
 use grashof::studies::sweep::{self, Run, together};
 
@@ -72,7 +72,7 @@ impl Job<'_> {
         for run in whole() {
             code = code.max(self.expectations(run));
         }
-        let (staging, output) = self.staged(study, &results);
+        let (staging, output) = self.staged(&results);
         let finished = self.write(&staging, code, output);
         if finished.output.is_some() {
             kept.remove();
@@ -81,23 +81,13 @@ impl Job<'_> {
     }
 
     /// The files of a sweep.
-    fn staged(&self, study: &Study, results: &Results) -> (Staging, Output) {
+    fn staged(&self, results: &Results) -> (Staging, Output) {
         let mut staging = Staging::new();
-        staging.add(format!("{}.csv", self.study), write_csv(&results.table));
-        let report = write_json(results);
-        staging.add(format!("{}.json", self.study), report.clone());
-        for (i, run) in results.runs.iter().enumerate() {
-            let Some(run) = &run.results else { continue };
-            let stem = format!("{}-{:03}", self.study, i + 1);
-            staging.add(format!("{stem}.csv"), write_csv(&run.table));
-            for (end, bytes) in matrix_files(study, run) {
-                staging.add(format!("{stem}{end}"), bytes);
-            }
-        }
+        files(self.study, results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
         let first = results.runs.iter().find_map(|run| run.results.as_ref());
         if let (true, Some(first)) = (self.plots, first) {
             self.draw(&mut staging, figures(results), first);
         }
-        (staging, Output { table: summary(results), report, columns: units(results) })
+        (staging, Output { table: summary(results), report: write_json(results), columns: units(results) })
     }
 }

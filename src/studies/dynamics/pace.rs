@@ -11,11 +11,11 @@ use crate::geometry::Space;
 use crate::kinematics::coordinates::coordinates;
 use crate::kinematics::linear::Linear;
 use crate::kinematics::partition::preferred;
-use crate::model::Model;
+use crate::model::{Family, Model};
 use crate::numerics::eigenvalues::measurable;
 use crate::scalar::Dual;
 use crate::studies::modes::damped::damped;
-use grashof_solvers::{Control, Method, Node};
+use grashof_solvers::{Control, Node};
 use nalgebra::Complex;
 
 /// Bytes that the steps of a run may take.
@@ -84,7 +84,7 @@ impl Slow {
         let fastest = fastest(model, phase, node);
         let what = fastest.as_ref().map_or_else(String::new, |(names, value)| format!(": {names} {}", pace_of(*value)));
         let stiff = fastest.is_some_and(|(_, value)| value.re < -value.im.abs());
-        let explicit = matches!(plan.settings.method, Method::Dop853 | Method::Rk4 | Method::CentralDifference);
+        let explicit = plan.family == Family::Explicit;
         let how = if stiff && explicit {
             "take `integrator: radau5`, whose steps may be longer than that".to_string()
         } else {
@@ -145,7 +145,8 @@ mod tests {
     /// Steps until a run of 1 s is stopped, of steps of these lengths.
     fn stopped(control: Control, length: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let settings = Settings { control, ..Settings::default() };
-        let plan = Plan { until: 1.0, every: None, settings, coordinates: Coordinates::Joint, minimal: false, integrator: None };
+        let (coordinates, family) = (Coordinates::Joint, Family::Either);
+        let plan = Plan { until: 1.0, every: None, settings, coordinates, minimal: false, family, integrator: None };
         let (mut pace, mut t) = (Pace::default(), 0.0);
         for k in 0..2_000_000 {
             let next = t + length(k);

@@ -1,7 +1,7 @@
 //! What a dynamic study asks for, as numbers and as settings of the integrators.
 
 use crate::mechanism::Coordinates;
-use crate::model::{self, Chart, Forward, Integrator};
+use crate::model::{self, Chart, Family, Forward, Integrator};
 use crate::results::Failure;
 use crate::studies::common::case::Case;
 use crate::studies::common::pieces::WIDTH;
@@ -16,6 +16,8 @@ pub(crate) struct Plan {
     pub(crate) settings: Settings,
     pub(crate) coordinates: Coordinates,
     pub(crate) minimal: bool,
+    /// How the integrator takes constraints.
+    pub(crate) family: Family,
     /// An integrator from outside, instead of the method of the settings.
     pub(crate) integrator: Option<OwnIntegrator>,
 }
@@ -126,6 +128,7 @@ pub(super) fn plan(case: Case<'_>, forward: &Forward) -> Result<Plan, Failure> {
         },
         coordinates: if forward.chart == Chart::Cartesian { Coordinates::Cartesian } else { Coordinates::Joint },
         minimal: forward.chart == Chart::Minimal,
+        family: forward.integrator.description().family,
         integrator: case.integrator.cloned(),
     })
 }

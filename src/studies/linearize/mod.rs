@@ -204,6 +204,8 @@ impl<G: Space<S = f64>> Bench<'_, G> {
             values: [x, [u, base.rates.clone()].concat(), self.asked.inputs.iter().map(|&p| self.case.parameters[p]).collect(), y],
             matrices: matrices.chain(mechanical).map(|(name, matrix)| (name.to_string(), rows(matrix))).collect(),
             states,
+            csv: self.asked.csv,
+            mat: self.asked.mat,
         })
     }
 

@@ -4,7 +4,7 @@ use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::Coordinates;
-use crate::model::{Crossing, Event, Model, Study};
+use crate::model::{Crossing, Event, Family, Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened};
 use crate::scalar::Dual;
 use crate::studies::common::case::Case;
@@ -138,6 +138,7 @@ impl Search<'_> {
             settings: Settings { method: Method::Auto, control, balance: true, ..Settings::default() },
             coordinates: self.coordinates,
             minimal: false,
+            family: Family::Either,
             integrator: None,
         };
         let m = &phases.mechanism;
