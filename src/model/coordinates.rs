@@ -1,6 +1,7 @@
 //! The coordinates of joints: their names, and what they are measured in.
 
 use super::entities::JointKind;
+use super::fields::Want;
 use crate::expression::Dimension;
 
 /// A coordinate of a joint.
@@ -52,5 +53,13 @@ impl Coordinate {
     /// Dimension of the generalised force that works on it.
     pub(crate) fn effort(&self) -> Dimension {
         if self.angle { Dimension::TORQUE } else { Dimension::FORCE }
+    }
+}
+
+/// What a value of a coordinate must be.
+pub(crate) fn wanted_of(coordinate: Option<&Coordinate>) -> Want {
+    match coordinate {
+        Some(c) if !c.angle => Want::Of(Dimension::LENGTH),
+        _ => Want::Angle,
     }
 }

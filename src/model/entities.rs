@@ -7,6 +7,7 @@ use super::contacts::{Friction, Limit, Stops};
 use super::place::{Place, PointRef};
 use super::vocabulary::Quantity;
 use crate::expression::{Dimension, Id};
+use crate::model::keys::words;
 
 /// Whether bodies move in the x-y plane or in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,13 +169,14 @@ pub enum Motion {
     Rise { by: Id, during: Id, law: Law },
 }
 
-/// Law of a rise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    /// τ − sin(2πτ)/2π.
-    Cycloidal,
-    /// 10τ³ − 15τ⁴ + 6τ⁵.
-    Poly5,
+words! {
+    /// Law of a rise.
+    pub enum Law {
+        /// τ − sin(2πτ)/2π.
+        Cycloidal = "cycloidal",
+        /// 10τ³ − 15τ⁴ + 6τ⁵.
+        Poly5 = "poly5",
+    }
 }
 
 /// An applied force or torque.
@@ -304,15 +306,16 @@ pub struct Event {
     pub place: Place,
 }
 
-/// Direction in which an event's expression crosses zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crossing {
-    /// Either way.
-    Both,
-    /// From negative to positive.
-    Rising,
-    /// From positive to negative.
-    Falling,
+words! {
+    /// Direction in which an event's expression crosses zero.
+    pub enum Crossing {
+        /// Either way.
+        Both = "both",
+        /// From negative to positive.
+        Rising = "rising",
+        /// From positive to negative.
+        Falling = "falling",
+    }
 }
 
 /// An impact: the rate of a joint's coordinate after it is −e times the rate before.

@@ -1,6 +1,6 @@
 //! The words in which the format describes itself: shapes of values, fields and tables of fields.
 //!
-//! The reader (`shape`), the schema and the messages are made from the same tables (`tables`), so that they cannot disagree.
+//! The reader (`shape`), the schema and the messages are made from the same tables (`keys`, `tables`), so that they cannot disagree.
 
 use crate::expression::Dimension;
 
@@ -218,5 +218,7 @@ pub(crate) const ROLL_PITCH_YAW: Shape = Shape::List(&ANGLE, Size::Exactly(3));
 pub(crate) const POSITION: Shape = Shape::List(&LENGTH, Size::Space);
 pub(crate) const DIRECTION: Shape = Shape::List(&NUMBER, Size::Space);
 pub(crate) const POINT: Shape = Shape::Name("a point `body.point`, or a body for its origin");
+/// The two points that something connects.
+pub(crate) const ENDS: Shape = Shape::List(&POINT, Size::Exactly(2));
 pub(crate) const JOINT_NAME: Shape = Shape::Name("the name of a joint");
 pub(crate) const FIGURES: Shape = Shape::Either(&[INERTIA, Shape::List(&INERTIA, Size::OneOf(&[1, 3, 6]))]);

@@ -3,11 +3,12 @@
 use super::diagnostics::Report;
 use super::fault::{At, Fault, Spot};
 use super::included::Included;
+use super::keys::Entry;
 use super::merge::{self, Layers, Node};
 use super::names::is_name;
 use super::reading;
 use super::shape;
-use super::urdf::{self, Base, Options};
+use super::urdf::{self, Base, IncludeKeys, Options};
 use serde_yaml::{Mapping, Value};
 
 /// Gives the bytes of a file that a model names, and the name by which messages call it; the error says why not.
@@ -36,7 +37,8 @@ pub(super) fn read(root: &Mapping, file: &str, text: &str, files: &Files<'_>) ->
         for (entry, at) in &entries {
             match robot(entry, at, files) {
                 Ok(robot) => {
-                    faults.extend(clash(&included, &robot, at));
+                    let prefix = IncludeKeys::of(Node::Plain(entry)).prefix;
+                    faults.extend(clash(&included, &robot, &at.key(prefix)));
                     included.push(robot);
                 }
                 Err(Trouble::Here(fault)) => faults.push(*fault),
@@ -56,28 +58,29 @@ enum Trouble {
     There(Report),
 }
 
-fn robot(entry: &Value, at: &At<'_, '_>, files: &Files<'_>) -> Result<Included, Trouble> {
-    let place = |key: &str| merge::path(&at.key(key).steps());
-    let word = |key: &str| entry.get(key).and_then(Value::as_str).unwrap_or_default();
-    let (name, prefix) = (word("urdf"), word("prefix"));
+fn robot<'e>(entry: &'e Value, at: &At<'_, '_>, files: &Files<'_>) -> Result<Included, Trouble> {
+    let place = |entry: Entry<'_>| merge::path(&at.key(entry.key()).steps());
+    let keys = IncludeKeys::of(Node::Plain(entry));
+    let (name, prefix) = (keys.urdf.text().unwrap_or_default(), keys.prefix.text().unwrap_or_default());
     if !prefix.is_empty() && !is_name(prefix) {
         let fault = Fault::new(
             "bad-name",
-            place("prefix"),
+            place(keys.prefix),
             format!("`{prefix}` cannot begin a name"),
             "a letter a-z or A-Z, then letters, digits and `_`",
         );
         return Err(Trouble::Here(Box::new(fault.help("for example `left_`"))));
     }
     let (file, bytes) = files(name).map_err(|why| {
-        let fault = Fault::new("no-file", place("urdf"), format!("cannot read `{name}`: {why}"), "a URDF file, by its path from this file");
+        let fault =
+            Fault::new("no-file", place(keys.urdf), format!("cannot read `{name}`: {why}"), "a URDF file, by its path from this file");
         Trouble::Here(Box::new(fault.help("check the path")))
     })?;
     let secret = |report: Report| if urdf::is_robot(&bytes) { report } else { report.without_excerpts() };
     let text = reading::text_of(&bytes, &file, bytes.len()).map_err(secret).map_err(Trouble::There)?;
-    let base = if word("base") == "free" { Base::Free } else { Base::Fixed };
-    let stops = entry.get("stops").and_then(Value::as_bool) == Some(true);
-    let options = Options { prefix, at: entry.get("at"), rpy: entry.get("rpy"), base, stops };
+    let base = keys.base.word().unwrap_or(Base::Fixed);
+    let plain = |entry: Entry<'e>| if let Some(Node::Plain(value)) = entry.node { Some(value) } else { None };
+    let options = Options { prefix, at: plain(keys.at), rpy: plain(keys.rpy), base, stops: keys.stops.flag() };
     match urdf::read(text, &options) {
         Ok(robot) => Ok(Included { text: text.to_owned(), file, robot, place: merge::path(&at.steps()) }),
         Err(faults) => Err(Trouble::There(secret(reading::report(&file, text, &faults, &[])))),
@@ -92,7 +95,7 @@ fn clash(earlier: &[Included], robot: &Included, at: &At<'_, '_>) -> Option<Faul
     };
     let taken: std::collections::HashSet<String> = earlier.iter().flat_map(names).collect();
     let twice = names(robot).into_iter().find(|name| taken.contains(name))?;
-    let place = merge::path(&at.key("prefix").steps());
+    let place = merge::path(&at.steps());
     let message = format!("`{twice}` comes from an earlier file, too");
     Some(
         Fault::new("duplicate-name", place, message, "names of its own for every robot")

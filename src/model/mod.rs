@@ -2,7 +2,7 @@
 //! rest of the program is built from.
 //!
 //! The way of a file: `yaml` (guard and parse) → [`Document`]; `merge` (variants, by reference) → `shape` (form, along the
-//! tables of fields in `tables`) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
+//! keys that `decode` declares and `tables` joins) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 
 mod acting;

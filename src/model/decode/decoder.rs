@@ -347,15 +347,30 @@ impl<'n> Decoder<'n> {
     }
 
     /// The number of an entry whose dimension depends on its neighbours.
+    pub(super) fn read_of(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, dimension: Dimension) -> Option<Id> {
+        self.read_as(entry, at, Want::Of(dimension))
+    }
+
+    /// The same, where it may be an angle.
     pub(super) fn read_as(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, want: Want) -> Option<Id> {
         self.number(entry.node, &at.key(entry), want)
     }
 
     /// A value of parameters that may not be negative; the words say what it is.
-    pub(super) fn size(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Dimension, what: &'static str) -> Option<Id> {
-        let (id, _) = self.value(node, at, Want::Of(want), Allow::CONSTANT)?;
+    pub(super) fn size(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, what: &'static str) -> Option<Id> {
+        self.size_as(entry.node, &at.key(entry), entry.want(), what)
+    }
+
+    /// The same at any place.
+    pub(super) fn size_as(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>, want: Want, what: &'static str) -> Option<Id> {
+        let (id, _) = self.value(node, at, want, Allow::CONSTANT)?;
         self.check(Rule::NotNegative(what), &[id], at);
         Some(id)
+    }
+
+    /// A vector of an entry, with as many components as the space has.
+    pub(super) fn read_vector(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, dimension: Dimension) -> Option<Vec<Id>> {
+        self.space_vector(entry.node, &at.key(entry), dimension)
     }
 
     /// A list of values of parameters.

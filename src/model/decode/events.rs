@@ -4,7 +4,8 @@ use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
 use crate::model::entities::{CouplingKind, Crossing, Event, Motion, Restitution, SpringOn};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{ANY, JOINT_NAME, Keys, NUMBER, Shape, Want};
+use crate::model::keys::{Words, keys, words};
 use crate::model::merge::Node;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
@@ -12,7 +13,36 @@ use crate::model::spans::Step;
 use crate::model::vocabulary::Known;
 
 /// Everything that a state has.
-const EVENT: Allow = Allow { what: "an event", ..Allow::MEASURE };
+const ANYTHING: Allow = Allow { what: "an event", ..Allow::MEASURE };
+
+words! {
+    /// What an event does to the run.
+    enum Action {
+        /// It is noted.
+        Record = "record",
+        /// The run ends.
+        Stop = "stop",
+    }
+}
+
+keys! {
+    /// An event.
+    pub(crate) EVENT = EventKeys "an event" [] {
+        when: need Shape::Formula("an expression that crosses zero"), "What crosses zero.";
+        crossing: may Shape::Word(Crossing::WORDS), "In which direction.";
+        action: may Shape::Word(Action::WORDS), "Whether the run goes on.";
+        set: may Shape::Named(Keys::Reference, "a parameter", &ANY), "Parameters that change then.";
+        restitution: may Shape::Map(&RESTITUTION), "Impact in a joint.";
+    }
+}
+
+keys! {
+    /// Restitution.
+    RESTITUTION = RestitutionKeys "restitution" [] {
+        joint: need JOINT_NAME, "The joint.";
+        e: need NUMBER, "Coefficient of restitution.";
+    }
+}
 
 impl<'n> Decoder<'n> {
     pub(super) fn events(&mut self) {
@@ -20,24 +50,21 @@ impl<'n> Decoder<'n> {
         let fixed = self.checks_so_far();
         for (name, node) in self.section("events") {
             let at = section.key(name);
-            let when = self.crossing(node.get("when"), &at.key("when"));
-            let set_at = at.key("set");
+            let keys = EventKeys::of(node);
+            let when = self.crossing(keys.when.node, &at.key(keys.when));
+            let set_at = at.key(keys.set);
             let mut set = Vec::new();
-            for (parameter, value) in node.get("set").map(Node::entries).unwrap_or_default() {
+            for (parameter, value) in keys.set.entries() {
                 let here = set_at.key(parameter);
                 let Some(i) = self.parameter_named(parameter, &here, true) else { continue };
                 self.changeable(i, &here, fixed);
                 let Some(dimension) = self.name_space.parameters.get(i).copied().flatten() else { continue };
-                set.extend(self.varying(Some(value), &here, Want::Of(dimension), EVENT).map(|id| (i, id)));
+                set.extend(self.varying(Some(value), &here, Want::Of(dimension), ANYTHING).map(|id| (i, id)));
             }
-            let restitution = node.get("restitution").and_then(|inner| self.restitution(inner, &at.key("restitution")));
-            let word = |key: &str| node.get(key).and_then(Node::text);
-            let crossing = match word("crossing") {
-                Some("rising") => Crossing::Rising,
-                Some("falling") => Crossing::Falling,
-                _ => Crossing::Both,
-            };
-            let stop = word("action") == Some("stop");
+            let restitution =
+                keys.restitution.node.and_then(|inner| self.restitution(RestitutionKeys::of(inner), &at.key(keys.restitution)));
+            let crossing = keys.crossing.word().unwrap_or(Crossing::Both);
+            let stop = keys.action.word() == Some(Action::Stop);
             if let Some(when) = when {
                 let place = self.place(&at);
                 self.name_space.model.events.push(Event { name: name.to_owned(), when, crossing, stop, set, restitution, place });
@@ -47,7 +74,7 @@ impl<'n> Decoder<'n> {
 
     /// What crosses zero: something that varies, and no condition, which is 0 or 1 and crosses nothing.
     fn crossing(&mut self, node: Option<Node<'n>>, at: &At<'_, 'n>) -> Option<Id> {
-        let (lowered, reach) = self.any(node?, at, EVENT, &mut Local::default())?;
+        let (lowered, reach) = self.any(node?, at, ANYTHING, &mut Local::default())?;
         if lowered.boolean {
             self.fault("no-crossing", at, "a condition, which is 0 or 1", "an expression that crosses zero").help =
                 Some("write the difference of its two sides: `x - 3 m` for `x > 3 m`, and `crossing: rising`".to_owned());
@@ -61,16 +88,16 @@ impl<'n> Decoder<'n> {
         Some(lowered.id)
     }
 
-    fn restitution(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<Restitution> {
-        let (joint_at, e_at) = (at.key("joint"), at.key("e"));
+    fn restitution(&mut self, keys: RestitutionKeys<'n>, at: &At<'_, 'n>) -> Option<Restitution> {
+        let (joint_at, e_at) = (at.key(keys.joint), at.key(keys.e));
         let allow = Allow { what: "a coefficient of restitution", ..Allow::LOAD };
-        let e = self.value(node.get("e"), &e_at, Want::Of(Dimension::NONE), allow);
+        let e = self.value(keys.e.node, &e_at, Want::Of(Dimension::NONE), allow);
         if let Some((e, reach)) = e
             && reach.level == Known::Constant
         {
             self.check(Rule::Within(0.0, 1.0, "the coefficient of restitution"), &[e], &e_at);
         }
-        let (joint, _) = self.driven(node.get("joint"), &joint_at)?;
+        let (joint, _) = self.driven(keys.joint.node, &joint_at)?;
         if let Some(driver) = self.name_space.model.drivers.iter().find(|driver| driver.joint == joint) {
             let message = format!("this joint is driven by `{}`", driver.name);
             self.fault("wrong-joint", &joint_at, message, "a joint that moves freely").help =

@@ -2,9 +2,11 @@
 
 use super::decoder::Decoder;
 use crate::expression::{Dimension, Id};
+use crate::model::coordinates::wanted_of;
 use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{ANGLE, COORDINATE, INERTIA, JOINT_NAME, LENGTH, NUMBER, POINT, Shape, Size, TIME, Want, one_of};
+use crate::model::keys::{Entry, Words, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::place::PointRef;
@@ -13,6 +15,63 @@ use crate::model::scope::Allow;
 use crate::model::suggest;
 use crate::model::suggest::clip;
 use crate::model::vocabulary::{Known, Quantity};
+
+keys! {
+    /// A coupling.
+    pub(crate) COUPLING = CouplingKeys "a coupling" [one_of(&["gear", "rack", "zero"])] {
+        gear: may Shape::List(&JOINT_NAME, Size::Exactly(2)), "The second joint turns `ratio` times as far as the first.";
+        rack: may Shape::List(&JOINT_NAME, Size::Exactly(2)),
+            "The slider moves `radius` times as far as the pinion turns: [pinion, slider].";
+        zero: may Shape::Formula("an expression of positions and `t`"), "An expression of positions and `t` that stays 0.";
+        ratio: may NUMBER, "Of a gear.";
+        radius: may LENGTH, "Of a pinion.";
+    }
+}
+
+keys! {
+    /// A driver.
+    pub(crate) DRIVER = DriverKeys "a driver" [one_of(&["speed", "angle", "position", "rise"])] {
+        joint: need JOINT_NAME, "The driven joint.";
+        speed: may Shape::Value(Want::Varies("an angular speed (rad/s) or a speed (m/s), as the joint has it")),
+            "Constant speed from the start position.";
+        angle: may ANGLE, "The angle as an expression of t.";
+        position: may LENGTH, "The position as an expression of t.";
+        rise: may Shape::Map(&RISE), "A rise from the start position, then rest.";
+    }
+}
+
+keys! {
+    /// A rise.
+    RISE = RiseKeys "a rise" [] {
+        by: need COORDINATE, "How far.";
+        during: need TIME, "How long.";
+        law: need Shape::Word(Law::WORDS), "Law of motion.";
+    }
+}
+
+keys! {
+    /// A load.
+    pub(crate) LOAD = LoadKeys "a load" [one_of(&["at", "joint"])] {
+        at: may POINT, "The point of a body that it acts on.";
+        joint: may JOINT_NAME, "The joint whose coordinate it acts on: on the second body, reaction on the first.";
+        force: may Shape::Either(&[Shape::Value(Want::Of(Dimension::FORCE)), Shape::List(&Shape::Value(Want::Of(Dimension::FORCE)), Size::Space)]),
+            "Force: a vector at a point, a number on a slider.";
+        torque: may Shape::Either(&[Shape::Value(Want::Of(Dimension::TORQUE)), Shape::List(&Shape::Value(Want::Of(Dimension::TORQUE)), Size::Exactly(3))]),
+            "Torque: a number in the plane or on a joint, a vector in space.";
+        frame: may Shape::Name("a body, a point `body.point` with axes of its own, or `world`"),
+            "Body or point whose axes the components are in; `world` if omitted.";
+    }
+}
+
+keys! {
+    /// A motor.
+    pub(crate) MOTOR = MotorKeys "a motor" [] {
+        joint: need JOINT_NAME, "The joint that it turns.";
+        curve: may Shape::Name("the name of a table: torque over speed"), "Torque of the motor by its own speed.";
+        gear: may NUMBER, "Turns of the motor per turn of the joint; 1 if omitted.";
+        inertia: may INERTIA, "Inertia of the rotor before the gear; 0 if omitted.";
+    }
+}
 
 impl<'n> Decoder<'n> {
     /// A value that may vary as `allow` says; if it is constant it must be finite.
@@ -25,19 +84,19 @@ impl<'n> Decoder<'n> {
     }
 
     /// Refuses a key that does not belong to the kind of an entry.
-    fn refuse_keys(&mut self, node: Node<'n>, at: &At<'_, 'n>, keys: &[&'n str], kind: &str) {
-        for key in keys {
-            if node.get(key).is_some() {
-                let fault =
-                    self.fault("unknown-key", &at.key(*key), format!("`{key}` beside `{kind}`"), format!("a key that belongs to `{kind}`"));
-                fault.spot = Spot::Key;
-                fault.help = Some("remove it".to_owned());
-            }
+    fn refuse_keys(&mut self, at: &At<'_, 'n>, entries: &[Entry<'n>], kind: Entry<'n>) {
+        for entry in entries.iter().filter(|entry| entry.given()) {
+            let (key, kind) = (entry.key(), kind.key());
+            let fault =
+                self.fault("unknown-key", &at.key(key), format!("`{key}` beside `{kind}`"), format!("a key that belongs to `{kind}`"));
+            fault.spot = Spot::Key;
+            fault.help = Some("remove it".to_owned());
         }
     }
 
-    fn missing(&mut self, at: &At<'_, 'n>, key: &str, kind: &str, what: &str) {
-        let fault = self.fault("missing-key", at, format!("`{kind}` needs `{key}`"), what.to_owned());
+    fn missing(&mut self, at: &At<'_, 'n>, entry: Entry<'n>, kind: Entry<'n>, what: &str) {
+        let key = entry.key();
+        let fault = self.fault("missing-key", at, format!("`{}` needs `{key}`", kind.key()), what.to_owned());
         fault.spot = Spot::Key;
         fault.help = Some(format!("add `{key}:`"));
     }
@@ -54,10 +113,11 @@ impl<'n> Decoder<'n> {
     }
 
     fn coupling(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<CouplingKind> {
-        if let Some(zero) = node.get("zero") {
-            self.refuse_keys(node, at, &["ratio", "radius"], "zero");
+        let keys = CouplingKeys::of(node);
+        if let Some(zero) = keys.zero.node {
+            self.refuse_keys(at, &[keys.ratio, keys.radius], keys.zero);
             let allow = Allow { what: "a coupling", ..Allow::POSITION };
-            let here = at.key("zero");
+            let here = at.key(keys.zero);
             let (id, reach) = self.value(Some(zero), &here, Want::Any, allow)?;
             if reach.level < Known::Position {
                 self.fault(
@@ -69,41 +129,38 @@ impl<'n> Decoder<'n> {
             }
             return Some(CouplingKind::Zero(id));
         }
-        let (word, wrong) = if node.get("gear").is_some() { ("gear", "radius") } else { ("rack", "ratio") };
-        self.refuse_keys(node, at, &[wrong], word);
-        let here = at.key(word);
-        let [a, b] = node.get(word)?.items() else { return None };
+        let gear = keys.gear.given();
+        let (of, wrong) = if gear { (keys.gear, keys.radius) } else { (keys.rack, keys.ratio) };
+        self.refuse_keys(at, &[wrong], of);
+        let here = at.key(of);
+        let [a, b] = of.items() else { return None };
         let a = self.driven(Some(Node::Plain(a)), &here.index(0));
         let b = self.driven(Some(Node::Plain(b)), &here.index(1));
-        let value = if word == "gear" {
-            if node.get("ratio").is_none() {
-                self.missing(at, "ratio", word, "how far the second turns per turn of the first");
+        let value = if gear {
+            if !keys.ratio.given() {
+                self.missing(at, keys.ratio, of, "how far the second turns per turn of the first");
             }
-            self.of(node, "ratio", at, Dimension::NONE)
+            self.read(keys.ratio, at)
         } else {
-            if node.get("radius").is_none() {
-                self.missing(at, "radius", word, "the radius of the pinion (m)");
+            if !keys.radius.given() {
+                self.missing(at, keys.radius, of, "the radius of the pinion (m)");
             }
-            self.of(node, "radius", at, Dimension::LENGTH)
+            self.read(keys.radius, at)
         };
         let ((a, of_a), (b, of_b)) = (a?, b?);
         if a == b {
             self.fault("same-joint", &here, "a joint coupled with itself", "two joints");
             return None;
         }
-        if word == "gear" && of_a.angle != of_b.angle {
+        if gear && of_a.angle != of_b.angle {
             self.fault("wrong-joint", &here, "one joint turns, the other slides", "two joints that turn, or two that slide").help =
                 Some("use `rack: [pinion, slider]` with `radius`".to_owned());
         }
-        if word == "rack" && (!of_a.angle || of_b.angle) {
+        if !gear && (!of_a.angle || of_b.angle) {
             self.fault("wrong-joint", &here, "the wrong kinds of joints", "first a joint that turns, then one that slides");
         }
         let value = value?;
-        Some(if word == "gear" {
-            CouplingKind::Gear { a, b, ratio: value }
-        } else {
-            CouplingKind::Rack { pinion: a, slide: b, radius: value }
-        })
+        Some(if gear { CouplingKind::Gear { a, b, ratio: value } } else { CouplingKind::Rack { pinion: a, slide: b, radius: value } })
     }
 
     pub(super) fn drivers(&mut self) {
@@ -120,38 +177,41 @@ impl<'n> Decoder<'n> {
     }
 
     fn driver(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>) -> Option<Driver> {
-        let Some((joint, coordinate)) = self.driven(node.get("joint"), &at.key("joint")) else {
+        let keys = DriverKeys::of(node);
+        let Some((joint, coordinate)) = self.driven(keys.joint.node, &at.key(keys.joint)) else {
             // what is wrong with a motion of any kind is told all the same
-            for key in ["speed", "angle", "position"] {
-                self.value(node.get(key), &at.key(key), Want::Any, Allow::DRIVER);
+            for entry in [keys.speed, keys.angle, keys.position] {
+                self.value(entry.node, &at.key(entry), Want::Any, Allow::DRIVER);
             }
             return None;
         };
         if let Some(other) = self.name_space.model.drivers.iter().find(|d| d.joint == joint) {
             let message = format!("this joint is driven by `{}` already", other.name);
-            self.fault("driven-twice", &at.key("joint"), message, "one driver for a joint").help = Some("remove one of the two".to_owned());
+            self.fault("driven-twice", &at.key(keys.joint), message, "one driver for a joint").help =
+                Some("remove one of the two".to_owned());
         }
-        let motion = if node.get("speed").is_some() {
-            Motion::Speed(self.of(node, "speed", at, coordinate.dimension(1))?)
-        } else if let Some(rise) = node.get("rise") {
-            let here = at.key("rise");
-            let by = self.coordinate(rise, "by", &here, Some(coordinate));
-            let during = self.of(rise, "during", &here, Dimension::TIME);
-            self.check_key(Rule::Positive("the time"), during, &here, "during");
-            let law = if rise.get("law").and_then(Node::text) == Some("poly5") { Law::Poly5 } else { Law::Cycloidal };
+        let motion = if keys.speed.given() {
+            Motion::Speed(self.read_of(keys.speed, at, coordinate.dimension(1))?)
+        } else if let Some(rise) = keys.rise.node {
+            let (rise, here) = (RiseKeys::of(rise), at.key(keys.rise));
+            let by = self.read_as(rise.by, &here, wanted_of(Some(coordinate)));
+            let during = self.read(rise.during, &here);
+            self.check_key(Rule::Positive("the time"), during, &here, rise.during);
+            let law = rise.law.word().unwrap_or(Law::Cycloidal);
             Motion::Rise { by: by?, during: during?, law }
         } else {
-            let (key, other) = if coordinate.angle { ("angle", "position") } else { ("position", "angle") };
-            if node.get(other).is_some() {
+            let (value, other) = if coordinate.angle { (keys.angle, keys.position) } else { (keys.position, keys.angle) };
+            if other.given() {
+                let (key, absent) = (value.key(), other.key());
                 let joint = self.name_space.model.joints[joint].name.clone();
-                let message = format!("`{joint}` has no `{other}`");
+                let message = format!("`{joint}` has no `{absent}`");
                 let fault = self.fault("wrong-joint", &at.key(other), message, format!("`{key}`: an expression of `t`"));
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("write `{key}:`"));
                 return None;
             }
             let want = if coordinate.angle { Want::Angle } else { Want::Of(Dimension::LENGTH) };
-            Motion::Position(self.varying(node.get(key), &at.key(key), want, Allow::DRIVER)?)
+            Motion::Position(self.varying(value.node, &at.key(value), want, Allow::DRIVER)?)
         };
         Some(Driver { name: name.to_owned(), joint, motion, place: self.place(at) })
     }
@@ -170,20 +230,21 @@ impl<'n> Decoder<'n> {
     }
 
     fn motor(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>) -> Option<Motor> {
-        let gear = self.of(node, "gear", at, Dimension::NONE);
-        self.check_key(Rule::NotZero("the gear ratio"), gear, at, "gear");
-        let inertia = self.size(node.get("inertia"), &at.key("inertia"), Dimension::INERTIA, "the inertia");
-        let curve = self.table_named(node.get("curve"), &at.key("curve"));
-        let (joint, coordinate) = self.driven(node.get("joint"), &at.key("joint"))?;
+        let keys = MotorKeys::of(node);
+        let gear = self.read(keys.gear, at);
+        self.check_key(Rule::NotZero("the gear ratio"), gear, at, keys.gear);
+        let inertia = self.size(keys.inertia, at, "the inertia");
+        let curve = self.table_named(keys.curve.node, &at.key(keys.curve));
+        let (joint, coordinate) = self.driven(keys.joint.node, &at.key(keys.joint))?;
         if !coordinate.angle {
-            self.fault("wrong-joint", &at.key("joint"), "a joint that slides", "a joint that turns");
+            self.fault("wrong-joint", &at.key(keys.joint), "a joint that slides", "a joint that turns");
             return None;
         }
         let torque = curve.and_then(|table| {
             let (x, y) = self.name_space.tables.get(table).copied().flatten()?;
             if (x, y) != (Dimension::ANGULAR_SPEED, Dimension::TORQUE) {
                 let message = format!("a table of {} over {}", y.name(), x.name());
-                self.fault("wrong-dimension", &at.key("curve"), message, "torque (N m) over angular speed (rad/s)").help =
+                self.fault("wrong-dimension", &at.key(keys.curve), message, "torque (N m) over angular speed (rad/s)").help =
                     Some("give its points units: `[[0 rpm, 200 N m], [1500 rpm, 0 N m]]`".to_owned());
                 return None;
             }
@@ -225,47 +286,50 @@ impl<'n> Decoder<'n> {
     }
 
     fn load(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<LoadOn> {
-        if node.get("joint").is_some() {
-            self.refuse_keys(node, at, &["frame"], "joint");
-            let (joint, coordinate) = self.driven(node.get("joint"), &at.key("joint"))?;
-            let (key, other) = if coordinate.angle { ("torque", "force") } else { ("force", "torque") };
+        let keys = LoadKeys::of(node);
+        if keys.joint.given() {
+            self.refuse_keys(at, &[keys.frame], keys.joint);
+            let (joint, coordinate) = self.driven(keys.joint.node, &at.key(keys.joint))?;
+            let (effort, other) = if coordinate.angle { (keys.torque, keys.force) } else { (keys.force, keys.torque) };
+            let key = effort.key();
             let verb = if coordinate.angle { "turns" } else { "slides" };
-            if node.get(other).is_some() {
-                let fault = self.fault("wrong-joint", &at.key(other), format!("a `{other}` on a joint that {verb}"), format!("`{key}`"));
+            if other.given() {
+                let message = format!("a `{}` on a joint that {verb}", other.key());
+                let fault = self.fault("wrong-joint", &at.key(other), message, format!("`{key}`"));
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("write `{key}:`"));
                 return None;
             }
-            if node.get(key).is_none() {
-                self.missing(at, key, "joint", &format!("the {key} on the second body"));
+            if !effort.given() {
+                self.missing(at, effort, keys.joint, &format!("the {key} on the second body"));
                 return None;
             }
-            if node.get(key).is_some_and(Node::is_list) {
-                self.fault("wrong-type", &at.key(key), "a vector", "one number: it acts along the joint's coordinate");
+            if effort.node.is_some_and(Node::is_list) {
+                self.fault("wrong-type", &at.key(effort), "a vector", "one number: it acts along the joint's coordinate");
                 return None;
             }
-            let effort = self.varying(node.get(key), &at.key(key), Want::Of(coordinate.effort()), Allow::LOAD)?;
+            let effort = self.varying(effort.node, &at.key(effort), Want::Of(coordinate.effort()), Allow::LOAD)?;
             return Some(LoadOn::Joint { joint, effort });
         }
-        let point = self.point(node.get("at"), &at.key("at"));
-        if node.get("force").is_none() && node.get("torque").is_none() {
+        let point = self.point(keys.at.node, &at.key(keys.at));
+        if !keys.force.given() && !keys.torque.given() {
             self.fault("missing-key", at, "a load without `force` and `torque`", "at least one of the two").spot = Spot::Key;
         }
         let components = self.name_space.components();
-        let force = self.load_vector(node, "force", at, Dimension::FORCE, components);
-        let torque = self.load_vector(node, "torque", at, Dimension::TORQUE, if components == 2 { 1 } else { 3 });
+        let force = self.load_vector(keys.force, at, Dimension::FORCE, components);
+        let torque = self.load_vector(keys.torque, at, Dimension::TORQUE, if components == 2 { 1 } else { 3 });
         let world = PointRef { body: 0, point: 0 };
-        let frame = match node.get("frame").and_then(Node::text) {
+        let frame = match keys.frame.text() {
             None | Some("world" | "ground") => Some(world),
-            Some(_) => self.point(node.get("frame"), &at.key("frame")),
+            Some(_) => self.point(keys.frame.node, &at.key(keys.frame)),
         };
         Some(LoadOn::Point { at: point?, force: force?, torque: torque?, frame: frame? })
     }
 
     /// Components of a load; empty if the key is missing.
-    fn load_vector(&mut self, node: Node<'n>, key: &'n str, at: &At<'_, 'n>, dimension: Dimension, components: usize) -> Option<Vec<Id>> {
-        let Some(inner) = node.get(key) else { return Some(Vec::new()) };
-        let here = at.key(key);
+    fn load_vector(&mut self, entry: Entry<'n>, at: &At<'_, 'n>, dimension: Dimension, components: usize) -> Option<Vec<Id>> {
+        let Some(inner) = entry.node else { return Some(Vec::new()) };
+        let (key, here) = (entry.key(), at.key(entry));
         if components == 1 {
             if inner.is_list() {
                 self.fault("wrong-type", &here, "a list", "one number: the torque about z");

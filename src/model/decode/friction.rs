@@ -6,7 +6,8 @@ use crate::model::contacts::{Bristle, Friction, Pressure, Sticking};
 use crate::model::coordinates::Coordinate;
 use crate::model::entities::JointKind;
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{BRISTLE_DAMPING, BRISTLE_STIFFNESS, FRICTION_LEVEL, LENGTH, RATE, Shape, Want};
+use crate::model::keys::keys;
 use crate::model::merge::Node;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
@@ -27,6 +28,27 @@ struct Level {
     resists: Id,
 }
 
+keys! {
+    /// Friction.
+    pub(super) FRICTION = FrictionKeys "friction" [] {
+        coulomb: need FRICTION_LEVEL, "Torque or force of the friction; a plain number is a coefficient of friction.";
+        highest("static"): may FRICTION_LEVEL, "The same at rest, where it is higher; falls to `coulomb` over `stribeck_speed`.";
+        stribeck_speed: may RATE, "Speed over which the friction falls from `static` to `coulomb`.";
+        stick_speed: may RATE, "Friction in proportion to the speed below this one, instead of sticking.";
+        radius: may LENGTH, "Radius of the pin, with a coefficient of friction in a `revolute`.";
+        length: may LENGTH, "Length of the guide, with a coefficient of friction in a `slider`: the moment presses on its ends.";
+        bristle: may Shape::Map(&BRISTLE), "Bristles that bend before the joint slides (LuGre), in place of `stick_speed`.";
+    }
+}
+
+keys! {
+    /// A bristle.
+    BRISTLE = BristleKeys "a bristle" [] {
+        stiffness: need BRISTLE_STIFFNESS, "Stiffness of the bristles.";
+        damping: may BRISTLE_DAMPING, "Damping of the bristles; 0 if omitted.";
+    }
+}
+
 impl<'n> Decoder<'n> {
     /// `friction` of the joint that is being read.
     pub(super) fn friction(
@@ -37,29 +59,30 @@ impl<'n> Decoder<'n> {
         coordinate: Option<&Coordinate>,
     ) -> Option<Friction> {
         let coordinate = coordinate?;
-        let stick = self.of(node, "stick_speed", at, coordinate.dimension(1));
-        self.check_key(Rule::Positive("the speed"), stick, at, "stick_speed");
-        let level = self.level(node, at, coordinate);
-        let (pressed, arm) = self.pressed(kind, node, at, level.as_ref().map(|l| l.coefficient));
+        let keys = FrictionKeys::of(node);
+        let stick = self.read_of(keys.stick_speed, at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), stick, at, keys.stick_speed);
+        let level = self.level(keys, at, coordinate);
+        let (pressed, arm) = self.pressed(kind, keys, at, level.as_ref().map(|l| l.coefficient));
         let level = level?;
         let rate = self.own(1);
         let text = format!("friction of joint `{name}`");
         let mut sense = None;
-        let (resists, bristle) = match node.get("bristle") {
+        let (resists, bristle) = match keys.bristle.node {
             Some(inner) => {
-                if node.get("stick_speed").is_some() {
-                    let key = at.key("stick_speed");
+                if keys.stick_speed.given() {
+                    let key = at.key(keys.stick_speed);
                     let fault =
                         self.fault("unknown-key", &key, "`stick_speed` beside `bristle`", "one of the two: bristles stick by themselves");
                     fault.spot = Spot::Key;
                     fault.help = Some("remove `stick_speed`".to_owned());
                 }
-                let (resists, bristle) = self.bristle(name, inner, &at.key("bristle"), coordinate, &level)?;
+                let (resists, bristle) = self.bristle(name, BristleKeys::of(inner), &at.key(keys.bristle), coordinate, &level)?;
                 (resists, Some(bristle))
             }
             None => {
                 let share;
-                (share, sense) = self.share(rate, node.get("stick_speed").is_some(), stick, &text);
+                (share, sense) = self.share(rate, keys.stick_speed.given(), stick, &text);
                 (self.pool.mul(level.resists, share), None)
             }
         };
@@ -71,19 +94,20 @@ impl<'n> Decoder<'n> {
     }
 
     /// `coulomb`, `static`, `stribeck_speed`.
-    fn level(&mut self, node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Level> {
-        let here = at.key("coulomb");
+    fn level(&mut self, keys: FrictionKeys<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Level> {
+        let here = at.key(keys.coulomb);
         let allow = Allow { what: "friction", ..Allow::CONSTANT };
-        let speed = self.of(node, "stribeck_speed", at, coordinate.dimension(1));
-        self.check_key(Rule::Positive("the speed"), speed, at, "stribeck_speed");
-        for (key, other) in [("static", "stribeck_speed"), ("stribeck_speed", "static")] {
-            if node.get(key).is_some() && node.get(other).is_none() {
+        let speed = self.read_of(keys.stribeck_speed, at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), speed, at, keys.stribeck_speed);
+        for (one, other) in [(keys.highest, keys.stribeck_speed), (keys.stribeck_speed, keys.highest)] {
+            if one.given() && !other.given() {
+                let (key, other) = (one.key(), other.key());
                 let fault = self.fault("missing-key", at, format!("`{key}` without `{other}`"), "both of them, or none");
                 fault.spot = Spot::Key;
                 fault.help = Some(format!("add `{other}:`"));
             }
         }
-        let (lowered, _) = self.any(node.get("coulomb")?, &here, allow, &mut Local::default())?;
+        let (lowered, _) = self.any(keys.coulomb.node?, &here, allow, &mut Local::default())?;
         let coefficient = lowered.dimension == Dimension::NONE;
         if !coefficient && lowered.dimension != coordinate.effort() {
             let expected = format!("{}, or a coefficient of friction (a plain number)", Want::Of(coordinate.effort()).name());
@@ -91,10 +115,10 @@ impl<'n> Decoder<'n> {
             return None;
         }
         let what = if coefficient { "the coefficient of friction" } else { "the friction" };
-        let rule = if node.get("bristle").is_some() { Rule::Positive(what) } else { Rule::NotNegative(what) };
+        let rule = if keys.bristle.given() { Rule::Positive(what) } else { Rule::NotNegative(what) };
         self.check(rule, &[lowered.id], &here);
         let dimension = if coefficient { Dimension::NONE } else { coordinate.effort() };
-        let highest = self.of(node, "static", at, dimension);
+        let highest = self.read_of(keys.highest, at, dimension);
         if lowered.any {
             return None;
         }
@@ -103,7 +127,7 @@ impl<'n> Decoder<'n> {
             let rate = self.own(1);
             let above;
             (resists, above) = self.falling(coulomb, highest, (rate, speed), "the Stribeck speed of a joint");
-            self.check_key(Rule::NotNegative("`static` less `coulomb`"), Some(above), at, "static");
+            self.check_key(Rule::NotNegative("`static` less `coulomb`"), Some(above), at, keys.highest);
         }
         Some(Level { coefficient, dimension, coulomb, resists })
     }
@@ -126,19 +150,26 @@ impl<'n> Decoder<'n> {
 
     /// What bears the normal force, and the arm of the friction: `radius` of a pin, `length` of a guide; `coefficient` is known of a
     /// friction that is sound.
-    fn pressed(&mut self, kind: &JointKind, node: Node<'n>, at: &At<'_, 'n>, coefficient: Option<bool>) -> (Option<Pressure>, Option<Id>) {
-        let [radius, length] = ["radius", "length"].map(|key| {
-            let id = self.of(node, key, at, Dimension::LENGTH);
-            self.check_key(Rule::Positive(if key == "radius" { "the radius" } else { "the length" }), id, at, key);
+    fn pressed(
+        &mut self,
+        kind: &JointKind,
+        keys: FrictionKeys<'n>,
+        at: &At<'_, 'n>,
+        coefficient: Option<bool>,
+    ) -> (Option<Pressure>, Option<Id>) {
+        let [radius, length] = [(keys.radius, "the radius"), (keys.length, "the length")].map(|(entry, what)| {
+            let id = self.read(entry, at);
+            self.check_key(Rule::Positive(what), id, at, entry);
             id
         });
         let Some(coefficient) = coefficient else { return (None, None) };
         let (pin, guide) = (matches!(kind, JointKind::Revolute), matches!(kind, JointKind::Slider));
-        for (key, may, of) in [("radius", pin, "the pin of a `revolute`"), ("length", guide, "the guide of a `slider`")] {
-            if node.get(key).is_some() && !(may && coefficient) {
+        for (entry, may, of) in [(keys.radius, pin, "the pin of a `revolute`"), (keys.length, guide, "the guide of a `slider`")] {
+            if entry.given() && !(may && coefficient) {
+                let key = entry.key();
                 let fault = self.fault(
                     "unknown-key",
-                    &at.key(key),
+                    &at.key(entry),
                     format!("`{key}` in this friction"),
                     format!("`{key}` belongs to {of} with a coefficient of friction"),
                 );
@@ -149,7 +180,7 @@ impl<'n> Decoder<'n> {
         if !coefficient {
             return (None, None);
         }
-        if pin && node.get("radius").is_none() {
+        if pin && !keys.radius.given() {
             let fault = self.fault(
                 "missing-key",
                 at,
@@ -162,7 +193,7 @@ impl<'n> Decoder<'n> {
         if !pin && !guide {
             let fault = self.fault(
                 "wrong-joint",
-                &at.key("coulomb"),
+                &at.key(keys.coulomb),
                 "a coefficient of friction in a `screw`",
                 "a torque: how the load of a screw presses on its thread depends on its profile",
             );
@@ -192,11 +223,18 @@ impl<'n> Decoder<'n> {
     /// `bristle: { stiffness, damping }`: with the state y = σ₀ z/F, F being `coulomb` and z the deflection,
     ///
     /// y' = (σ₀/F) (x' − |x'| y F/g),   resists = σ₀ z + σ₁ z' = F y + (F σ₁/σ₀) y'.
-    fn bristle(&mut self, name: &str, node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate, level: &Level) -> Option<(Id, Bristle)> {
-        let stiffness = self.of(node, "stiffness", at, level.dimension.div(coordinate.dimension(0)));
-        self.check_key(Rule::Positive("the stiffness"), stiffness, at, "stiffness");
-        let damping = self.of(node, "damping", at, level.dimension.div(coordinate.dimension(1)));
-        self.check_key(Rule::NotNegative("the damping"), damping, at, "damping");
+    fn bristle(
+        &mut self,
+        name: &str,
+        keys: BristleKeys<'n>,
+        at: &At<'_, 'n>,
+        coordinate: &Coordinate,
+        level: &Level,
+    ) -> Option<(Id, Bristle)> {
+        let stiffness = self.read_of(keys.stiffness, at, level.dimension.div(coordinate.dimension(0)));
+        self.check_key(Rule::Positive("the stiffness"), stiffness, at, keys.stiffness);
+        let damping = self.read_of(keys.damping, at, level.dimension.div(coordinate.dimension(1)));
+        self.check_key(Rule::NotNegative("the damping"), damping, at, keys.damping);
         let rate = self.own(1);
         let joint = self.name_space.model.joints.len();
         let y = self.name_space.input(&mut self.pool, Quantity::Bristle { joint });

@@ -6,7 +6,8 @@ use super::decoder::Decoder;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::bodies::{Attraction, AttractionLaw};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{Shape, Want};
+use crate::model::keys::keys;
 use crate::model::merge::Node;
 use crate::model::needs::Needs;
 use crate::model::place::PointRef;
@@ -21,6 +22,14 @@ const FIELD: Allow = Allow { level: Known::Time, what: "gravity, beside the plac
 /// The same of a potential.
 const POTENTIAL: Allow = Allow { level: Known::Constant, what: "a potential of gravity, beside the place `x`, `y`, `z` and `r`,", ..FIELD };
 
+keys! {
+    /// A field of gravity.
+    pub(crate) GRAVITY = FieldKeys "a field of gravity" [] {
+        potential: need Shape::Formula("an expression of the place x, y, z, r"),
+            "Potential of gravity, J/kg: the acceleration is minus its gradient.";
+    }
+}
+
 impl<'n> Decoder<'n> {
     pub(super) fn gravity(&mut self) {
         let at = At::ROOT.key("gravity");
@@ -28,10 +37,11 @@ impl<'n> Decoder<'n> {
         let zero = self.pool.constant(0.0);
         self.name_space.model.gravity = vec![zero; self.name_space.components()];
         let Some(node) = node else { return };
-        if let Some(potential) = node.get("potential") {
+        let keys = FieldKeys::of(node);
+        if let Some(potential) = keys.potential.node {
             self.attractions(|decoder, body, local| {
                 let want = Dimension::ENERGY.div(Dimension::MASS);
-                decoder.in_field(potential, &at.key("potential"), want, POTENTIAL, body, local).map(AttractionLaw::Potential)
+                decoder.in_field(potential, &at.key(keys.potential), want, POTENTIAL, body, local).map(AttractionLaw::Potential)
             });
         } else if node.is_list() && node.items().len() == self.name_space.components() {
             let components = |decoder: &mut Self, body: usize, local: &mut Local<'_>| {

@@ -6,10 +6,13 @@
 
 use super::decoder::Decoder;
 use super::order::order;
+use super::springs::SpringKeys;
 use super::values::{Draft, named, needs};
 use crate::expression::{Dimension, Symbol};
 use crate::model::entities::{FirstOrder, Measure, SpringOn};
 use crate::model::fault::At;
+use crate::model::fields::{ANY, Shape};
+use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::rules::Rule;
@@ -22,8 +25,8 @@ const RATE: Allow = Allow { what: "the rate of a state", ..Allow::LOAD };
 /// Entries that may need one another, in this order: measures, stretches of springs, rates of states.
 struct Entries<'n> {
     measures: Vec<(&'n str, Node<'n>)>,
-    /// Springs with a `stretch` that is an expression: index in the file, name.
-    stretched: Vec<(usize, &'n str)>,
+    /// Springs with a `stretch` that is an expression: index in the file, name, and where it stands.
+    stretched: Vec<(usize, &'n str, Entry<'n>)>,
     states: Vec<(&'n str, Node<'n>)>,
     drafts: Vec<Draft<'n>>,
 }
@@ -38,7 +41,7 @@ impl<'n> Entries<'n> {
     fn find(&self, entity: Entity) -> Option<usize> {
         match entity {
             Entity::Measure(i) => Some(i),
-            Entity::Spring(i) => self.stretched.iter().position(|(s, _)| *s == i).map(|k| self.measures.len() + k),
+            Entity::Spring(i) => self.stretched.iter().position(|(s, ..)| *s == i).map(|k| self.measures.len() + k),
             _ => None,
         }
     }
@@ -53,6 +56,14 @@ impl<'n> Entries<'n> {
     }
 }
 
+keys! {
+    /// A state.
+    pub(crate) STATE = StateKeys "a state" [] {
+        rate: need Shape::Formula("an expression of positions, velocities, t and states"), "Time rate of the state, which it may name.";
+        start: may ANY, "Value at t = 0, 0 if omitted; its unit is that of the state.";
+    }
+}
+
 impl<'n> Decoder<'n> {
     /// Enters states, so that everything may name them; their rates are filled in with the measures.
     ///
@@ -61,9 +72,10 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("states");
         for (name, node) in self.section("states") {
             let at = section.key(name);
-            let here = at.key("start");
+            let keys = StateKeys::of(node);
+            let here = at.key(keys.start);
             let zero = self.pool.constant(0.0);
-            let (start, dimension) = match node.get("start") {
+            let (start, dimension) = match keys.start.node {
                 None => (zero, Some(Dimension::NONE)),
                 Some(start) => {
                     let allow = Allow { what: "the start of a state", ..Allow::CONSTANT };
@@ -110,13 +122,15 @@ impl<'n> Decoder<'n> {
         let mut drafts: Vec<Draft<'n>> = measures.iter().map(|(name, node)| self.draft(Some(*node), &sections[0].key(*name))).collect();
         let mut stretched = Vec::new();
         for (i, (name, node)) in self.section("springs").into_iter().enumerate() {
-            if let Some(stretch) = node.get("stretch") {
-                drafts.push(self.draft(Some(stretch), &sections[1].key(name).key("stretch")));
-                stretched.push((i, name));
+            let stretch = SpringKeys::of(node).stretch;
+            if stretch.given() {
+                drafts.push(self.draft(stretch.node, &sections[1].key(name).key(stretch)));
+                stretched.push((i, name, stretch));
             }
         }
         for (name, node) in &states {
-            drafts.push(self.draft(node.get("rate"), &sections[2].key(*name).key("rate")));
+            let rate = StateKeys::of(*node).rate;
+            drafts.push(self.draft(rate.node, &sections[2].key(*name).key(rate)));
         }
         Entries { measures, stretched, states, drafts }
     }
@@ -164,12 +178,14 @@ impl<'n> Decoder<'n> {
 
     /// A state whose rate needs, through the further members, the rate of a state.
     fn rate_in_rate(&mut self, entries: &Entries<'n>, members: &[usize]) {
-        let Some((name, _)) = members.first().map(|i| entries.name(*i)) else { return };
+        let state = members.first().and_then(|first| entries.states.get(first.checked_sub(entries.rates())?));
+        let Some(&(name, node)) = state else { return self.cycle(members, |i| (entries.name(i).0.to_owned(), entries.name(i).1)) };
         let through: String = members[1..].iter().take(8).map(|i| format!("`{}`, which needs ", entries.name(*i).0)).collect();
         let section = At::ROOT.key("states");
         let at = section.key(name);
         let message = format!("the rate of `{name}` needs {through}the rate of a state");
-        let fault = self.fault("cycle", &at.key("rate"), message, "a rate of positions, velocities, states and their measures");
+        let fault =
+            self.fault("cycle", &at.key(StateKeys::of(node).rate), message, "a rate of positions, velocities, states and their measures");
         fault.help = Some("write that rate out, or give it a name among the measures and use it in both".to_owned());
     }
 
@@ -182,11 +198,11 @@ impl<'n> Decoder<'n> {
     }
 
     fn stretch(&mut self, entries: &Entries<'n>, i: usize) {
-        let (file, name) = entries.stretched[i - entries.measures.len()];
+        let (file, name, stretch) = entries.stretched[i - entries.measures.len()];
         let section = At::ROOT.key("springs");
         let spring_at = section.key(name);
         let allow = Allow { what: "a spring's `stretch`", ..Allow::POSITION };
-        let lowered = self.finish(&entries.drafts[i], &spring_at.key("stretch"), allow, &mut Local::default());
+        let lowered = self.finish(&entries.drafts[i], &spring_at.key(stretch), allow, &mut Local::default());
         if let (Some((lowered, _)), Some(index)) = (lowered, self.name_space.renumbered.springs.get(file).copied().flatten()) {
             self.name_space.stretches[index] = Some(lowered.dimension);
             self.name_space.model.springs[index].on = SpringOn::Stretch(lowered.id);
@@ -198,7 +214,7 @@ impl<'n> Decoder<'n> {
         let Some(dimension) = self.name_space.states[state] else { return };
         let section = At::ROOT.key("states");
         let state_at = section.key(name);
-        let at = state_at.key("rate");
+        let at = state_at.key(StateKeys::of(node).rate);
         let before = self.faults.len();
         let draft = &entries.drafts[entries.rates() + state];
         let lowered = self.finish(draft, &at, RATE, &mut Local::default());
@@ -240,14 +256,14 @@ impl<'n> Decoder<'n> {
     }
 }
 
-/// Whether the start of a state says no unit: it is silent or a plain number.
+/// Whether the start of a state says no unit: it is omitted or a plain number.
 fn plain(node: Node<'_>) -> bool {
     first(node).parse::<f64>().is_ok()
 }
 
 /// The start of a state as written.
 fn first(node: Node<'_>) -> String {
-    match node.get("start") {
+    match StateKeys::of(node).start.node {
         Some(Node::Plain(Value::Number(n))) => n.to_string(),
         Some(start) => start.text().unwrap_or_default().trim().to_owned(),
         None => "0".to_owned(),

@@ -23,8 +23,18 @@ mod stops;
 mod studies;
 mod values;
 
+pub(crate) use bodies::{BODY, PLACED};
+pub(crate) use clutches::CLUTCH;
 pub(crate) use decoder::{Decoder, Parsed};
+pub(crate) use events::EVENT;
+pub(crate) use forces::{COUPLING, DRIVER, LOAD, MOTOR};
+pub(crate) use gravity::GRAVITY;
+pub(crate) use joints::JOINT;
+pub(crate) use measures::STATE;
 pub(crate) use order::{order, tell};
 pub(crate) use outside::Outside;
+pub(crate) use springs::SPRING;
+pub(crate) use start::ROTATION;
 pub(crate) use stops::REST_SPEED;
 pub(crate) use studies::{STUDY, Scalars, StudyKeys, Taken};
+pub(crate) use values::TABLE;

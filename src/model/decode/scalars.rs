@@ -118,9 +118,9 @@ impl<'n> Decoder<'n> {
             let keys = ExpectKeys::of(inner);
             let is = self.read_as(keys.is, &here, want);
             let tolerance = if keys.within.given() {
-                self.size(keys.within.node, &here.key(keys.within), dimension, "the tolerance").map(Tolerance::Within)
+                self.size_as(keys.within.node, &here.key(keys.within), Want::Of(dimension), "the tolerance").map(Tolerance::Within)
             } else {
-                self.size(keys.relative.node, &here.key(keys.relative), Dimension::NONE, "the tolerance").map(Tolerance::Relative)
+                self.size(keys.relative, &here, "the tolerance").map(Tolerance::Relative)
             };
             if let (Some(is), Some(tolerance)) = (is, tolerance) {
                 let place = self.place(&here);

@@ -4,7 +4,8 @@ use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
 use crate::model::entities::{Start, StartValue};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::Want;
+use crate::model::fields::{ANGLE, NUMBER, Shape, Size, Want};
+use crate::model::keys::keys;
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::quantities::Found;
@@ -34,6 +35,14 @@ impl Form {
     }
 }
 
+keys! {
+    /// A rotation.
+    pub(crate) ROTATION = RotationKeys "a rotation" [] {
+        axis: need Shape::List(&NUMBER, Size::Exactly(3)), "Axis, world frame.";
+        angle: need ANGLE, "Angle; `~` in front marks a guess.";
+    }
+}
+
 impl<'n> Decoder<'n> {
     pub(super) fn start(&mut self) {
         let section = At::ROOT.key("start");
@@ -52,12 +61,13 @@ impl<'n> Decoder<'n> {
                     self.start_number(node, &at, want).map(|(id, guess)| (StartValue::Number(id), guess))
                 }
                 Form::Rotation if node.is_map() => {
-                    let axis_at = at.key("axis");
-                    let axis = self.vector(node.get("axis"), &axis_at, Dimension::NONE);
+                    let keys = RotationKeys::of(node);
+                    let axis_at = at.key(keys.axis);
+                    let axis = self.vector(keys.axis.node, &axis_at, Dimension::NONE);
                     if let Some(axis) = &axis {
                         self.check(Rule::Direction, axis, &axis_at);
                     }
-                    let angle = node.get("angle").and_then(|angle| self.start_number(angle, &at.key("angle"), Want::Angle));
+                    let angle = keys.angle.node.and_then(|angle| self.start_number(angle, &at.key(keys.angle), Want::Angle));
                     axis.zip(angle).map(|(axis, (angle, guess))| (StartValue::Rotation { axis, angle }, guess))
                 }
                 Form::Angles if node.is_list() => self.start_angles(node, &at),

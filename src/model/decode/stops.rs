@@ -1,16 +1,31 @@
 //! End stops of joints with one coordinate: with stiffness, as an expression of the coordinate and its rate, or rigid.
 
 use super::decoder::Decoder;
-use crate::expression::{Compare, Dimension, Id};
+use crate::expression::{Compare, Id};
 use crate::model::contacts::{Limit, Stops};
 use crate::model::coordinates::Coordinate;
+use crate::model::coordinates::wanted_of;
 use crate::model::fault::{At, Spot};
+use crate::model::fields::{COORDINATE, DAMPING, NUMBER, RATE, STIFFNESS, one_of};
+use crate::model::keys::keys;
 use crate::model::merge::Node;
 use crate::model::rules::Rule;
 use crate::model::vocabulary::Quantity;
 
 /// A rebound below this rate counts as rest, rad/s or m/s, if the limits do not say another.
 pub(crate) const REST_SPEED: f64 = 1e-3;
+
+keys! {
+    /// Limits.
+    pub(super) LIMITS = LimitsKeys "limits" [one_of(&["stiffness", "restitution"])] {
+        from: may COORDINATE, "Lower end.";
+        to: may COORDINATE, "Upper end.";
+        stiffness: may STIFFNESS, "Stiffness of the stop, in N/m or N m/rad.";
+        damping: may DAMPING, "Damping of the stop, which never pulls; 0 if omitted.";
+        restitution: may NUMBER, "Of a rigid stop: speed behind a blow by speed before it, 0 to 1.";
+        rest_speed: may RATE, "A rebound from a rigid stop below this speed counts as rest; 1 mm/s or 1e-3 rad/s if omitted.";
+    }
+}
 
 impl<'n> Decoder<'n> {
     /// The coordinate (order 0) or rate (order 1) of the joint that is being read.
@@ -27,9 +42,10 @@ impl<'n> Decoder<'n> {
         at: &At<'_, 'n>,
         coordinate: Option<&Coordinate>,
     ) -> (Option<Limit>, Option<Stops>) {
-        let from = self.coordinate(node, "from", at, coordinate);
-        let to = self.coordinate(node, "to", at, coordinate);
-        if node.get("from").is_none() && node.get("to").is_none() {
+        let keys = LimitsKeys::of(node);
+        let from = self.read_as(keys.from, at, wanted_of(coordinate));
+        let to = self.read_as(keys.to, at, wanted_of(coordinate));
+        if !keys.from.given() && !keys.to.given() {
             let fault = self.fault("missing-key", at, "limits without an end", "`from` or `to`");
             fault.spot = Spot::Key;
             fault.help = Some("add `from:`, `to:` or both".to_owned());
@@ -38,34 +54,34 @@ impl<'n> Decoder<'n> {
             self.check(Rule::Rising, &[from, to], at);
         }
         let Some(coordinate) = coordinate else { return (None, None) };
-        if node.get("restitution").is_some() {
-            return (None, self.rigid([from, to], node, at, coordinate));
+        if keys.restitution.given() {
+            return (None, self.rigid([from, to], keys, at, coordinate));
         }
-        if node.get("rest_speed").is_some() {
+        if keys.rest_speed.given() {
             let fault = self.fault(
                 "unknown-key",
-                &at.key("rest_speed"),
+                &at.key(keys.rest_speed),
                 "`rest_speed` beside `stiffness`",
                 "an option of rigid stops, which have a `restitution`",
             );
             fault.spot = Spot::Key;
             fault.help = Some("remove it".to_owned());
         }
-        (self.buffer(name, [from, to], node, at, coordinate), None)
+        (self.buffer(name, [from, to], keys, at, coordinate), None)
     }
 
     /// `restitution`, `rest_speed`.
-    fn rigid(&mut self, [from, to]: [Option<Id>; 2], node: Node<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Stops> {
-        if node.get("damping").is_some() {
+    fn rigid(&mut self, [from, to]: [Option<Id>; 2], keys: LimitsKeys<'n>, at: &At<'_, 'n>, coordinate: &Coordinate) -> Option<Stops> {
+        if keys.damping.given() {
             let fault =
-                self.fault("unknown-key", &at.key("damping"), "`damping` beside `restitution`", "an option of stops with `stiffness`");
+                self.fault("unknown-key", &at.key(keys.damping), "`damping` beside `restitution`", "an option of stops with `stiffness`");
             fault.spot = Spot::Key;
             fault.help = Some("remove it: a blow loses energy by its `restitution`".to_owned());
         }
-        let restitution = self.of(node, "restitution", at, Dimension::NONE);
-        self.check_key(Rule::Within(0.0, 1.0, "the restitution"), restitution, at, "restitution");
-        let rest = self.of(node, "rest_speed", at, coordinate.dimension(1));
-        self.check_key(Rule::Positive("the speed"), rest, at, "rest_speed");
+        let restitution = self.read(keys.restitution, at);
+        self.check_key(Rule::Within(0.0, 1.0, "the restitution"), restitution, at, keys.restitution);
+        let rest = self.read_of(keys.rest_speed, at, coordinate.dimension(1));
+        self.check_key(Rule::Positive("the speed"), rest, at, keys.rest_speed);
         let rest_speed = rest.unwrap_or_else(|| self.pool.constant(REST_SPEED));
         Some(Stops { from, to, restitution: restitution?, rest_speed })
     }
@@ -77,15 +93,15 @@ impl<'n> Decoder<'n> {
         &mut self,
         name: &str,
         [from, to]: [Option<Id>; 2],
-        node: Node<'n>,
+        keys: LimitsKeys<'n>,
         at: &At<'_, 'n>,
         coordinate: &Coordinate,
     ) -> Option<Limit> {
         let stiffness = coordinate.effort().div(coordinate.dimension(0));
-        let stiffness = self.of(node, "stiffness", at, stiffness);
-        self.check_key(Rule::Positive("the stiffness"), stiffness, at, "stiffness");
-        let damping = self.of(node, "damping", at, coordinate.effort().div(coordinate.dimension(1)));
-        self.check_key(Rule::NotNegative("the damping"), damping, at, "damping");
+        let stiffness = self.read_of(keys.stiffness, at, stiffness);
+        self.check_key(Rule::Positive("the stiffness"), stiffness, at, keys.stiffness);
+        let damping = self.read_of(keys.damping, at, coordinate.effort().div(coordinate.dimension(1)));
+        self.check_key(Rule::NotNegative("the damping"), damping, at, keys.damping);
         let stiffness = stiffness?;
         let (x, zero) = (self.own(0), self.pool.constant(0.0));
         let drag = damping.map(|c| {

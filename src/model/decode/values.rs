@@ -5,6 +5,8 @@ use super::order::{order, tell};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
 use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
+use crate::model::fields::{ANY, Shape, Size};
+use crate::model::keys::{Words, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::needs::Needs;
@@ -12,6 +14,25 @@ use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use serde_yaml::Value;
 use std::rc::Rc;
+
+keys! {
+    /// A table.
+    pub(crate) TABLE = TableKeys "a table" [] {
+        points: need Shape::List(&Shape::List(&ANY, Size::Exactly(2)), Size::AtLeast(2)), "Pairs `[x, y]`, x strictly rising.";
+        between: may Shape::Word(Between::WORDS), "Interpolation.";
+        beyond: may Shape::Word(Beyond::WORDS), "Continuation outside of the points.";
+    }
+}
+
+impl Words for Between {
+    const WORDS: &'static [&'static str] = &["linear", "cubic"];
+    const ALL: &'static [Self] = &[Self::Linear, Self::Cubic];
+}
+
+impl Words for Beyond {
+    const WORDS: &'static [&'static str] = &["constant", "linear", "error", "periodic"];
+    const ALL: &'static [Self] = &[Self::Constant, Self::Linear, Self::Error, Self::Periodic];
+}
 
 /// A value before it is lowered.
 pub(super) enum Draft<'n> {
@@ -107,11 +128,12 @@ impl<'n> Decoder<'n> {
         let section = At::ROOT.key("tables");
         for (i, (name, node)) in self.section("tables").into_iter().enumerate() {
             let at = section.key(name);
-            let points_at = at.key("points");
+            let keys = TableKeys::of(node);
+            let points_at = at.key(keys.points);
             let mut points = Vec::new();
             let mut sides: [Option<Lowered>; 2] = [None, None];
             let mut sound = true;
-            for (k, item) in node.get("points").map(Node::items).unwrap_or_default().iter().enumerate() {
+            for (k, item) in keys.points.items().iter().enumerate() {
                 let item_at = points_at.index(k);
                 let mut pair = Vec::new();
                 for (side, value) in Node::Plain(item).items().iter().enumerate().take(2) {
@@ -145,14 +167,8 @@ impl<'n> Decoder<'n> {
             }
             let [x, y] = sides.map(|side| side.map_or(Dimension::NONE, |s| s.dimension));
             self.name_space.tables.push(Some((x, y)));
-            let word = |key: &str| node.get(key).and_then(Node::text);
-            let between = if word("between") == Some("cubic") { Between::Cubic } else { Between::Linear };
-            let beyond = match word("beyond") {
-                Some("linear") => Beyond::Linear,
-                Some("error") => Beyond::Error,
-                Some("periodic") => Beyond::Periodic,
-                _ => Beyond::Constant,
-            };
+            let between = keys.between.word().unwrap_or(Between::Linear);
+            let beyond = keys.beyond.word().unwrap_or(Beyond::Constant);
             if sound && points.len() >= 2 {
                 let ids: Vec<_> = points.iter().flat_map(|(x, y)| [*x, *y]).collect();
                 self.check(Rule::Table(i), &ids, &points_at);

@@ -20,7 +20,7 @@ mod translation;
 mod write;
 
 pub(crate) use guard::is_robot;
-pub(crate) use options::{Base, Options, Translated};
+pub(crate) use options::{Base, INCLUDE, IncludeKeys, Options, Translated};
 pub(crate) use read::read;
 pub use rotation::{axis_angle, roll_pitch_yaw};
 pub use write::{Import, Imported, import};

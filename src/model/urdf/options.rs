@@ -1,22 +1,36 @@
 //! How a robot becomes part of a model, and what it is then.
 
 use super::notes::Notes;
+use crate::model::fields::{LENGTH, ROLL_PITCH_YAW, Shape, Size};
+use crate::model::keys::{Words, keys, words};
 use serde_yaml::{Mapping, Value};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// How the root of a robot stands in the world.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Base {
-    /// On the ground.
-    #[default]
-    Fixed,
-    /// Free.
-    Free,
+keys! {
+    /// An included robot.
+    pub(crate) INCLUDE = IncludeKeys "an included robot" [] {
+        urdf: need Shape::Text, "URDF file, by its path from this file.";
+        prefix: may Shape::Text, "In front of every name of the robot; nothing if omitted.";
+        at: may Shape::List(&LENGTH, Size::Exactly(3)), "Place of the root in the world; the origin if omitted.";
+        rpy: may ROLL_PITCH_YAW, "Orientation of the root: turned about the world's x, then y, then z.";
+        base: may Shape::Word(Base::WORDS), "Whether the root is fixed to the ground.";
+        stops: may Shape::Flag, "Make end stops of the position limits.";
+    }
+}
+
+words! {
+    /// How the root of a robot stands in the world.
+    pub(crate) enum Base {
+        /// On the ground.
+        Fixed = "fixed",
+        /// Free.
+        Free = "free",
+    }
 }
 
 /// How a robot becomes part of a model.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Options<'o> {
     /// In front of every name.
     pub(crate) prefix: &'o str,

@@ -37,7 +37,7 @@ pub struct Imported {
 pub fn import(bytes: &[u8], file: &str, asked: &Import) -> Result<Imported, Report> {
     let text = reading::text_of(bytes, file, bytes.len())?;
     let base = if asked.free { Base::Free } else { Base::Fixed };
-    let options = Options { prefix: &asked.prefix, base, stops: asked.stops, ..Options::default() };
+    let options = Options { prefix: &asked.prefix, base, stops: asked.stops, at: None, rpy: None };
     let robot = read(text, &options).map_err(|faults| reading::report(file, text, &faults, &[]))?;
     let notes = robot.notes.sentences(text, &|_| false);
     Ok(Imported { text: written(&robot, file, &notes), notes, bare: robot.notes.bare() })
