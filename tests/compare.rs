@@ -200,7 +200,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     assert!(rows[1][2..11].iter().all(String::is_empty) && rows[1][11..].join(",").contains("Newton"), "{rows:?}");
     let done = place.compare(&["--study", "fixed", "--integrators", "radau5", "--steps", "0.9", "--no-plots"]);
     assert_eq!(done.code, 3, "{}", done.stderr);
-    assert!(done.stderr.contains("no integrator got through study `fixed`"), "{}", done.stderr);
+    assert!(done.stderr.contains("no integrator finished study `fixed`"), "{}", done.stderr);
 }
 
 #[test]

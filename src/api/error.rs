@@ -95,7 +95,7 @@ impl From<Unknown> for Error {
 /// Why a study has no result, with its places in the file; `study` is empty outside of studies.
 #[must_use]
 pub fn explained(document: &Document, study: &str, failure: &Failure) -> Report {
-    let told = |message: &str| if study.is_empty() { message.to_string() } else { format!("study `{study}`: {message}") };
+    let of_study = |message: &str| if study.is_empty() { message.to_string() } else { format!("study `{study}`: {message}") };
     let one = |code: &'static str, place: &str, message: String, help: &str| {
         vec![document.diagnostic(code, place, message, "", Some(help.to_string()))]
     };
@@ -105,8 +105,8 @@ pub fn explained(document: &Document, study: &str, failure: &Failure) -> Report 
             faults.iter().map(at).collect()
         }
         Failure::Study { code, message, place, help } => one(code, place, message.clone(), help),
-        Failure::Unsolved(Unsolved { message, place, help }) => one("unsolved", place, told(message), help),
-        Failure::Undefined(Undefined { message, place, help }) => one("undefined", place, told(message), help),
-        Failure::Numerical { message, help } => one("numerical", &format!("studies.{study}"), told(message), help),
+        Failure::Unsolved(Unsolved { message, place, help }) => one("unsolved", place, of_study(message), help),
+        Failure::Undefined(Undefined { message, place, help }) => one("undefined", place, of_study(message), help),
+        Failure::Numerical { message, help } => one("numerical", &format!("studies.{study}"), of_study(message), help),
     })
 }

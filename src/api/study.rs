@@ -71,10 +71,10 @@ impl<'a> Study<'a> {
         self
     }
 
-    /// Is told how many runs are done, and of how many; a `solve` does not know of how many beforehand and says 0.
+    /// Calls a function with the number of runs done, and of all runs: 0 for a `solve`, which does not know it beforehand.
     #[must_use]
-    pub fn on_progress(mut self, told: impl Fn(usize, usize) + Sync + 'a) -> Self {
-        self.progress = Box::new(told);
+    pub fn on_progress(mut self, show: impl Fn(usize, usize) + Sync + 'a) -> Self {
+        self.progress = Box::new(show);
         self
     }
 

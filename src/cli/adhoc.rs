@@ -3,7 +3,7 @@
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::Job;
 use super::terminal::{take_errors, with_errors};
-use super::{Common, code, files, run, say};
+use super::{Common, code, files, print_out, run};
 use grashof::studies::loader::Loader;
 
 #[derive(clap::Args)]
@@ -35,15 +35,15 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Comm
     let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, common };
     let finished = job.run();
     if interrupted() {
-        interrupt::tell_end(&format!("interrupted: study `{name}`"));
+        interrupt::print_end(&format!("interrupted: study `{name}`"));
         return code::INTERRUPTED;
     }
     if let Some(output) = &finished.output {
         if arguments.json {
-            say(&with_errors(&output.report, take_errors()));
+            print_out(&with_errors(&output.report, take_errors()));
         } else {
-            say(&name);
-            say(&output.table);
+            print_out(&name);
+            print_out(&output.table);
         }
     }
     finished.code

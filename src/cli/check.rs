@@ -1,6 +1,6 @@
 //! `grashof check`: a look at a model before it moves.
 
-use super::{Common, code, files, say};
+use super::{Common, code, files, print_out};
 use grashof::kinematics::survey::{Survey, survey};
 use grashof::model::{Document, Kind};
 use grashof::output::{json_number, json_numbers};
@@ -41,7 +41,7 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     if arguments.json {
         let mut all = as_json(&model.name, &survey, &findings);
         all["notes"] = document.notes().into();
-        say(&serde_json::to_string_pretty(&all).unwrap_or_default());
+        print_out(&serde_json::to_string_pretty(&all).unwrap_or_default());
     } else {
         print(&model.name, &survey, &findings, &document);
         print_notes(&document.notes());
@@ -103,29 +103,29 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
     let m = &survey.mobility;
     let (nq, nv, rows) = survey.sizes;
     let (bodies, joints) = (counted(survey.bodies.len(), "body", "bodies"), counted(survey.joints.len(), "joint", "joints"));
-    say(&format!("{name}: {bodies}, {joints}, {}", counted(document.study_names().len(), "study", "studies")));
-    say("\nmasses");
+    print_out(&format!("{name}: {bodies}, {joints}, {}", counted(document.study_names().len(), "study", "studies")));
+    print_out("\nmasses");
     for (name, mass, com, inertia) in &survey.bodies {
-        say(&format!("  {name:<14} {:>12} kg   com ({}) m   inertia {} kg m^2", short(*mass), list(com), list(inertia)));
+        print_out(&format!("  {name:<14} {:>12} kg   com ({}) m   inertia {} kg m^2", short(*mass), list(com), list(inertia)));
     }
-    say("\ntopology");
+    print_out("\ntopology");
     for (name, kind, a, b, tree) in &survey.joints {
-        say(&format!("  {name:<14} {kind:<12} {a} - {b}{}", if *tree { "" } else { "   (cut: closes a loop)" }));
+        print_out(&format!("  {name:<14} {kind:<12} {a} - {b}{}", if *tree { "" } else { "   (cut: closes a loop)" }));
     }
     for path in &survey.loops {
-        say(&format!("  loop: {path}"));
+        print_out(&format!("  loop: {path}"));
     }
-    say("\nfreedom");
-    say(&format!("  degrees of freedom        {} (without drivers; Grübler's count: {})", m.freedom, m.grubler));
-    say(&format!("  left by the drivers       {}", m.left));
-    say(&format!("  coordinates, velocities   {nq}, {nv}"));
-    say(&format!("  constraint rows, rank     {rows}, {}", m.rank));
+    print_out("\nfreedom");
+    print_out(&format!("  degrees of freedom        {} (without drivers; Grübler's count: {})", m.freedom, m.grubler));
+    print_out(&format!("  left by the drivers       {}", m.left));
+    print_out(&format!("  coordinates, velocities   {nq}, {nv}"));
+    print_out(&format!("  constraint rows, rank     {rows}, {}", m.rank));
     if let Some(g) = &survey.grashof {
         let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", short(*l))).collect();
-        say("\nfour-bar");
-        say(&format!("  Grashof class             {}", g.class));
-        say(&format!("  links [m]                 {}", lengths.join(", ")));
-        say(&match g.range {
+        print_out("\nfour-bar");
+        print_out(&format!("  Grashof class             {}", g.class));
+        print_out(&format!("  links [m]                 {}", lengths.join(", ")));
+        print_out(&match g.range {
             None => "  range of the input        full turn".to_string(),
             Some((a, b)) => format!(
                 "  range of the input        {} to {} deg from the line of the ground pivots, to either side",
@@ -135,20 +135,20 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
         });
     }
     if !survey.start.is_empty() {
-        say("\nstart                        asked            found");
+        print_out("\nstart                        asked            found");
         for f in &survey.start {
             let tilde = if f.guess { "~" } else { " " };
-            say(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
+            print_out(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
         }
     }
     if !survey.lengths.is_empty() {
-        say("\ndistances as at the start");
-        survey.lengths.iter().for_each(|(name, length)| say(&format!("  {name:<22} {:>14} m", short(*length))));
+        print_out("\ndistances as at the start");
+        survey.lengths.iter().for_each(|(name, length)| print_out(&format!("  {name:<22} {:>14} m", short(*length))));
     }
     if !findings.is_empty() {
-        say("\nfindings");
+        print_out("\nfindings");
         for finding in findings {
-            say(&format!("  {finding}"));
+            print_out(&format!("  {finding}"));
         }
     }
 }
@@ -161,8 +161,8 @@ fn counted(n: usize, one: &str, more: &str) -> String {
 /// What included files hold beyond the model; nothing to be mended.
 fn print_notes(notes: &[String]) {
     if !notes.is_empty() {
-        say("\nnot used of included files");
-        notes.iter().for_each(|note| say(&format!("  {note}")));
+        print_out("\nnot used of included files");
+        notes.iter().for_each(|note| print_out(&format!("  {note}")));
     }
 }
 

@@ -7,7 +7,7 @@
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::progress::Progress;
 use super::run::load;
-use super::{Common, code, fail, files, say, tell};
+use super::{Common, code, files, print_error, print_note, print_out};
 use grashof::model::{Document, Forward, Integrator, Kind, Study};
 use grashof::output::{Staging, comparison, render_figure};
 use grashof::results::{Compared, Failure};
@@ -88,8 +88,8 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let begun = Instant::now();
     let watch = Watch { stop: &interrupted, now: &|| begun.elapsed().as_secs_f64(), done: &|| progress.step() };
     let by: Vec<By> = integrators.iter().copied().map(By::Known).collect();
-    let compared =
-        studies::compare::compare(&mut model, &study, &forward, (&by, &steps), watch).map_err(|why| told(why, &study.name, &explain))?;
+    let compared = studies::compare::compare(&mut model, &study, &forward, (&by, &steps), watch)
+        .map_err(|why| no_reference(why, &study.name, &explain))?;
     drop(progress);
     finish(&compared, &directory, arguments, common)
 }
@@ -99,9 +99,9 @@ fn finish(compared: &Compared, directory: &Path, arguments: &Arguments, common: 
     let staging = written(compared, !arguments.no_plots);
     stop_if_interrupted()?;
     files::commit(&staging, directory, "compare", common)?;
-    say(&if arguments.json { comparison::json(compared) } else { comparison::table(compared) });
+    print_out(&if arguments.json { comparison::json(compared) } else { comparison::table(compared) });
     if compared.rows.iter().all(|r| !r.reason.is_empty()) {
-        fail(&format!("no integrator got through study `{}`", compared.study), "the reasons stand in the last column");
+        print_error(&format!("no integrator finished study `{}`", compared.study), "see the last column for the reasons");
         return Ok(code::NUMERICAL);
     }
     Ok(code::DONE)
@@ -117,7 +117,7 @@ fn written(compared: &Compared, plots: bool) -> Staging {
                 staging.add("compare.svg", picture.svg);
                 staging.add("compare.png", picture.png);
             }
-            Err(error) => tell(&format!("warning: the figure cannot be drawn: {error}")),
+            Err(error) => print_note(&format!("warning: the figure cannot be drawn: {error}")),
         }
     }
     staging
@@ -127,13 +127,13 @@ fn stop_if_interrupted() -> Result<(), u8> {
     if !interrupted() {
         return Ok(());
     }
-    interrupt::tell_end("interrupted: nothing is written");
+    interrupt::print_end("interrupted: nothing is written");
     Err(code::INTERRUPTED)
 }
 
 /// A usage error with its help.
 fn refuse(message: &str, help: &str) -> u8 {
-    fail(message, help);
+    print_error(message, help);
     code::INPUT
 }
 
@@ -262,22 +262,22 @@ fn listed(text: &str, flag: &str, most: f64) -> Result<Vec<f64>, u8> {
 }
 
 /// Prints why there is no reference; the exit code.
-fn told(why: NoReference, study: &str, explain: &dyn Fn(&Failure) -> u8) -> u8 {
+fn no_reference(why: NoReference, study: &str, explain: &dyn Fn(&Failure) -> u8) -> u8 {
     match why {
         NoReference::Failure(failure) => explain(&failure),
         NoReference::Stopped(why) => {
-            fail(&format!("there is no reference for study `{study}`: {why}"), "run the study itself first, and see why it stops");
+            print_error(&format!("there is no reference for study `{study}`: {why}"), "run the study itself first, and see why it stops");
             code::NUMERICAL
         }
         NoReference::Apart(off) => {
-            fail(
+            print_error(
                 &format!("the references of study `{study}`, by `dop853` and by `radau5`, differ by {off:.1e} at the end"),
-                "compare a shorter motion: where small differences grow without bound, no error can be told; `grashof run --verify` tells where they begin, and whether events differ",
+                "compare a shorter motion: where small differences grow without bound, no error can be given; `grashof run --verify` shows where they begin, and whether events differ",
             );
             code::NUMERICAL
         }
         NoReference::Interrupted => {
-            interrupt::tell_end("interrupted: nothing is written");
+            interrupt::print_end("interrupted: nothing is written");
             code::INTERRUPTED
         }
     }

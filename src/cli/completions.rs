@@ -13,6 +13,6 @@ pub(super) struct Arguments {
 pub(super) fn print(arguments: &Arguments, command: &mut clap::Command) -> u8 {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, command, "grashof", &mut script);
-    super::say(String::from_utf8_lossy(&script).trim_end());
+    super::print_out(String::from_utf8_lossy(&script).trim_end());
     code::DONE
 }

@@ -1,6 +1,6 @@
 //! How the program ends.
 
-use super::{code, say, terminal};
+use super::{code, print_out, terminal};
 
 /// The exit code, after errors are printed as JSON where that was asked for and nothing else was printed.
 pub(crate) fn end(code: u8, errors: Vec<serde_json::Value>) -> u8 {
@@ -8,7 +8,7 @@ pub(crate) fn end(code: u8, errors: Vec<serde_json::Value>) -> u8 {
     let asked = |word: &str| std::env::args_os().any(|argument| argument == word);
     if code != code::DONE && asked("--json") && !terminal::has_said() {
         let failure = terminal::failure_json(None, errors);
-        say(&if asked("run") { json_list(&[failure]) } else { failure });
+        print_out(&if asked("run") { json_list(&[failure]) } else { failure });
     }
     if terminal::output_failed() { code.max(code::INPUT) } else { code }
 }

@@ -1,8 +1,8 @@
 //! Reading the model file and naming the place of its results.
 
 use super::interrupt::{interrupted, uncut};
-use super::terminal::{fail, tell_report};
-use super::{Common, code, tell};
+use super::terminal::{print_error, print_report};
+use super::{Common, code, print_note};
 use grashof::api::{beside, explained, why};
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Staging, WriteError};
@@ -39,7 +39,7 @@ pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing
         _ if Path::new(file).is_dir() => "name a file in it".to_string(),
         _ => format!("name {what} that can be read, or `-` for stdin"),
     };
-    fail(&format!("cannot read `{file}`: {}", why(error)), &help);
+    print_error(&format!("cannot read `{file}`: {}", why(error)), &help);
 }
 
 /// A model file without faults, with the selection that `--set` and `--variant` make and what there is to say of it, which
@@ -52,7 +52,7 @@ pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection
     (!report.failed()).then_some((document, selection, report))
 }
 
-/// Writes a file that must not be there yet, unless `--force` says so; a failure has been told.
+/// Writes a file that must not be there yet, unless `--force` says so; a failure was reported.
 pub(super) fn write_new(file: &Path, text: &str, common: &Common) -> bool {
     let whole = |path: &Path| {
         // never over somebody's work
@@ -73,48 +73,48 @@ pub(super) fn write_new(file: &Path, text: &str, common: &Common) -> bool {
         ErrorKind::AlreadyExists => "name another file, remove this one, or replace it with `--force`",
         _ => "name a file in a directory that can be written to",
     };
-    fail(&format!("cannot write `{}`: {error}", file.display()), help);
+    print_error(&format!("cannot write `{}`: {error}", file.display()), help);
     false
 }
 
-/// Looks whether results of these names can be written, and mends what a killed run has left; what is wrong has been told.
+/// Looks whether results of these names can be written, and mends what a killed run has left; what is wrong was reported.
 pub(super) fn prepare(directory: &Path, names: &[String], common: &Common) -> Result<(), u8> {
     let notes = grashof::output::prepare(directory, names, common.force).map_err(|error| unwritable(&error))?;
-    tell_mended(&notes, common);
+    print_mended(&notes, common);
     Ok(())
 }
 
-/// Writes the files of a study, unless it is interrupted; what is wrong has been told.
+/// Writes the files of a study, unless it is interrupted; what is wrong was reported.
 pub(super) fn commit(staging: &Staging, directory: &Path, stem: &str, common: &Common) -> Result<(), u8> {
     // what was interrupted before keeps what it has come to
     let keeps = interrupted();
     let written = uncut(|| staging.commit_unless(directory, stem, common.force, &|| !keeps && interrupted()));
     let written =
         written.map_err(|error| if error.cause.kind() == ErrorKind::Interrupted { code::INTERRUPTED } else { unwritable(&error) })?;
-    tell_mended(&written.notes, common);
+    print_mended(&written.notes, common);
     if common.verbose {
-        written.paths.iter().for_each(|path| tell(&format!("wrote {}", path.display())));
+        written.paths.iter().for_each(|path| print_note(&format!("wrote {}", path.display())));
     }
     Ok(())
 }
 
 fn unwritable(error: &WriteError) -> u8 {
-    fail(&error.to_string(), error.help());
+    print_error(&error.to_string(), error.help());
     code::INPUT
 }
 
-fn tell_mended(notes: &[String], common: &Common) {
+fn print_mended(notes: &[String], common: &Common) {
     if !common.quiet {
-        notes.iter().for_each(|note| tell(&format!("note: {note}")));
+        notes.iter().for_each(|note| print_note(&format!("note: {note}")));
     }
 }
 
 /// Says in one line that included files hold more than the model uses.
-pub(super) fn tell_notes(document: &Document, common: &Common) {
+pub(super) fn print_notes(document: &Document, common: &Common) {
     let count = document.notes().len();
     if count > 0 && !common.quiet {
         let (word, them) = if count == 1 { ("remark", "it") } else { ("remarks", "them") };
-        tell(&format!("note: {count} {word} on what the model does not use of its included files; `grashof check` shows {them}"));
+        print_note(&format!("note: {count} {word} on what the model does not use of its included files; `grashof check` shows {them}"));
     }
 }
 
@@ -135,7 +135,7 @@ pub(super) fn bytes(model: &str, most: u64) -> std::io::Result<Vec<u8>> {
 /// Prints diagnostics on stderr; warnings are left out when quiet.
 pub(super) fn print(report: &Report, common: &Common) {
     if report.failed() || !common.quiet {
-        tell_report(report, common.colored());
+        print_report(report, common.colored());
     }
 }
 
@@ -146,7 +146,7 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
         match text.split_once('=') {
             Some((name, value)) => sets.push((name.trim().to_string(), value.trim().to_string())),
             None => {
-                fail(&format!("`--set {text}` has no `=`"), "write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`");
+                print_error(&format!("`--set {text}` has no `=`"), "write `--set NAME=VALUE`, as `--set l3=0.6` or `--set \"l3=60 cm\"`");
                 return None;
             }
         }
@@ -154,7 +154,7 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
     Some(Selection { study, variants: common.variant.clone(), sets, over: Vec::new() })
 }
 
-/// Where results go; none if the name of the model makes no directory, which has been told.
+/// Where results go; none if the name of the model makes no directory, which was reported.
 pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
     if let Some(directory) = &common.output {
         return Some(directory.clone());
@@ -162,7 +162,10 @@ pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
     let stem = if model == "-" { "stdin".into() } else { Path::new(model).file_stem().unwrap_or_default().to_os_string() };
     // `...yaml` is `..` without its extension, which leads out of `results`
     if ["", ".", ".."].iter().any(|name| stem == *name) {
-        fail(&format!("the name of `{model}` without its extension names no directory for results"), "say where they go with `-o DIR`");
+        print_error(
+            &format!("the name of `{model}` without its extension names no directory for results"),
+            "say where they go with `-o DIR`",
+        );
         return None;
     }
     Some(Path::new("results").join(stem))
@@ -170,7 +173,7 @@ pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
 
 /// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
 pub(super) fn explain(document: &Document, failure: &Failure, study: &str, common: &Common) -> u8 {
-    tell_report(&explained(document, study, failure), common.colored());
+    print_report(&explained(document, study, failure), common.colored());
     match failure {
         Failure::Model(_) | Failure::Study { .. } => code::INPUT,
         Failure::Unsolved(_) | Failure::Undefined(_) | Failure::Numerical { .. } => code::NUMERICAL,

@@ -1,6 +1,6 @@
 //! `grashof import`: a URDF as a model file.
 
-use super::{Common, code, files, say, tell};
+use super::{Common, code, files, print_note, print_out};
 use grashof::model::{Import, import as import_urdf};
 
 #[derive(clap::Args)]
@@ -43,12 +43,12 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
     };
     if !common.quiet {
         for (line, note) in &imported.notes {
-            tell(&format!("note: {name}:{line}: {note}"));
+            print_note(&format!("note: {name}:{line}: {note}"));
         }
     }
     match common.output.as_deref().filter(|file| file.as_os_str() != "-") {
         None => {
-            say(imported.text.trim_end());
+            print_out(imported.text.trim_end());
             code::DONE
         }
         Some(file) => {
@@ -58,7 +58,7 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
             let file = file.display();
             let bare: Vec<String> = imported.bare.iter().map(|body| format!("`{body}`")).collect();
             let first = if bare.is_empty() { String::new() } else { format!("give {} mass and inertia, then ", bare.join(", ")) };
-            tell(&format!("wrote {file}; now: {first}grashof run {file}"));
+            print_note(&format!("wrote {file}; now: {first}grashof run {file}"));
             code::DONE
         }
     }

@@ -6,7 +6,7 @@
 
 use super::code;
 use super::end::end;
-use super::terminal::{take_errors, tell, tell_interrupted};
+use super::terminal::{print_interrupted, print_note, take_errors};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -16,14 +16,14 @@ const LOOK: Duration = Duration::from_millis(5);
 /// What ends by itself does so within this.
 const GRACE: Duration = Duration::from_millis(30);
 /// What the watch gives itself to say so.
-const TO_TELL: Duration = Duration::from_millis(50);
+const TO_PRINT: Duration = Duration::from_millis(50);
 /// What the writing of files is given to clear what it has begun; if the disc is slower, the next run does so.
 const FOR_FILES: Duration = Duration::from_millis(70);
 /// What a motion in time that has heard the signal is given for its rows.
 const FOR_ROWS: Duration = Duration::from_secs(20);
 
 static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| Arc::new(AtomicBool::new(false)));
-/// Whether somebody who asked has been told so.
+/// Whether the user was told so.
 static HEARD: AtomicBool = AtomicBool::new(false);
 /// What is going on that must not be cut: writing of files.
 static UNCUT: AtomicUsize = AtomicUsize::new(0);
@@ -68,12 +68,12 @@ pub(super) fn uncut<T>(work: impl FnOnce() -> T) -> T {
 }
 
 /// Says what was interrupted; the program ends by itself from here.
-pub(super) fn tell_end(message: &str) {
+pub(super) fn print_end(message: &str) {
     if ENDING.swap(true, Ordering::SeqCst) {
-        // the watch is telling it, and ends the program any moment
+        // the watch is printing it, and ends the program any moment
         std::thread::sleep(Duration::from_secs(1));
     } else {
-        tell_interrupted(message);
+        print_interrupted(message);
     }
 }
 
@@ -91,7 +91,9 @@ fn watch() {
             break;
         }
         if keeps && !std::mem::replace(&mut told, true) {
-            std::thread::spawn(|| tell("interrupted: what there is up to here is being written; a second signal ends the program at once"));
+            std::thread::spawn(|| {
+                print_note("interrupted: what there is up to here is being written; a second signal ends the program at once")
+            });
         }
         std::thread::sleep(LOOK);
     }
@@ -101,11 +103,11 @@ fn watch() {
     // stderr may be a pipe that nobody reads
     let told = std::thread::spawn(|| {
         let message = std::mem::take(&mut *CUT_OFF.lock().unwrap_or_else(PoisonError::into_inner));
-        tell_interrupted(if message.is_empty() { "interrupted: nothing is written" } else { &message });
+        print_interrupted(if message.is_empty() { "interrupted: nothing is written" } else { &message });
         end(code::INTERRUPTED, take_errors())
     });
-    let telling = Instant::now();
-    while !told.is_finished() && telling.elapsed() < TO_TELL {
+    let printing = Instant::now();
+    while !told.is_finished() && printing.elapsed() < TO_PRINT {
         std::thread::sleep(LOOK / 10);
     }
     std::process::exit(i32::from(code::INTERRUPTED));

@@ -86,13 +86,13 @@ impl Kept {
         (Self { path, fingerprint, file: Mutex::new(file), count: there, note }, known)
     }
 
-    /// What should be told of a file that is not used.
+    /// Why a file that is there is not used.
     pub(super) fn note(&self) -> Option<&str> {
         self.note.as_deref()
     }
 
     /// How many runs of all are kept, in a sentence; none if there are none.
-    pub(super) fn told(&self, all: usize) -> Option<String> {
+    pub(super) fn in_words(&self, all: usize) -> Option<String> {
         let kept = self.count.load(Ordering::Relaxed);
         (kept > 0).then(|| format!("kept: {kept} of {all} runs, from which the same command goes on"))
     }
@@ -192,7 +192,7 @@ fn there(path: &Path) -> Result<Option<(File, Vec<u8>)>, &'static str> {
     Ok(Some((file, bytes)))
 }
 
-/// Whether no other run has the file, as far as the file system can tell.
+/// Whether no other run has the file, as far as the file system knows.
 fn locked(file: &File) -> bool {
     !matches!(file.try_lock(), Err(TryLockError::WouldBlock))
 }
@@ -222,7 +222,7 @@ fn fingerprint(model: &Model) -> u64 {
     let mut text = Text(DefaultHasher::new());
     let program = std::env::current_exe().and_then(fs::metadata).ok();
     let program = program.map(|of| (of.len(), of.modified().ok()));
-    // the index of the pool has no order: its nodes tell all
+    // the index of the pool has no order: its nodes hold all
     let rest = Model { pool: Pool::new(), ..model.clone() };
     let _ = write!(text, "{} {program:?} {:?} {:?} {rest:?}", env!("CARGO_PKG_VERSION"), model.pool.nodes(), model.pool.switches());
     text.0.finish()

@@ -27,7 +27,7 @@ use end::end;
 use std::io::Write;
 use std::process::ExitCode;
 use terminal::take_errors;
-pub(crate) use terminal::{fail, say, tell};
+pub(crate) use terminal::{print_error, print_note, print_out};
 
 const CODES: &str = "Exit codes:
   0    done (rows of a sweep that failed for a stated reason included)
@@ -112,7 +112,7 @@ pub(crate) fn main() -> ExitCode {
     };
     let to_file = matches!(cli.command, Command::Import(_));
     if !to_file && cli.common.output.as_ref().is_some_and(|path| path.as_os_str() == "-") {
-        fail("`-o -` names no directory", "write `-o DIR`; `--json` prints results on stdout without it");
+        print_error("`-o -` names no directory", "write `-o DIR`; `--json` prints results on stdout without it");
         return ended(code::INPUT, take_errors());
     }
     let code = match &cli.command {

@@ -1,6 +1,6 @@
 //! `grashof new`: commented models that run.
 
-use super::{Common, code, fail, files, say, tell};
+use super::{Common, code, files, print_error, print_note, print_out};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -25,28 +25,28 @@ const TEMPLATES: [(&str, &str, &str); 2] = [
 pub(super) fn new(arguments: &Arguments, common: &Common) -> u8 {
     if arguments.list {
         for (kind, about, _) in TEMPLATES {
-            say(&format!("{kind:<14} {about}"));
+            print_out(&format!("{kind:<14} {about}"));
         }
         return code::DONE;
     }
     let Some((kind, _, text)) = TEMPLATES.iter().find(|t| t.0 == arguments.kind) else {
         let known: Vec<&str> = TEMPLATES.iter().map(|t| t.0).collect();
         let help = if arguments.kind.contains(['.', '/']) {
-            format!("the kind stands before the file: `grashof new {} {}`", known[0], arguments.kind)
+            format!("the kind comes before the file: `grashof new {} {}`", known[0], arguments.kind)
         } else {
             format!("the kinds are {}", known.join(", "))
         };
-        fail(&format!("no model of the kind `{}`", arguments.kind), &help);
+        print_error(&format!("no model of the kind `{}`", arguments.kind), &help);
         return code::INPUT;
     };
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));
     if file.as_os_str() == "-" {
-        say(text.trim_end());
+        print_out(text.trim_end());
         return code::DONE;
     }
     if !files::write_new(&file, text, common) {
         return code::INPUT;
     }
-    tell(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
+    print_note(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));
     code::DONE
 }

@@ -38,7 +38,7 @@ impl Progress {
     }
 
     /// One step is done, and what came of it.
-    pub(super) fn tell(&self, what: &str) {
+    pub(super) fn show(&self, what: &str) {
         self.bar.set_message(escaped(what).into_owned());
         self.step();
     }

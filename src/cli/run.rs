@@ -4,7 +4,7 @@ use super::end::json_list;
 use super::interrupt::{self, interrupted, watch_interrupts};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
-use super::{Common, code, fail, files, say, tell};
+use super::{Common, code, files, print_error, print_note, print_out};
 use grashof::model::{Document, Model, Selection};
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::verify::verify;
@@ -37,7 +37,7 @@ pub(super) struct Wanted {
     /// Judge expectations even if `--set`, `--variant` or `--over` change what is computed
     #[arg(long)]
     pub(super) expect: bool,
-    /// Compute each motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and tell how many
+    /// Compute each motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and report how many
     /// digits stand
     #[arg(long)]
     verify: bool,
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
     let mut reports = Vec::new();
     let code = studies(arguments, common, &mut reports);
     if arguments.wanted.json && !reports.is_empty() {
-        say(&json_list(&reports));
+        print_out(&json_list(&reports));
     }
     code
 }
@@ -57,10 +57,10 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
 /// Runs the studies one after the other; for JSON, their reports or why there is none.
 fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) -> u8 {
     let Some((document, ..)) = files::sound(&arguments.model, common) else { return code::INPUT };
-    files::tell_notes(&document, common);
+    files::print_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {
-        fail(
+        print_error(
             "the model has no studies, so there is nothing to run",
             "add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`",
         );
@@ -73,7 +73,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
     let mut worst = code::DONE;
     let mut loader = Loader::new(&document, common.threads());
-    let mut told = false;
+    let mut noted = false;
     for study in &studies {
         let mut reported = |report: Option<String>| {
             let errors = take_errors();
@@ -88,7 +88,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         let mut model = match selected.and_then(|selection| load(&mut loader, &document, common, &selection)) {
             Ok(model) => model,
             Err(code) => {
-                let code = if interrupted() { told_of_interrupt(study, "is not begun") } else { code };
+                let code = if interrupted() { print_interrupt(study, "is not begun") } else { code };
                 reported(None);
                 worst = worst.max(code);
                 if interrupted() {
@@ -105,13 +105,13 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
             }
             Some(parameter) => {
                 if !common.quiet {
-                    tell(&format!("note: study `{study}` is skipped: it varies `{parameter}`, which `--set` fixes"));
+                    print_note(&format!("note: study `{study}` is skipped: it varies `{parameter}`, which `--set` fixes"));
                 }
                 continue;
             }
             None => {}
         }
-        request.drop_expectations(&mut model, common.changes(), &mut told);
+        request.drop_expectations(&mut model, common.changes(), &mut noted);
         let (code, report) = request.study(&model, study, study);
         worst = worst.max(code);
         reported(report);
@@ -123,14 +123,14 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
 }
 
 /// Says what became of a study when Ctrl-C was pressed.
-fn told_of_interrupt(study: &str, what: &str) -> u8 {
-    interrupt::tell_end(&format!("interrupted: study `{study}` {what}"));
+fn print_interrupt(study: &str, what: &str) -> u8 {
+    interrupt::print_end(&format!("interrupted: study `{study}` {what}"));
     code::INTERRUPTED
 }
 
 /// Refuses a study that varies a parameter which is set from outside.
 pub(super) fn refused(parameter: &str, study: &str) -> u8 {
-    fail(
+    print_error(
         &format!("`--set {parameter}` sets the parameter that study `{study}` varies"),
         "leave the parameter to the study, or run another one",
     );
@@ -146,22 +146,22 @@ pub(super) struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Drops what a file expects of its own values if `option` changes these and nobody asks to judge it; `told` becomes true with
+    /// Drops what a file expects of its own values if `option` changes these and nobody asks to judge it; `noted` becomes true with
     /// the one line that says so.
-    pub(super) fn drop_expectations(&self, model: &mut Model, option: Option<&str>, told: &mut bool) {
+    pub(super) fn drop_expectations(&self, model: &mut Model, option: Option<&str>, noted: &mut bool) {
         let (Some(option), false, Some(study)) = (option, self.wanted.expect, &mut model.study) else { return };
         let dropped = !study.expect.is_empty();
         study.expect.clear();
-        if dropped && !self.common.quiet && !std::mem::replace(told, true) {
+        if dropped && !self.common.quiet && !std::mem::replace(noted, true) {
             let change = if option.contains(' ') { "change" } else { "changes" };
-            tell(&format!(
+            print_note(&format!(
                 "note: what the file expects of its own values is not judged, since `{option}` {change} what is computed; `--expect` judges it"
             ));
         }
     }
 
     /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
-    /// report. An interrupt has been told.
+    /// report. An interrupt was reported.
     pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
         let Self { document, common, directory, .. } = *self;
         let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, common };
@@ -173,7 +173,7 @@ impl Request<'_> {
                 _ => "was the last one",
             };
             let report = finished.output.map(|output| output.report).filter(|_| self.wanted.json);
-            return (told_of_interrupt(study, what), report);
+            return (print_interrupt(study, what), report);
         }
         let mut code = finished.code;
         self.show(&finished, stem, model.study.as_ref().map_or("", |s| s.about.as_str()));
@@ -181,7 +181,7 @@ impl Request<'_> {
             interrupt::begins(format!("interrupted: study `{study}` is written, and not verified"), false);
             code = code.max(self.verified(model, study, &finished.computed));
             if interrupted() {
-                code = told_of_interrupt(study, "is written, and not verified");
+                code = print_interrupt(study, "is written, and not verified");
             }
         }
         (code, finished.output.map(|output| output.report).filter(|_| self.wanted.json))
@@ -190,17 +190,17 @@ impl Request<'_> {
     /// Prints what a study is for, and its tables.
     fn show(&self, finished: &Finished, name: &str, about: &str) {
         let Some(output) = finished.output.as_ref().filter(|_| !self.wanted.json) else { return };
-        say(name);
+        print_out(name);
         let about: Vec<&str> = about.split_whitespace().collect();
         if !about.is_empty() {
-            say(&format!("  {}", about.join(" ")));
+            print_out(&format!("  {}", about.join(" ")));
         }
-        say(&output.table);
+        print_out(&output.table);
         if self.wanted.units {
             for (name, unit) in &output.columns {
-                say(&format!("  {name} [{}]", if unit.is_empty() { "1" } else { unit }));
+                print_out(&format!("  {name} [{}]", if unit.is_empty() { "1" } else { unit }));
             }
-            say("");
+            print_out("");
         }
     }
 
@@ -209,10 +209,10 @@ impl Request<'_> {
         let json = self.wanted.json;
         match verify(model, computed, &interrupted) {
             Ok(Some(verdict)) => {
-                let line = if json { tell } else { say };
+                let line = if json { print_note } else { print_out };
                 line(&format!("{}{}", if json { format!("{study}: ") } else { "  ".into() }, verdict.line));
                 if !json {
-                    say("");
+                    print_out("");
                 }
                 if verdict.agrees { code::DONE } else { code::UNMET }
             }
@@ -240,7 +240,7 @@ pub(super) fn load(loader: &mut Loader<'_>, document: &Document, common: &Common
         NotLoaded::Failed { study, failure } => files::explain(document, &failure, &study, common),
         NotLoaded::Stopped { study, of, reason } => {
             let message = format!("study `{study}` takes a scalar of `{of}`, which stopped on its way: {reason}");
-            fail(&message, "see to that study first");
+            print_error(&message, "see to that study first");
             code::NUMERICAL
         }
     })

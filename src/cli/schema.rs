@@ -1,6 +1,6 @@
 //! `grashof schema`.
 
-use super::{code, say};
+use super::{code, print_out};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -12,6 +12,6 @@ pub(super) struct Arguments {
 /// Prints the JSON Schema of model files, or of results.
 pub(super) fn print(arguments: &Arguments) -> u8 {
     let schema = if arguments.results { grashof::output::results_schema() } else { grashof::model::schema() };
-    say(&serde_json::to_string_pretty(&schema).unwrap_or_default());
+    print_out(&serde_json::to_string_pretty(&schema).unwrap_or_default());
     code::DONE
 }

@@ -4,8 +4,8 @@ mod sweep;
 
 use super::interrupt::{self, interrupted};
 use super::progress::Progress;
-use super::terminal::{tell_interrupted, tell_report};
-use super::{Common, code, files, tell};
+use super::terminal::{print_interrupted, print_report};
+use super::{Common, code, files, print_note};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
 use grashof::output::{Figure, Picture, Staging, drawing, figures, summary, ten_digits, write_json};
 use grashof::par;
@@ -74,8 +74,8 @@ impl Job<'_> {
     /// A study of one run, or of those that a `solve` takes to find one.
     fn single(&self, study: &Study) -> Finished {
         let progress = Progress::open(self.study, self.common.quiet || study.solve.is_none());
-        let told = |x: f64, scalar: f64| progress.tell(&self.trial(study, x, scalar));
-        let run = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &told);
+        let show = |x: f64, scalar: f64| progress.show(&self.trial(study, x, scalar));
+        let run = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &show);
         drop(progress);
         let results = match single(self.model, study, &run) {
             Ok(results) => results,
@@ -85,7 +85,7 @@ impl Job<'_> {
         if !self.common.quiet {
             let of_start = results.findings.iter().filter(|f| f.code == "change-point");
             let of_solution = results.solution.iter().flat_map(|s| &s.findings);
-            of_solution.chain(of_start).for_each(|f| tell(&format!("note: study `{}`: {}", study.name, f.message)));
+            of_solution.chain(of_start).for_each(|f| print_note(&format!("note: study `{}`: {}", study.name, f.message)));
         }
         let mut code = code::DONE;
         if let Some(reason) = &results.stopped {
@@ -95,11 +95,11 @@ impl Job<'_> {
                 _ => "start elsewhere, change the lengths, or give a shorter range",
             };
             if interrupted() {
-                tell_interrupted(&message);
+                print_interrupted(&message);
             } else if let Some(undefined) = &results.undefined {
-                self.tell_at("undefined", &undefined.place, message, &undefined.help);
+                self.print_at("undefined", &undefined.place, message, &undefined.help);
             } else {
-                self.tell_at("stopped", &study.place, message, help);
+                self.print_at("stopped", &study.place, message, help);
             }
             code = if interrupted() { code::INTERRUPTED } else { code::NUMERICAL };
         } else {
@@ -147,7 +147,7 @@ impl Job<'_> {
                     staging.add(format!("{}-{name}.svg", self.study), svg);
                     staging.add(format!("{}-{name}.png", self.study), png);
                 }
-                Err(error) => tell(&format!("warning: figure `{name}` of study `{}` cannot be drawn: {error}", self.study)),
+                Err(error) => print_note(&format!("warning: figure `{name}` of study `{}` cannot be drawn: {error}", self.study)),
             }
         }
     }
@@ -184,15 +184,15 @@ impl Job<'_> {
                 "the value that the file expects",
                 Some(help.into()),
             )]);
-            tell_report(&report, self.common.colored());
+            print_report(&report, self.common.colored());
         }
         code
     }
 
     /// Prints an error at a place of the file.
-    fn tell_at(&self, code: &'static str, place: &str, message: String, help: &str) {
+    fn print_at(&self, code: &'static str, place: &str, message: String, help: &str) {
         let report = Report::new(vec![self.document.diagnostic(code, place, message, "", Some(help.into()))]);
-        tell_report(&report, self.common.colored());
+        print_report(&report, self.common.colored());
     }
 
     /// Prints why a run did not begin, and gives its exit code.

@@ -3,7 +3,7 @@
 use super::interrupt::{interrupted, watch_interrupts};
 use super::run::{Request, Wanted, conflict, load, refused};
 use super::terminal::{take_errors, with_errors};
-use super::{Common, code, fail, files, say};
+use super::{Common, code, files, print_error, print_out};
 use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
 use grashof::studies::loader::Loader;
 
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     watch_interrupts();
     let Some((document, selection, _)) = files::sound(&arguments.model, common) else { return code::INPUT };
-    files::tell_notes(&document, common);
+    files::print_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(arguments, &known), over(&arguments.over)) else { return code::INPUT };
     let stem = format!("{study}-over-{}", over.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join("+"));
@@ -51,7 +51,7 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     request.drop_expectations(&mut model, Some("--over"), &mut false);
     let (code, report) = request.study(&model, study, &stem);
     if let Some(report) = report {
-        say(&with_errors(&report, take_errors()));
+        print_out(&with_errors(&report, take_errors()));
     }
     code
 }
@@ -62,14 +62,17 @@ fn chosen<'a>(arguments: &'a Arguments, known: &'a [String]) -> Option<&'a str> 
         (Some(study), _) => Some(study),
         (None, [only]) => Some(only),
         (None, []) => {
-            fail(
+            print_error(
                 "the model has no studies, so there is nothing to sweep",
                 "add one, as `studies: { turn: { kinematics: { over: 1 turn, samples: 360 } } }`",
             );
             None
         }
         (None, several) => {
-            fail(&format!("the model has {} studies", several.len()), &format!("name one of them with `--study`: {}", several.join(", ")));
+            print_error(
+                &format!("the model has {} studies", several.len()),
+                &format!("name one of them with `--study`: {}", several.join(", ")),
+            );
             None
         }
     }
@@ -80,7 +83,7 @@ fn over(texts: &[String]) -> Option<Vec<(String, String)>> {
     let split = |text: &String| match text.split_once('=') {
         Some((name, values)) => Some((name.trim().to_string(), values.trim().to_string())),
         None => {
-            fail(
+            print_error(
                 &format!("`--over {text}` has no `=`"),
                 "write `--over NAME=FROM..TO:COUNT` or a list, as `--over l3=0.3..0.8:26` or `--over \"l3=30 cm,40 cm\"`",
             );

@@ -1,7 +1,7 @@
-//! What is said on stdout and told on stderr.
+//! What is printed on stdout and on stderr.
 //!
 //! Names and texts come from the user's files and may hold anything; what would steer a terminal is shown as `\u001b`, which inside
-//! of a JSON string means the same character. Errors that are told are also kept, for `--json`.
+//! of a JSON string means the same character. Errors that are printed are also kept, for `--json`.
 
 use grashof::model::{Diagnostic, Excerpt, Report, Severity};
 use serde_json::{Value, json};
@@ -14,11 +14,11 @@ use std::sync::{Mutex, PoisonError};
 static FAILED: AtomicBool = AtomicBool::new(false);
 /// Whether anything was said on stdout.
 static SAID: AtomicBool = AtomicBool::new(false);
-/// Errors that were told and not yet taken.
+/// Errors that were printed and not yet taken.
 static ERRORS: Mutex<Vec<Value>> = Mutex::new(Vec::new());
 
 /// A line on stdout. A closed pipe is no error: somebody has read enough.
-pub(crate) fn say(text: &str) {
+pub(crate) fn print_out(text: &str) {
     SAID.store(true, Ordering::Relaxed);
     let mut out = std::io::stdout().lock();
     told_if_failed(writeln!(out, "{}", escaped(text)).and_then(|()| out.flush()));
@@ -30,7 +30,7 @@ pub(crate) fn told_if_failed(written: std::io::Result<()>) {
         && error.kind() != ErrorKind::BrokenPipe
         && !FAILED.swap(true, Ordering::Relaxed)
     {
-        tell(&format!("error: cannot write to standard output: {error}\n  help: direct it to a file or pipe that can be written"));
+        print_note(&format!("error: cannot write to standard output: {error}\n  help: direct it to a file or pipe that can be written"));
     }
 }
 
@@ -45,24 +45,24 @@ pub(crate) fn has_said() -> bool {
 }
 
 /// A line on stderr.
-pub(crate) fn tell(text: &str) {
+pub(crate) fn print_note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{}", escaped(text));
 }
 
 /// Tells an error with its remedy.
-pub(crate) fn fail(message: &str, help: &str) {
-    tell(&format!("error: {message}\n  help: {help}"));
+pub(crate) fn print_error(message: &str, help: &str) {
+    print_note(&format!("error: {message}\n  help: {help}"));
     keep(json!({ "message": message, "help": help }));
 }
 
 /// Tells that something was interrupted.
-pub(crate) fn tell_interrupted(message: &str) {
-    tell(message);
+pub(crate) fn print_interrupted(message: &str) {
+    print_note(message);
     keep(json!({ "message": message }));
 }
 
 /// Tells what was found at places of a file, as a compiler does.
-pub(crate) fn tell_report(report: &Report, colored: bool) {
+pub(crate) fn print_report(report: &Report, colored: bool) {
     for found in report.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
         let place = found.at.as_ref().map(|at| (at.line, at.column));
         keep(json!({
@@ -96,7 +96,7 @@ fn keep(error: Value) {
     ERRORS.lock().unwrap_or_else(PoisonError::into_inner).push(error);
 }
 
-/// The errors that were told since the last call.
+/// The errors that were printed since the last call.
 pub(crate) fn take_errors() -> Vec<Value> {
     std::mem::take(&mut *ERRORS.lock().unwrap_or_else(PoisonError::into_inner))
 }

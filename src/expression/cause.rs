@@ -51,13 +51,13 @@ impl Program {
             let op = made[register as usize];
             match operands(op, modes, value).into_iter().flatten().find(|operand| !value(*operand).is_finite()) {
                 Some(operand) => register = operand,
-                None => return Some(self.told(op, value)),
+                None => return Some(self.describe(op, value)),
             }
         }
     }
 
     /// An operation that is undefined at arguments that are defined.
-    fn told(&self, op: Op, value: impl Fn(u32) -> f64) -> Cause {
+    fn describe(&self, op: Op, value: impl Fn(u32) -> f64) -> Cause {
         match op {
             Op::Input(i) => Cause::Input(i),
             Op::Tan(a) => Cause::Function("tan", value(a)),

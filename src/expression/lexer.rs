@@ -44,7 +44,7 @@ const FOREIGN: [(&str, &str); 15] = [
     ("×", "write `*`"),
     ("°", "write `deg`"),
     ("π", "write `pi`"),
-    ("~", "`~` stands only in front of a whole value of `start`"),
+    ("~", "`~` may only precede a whole value of `start`"),
 ];
 
 fn is_name_start(c: u8) -> bool {
@@ -133,7 +133,7 @@ fn number(text: &str, start: usize, end: usize) -> Result<f64, SyntaxError> {
         return wrong(end, format!("write `{}`", word.replace('_', "")));
     }
     if word.ends_with('.') && next.is_some_and(is_name_part) {
-        return wrong(glued(end), "a name begins with a letter; a number goes on with a digit behind its point".to_owned());
+        return wrong(glued(end), "a name begins with a letter; a number goes on with a digit after its point".to_owned());
     }
     let digits = word.as_bytes();
     if digits.len() > 1 && digits[0] == b'0' && digits[1].is_ascii_digit() {
@@ -162,7 +162,7 @@ fn path_end(text: &str, start: usize) -> Result<(usize, bool), SyntaxError> {
         if !bytes.get(end + 1).is_some_and(|c| is_name_start(*c)) {
             let found = format!("`{}`", &text[start..=end]);
             let help = Some("a dot joins two names, as in `crank.angle`".to_owned());
-            return Err(SyntaxError { at: start..end + 1, found, expected: "a name behind the dot".to_owned(), help });
+            return Err(SyntaxError { at: start..end + 1, found, expected: "a name after the dot".to_owned(), help });
         }
         dotted = true;
         end += 1;

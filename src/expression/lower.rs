@@ -118,11 +118,11 @@ impl Lowerer<'_> {
             }
             Err(mut unknown) => {
                 if unknown.help.is_none() && unit(path).is_some() {
-                    unknown.help = Some(format!("`{path}` is a unit and stands behind its number: `1 {path}`"));
+                    unknown.help = Some(format!("`{path}` is a unit and follows its number: `1 {path}`"));
                 } else if unknown.help.is_none()
                     && let Some(near) = nearest_unit(path)
                 {
-                    unknown.help = Some(format!("did you mean the unit `{near}`? It stands behind its number: `1 {near}`"));
+                    unknown.help = Some(format!("did you mean the unit `{near}`? It follows its number: `1 {near}`"));
                 }
                 self.unknown(at, unknown);
                 None

@@ -174,7 +174,7 @@ impl<'a> Parser<'a> {
 
     /// An error at the present lexeme, with the remedy that the surroundings suggest.
     fn unexpected(&self, expected: &str) -> SyntaxError {
-        const TRAP: &str = "inside `{ }` and `[ ]` a comma ends the value: quote the expression, or let it stand on its own line";
+        const TRAP: &str = "inside `{ }` and `[ ]` a comma ends the value: quote the expression, or put it on a line of its own";
         let before = self.slice(&self.last().at);
         let behind_operand = self.next > 0
             && match self.last().token {
@@ -192,7 +192,7 @@ impl<'a> Parser<'a> {
                 }
                 _ => "commas only separate the arguments of a function".to_owned(),
             }),
-            Token::Sign("%") => Some("a unit stands directly behind a number".to_owned()),
+            Token::Sign("%") => Some("a unit directly follows a number".to_owned()),
             Token::Sign("(") | Token::Number(_) | Token::Word(_) | Token::Path(_) if behind_operand => {
                 let there = if self.peek() == Token::Sign("(") { "(..)" } else { self.slice(&self.here()) };
                 let left = if before == ")" { "(..)" } else { before };

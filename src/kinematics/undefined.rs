@@ -23,7 +23,7 @@ const GUARD: &str = "choose what holds there by `if(condition, a, b)`";
 
 impl Gap {
     /// In words; `at` is where it happens: `t = 0.5 s`.
-    pub(crate) fn told(&self, model: &Model, study: &Study, at: &str) -> Undefined {
+    pub(crate) fn explain(&self, model: &Model, study: &Study, at: &str) -> Undefined {
         match self {
             Self::Law(law) => of_law(model, law, at),
             Self::Watched(id, cause) => {

@@ -66,7 +66,7 @@ pub struct Joint {
     pub axis: Option<Vec<Id>>,
     /// `to`: the same axis in the second body's frame; default the numbers of `axis`.
     pub to: Option<Vec<Id>>,
-    /// `rpy`: how the second body stands in the first at 0, instead of `to`: roll, pitch, yaw, rad.
+    /// `rpy`: orientation of the second body in the first at 0, instead of `to`: roll, pitch, yaw, rad.
     pub rpy: Option<[Id; 3]>,
     /// `zero`: the angle or position that counts as the drawn one: coordinate = drawn coordinate + zero.
     pub zero: Option<Id>,

@@ -142,9 +142,9 @@ impl<'d, 's> Inquiry<'d, 's> {
         let (order, cycles) = decode::order(&needs);
         for cycle in cycles {
             if let Some(first) = cycle.first() {
-                let told = decode::tell(&cycle, |i| all[i].0.to_owned());
+                let message = decode::in_words(&cycle, |i| all[i].0.to_owned());
                 let place = format!("studies.{}.take", all[*first].0);
-                self.faults.push(Fault::new("cycle", place, told, "studies that do not need themselves").at(Spot::Key));
+                self.faults.push(Fault::new("cycle", place, message, "studies that do not need themselves").at(Spot::Key));
             }
         }
         let wanted: Vec<bool> = match only.and_then(|name| index.get(name)) {

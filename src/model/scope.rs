@@ -244,7 +244,7 @@ impl Scope for View<'_, '_, '_> {
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
         let Some(functionals) = &self.local.functionals else {
             let help = (name == "max" || name == "min").then(|| format!("`{name}(a, b)` of two values needs two"));
-            let why = unknown(format!("`{name}(..)` is taken of a whole study"), "it may stand only in `scalars` and `expect`", help);
+            let why = unknown(format!("`{name}(..)` is taken of a whole study"), "it can be used only in `scalars` and `expect`", help);
             return Err(self.refuse("wrong-level", why));
         };
         if self.outside.is_some() {

@@ -159,7 +159,7 @@ impl Shapes<'_> {
         }
         if empty && let Some((name, rest)) = text.split_once(':') {
             let help = format!("write `{name}: {rest}`");
-            let fault = self.fault("missing-space", &at.key(text), "a colon without a space behind it", "`key: value`");
+            let fault = self.fault("missing-space", &at.key(text), "a colon without a space after it", "`key: value`");
             fault.spot = Spot::Key;
             fault.help = Some(help);
             return true;

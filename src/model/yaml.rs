@@ -158,7 +158,7 @@ fn syntax(text: &str, info: &str, at: usize) -> Fault {
     };
     if info.contains("recursion limit") {
         let mut fault = fault("at most 64 levels");
-        (fault.code, fault.message) = ("too-deep", "lists or maps stand too deep in each other".to_owned());
+        (fault.code, fault.message) = ("too-deep", "lists or maps are nested too deeply".to_owned());
         return fault.help("look for brackets that are not closed");
     }
     let line_start = text[..at].rfind('\n').map_or(0, |i| i + 1);
@@ -209,7 +209,7 @@ fn glued(text: &str, line_start: usize) -> Option<Fault> {
         let glued = super::names::is_title(key) && value.starts_with(|c: char| c.is_ascii_alphanumeric() || "[{-.\"'~".contains(c));
         let at = start + indent;
         glued.then(|| {
-            Fault::new("yaml-syntax", String::new(), format!("no space behind the colon of `{key}:`"), "`key: value`, with a space")
+            Fault::new("yaml-syntax", String::new(), format!("no space after the colon of `{key}:`"), "`key: value`, with a space")
                 .at(Spot::Bytes(at..at + key.len() + 1))
                 .help(format!("write `{key}: {}`", super::suggest::clip(value.split(" #").next().unwrap_or(value).trim_end())))
         })
@@ -226,7 +226,7 @@ fn translate(text: &str, error: &serde_yaml::Error) -> Vec<Fault> {
             return twice
                 .into_iter()
                 .map(|(first, second, key)| {
-                    let mut fault = Fault::new("duplicate-key", String::new(), format!("`{key}` stands here twice"), "each key once")
+                    let mut fault = Fault::new("duplicate-key", String::new(), format!("`{key}` appears here twice"), "each key once")
                         .at(Spot::Bytes(second))
                         .help("rename or remove one of the two");
                     fault.other = Some((first, "first here".to_owned()));

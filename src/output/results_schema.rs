@@ -24,7 +24,7 @@ const CERTIFICATE: [(&str, bool, &str); 20] = [
     ("evaluations", true, "Evaluations of the equations of motion."),
     ("tangents", true, "Exact tangents."),
     ("factorisations", true, "Factored matrices."),
-    ("events", true, "Events at which the integration was begun anew, or which were recorded."),
+    ("events", true, "Events at which the integration was restarted, or which were recorded."),
     ("bridges", true, "Singular positions that were crossed."),
     ("stepped_over", true, "Switches that were marched across."),
     ("runs", true, "Runs of a sweep."),
@@ -75,7 +75,7 @@ pub fn results_schema() -> Value {
         "type": "object",
         "properties": {
             "study": { "type": "string", "description": "Name of the study." },
-            "status": { "enum": ["done", "failed"], "description": "`failed` if the motion stopped on its way, or no run of a sweep got through: what was computed up to there is kept." },
+            "status": { "enum": ["done", "failed"], "description": "`failed` if the motion stopped on its way, or no run of a sweep finished: what was computed up to there is kept." },
             "parameters": { "type": "object", "additionalProperties": number("Value of the parameter."), "description": "Values of the parameters, in file order; those of a sweep are those of the file." },
             "scalars": {
                 "type": "object",

@@ -74,7 +74,7 @@ fn notes(results: &Results) -> String {
     let shown = results.findings.iter().take(FINDINGS).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
     match results.findings.len().saturating_sub(FINDINGS) {
         0 => shown,
-        more => shown + &format!("  note: {more} more findings stand in `{}.json`\n", results.study),
+        more => shown + &format!("  note: {more} more findings are in `{}.json`\n", results.study),
     }
 }
 

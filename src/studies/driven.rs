@@ -38,7 +38,7 @@ pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates:
         let offsets = balance::balance(&mut motion, moved).map_err(|why| match why {
             Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
             Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
-                Failure::Undefined(gap.told(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
+                Failure::Undefined(gap.explain(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
             }
             Unbalanced::Lost(lost) => refused(format!("the motion is lost at {}", lost.at), "start elsewhere, or give a shorter range"),
         })?;
@@ -85,7 +85,7 @@ pub(crate) fn trace<'m, G: Space<S = f64>>(
                 "start elsewhere, or change the lengths",
             ),
             NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
-            NoPath::Undefined(gap) => Failure::Undefined(gap.told(case.model, case.study, "the start")),
+            NoPath::Undefined(gap) => Failure::Undefined(gap.explain(case.model, case.study, "the start")),
         }
     })
 }
@@ -147,8 +147,8 @@ fn observe<G: Space<S = f64>>(
     let clock = clock(case, mechanism, start, range)?;
     let mut motion = trace(case, mechanism, start, clock, observer, watched.ids.len())?;
     let name = independent(model, mechanism, clock);
-    let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
-    let mut undefined = motion.path.gap.take().map(|gap| told(&gap, clock.value(motion.ends[1])));
+    let explain = |gap: &Gap, at: f64| gap.explain(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
+    let mut undefined = motion.path.gap.take().map(|gap| explain(&gap, clock.value(motion.ends[1])));
     let seen = loop {
         match see(&mut motion, case, &watched, range.samples, &name) {
             Ok(seen) => break seen,
@@ -157,8 +157,8 @@ fn observe<G: Space<S = f64>>(
                 return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
             }
             Err(Lost { at, gap: Some(gap) }) => {
-                let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
-                undefined = Some(told(&behind.unwrap_or(gap), at));
+                let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(explain(&gap, at))) };
+                undefined = Some(explain(&behind.unwrap_or(gap), at));
             }
         }
     };

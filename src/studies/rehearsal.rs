@@ -96,7 +96,7 @@ fn driven<G: Space<S = f64>>(case: Case<'_>, range: &Range) -> Result<(), Failur
     let mut motion = trace(case, &mechanism, &start, clock, observer, watched.ids.len())?;
     let seen = see(&mut motion, case, &watched, 1, "the start");
     match motion.path.gap.take().or_else(|| seen.err().and_then(|Lost { gap, .. }| gap)) {
-        Some(gap) => Err(Failure::Undefined(gap.told(model, study, "the start"))),
+        Some(gap) => Err(Failure::Undefined(gap.explain(model, study, "the start"))),
         None => Ok(()),
     }
 }

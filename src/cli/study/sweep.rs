@@ -3,7 +3,7 @@
 use super::super::interrupt::{self, interrupted};
 use super::super::kept::Kept;
 use super::super::progress::Progress;
-use super::super::{code, fail, tell};
+use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
 use grashof::model::Study;
 use grashof::output::{Staging, figures, files, summary, write_json};
@@ -18,10 +18,10 @@ impl Job<'_> {
         let there = known.iter().flatten().count();
         if !self.common.quiet {
             if let Some(note) = kept.note() {
-                tell(note);
+                print_note(note);
             }
             if there > 0 {
-                tell(&format!("resumed: {there} of {count} runs were there"));
+                print_note(&format!("resumed: {there} of {count} runs were there"));
             }
         }
         let progress = Progress::new(self.study, count, self.common.quiet);
@@ -31,15 +31,15 @@ impl Job<'_> {
             if !interrupted() || run.result.as_ref().is_ok_and(|o| o.stopped.is_none()) {
                 kept.add(i, run);
             }
-            if let Some(told) = kept.told(count) {
-                interrupt::begins(format!("{told}\ninterrupted: study `{}` is not written", study.name), false);
+            if let Some(words) = kept.in_words(count) {
+                interrupt::begins(format!("{words}\ninterrupted: study `{}` is not written", study.name), false);
             }
             progress.step();
         };
         let runs = sweep::sweep(self.model, study, self.common.threads(), known, &interrupted, &done);
         drop(progress);
         if interrupted() {
-            kept.told(count).iter().for_each(|told| tell(told));
+            kept.in_words(count).iter().for_each(|words| print_note(words));
             return Finished::nothing(code::INTERRUPTED);
         }
         self.finish_sweep(study, &runs, kept)
@@ -54,17 +54,17 @@ impl Job<'_> {
             }
             let (count, name) = (runs.len(), &study.name);
             let (what, help) = match count {
-                1 => (format!("the one run of study `{name}` did not begin"), "the reason stands above"),
-                _ => (format!("none of the {count} runs of study `{name}` began"), "the first reason stands above"),
+                1 => (format!("the one run of study `{name}` did not begin"), "see the reason above"),
+                _ => (format!("none of the {count} runs of study `{name}` began"), "see the first reason above"),
             };
-            fail(&what, help);
+            print_error(&what, help);
             kept.remove();
             return Finished::nothing(code::NUMERICAL);
         }
         let mut code = code::DONE;
         if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
             let name = &study.name;
-            fail(&format!("no run of study `{name}` got through its range"), "the reasons stand in its last column");
+            print_error(&format!("no run of study `{name}` finished its range"), "see its last column for the reasons");
             code = code::NUMERICAL;
         }
         let results = together(self.model, study, runs);

@@ -25,8 +25,8 @@ const BESIDE: f64 = 5e-3;
 /// Part of a row below which it leaves a branch alone.
 const SMALL: f64 = 1e-8;
 
-/// Most branches that are told one by one.
-const TOLD: usize = 8;
+/// Most branches that are named one by one.
+const MOST_NAMED: usize = 8;
 
 /// A start in a change point.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub struct Branch {
     /// Coordinates (nq) at places along the first of `ways`, where the rows have the rank that they have elsewhere.
     pub curve: Vec<(f64, Vec<f64>)>,
     /// The rates of its joints.
-    told: String,
+    description: String,
 }
 
 impl ChangePoint {
@@ -139,9 +139,10 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         if candidates.is_empty() && !parts.is_empty() {
             let spaces: Vec<&DMatrix<f64>> = parts.iter().filter_map(|p| if let Part::Flat(s) = p { Some(s) } else { None }).collect();
-            let told: Vec<String> = spaces.iter().take(TOLD).map(|space| self.told(q, space.column(0).as_slice(), true)).collect();
+            let words: Vec<String> =
+                spaces.iter().take(MOST_NAMED).map(|space| self.describe(q, space.column(0).as_slice(), true)).collect();
             self.place(q);
-            return Err(told.join(", "));
+            return Err(words.join(", "));
         }
         let rests = coming.is_some() || !driven || candidates.iter().all(|c| norm(&c.v) == 0.0);
         let chosen = self.choose(q, &candidates, &levels[1], rests, coming.is_some());
@@ -150,13 +151,13 @@ impl<G: Space<S = f64>> System<'_, G> {
             candidates.swap(0, first);
         }
         for candidate in &candidates {
-            let told = self.told(q, &candidate.v, rests);
+            let description = self.describe(q, &candidate.v, rests);
             if let Some(curve) = self.curve(q, &candidate.v, coming.is_some().then_some(&holds.b)) {
                 let mut ways = vec![candidate.v.clone()];
                 if candidate.space.ncols() > 1 {
                     ways = candidate.space.column_iter().map(|way| way.as_slice().to_vec()).collect();
                 }
-                branches.push(Branch { ways, curve, told });
+                branches.push(Branch { ways, curve, description });
             }
         }
         let taken = candidates.first().map(|c| c.v.clone());
@@ -308,7 +309,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// The rates of a branch; where nothing moves yet in parts of the largest.
-    fn told(&mut self, q: &[f64], v: &[f64], rests: bool) -> String {
+    fn describe(&mut self, q: &[f64], v: &[f64], rests: bool) -> String {
         let rates = self.rates_of_joints(q, v);
         let largest = rates.iter().fold(0.0, |m: f64, (_, rate, _)| if rate.abs() > m.abs() { *rate } else { m });
         let part = if rests && largest != 0.0 { largest } else { 1.0 };
@@ -319,8 +320,8 @@ impl<G: Space<S = f64>> System<'_, G> {
             (false, true) => " rad/s",
             (false, false) => " m/s",
         };
-        let told = rates.iter().map(|(name, rate, turns)| format!("{name} at {}{}", short(clean(rate / part)), unit(*turns)));
-        format!("({})", told.collect::<Vec<_>>().join(", "))
+        let words = rates.iter().map(|(name, rate, turns)| format!("{name} at {}{}", short(clean(rate / part)), unit(*turns)));
+        format!("({})", words.collect::<Vec<_>>().join(", "))
     }
 
     /// What tells a branch best from another, as a guess in `start`: a rate, or a position beside it.
@@ -378,10 +379,10 @@ impl<G: Space<S = f64>> System<'_, G> {
 
 /// What a change point is, in words.
 fn message(branches: &[Branch], parts: usize, named: Option<String>, rests: bool) -> String {
-    let told: Vec<&str> = branches.iter().take(TOLD).map(|branch| branch.told.as_str()).collect();
+    let words: Vec<&str> = branches.iter().take(MOST_NAMED).map(|branch| branch.description.as_str()).collect();
     let more = match branches.len() {
         n if n >= MOST => format!(" or with others, {n} at least"),
-        n if n > TOLD => format!(" or with {} others", n - TOLD),
+        n if n > MOST_NAMED => format!(" or with {} others", n - MOST_NAMED),
         _ => String::new(),
     };
     let all = if parts > branches.len() {
@@ -391,7 +392,7 @@ fn message(branches: &[Branch], parts: usize, named: Option<String>, rests: bool
     };
     let unit = if rests { ", in parts of the largest" } else { "" };
     let named = named.map_or_else(String::new, |guess| format!(". {guess}"));
-    format!("the start is a change point{all}: the motion can go on with {}{more}{unit}{named}", told.join(" or with "))
+    format!("the start is a change point{all}: the motion can go on with {}{more}{unit}{named}", words.join(" or with "))
 }
 
 /// Whether a velocity meets what holds.

@@ -40,7 +40,7 @@ keys! {
     /// A point with axes of its own.
     pub(crate) FRAME = FrameKeys "a point with axes of its own" [] {
         at: need POSITION, "Place in the body frame.";
-        rpy: may ROLL_PITCH_YAW, "Spatial: how the axes of the point stand in the body: turned about x, then y, then z.";
+        rpy: may ROLL_PITCH_YAW, "Spatial: orientation of the point's axes in the body: turned about x, then y, then z.";
     }
 }
 

@@ -25,8 +25,8 @@ impl<'n> Decoder<'n> {
                 if let Some((first, _)) = set.iter().find(|(i, _)| cycle.contains(i)) {
                     let start = cycle.iter().position(|i| i == first).unwrap_or(0);
                     let cycle: Vec<usize> = cycle[start..].iter().chain(&cycle[..start]).copied().collect();
-                    let told = super::order::tell(&cycle, |i| self.name_space.model.parameters[i].name.clone());
-                    self.faults.push(Fault::new("cycle", String::new(), told, "parameters that do not need themselves"));
+                    let message = super::order::in_words(&cycle, |i| self.name_space.model.parameters[i].name.clone());
+                    self.faults.push(Fault::new("cycle", String::new(), message, "parameters that do not need themselves"));
                 }
                 return Values { numbers: vec![f64::NAN; ids.len()], unknown: vec![true; ids.len()] };
             }

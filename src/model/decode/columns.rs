@@ -183,7 +183,7 @@ impl<'n> Decoder<'n> {
         match self.name_space.names.get(text) {
             Some(Entity::Parameter(_)) => {
                 let fault = self.fault("wrong-column", at, format!("`{text}` is a parameter"), "something that varies during the study");
-                fault.help = Some("parameters stand in the JSON; as a curve make it a measure".to_owned());
+                fault.help = Some("parameters are in the JSON; to plot one, make it a measure".to_owned());
                 return Vec::new();
             }
             Some(Entity::Body(_)) => {

@@ -311,7 +311,7 @@ impl<'n> Decoder<'n> {
         let (number, word) = text.trim().split_once(' ')?;
         let named = matches!(self.name_space.names.get(word), Some(Entity::Parameter(_)));
         let unit = named && number.parse::<f64>().is_ok() && expression::parse_unit(word).is_some();
-        unit.then(|| format!("`{word}` directly behind a number is the unit; for the parameter write `{number}*{word}`"))
+        unit.then(|| format!("`{word}` directly after a number is the unit; for the parameter write `{number}*{word}`"))
     }
 
     /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.

@@ -31,7 +31,7 @@ pub(crate) use forces::{COUPLING, DRIVER, LOAD, MOTOR};
 pub(crate) use gravity::GRAVITY;
 pub(crate) use joints::JOINT;
 pub(crate) use measures::STATE;
-pub(crate) use order::{order, tell};
+pub(crate) use order::{in_words, order};
 pub(crate) use outside::Outside;
 pub(crate) use springs::SPRING;
 pub(crate) use start::ROTATION;

@@ -35,7 +35,7 @@ pub(crate) fn order(needs: &[Vec<usize>]) -> (Vec<usize>, Vec<Vec<usize>>) {
 }
 
 /// `a` needs `b`, which needs `a`.
-pub(crate) fn tell(cycle: &[usize], name: impl Fn(usize) -> String) -> String {
+pub(crate) fn in_words(cycle: &[usize], name: impl Fn(usize) -> String) -> String {
     let mut names: Vec<String> = cycle.iter().take(8).map(|i| format!("`{}`", name(*i))).collect();
     if cycle.len() > 8 {
         names.push("...".to_owned());
@@ -54,7 +54,7 @@ mod tests {
         assert_eq!((found, cycles.len()), (vec![2, 1, 0], 0));
         let (_, cycles) = order(&[vec![1], vec![2], vec![0]]);
         assert_eq!(cycles, [vec![0, 1, 2]]);
-        assert_eq!(tell(&cycles[0], |i| format!("p{i}")), "`p0` needs `p1`, which needs `p2`, which needs `p0`");
+        assert_eq!(in_words(&cycles[0], |i| format!("p{i}")), "`p0` needs `p1`, which needs `p2`, which needs `p0`");
         let chain: Vec<Vec<usize>> = (0..100_000).map(|i| if i < 99_999 { vec![i + 1] } else { vec![] }).collect();
         assert_eq!(order(&chain).0.len(), 100_000);
     }

@@ -2,7 +2,7 @@
 
 use super::decoder::{Decoder, Origin};
 use super::frame::Frame;
-use super::order::{order, tell};
+use super::order::{in_words, order};
 use super::values::needs;
 use crate::expression::{Dimension, Symbol};
 use crate::model::fault::{At, Spot};
@@ -65,8 +65,8 @@ impl<'n> Decoder<'n> {
         let mut in_cycle = vec![false; entries.len()];
         for cycle in &cycles {
             if let Some(first) = cycle.first() {
-                let told = tell(cycle, |i| entries[i].0.to_owned());
-                let fault = self.fault("cycle", &section.key(entries[*first].0), told, "scalars that do not need themselves");
+                let message = in_words(cycle, |i| entries[i].0.to_owned());
+                let fault = self.fault("cycle", &section.key(entries[*first].0), message, "scalars that do not need themselves");
                 fault.spot = Spot::Key;
             }
             cycle.iter().for_each(|i| in_cycle[*i] = true);

@@ -186,7 +186,7 @@ impl<'n> Decoder<'n> {
                 Quantity::State(_) => {
                     let fault = self.fault("wrong-start", at, format!("`{path}` is a first-order state"), EXPECTED);
                     fault.spot = Spot::Key;
-                    fault.help = Some(format!("its first value stands with it: `states: {{ {path}: {{ start: ... }} }}`"));
+                    fault.help = Some(format!("its first value belongs to it: `states: {{ {path}: {{ start: ... }} }}`"));
                     return None;
                 }
                 _ => refused(format!("`{path}` cannot be given at the start")),

@@ -22,7 +22,7 @@ keys! {
         to: may COORDINATE, "Upper end.";
         stiffness: may STIFFNESS, "Stiffness of the stop, in N/m or N m/rad.";
         damping: may DAMPING, "Damping of the stop, which never pulls; 0 if omitted.";
-        restitution: may NUMBER, "Of a rigid stop: speed behind a blow by speed before it, 0 to 1.";
+        restitution: may NUMBER, "Of a rigid stop: speed after an impact by speed before it, 0 to 1.";
         rest_speed: may RATE, "A rebound from a rigid stop below this speed counts as rest; 1 mm/s or 1e-3 rad/s if omitted.";
     }
 }

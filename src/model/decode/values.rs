@@ -1,7 +1,7 @@
 //! Parameters and tables, and the drafts of values that may need one another in any order.
 
 use super::decoder::{Decoder, Origin};
-use super::order::{order, tell};
+use super::order::{in_words, order};
 use crate::expression::{Dimension, Expr, Kind, Lowered};
 use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
@@ -116,10 +116,10 @@ impl<'n> Decoder<'n> {
     pub(super) fn cycle(&mut self, cycle: &[usize], name: impl Fn(usize) -> (String, &'static str)) {
         let Some(first) = cycle.first() else { return };
         let (entry, section) = name(*first);
-        let told = tell(cycle, |i| name(i).0);
+        let message = in_words(cycle, |i| name(i).0);
         let at = At::ROOT.key(section);
         let expected = if section == "parameters" { "parameters" } else { "expressions" };
-        let fault = self.fault("cycle", &at.key(entry.as_str()), told, format!("{expected} that do not need themselves"));
+        let fault = self.fault("cycle", &at.key(entry.as_str()), message, format!("{expected} that do not need themselves"));
         fault.spot = Spot::Key;
         fault.help = Some("give one of them a value of its own".to_owned());
     }

@@ -24,9 +24,9 @@ pub(super) fn tree(text: &str) -> Result<Document<'_>, Box<Fault>> {
     Document::parse_with_options(text, options).map_err(|error| {
         let at = offset(text, error.pos());
         let width = text[at..].chars().next().map_or(0, char::len_utf8);
-        let told = error.to_string();
-        let told = told.split(" at ").next().unwrap_or(&told);
-        let fault = Fault::new("xml-syntax", String::new(), format!("this is not XML: {told}"), "XML with every element closed");
+        let message = error.to_string();
+        let message = message.split(" at ").next().unwrap_or(&message);
+        let fault = Fault::new("xml-syntax", String::new(), format!("this is not XML: {message}"), "XML with every element closed");
         Box::new(fault.at(Spot::Bytes(at..at + width)).help("look for a missing `>`, quote or closing element here or above"))
     })
 }
@@ -57,7 +57,7 @@ fn nesting(text: &str) -> Result<(), Box<Fault>> {
         let rest = &text[start..];
         let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")].into_iter().find(|(open, _)| rest.starts_with(open));
         if let Some((open, close)) = skipped {
-            // what is not closed is told by the parser
+            // what is not closed is reported by the parser
             let Some(end) = rest[open.len()..].find(close) else { return Ok(()) };
             at = start + open.len() + end + close.len();
             continue;

@@ -74,7 +74,7 @@ fn written(robot: &Translated, file: &str, notes: &[(usize, String)]) -> String 
 fn heading(section: &str) -> &'static str {
     match section {
         "bodies" => "# mass in kg; com, points and drawn in m; inertia [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about com in kg m^2, body axes\n",
-        "joints" => "# axis in the first body's frame; rpy: how the second body stands in the first at 0, rad\n",
+        "joints" => "# axis in the first body's frame; rpy: orientation of the second body in the first at 0, rad\n",
         "couplings" => "# joints that mimic others\n",
         "start" => "# rad and m\n",
         _ => "",

@@ -38,15 +38,15 @@ pub(super) fn summary(results: &Results) -> String {
 fn methods(results: &Results) -> String {
     let Some(first) = results.list("eigenvalues") else { return String::new() };
     let size = first.iter().fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
-    let mut told = Vec::new();
+    let mut lines = Vec::new();
     for (method, spent) in [("jacobi", "sweeps"), ("power", "steps")] {
         let own = results.list(&format!("eigenvalues_{method}"));
         if let (Some(own), Some([count])) = (own, results.list(&format!("{spent}_{method}"))) {
             let off = first.iter().zip(own).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / size;
-            told.push(format!("{method} {count} {spent}, within {off:.0e} of the largest"));
+            lines.push(format!("{method} {count} {spent}, within {off:.0e} of the largest"));
         }
     }
-    if told.is_empty() { String::new() } else { format!("  {}\n", told.join("; ")) }
+    if lines.is_empty() { String::new() } else { format!("  {}\n", lines.join("; ")) }
 }
 
 /// The coordinates that move most in a shape, the largest first; of the largest one 1.

@@ -41,12 +41,12 @@ impl Sources<'_> {
                 path: place.to_owned(),
             }),
             None => {
-                let told = || Undefined {
+                let why = || Undefined {
                     message: format!("`{name}` is not defined: {}", self.case.model.why_undefined(cause)),
                     place: place.to_owned(),
                     help: "look at the numbers that it is made of; `if(condition, a, b)` chooses between formulas".into(),
                 };
-                undefined.get_or_insert_with(told);
+                undefined.get_or_insert_with(why);
             }
         };
         let mut scalars = Vec::with_capacity(self.case.study.scalars.len());

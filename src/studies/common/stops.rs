@@ -86,7 +86,7 @@ pub(crate) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut 
         findings.push(Finding {
             code: "friction-not-unique".into(),
             message: format!(
-                "from {name} = {from:.6} to {to:.6} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are told with 0 in its place",
+                "from {name} = {from:.6} to {to:.6} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are given with 0 in its place",
                 contact.name, -most
             ),
             path: contact.place.clone(),

@@ -19,7 +19,7 @@ const OUT_OF_REACH: f64 = 0.1;
 
 /// Which constraints contradict the others at the state that was observed last, at time `t`, in words; `size` is that of the
 /// mechanism, m.
-pub(super) fn told<G, D>(system: &Mechanical<'_, G, D>, size: f64, t: f64) -> Option<String>
+pub(super) fn explain<G, D>(system: &Mechanical<'_, G, D>, size: f64, t: f64) -> Option<String>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,

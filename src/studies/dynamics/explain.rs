@@ -31,7 +31,7 @@ where
             root_name(model, system, root)
         ),
         Why::Unresolved(root) => format!(
-            "at t = {t:.6} s it cannot be told where {} changes next: it oscillates, or stays at its edge, within the rounding of the time; use another unit of time, or give a shorter `until`",
+            "at t = {t:.6} s it is not known where {} changes next: it oscillates, or stays at its edge, within the rounding of the time; use another unit of time, or give a shorter `until`",
             root_name(model, system, root)
         ),
         Why::Blocked(root) if matches!(system.roots.get(root), Some(Root::Slides(_))) => format!(
@@ -63,7 +63,7 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    system.dynamics.undefined(modes).map(|law| Gap::Law(law).told(model, study, &format!("t = {t:.6} s")))
+    system.dynamics.undefined(modes).map(|law| Gap::Law(law).explain(model, study, &format!("t = {t:.6} s")))
 }
 
 /// Why a run ends at an event that has set parameters to what no mechanism can have.

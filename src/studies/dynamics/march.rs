@@ -273,9 +273,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 break After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt));
             }
             if self.balance.step(chart.mechanical(), &node, self.plan.until)
-                && let Some(told) = contradiction::told(chart.mechanical(), phase.start.size, node.state.t)
+                && let Some(why) = contradiction::explain(chart.mechanical(), phase.start.size, node.state.t)
             {
-                break After::Stopped(told);
+                break After::Stopped(why);
             }
             if happened {
                 let counted = self.happened(&mut chart, &run);
@@ -302,7 +302,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
                 self.trajectory.piece(&node);
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
-                break After::Stopped(slow.told(self.model, phase, self.plan, &node));
+                break After::Stopped(slow.explain(self.model, phase, self.plan, &node));
             }
             if progress == Progress::End {
                 break After::Done;

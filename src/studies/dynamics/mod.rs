@@ -78,9 +78,9 @@ where
                 ));
             }
             Err(Off { at, gap: Some(gap) }) => {
-                let told = |gap: &Gap, at: f64| gap.told(model, study, &format!("t = {at:.6} s"));
-                let Some(Off { at, gap: behind }) = trajectory.end_before(at) else { return Err(Failure::Undefined(told(&gap, at))) };
-                undefined = Some(told(&behind.unwrap_or(gap), at));
+                let explain = |gap: &Gap, at: f64| gap.explain(model, study, &format!("t = {at:.6} s"));
+                let Some(Off { at, gap: behind }) = trajectory.end_before(at) else { return Err(Failure::Undefined(explain(&gap, at))) };
+                undefined = Some(explain(&behind.unwrap_or(gap), at));
             }
         }
     };

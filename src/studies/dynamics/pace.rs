@@ -68,7 +68,7 @@ impl Pace {
 
 impl Slow {
     /// What the run says at a node, and how to go on.
-    pub(super) fn told<G>(&self, model: &Model, phase: &Phases<G>, plan: &Plan, node: &Node) -> String
+    pub(super) fn explain<G>(&self, model: &Model, phase: &Phases<G>, plan: &Plan, node: &Node) -> String
     where
         G: Space<S = f64>,
         G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,

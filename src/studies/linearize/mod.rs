@@ -162,7 +162,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         };
         let answer = probe.answer(at, &[], true);
         if let Some(gap) = &probe.gap {
-            return Err(Failure::Undefined(gap.told(self.case.model, self.case.study, "the state")));
+            return Err(Failure::Undefined(gap.explain(self.case.model, self.case.study, "the state")));
         }
         let answer = answer.ok_or_else(undetermined)?;
         let mut linearizer = Linearizer::new(lifted);

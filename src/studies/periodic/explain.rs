@@ -158,7 +158,7 @@ pub(super) fn not_closed(search: &Search<'_>, apart: f64) -> Failure {
 pub(super) fn turns_back(search: &Search<'_>, t: f64) -> Failure {
     Failure::Study {
         code: "turns-back",
-        message: format!("`{}` turns back at t = {t:.6} s of the period, so that columns cannot stand over it", search.over),
+        message: format!("`{}` turns back at t = {t:.6} s of the period, so columns cannot be given over it", search.over),
         place: format!("{}.periodic.over", search.study.place),
         help: "let something else advance, that never turns back; if the period is known, `over: t`, else `over: t` with `through`".into(),
     }

@@ -84,7 +84,7 @@ struct Seen<'a> {
 
 fn lost(search: &Search<'_>, off: Off) -> Failure {
     if let Some(gap) = &off.gap {
-        return Failure::Undefined(gap.told(&search.model, search.study, &format!("t = {:.6} s", off.at)));
+        return Failure::Undefined(gap.explain(&search.model, search.study, &format!("t = {:.6} s", off.at)));
     }
     Failure::numerical(
         format!("the state at t = {} s could not be evaluated", off.at),

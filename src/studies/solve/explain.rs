@@ -1,4 +1,4 @@
-//! What is told of a `solve`.
+//! What is said of a `solve`.
 
 use super::search::Zero;
 use super::task::{Task, Trial};
@@ -7,7 +7,7 @@ use crate::model::{in_unit, with_unit};
 use crate::numerics::root::Root;
 use crate::results::{Finding, Unsolved};
 
-/// A solution whose residual is above this part of the target and of the change over the first bracket is told to be coarse.
+/// A solution whose residual is above this part of the target and of the change over the first bracket is said to be coarse.
 const COARSE: f64 = 1e-6;
 
 /// A search that has ended.
@@ -45,12 +45,12 @@ impl Explain<'_> {
             );
             return unsolved(message, "choose bounds or a target on one side");
         }
-        let ends: Vec<String> = [self.log.first(), self.log.last()].into_iter().flatten().map(|run| self.told(run)).collect();
+        let ends: Vec<String> = [self.log.first(), self.log.last()].into_iter().flatten().map(|run| self.describe(run)).collect();
         let off = |run: &&Trial| (run.scalar - run.target).abs();
         let nearest = self.log.iter().filter(|run| run.why.is_none()).min_by(|a, b| off(a).total_cmp(&off(b)));
         let nearest = nearest
             .filter(|run| run.x > 0.0 && run.x < 1.0)
-            .map_or_else(String::new, |run| format!("; it comes nearest with {}", self.told(run)));
+            .map_or_else(String::new, |run| format!("; it comes nearest with {}", self.describe(run)));
         let message =
             format!("`{scalar}` does not meet its target {}: it is {}{nearest}{}", self.target(), ends.join(" and "), self.reasons());
         unsolved(message, "give other bounds in `between`, or a target that the scalar reaches")
@@ -116,7 +116,7 @@ impl Explain<'_> {
     }
 
     /// `0.3 at 1 kg m^2`.
-    fn told(&self, run: &Trial) -> String {
+    fn describe(&self, run: &Trial) -> String {
         let scalar = if run.why.is_some() { "unknown".into() } else { self.with_unit(run.scalar) };
         format!("{scalar} at {}", self.at(run.x))
     }

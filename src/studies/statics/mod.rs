@@ -212,7 +212,7 @@ where
         };
         let message = match [at(&ends[0]), at(&ends[1])] {
             [Some(low), Some(high)] => format!("{what}: it rests anywhere from {low} to {high}"),
-            [Some(one), None] | [None, Some(one)] => format!("{what}: it rests anywhere beside {one}, on the side of the position told"),
+            [Some(one), None] | [None, Some(one)] => format!("{what}: it rests anywhere beside {one}, on the side of the position found"),
             [None, None] => format!("{what}: it rests wherever it is put"),
         };
         Some(Finding { code: "held-by-friction".into(), message, path: self.case.study.place.clone() })
@@ -406,7 +406,7 @@ where
         let mut row = vec![0.0; count];
         system.columns(&modes, &mut row);
         match system.observer.undefined(&modes, &row) {
-            Some(gap) => Err(Failure::Undefined(gap.told(self.case.model, self.case.study, "the equilibrium"))),
+            Some(gap) => Err(Failure::Undefined(gap.explain(self.case.model, self.case.study, "the equilibrium"))),
             None => Ok(row),
         }
     }
