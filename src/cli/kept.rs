@@ -14,9 +14,9 @@ use grashof::studies::common::outcome::Outcome;
 use grashof::studies::solve::Solved;
 use grashof::studies::sweep::Run;
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::fs::{self, File, TryLockError};
-use std::hash::{DefaultHasher, Hasher};
 use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -203,27 +203,30 @@ fn is_ours(bytes: &[u8]) -> bool {
 }
 
 fn checksum(fingerprint: u64, bytes: &[u8]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    hasher.write_u64(fingerprint);
-    hasher.write(bytes);
-    hasher.finish()
+    shortened(Sha256::new().chain_update(fingerprint.to_le_bytes()).chain_update(bytes))
+}
+
+/// The first 64 bits of a hash.
+fn shortened(hash: Sha256) -> u64 {
+    let hash = hash.finalize();
+    hash[..8].iter().rev().fold(0, |sum, byte| sum << 8 | u64::from(*byte))
 }
 
 /// A number for all that decides the results: the program, and the model with its study as they were read, with variants,
 /// settings and scalars of other studies in them.
 fn fingerprint(model: &Model) -> u64 {
-    struct Text(DefaultHasher);
+    struct Text(Sha256);
     impl std::fmt::Write for Text {
         fn write_str(&mut self, text: &str) -> std::fmt::Result {
-            self.0.write(text.as_bytes());
+            self.0.update(text.as_bytes());
             Ok(())
         }
     }
-    let mut text = Text(DefaultHasher::new());
+    let mut text = Text(Sha256::new());
     let program = std::env::current_exe().and_then(fs::metadata).ok();
     let program = program.map(|of| (of.len(), of.modified().ok()));
     // the index of the pool has no order: its nodes hold all
     let rest = Model { pool: Pool::new(), ..model.clone() };
     let _ = write!(text, "{} {program:?} {:?} {:?} {rest:?}", env!("CARGO_PKG_VERSION"), model.pool.nodes(), model.pool.switches());
-    text.0.finish()
+    shortened(text.0)
 }

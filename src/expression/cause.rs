@@ -2,7 +2,7 @@
 
 use super::pool::{Id, Pool};
 use super::program::{Op, Program};
-use super::table::Table;
+use super::table::LookupTable;
 use std::sync::Arc;
 
 /// The operation that makes a value undefined although its own arguments are defined.
@@ -86,7 +86,7 @@ impl Program {
 impl Pool {
     /// Why a node that depends on parameters and constants only is undefined; none if it is defined.
     #[must_use]
-    pub fn cause(&self, id: Id, parameters: &[f64], tables: &Arc<[Table]>) -> Option<Cause> {
+    pub fn cause(&self, id: Id, parameters: &[f64], tables: &Arc<[LookupTable]>) -> Option<Cause> {
         let program = self.program(&[id], parameters, tables);
         let (mut registers, mut modes) = (vec![0.0; program.registers], vec![0; self.switches().len()]);
         let inputs = vec![f64::NAN; program.inputs().last().map_or(0, |i| *i as usize + 1)];
@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     fn cause(pool: &Pool, id: Id, x: f64) -> Option<Cause> {
-        let tables: Arc<[Table]> = Arc::new([Table::new(&[(1.0, 0.0), (2.0, 1.0)], Between::Linear, Beyond::Error).unwrap()]);
+        let tables: Arc<[LookupTable]> = Arc::new([LookupTable::new(&[(1.0, 0.0), (2.0, 1.0)], Between::Linear, Beyond::Error).unwrap()]);
         let program = pool.program(&[id], &[], &tables);
         let (mut registers, mut modes) = (vec![0.0; program.registers()], vec![0; pool.switches().len()]);
         program.set_modes(&[x], &mut registers, &mut modes);

@@ -3,7 +3,7 @@
 use super::pool::{Id, Node, Pool};
 use super::program::{Decision, Op, Program};
 use super::switch::{Switch, Test};
-use super::table::Table;
+use super::table::LookupTable;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ impl Pool {
     ///
     /// `tables` are indexed as the pool's table nodes. A switch that only parameters decide is not in the program.
     #[must_use]
-    pub fn program(&self, outputs: &[Id], parameters: &[f64], tables: &Arc<[Table]>) -> Program {
+    pub fn program(&self, outputs: &[Id], parameters: &[f64], tables: &Arc<[LookupTable]>) -> Program {
         let (folded, outputs) = self.with_numbers(outputs, parameters, tables);
         let mut compiler = Compiler { pool: &folded, program: Program::default(), registers: HashMap::new(), next: 0 };
         for id in folded.reach(&outputs) {
@@ -24,7 +24,7 @@ impl Pool {
     }
 
     /// A copy of what `outputs` need with numbers for parameters; switches keep their numbers.
-    fn with_numbers(&self, outputs: &[Id], parameters: &[f64], tables: &[Table]) -> (Self, Vec<Id>) {
+    fn with_numbers(&self, outputs: &[Id], parameters: &[f64], tables: &[LookupTable]) -> (Self, Vec<Id>) {
         let order = self.reach(outputs);
         let mut copy = Self::new();
         copy.switches = self.switches.iter().map(|s| Switch { test: s.test, text: String::new() }).collect();

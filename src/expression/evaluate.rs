@@ -1,7 +1,7 @@
 //! Plain values of nodes, and the order in which parameters are found.
 
 use super::pool::{Id, Node, Pool};
-use super::table::Table;
+use super::table::LookupTable;
 
 impl Pool {
     /// The value of a node that depends on parameters and constants only; not a number where it needs an input or a table.
@@ -18,7 +18,7 @@ impl Pool {
 
     /// As [`Self::values`], with tables.
     #[must_use]
-    pub fn values_with_tables(&self, ids: &[Id], parameters: &[f64], tables: &[Table]) -> Vec<f64> {
+    pub fn values_with_tables(&self, ids: &[Id], parameters: &[f64], tables: &[LookupTable]) -> Vec<f64> {
         let order = self.reach(ids);
         let mut values = vec![f64::NAN; order.last().map_or(0, |top| top.index() + 1)];
         for id in order {
@@ -36,7 +36,7 @@ impl Pool {
         value: &dyn Fn(Id) -> f64,
         mode: &dyn Fn(u32) -> i32,
         parameters: &[f64],
-        tables: &[Table],
+        tables: &[LookupTable],
     ) -> f64 {
         let truth = |truth: bool| f64::from(u8::from(truth));
         let result = match node {

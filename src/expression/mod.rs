@@ -41,7 +41,7 @@ pub use program::Program;
 pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
 pub use syntax::SyntaxError;
-pub use table::{Between, Beyond, Table, TableError};
+pub use table::{Between, Beyond, LookupTable, TableError};
 pub use unit_text::parse_unit;
 pub use units::Dimension;
 

@@ -2,7 +2,7 @@
 
 use super::program::{Op, Program, step};
 use super::switch::Test;
-use super::table::Table;
+use super::table::LookupTable;
 use crate::scalar::{Interval, Scalar};
 
 /// What is cut out of a program.
@@ -138,7 +138,7 @@ impl Part {
 }
 
 fn run<S: Scalar>(program: &Program, inputs: &[S], modes: &[i32], registers: &mut [S]) {
-    let tables: &[Table] = &program.tables;
+    let tables: &[LookupTable] = &program.tables;
     let mut k = 0;
     for op in &program.ops {
         k = step(*op, k, inputs, modes, tables, registers);

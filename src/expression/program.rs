@@ -1,7 +1,7 @@
 //! Straight-line code: the form in which expressions are evaluated, on any scalar.
 
 use super::switch::{Compare, Test, whole};
-use super::table::Table;
+use super::table::LookupTable;
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
@@ -128,12 +128,12 @@ pub struct Program {
     /// Pool's numbers of the switches, in the order of `decisions`.
     pub(super) switches: Vec<u32>,
     pub(super) decisions: Vec<Decision>,
-    pub(super) tables: Arc<[Table]>,
+    pub(super) tables: Arc<[LookupTable]>,
 }
 
 /// Runs one instruction whose result belongs into register `k`; returns the next free register.
 #[inline(always)]
-pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[Table], r: &mut [S]) -> usize {
+pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[LookupTable], r: &mut [S]) -> usize {
     let at = |i: u32| r[i as usize];
     // conditions are constants that modes decided, so reading their value is no branch on a scalar
     let truth = |i: u32| r[i as usize].value() != 0.0;

@@ -2,8 +2,8 @@ use super::super::{Between, Beyond, Compare, Id, Pool};
 use super::*;
 use crate::scalar::Dual;
 
-fn tables() -> Arc<[Table]> {
-    Arc::new([Table::new(&[(0.0, 1.0), (1.0, 3.0), (2.0, 2.0), (4.0, 2.5)], Between::Cubic, Beyond::Linear).unwrap()])
+fn tables() -> Arc<[LookupTable]> {
+    Arc::new([LookupTable::new(&[(0.0, 1.0), (1.0, 3.0), (2.0, 2.0), (4.0, 2.5)], Between::Cubic, Beyond::Linear).unwrap()])
 }
 
 /// Outputs, modes and roots at `inputs`.

@@ -1,11 +1,11 @@
-use super::super::{Between, Beyond, Compare, Table};
+use super::super::{Between, Beyond, Compare, LookupTable};
 use super::*;
 use std::sync::Arc;
 
 /// Values at x, with modes as they are at x₀.
 fn values(p: &Pool, ids: &[Id], x0: &[f64], x: &[f64]) -> Vec<f64> {
-    let tables: Arc<[Table]> =
-        Arc::new([Table::new(&[(0.0, 1.0), (1.0, 3.0), (2.0, 2.0), (4.0, 2.5)], Between::Cubic, Beyond::Constant).unwrap()]);
+    let tables: Arc<[LookupTable]> =
+        Arc::new([LookupTable::new(&[(0.0, 1.0), (1.0, 3.0), (2.0, 2.0), (4.0, 2.5)], Between::Cubic, Beyond::Constant).unwrap()]);
     let program = p.program(ids, &[1.7], &tables);
     let (mut registers, mut modes) = (vec![0.0; program.registers()], vec![0; p.switches().len()]);
     let mut outputs = vec![0.0; ids.len()];

@@ -10,7 +10,7 @@
 //! | table | number of the segment; −1 below, n above the n segments; periodic tables count on without bound |
 
 use super::id::Id;
-use super::table::Table;
+use super::table::LookupTable;
 use crate::scalar::{Interval, Scalar};
 
 /// A comparison.
@@ -103,7 +103,7 @@ impl<I: Copy> Test<I> {
     }
 
     /// The mode that the operands' values ask for; a tie takes the literal truth.
-    pub(super) fn mode(self, value: impl Fn(I) -> f64, tables: &[Table]) -> i32 {
+    pub(super) fn mode(self, value: impl Fn(I) -> f64, tables: &[LookupTable]) -> i32 {
         match self {
             Self::Compare(Compare::Less, a, b) => i32::from(value(a) < value(b)),
             Self::Compare(Compare::LessEqual, a, b) | Self::Order(a, b) => i32::from(value(a) <= value(b)),
@@ -119,7 +119,7 @@ impl<I: Copy> Test<I> {
     /// Distance of the operands from the end of `mode`: positive inside, 0 on the switch, negative outside.
     ///
     /// Where an operand is not a number (a value that an `if` does not take) nothing can be crossed: 1.
-    pub(super) fn root(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> f64 {
+    pub(super) fn root(self, mode: i32, value: impl Fn(I) -> f64, tables: &[LookupTable]) -> f64 {
         let two_sided = |x: f64| match mode {
             0 => -x.abs(),
             m if m > 0 => x,
@@ -143,7 +143,7 @@ impl<I: Copy> Test<I> {
 
     /// Bounds of [`Self::root`] for operands in intervals, and the size of what it is the difference of; no interval where an operand
     /// is undefined throughout.
-    pub(super) fn bounds(self, mode: i32, value: impl Fn(I) -> Interval, tables: &[Table]) -> (Interval, f64) {
+    pub(super) fn bounds(self, mode: i32, value: impl Fn(I) -> Interval, tables: &[LookupTable]) -> (Interval, f64) {
         let two_sided = |x: Interval| match mode {
             0 if x.holds(0.0) => Interval { low: -x.magnitude(), high: 0.0 },
             m if m > 0 || m == 0 && x.high < 0.0 => x,
@@ -174,7 +174,7 @@ impl<I: Copy> Test<I> {
     }
 
     /// Distances of a table's argument from the lower and the upper end of its segment `mode`; none for other tests.
-    pub(super) fn ends(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> Option<[f64; 2]> {
+    pub(super) fn ends(self, mode: i32, value: impl Fn(I) -> f64, tables: &[LookupTable]) -> Option<[f64; 2]> {
         let Self::Segment { table, x } = self else { return None };
         let ends = tables.get(table as usize)?.from_ends(value(x), mode);
         // as above
@@ -184,7 +184,7 @@ impl<I: Copy> Test<I> {
     /// The mode on the other side of the end of `mode` that is nearest.
     ///
     /// From the middle mode 0 of a sign it is the side where the value lies, positive on a tie.
-    pub(super) fn neighbour(self, mode: i32, value: impl Fn(I) -> f64, tables: &[Table]) -> i32 {
+    pub(super) fn neighbour(self, mode: i32, value: impl Fn(I) -> f64, tables: &[LookupTable]) -> i32 {
         let across = |x: f64| match mode {
             0 => sign(x) + i32::from(x == 0.0),
             m => -m,

@@ -59,7 +59,7 @@ impl std::error::Error for TableError {}
 /// Segment k = 0 … n−1 lies between points k and k+1 and holds its left end; the last one holds both. −1 lies below, n
 /// above. A periodic table goes on counting: segment k + n·j is segment k shifted by j periods.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct LookupTable {
     /// Arguments of the points.
     pub x: Vec<f64>,
     /// Values at the points.
@@ -72,7 +72,7 @@ pub struct Table {
     pieces: Vec<[f64; 4]>,
 }
 
-impl Table {
+impl LookupTable {
     /// The table through `points`.
     ///
     /// # Errors

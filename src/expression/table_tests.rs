@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 const POINTS: [(f64, f64); 6] = [(-1.0, 2.0), (0.0, 1.0), (0.5, 1.5), (2.0, -1.0), (3.0, 0.0), (4.5, 2.0)];
 
-fn table(between: Between, beyond: Beyond) -> Table {
-    Table::new(&POINTS, between, beyond).unwrap()
+fn table(between: Between, beyond: Beyond) -> LookupTable {
+    LookupTable::new(&POINTS, between, beyond).unwrap()
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn periodic_tables_repeat() {
     }
     for n in [2, 3, 8, 40] {
         let points: Vec<_> = (0..=n).map(|i| TAU * f64::from(i) / f64::from(n)).map(|x| (x, x.cos())).collect();
-        let t = Table::new(&points, Between::Cubic, Beyond::Periodic).unwrap();
+        let t = LookupTable::new(&points, Between::Cubic, Beyond::Periodic).unwrap();
         for order in 0..3 {
             let wrap = t.eval(TAU, n - 1, order) - t.eval(0.0, 0, order);
             assert!(wrap.abs() < 1e-12, "{n} points, order {order}: {wrap}");
@@ -117,7 +117,7 @@ fn segments_and_their_ends() {
 
 #[test]
 fn points_that_make_no_table() {
-    let new = |points: &[(f64, f64)], beyond| Table::new(points, Between::Linear, beyond);
+    let new = |points: &[(f64, f64)], beyond| LookupTable::new(points, Between::Linear, beyond);
     assert_eq!(new(&[(0.0, 1.0)], Beyond::Constant), Err(TableError::TooFew(1)));
     assert_eq!(new(&[(0.0, 1.0), (1.0, 0.0), (1.0, 2.0)], Beyond::Constant), Err(TableError::NotRising(2)));
     assert_eq!(new(&[(0.0, 1.0), (f64::NAN, 0.0)], Beyond::Constant), Err(TableError::NotFinite(1)));

@@ -40,8 +40,8 @@ impl Scope for Names {
 
 const F: [(f64, f64); 3] = [(0.0, 1.0), (1.0, 3.0), (2.0, -1.0)];
 
-fn tables() -> Arc<[Table]> {
-    [Beyond::Error, Beyond::Constant].map(|beyond| Table::new(&F, Between::Linear, beyond).unwrap()).into()
+fn tables() -> Arc<[LookupTable]> {
+    [Beyond::Error, Beyond::Constant].map(|beyond| LookupTable::new(&F, Between::Linear, beyond).unwrap()).into()
 }
 
 /// The second evaluator: `None` is undefined. `near` is set where rounding could decide.

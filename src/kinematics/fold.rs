@@ -5,13 +5,18 @@
 //! unknown: [G, −ν; e_k, 0] [δq; δt] = [−Φ; p − p₀] (Keller 1977, bordered by a coordinate instead of the arc length).
 
 use super::driven::Driven;
-use super::node::Node;
+use super::node::PathPoint;
 use crate::geometry::Space;
 use crate::mechanism::Step;
 use crate::numerics::least_squares::shortest;
 
 /// Time and coordinates of the dead point ahead of `last`; none if the search does not settle.
-pub(crate) fn fold<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &[i32], last: &Node, direction: f64) -> Option<(f64, Vec<f64>)> {
+pub(crate) fn fold<G: Space<S = f64>>(
+    driven: &mut Driven<'_, G>,
+    modes: &[i32],
+    last: &PathPoint,
+    direction: f64,
+) -> Option<(f64, Vec<f64>)> {
     let m = driven.dynamics.mechanism;
     // the coordinate that moves fastest carries the path
     let (k, speed) = m

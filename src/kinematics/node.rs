@@ -2,7 +2,7 @@
 
 /// A solution on the path.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node {
+pub struct PathPoint {
     /// Time, s.
     pub t: f64,
     /// Coordinates (nq).

@@ -7,7 +7,7 @@
 
 use super::driven::{Driven, NotReached};
 use super::fold::fold;
-pub use super::node::{Node, SINGULAR};
+pub use super::node::{PathPoint, SINGULAR};
 use super::standing::Standing;
 use super::undefined::Gap;
 use crate::geometry::Space;
@@ -18,7 +18,7 @@ use crate::numerics::hermite::Hermite;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Nodes, t rising.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<PathPoint>,
     /// Dead points at the two ends, if the range was not reached there: time and coordinates.
     pub dead: [Option<DeadPoint>; 2],
     /// A row that cannot be met with the others behind the end of the path, if that is why it ends.
@@ -132,7 +132,7 @@ impl Path {
         for step in &m.steps {
             match *step {
                 Step::Axis { q: i, v: k, .. } => {
-                    let end = |n: &Node| [n.q[i], n.v[k], n.a[k]];
+                    let end = |n: &PathPoint| [n.q[i], n.v[k], n.a[k]];
                     q[i] = Hermite::quintic(h, end(first), end(second)).at(past)[0];
                 }
                 Step::Ball { q: i, .. } => {
@@ -153,7 +153,7 @@ impl Path {
 }
 
 /// Regular nodes on both sides of a start [q, v] in a change point, on the branch of its velocity; none if there is no motion through it.
-fn around<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], [q, v]: [&[f64]; 2], to: f64) -> Option<[Node; 2]> {
+fn around<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], [q, v]: [&[f64]; 2], to: f64) -> Option<[PathPoint; 2]> {
     let reach = around_reach(driven, v, to);
     let turns = driven.node(0.0, modes).turns;
     let mut beside = |t: f64| {
@@ -185,7 +185,12 @@ enum End {
 }
 
 /// Nodes from `start` to time `to`, and what ends them.
-fn march<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], start: &Node, to: f64) -> Result<(Vec<Node>, End), NoPath> {
+fn march<G: Space<S = f64>>(
+    driven: &mut Driven<'_, G>,
+    modes: &mut [i32],
+    start: &PathPoint,
+    to: f64,
+) -> Result<(Vec<PathPoint>, End), NoPath> {
     let mut nodes = vec![start.clone()];
     let longest = to / 48.0;
     let mut h = longest;
@@ -237,10 +242,10 @@ fn march<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], start
 fn step<G: Space<S = f64>>(
     driven: &mut Driven<'_, G>,
     modes: &mut [i32],
-    last: &Node,
+    last: &PathPoint,
     t: f64,
     delta: &mut [f64],
-) -> Result<Node, NotReached> {
+) -> Result<PathPoint, NotReached> {
     let h = t - last.t;
     for (d, (v, a)) in delta.iter_mut().zip(last.v.iter().zip(&last.a)) {
         *d = h * (v + 0.5 * h * a);
@@ -271,7 +276,7 @@ fn step<G: Space<S = f64>>(
 impl<G: Space<S = f64>> Driven<'_, G> {
     /// The solution found last as a node.
     #[must_use]
-    pub fn node(&mut self, t: f64, modes: &[i32]) -> Node {
+    pub fn node(&mut self, t: f64, modes: &[i32]) -> PathPoint {
         let mut turns = vec![0.0; self.dynamics.mechanism.windings];
         if !turns.is_empty() {
             self.dynamics.watch(&self.q, &self.v, modes);
@@ -281,7 +286,7 @@ impl<G: Space<S = f64>> Driven<'_, G> {
                 }
             }
         }
-        Node { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns }
+        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns }
     }
 
     /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.

@@ -5,7 +5,7 @@
 
 use super::assemble::{Assembled, Branch};
 use super::driven::Driven;
-use super::node::{Node, SINGULAR};
+use super::node::{PathPoint, SINGULAR};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 
@@ -38,7 +38,7 @@ impl Standing {
     }
 
     /// Nodes from which the path goes on, behind and ahead of the start: the start itself where the drivers do not come from anywhere.
-    pub(crate) fn around<G: Space<S = f64>>(&self, driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Option<[Node; 2]> {
+    pub(crate) fn around<G: Space<S = f64>>(&self, driven: &mut Driven<'_, G>, modes: &mut [i32], to: f64) -> Option<[PathPoint; 2]> {
         let turns = driven.node(0.0, modes).turns;
         let mut beside = |to: f64| {
             let mut t = 1e-6 * to;
@@ -56,7 +56,8 @@ impl Standing {
             Some(driven.node(t, modes))
         };
         let (ahead, behind) = (beside(to)?, beside(-to));
-        let rest = || Node { t: 0.0, q: self.q.clone(), v: vec![0.0; ahead.v.len()], a: vec![0.0; ahead.v.len()], turns: turns.clone() };
+        let rest =
+            || PathPoint { t: 0.0, q: self.q.clone(), v: vec![0.0; ahead.v.len()], a: vec![0.0; ahead.v.len()], turns: turns.clone() };
         Some([behind.unwrap_or_else(rest), ahead])
     }
 }

@@ -28,7 +28,7 @@ pub use gauge::{Along, Gauge, Measured, Placed, Reading};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use loops::describe_loop;
-pub use parts::{Attached, Body, Mechanism, Node};
+pub use parts::{Attached, Body, Mechanism, TreeNode};
 pub use row::{Function, Row, RowKind, RowOwner};
 pub use start::{Asked, Orientation, Start};
 pub use step::Step;

@@ -4,7 +4,7 @@ use super::{
     Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, PointLoad, Pressing, Rotor, Row, RowKind,
     RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
 };
-use crate::expression::Table;
+use crate::expression::LookupTable;
 use crate::geometry::{MassProperties, Pose, Space};
 use crate::scalar::Scalar;
 use std::ops::Range;
@@ -40,7 +40,7 @@ pub struct Attached<G: Space> {
 
 /// A body's place in the tree.
 #[derive(Clone, Debug)]
-pub struct Node<G: Space> {
+pub struct TreeNode<G: Space> {
     /// The body.
     pub body: usize,
     /// Its parent body, earlier in the order.
@@ -63,7 +63,7 @@ pub struct Mechanism<G: Space> {
     /// Bodies in file order; 0 is the ground.
     pub bodies: Vec<Body<G>>,
     /// Moving bodies, parents first.
-    pub nodes: Vec<Node<G>>,
+    pub nodes: Vec<TreeNode<G>>,
     /// Groups of bodies, each with the reference point that moments are taken about; at least one.
     pub groups: Vec<Group<G>>,
     /// Group of each body; 0 for the ground, see [`Mechanism::group_between`].
@@ -133,7 +133,7 @@ pub struct Mechanism<G: Space> {
     /// First-order states at the start.
     pub state_starts: Vec<f64>,
     /// Tables of the model as numbers, shared with the programs of outputs.
-    pub tables: Arc<[Table]>,
+    pub tables: Arc<[LookupTable]>,
     /// Gravity, m/s².
     pub gravity: G::Vector,
     /// Number of switches (`modes` begins with them; those of the model's expressions, then the signs of [`Pressed::side`](super::Pressed::side) and what one-way clutches do) and of
@@ -333,7 +333,7 @@ impl<G: Space> Mechanism<G> {
             nodes: self
                 .nodes
                 .iter()
-                .map(|n| Node {
+                .map(|n| TreeNode {
                     body: n.body,
                     parent: n.parent,
                     before: n.before.lift(),

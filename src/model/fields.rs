@@ -90,7 +90,7 @@ pub(crate) enum Shape {
     /// A list.
     List(&'static Shape, Size),
     /// A map with known keys.
-    Map(&'static Table),
+    Map(&'static Record),
     /// A map with free keys; the words name one entry.
     Named(Keys, &'static str, &'static Shape),
     /// One of several shapes, told apart by being a map, a list or a scalar.
@@ -125,7 +125,7 @@ pub(crate) struct Choice {
 
 /// A map with known keys.
 #[derive(Debug)]
-pub(crate) struct Table {
+pub(crate) struct Record {
     /// What it describes, with its article: `a joint`.
     pub(crate) what: &'static str,
     /// Its keys.
@@ -134,7 +134,7 @@ pub(crate) struct Table {
     pub(crate) choices: &'static [Choice],
 }
 
-impl Table {
+impl Record {
     /// The field of a key.
     pub(crate) fn field(&self, key: &str) -> Option<&'static Field> {
         self.fields.iter().find(|field| field.key == key)

@@ -109,8 +109,8 @@ macro_rules! keys {
         $($field:ident $(($key:literal))?: $need:ident $shape:expr, $doc:literal;)*
     }) => {
         $(#[$about])*
-        $vis static $TABLE: $crate::model::fields::Table =
-            $crate::model::fields::Table { what: $what, choices: &[$($choice),*], fields: $Keys::FIELDS };
+        $vis static $TABLE: $crate::model::fields::Record =
+            $crate::model::fields::Record { what: $what, choices: &[$($choice),*], fields: $Keys::FIELDS };
 
         $(#[$about])*
         #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@ use super::fault::Fault;
 use super::newmark::newmark_fault;
 use super::place::Place;
 use super::words::why_undefined;
-use crate::expression::{Cause, Id, Pool, Table, TableError};
+use crate::expression::{Cause, Id, LookupTable, Pool, TableError};
 
 /// What must hold of some values.
 #[derive(Clone, Copy, Debug)]
@@ -88,14 +88,14 @@ pub(crate) fn broken<'c, P>(
 }
 
 /// The tables as functions; one that is faulty is replaced by a constant, its fault is found by its check.
-fn tables_with(pool: &Pool, tables: &[entities::Table], parameters: &[f64]) -> Vec<Table> {
+fn tables_with(pool: &Pool, tables: &[entities::Table], parameters: &[f64]) -> Vec<LookupTable> {
     let mut made = Vec::with_capacity(tables.len());
     for table in tables {
         let ids: Vec<Id> = table.points.iter().flat_map(|(x, y)| [*x, *y]).collect();
         let numbers = pool.values(&ids, parameters);
         let points: Vec<(f64, f64)> = numbers.chunks(2).map(|p| (p[0], p[1])).collect();
-        let table = Table::new(&points, table.between, table.beyond);
-        made.extend(table.or_else(|_| Table::new(&[(0.0, 0.0), (1.0, 0.0)], Default::default(), Default::default())));
+        let table = LookupTable::new(&points, table.between, table.beyond);
+        made.extend(table.or_else(|_| LookupTable::new(&[(0.0, 0.0), (1.0, 0.0)], Default::default(), Default::default())));
     }
     made
 }
@@ -114,7 +114,7 @@ impl Rule {
         if let Rule::Table(i) = self {
             let points: Vec<(f64, f64)> = x.chunks_exact(2).map(|p| (p[0], p[1])).collect();
             let table = tables.get(i)?;
-            let error = Table::new(&points, table.between, table.beyond).err()?;
+            let error = LookupTable::new(&points, table.between, table.beyond).err()?;
             let place = match error {
                 TableError::NotRising(k) | TableError::NotFinite(k) => format!("{}[{k}]", place()),
                 _ => place(),

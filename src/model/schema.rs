@@ -1,6 +1,6 @@
 //! The JSON Schema of the format (draft 2020-12), made from the tables of fields.
 
-use super::fields::{Choice, Keys, Shape, Size, Table, Want};
+use super::fields::{Choice, Keys, Record, Shape, Size, Want};
 use super::tables::{FILE, NOT_IN_VARIANTS};
 use serde_json::{Map, Value, json};
 
@@ -18,7 +18,7 @@ pub fn schema() -> Value {
 }
 
 /// `patch`: nothing is required and `null` removes.
-fn table(table: &Table, patch: bool) -> Value {
+fn table(table: &Record, patch: bool) -> Value {
     let mut properties = Map::new();
     // a patch of the file has no variants of its own
     let left_out = |key: &str| patch && std::ptr::eq(table, &FILE) && NOT_IN_VARIANTS.contains(&key);

@@ -2,7 +2,7 @@
 //! right keys and the right kinds of values; their meaning is checked where they are decoded.
 
 use super::fault::{At, Fault, Spot};
-use super::fields::{Keys, Shape, Size, Table};
+use super::fields::{Keys, Record, Shape, Size};
 use super::merge::{Layers, Node};
 use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
@@ -184,7 +184,7 @@ impl Shapes<'_> {
         cut
     }
 
-    fn map(&mut self, node: Node<'_>, table: &'static Table, at: &At<'_, '_>) {
+    fn map(&mut self, node: Node<'_>, table: &'static Record, at: &At<'_, '_>) {
         let cut = self.commas(node, at);
         let mut unknown: Vec<Option<&'static str>> = Vec::new();
         if let Node::Plain(Value::Mapping(map)) = node {

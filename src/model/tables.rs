@@ -2,12 +2,12 @@
 
 use super::decode::{BODY, CLUTCH, COUPLING, DRIVER, EVENT, GRAVITY, JOINT, LOAD, MOTOR, PLACED, ROTATION, SPRING, STATE, STUDY, TABLE};
 use super::fields::Shape::{Count, Either, Formula, Later, List, Map, Named, Patch, Text, Value, Word};
-use super::fields::{ANY, Keys, Shape, Size, Table, Want, may, need};
+use super::fields::{ANY, Keys, Record, Shape, Size, Want, may, need};
 use super::urdf::INCLUDE;
 use crate::expression::Dimension as D;
 
 /// The whole file.
-pub(crate) static FILE: Table = Table {
+pub(crate) static FILE: Record = Record {
     what: "a model",
     choices: &[],
     fields: &[

@@ -6,7 +6,7 @@ use super::rotation;
 use super::rotation::spin;
 use crate::dynamics::Dynamics;
 use crate::geometry::{Pose, Space, basis};
-use crate::mechanism::{Measured, Mechanism, Node, Step};
+use crate::mechanism::{Measured, Mechanism, Step, TreeNode};
 use std::f64::consts::PI;
 
 /// The start of `from`, in the coordinates of `to`, whose rows it anchors.
@@ -55,7 +55,14 @@ fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[
 }
 
 /// Coordinates of a branch, and the velocities of its axes.
-fn coordinates<G: Space<S = f64>>(from: &Dynamics<'_, G>, to: &Mechanism<G>, index: usize, node: &Node<G>, q: &mut [f64], v: &mut [f64]) {
+fn coordinates<G: Space<S = f64>>(
+    from: &Dynamics<'_, G>,
+    to: &Mechanism<G>,
+    index: usize,
+    node: &TreeNode<G>,
+    q: &mut [f64],
+    v: &mut [f64],
+) {
     let work = &from.work;
     let mut slots = to.joint_of_node[index].map(|joint| from.mechanism.joints[joint].slots.iter().map(|&slot| work.readings[slot]));
     let (parent, body) = (work.places[node.parent], work.places[node.body]);

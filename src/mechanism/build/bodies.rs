@@ -3,7 +3,7 @@
 use super::super::inertia;
 use super::super::{Attached, Body};
 use super::builder::Builder;
-use crate::expression::{Id, Table, TableError};
+use crate::expression::{Id, LookupTable, TableError};
 use crate::geometry::{MassProperties, Space};
 use crate::model::{PointAt, PointRef, Shape, roll_pitch_yaw};
 use crate::scalar::Scalar;
@@ -16,7 +16,7 @@ impl<G: Space> Builder<'_, G> {
         for table in &self.model.tables {
             let points: Vec<(f64, f64)> =
                 table.points.iter().map(|&(x, y)| (self.number(x, &table.place), self.number(y, &table.place))).collect();
-            match Table::new(&points, table.between, table.beyond) {
+            match LookupTable::new(&points, table.between, table.beyond) {
                 Ok(table) => tables.push(table),
                 Err(error) => self.table_fault(&table.place, &error),
             }

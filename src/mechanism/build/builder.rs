@@ -5,7 +5,7 @@ use super::super::gauge::{Along, Gauge, Measured};
 use super::super::joint::Shape;
 use super::super::{Function, Mechanism, Row};
 use super::fault::BuildFault;
-use crate::expression::{Id, Pool, Table};
+use crate::expression::{Id, LookupTable, Pool};
 use crate::geometry::Space;
 use crate::model::{Model, Quantity};
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub(super) struct Builder<'m, G: Space> {
     pub(super) signs: Vec<Option<usize>>,
     pub(super) pool: Pool,
     pub(super) inputs: Vec<Quantity>,
-    pub(super) tables: Arc<[Table]>,
+    pub(super) tables: Arc<[LookupTable]>,
     /// Outputs of the programs by stage.
     pub(super) position: Vec<Output>,
     pub(super) velocity: Vec<Output>,

@@ -4,7 +4,7 @@ use super::super::gauge::Measured;
 use super::super::joint::{self, Shape};
 use super::super::step::Step;
 use super::super::tree::{self, Branch, Edge};
-use super::super::{Joint, Node, Row, RowKind, RowOwner};
+use super::super::{Joint, Row, RowKind, RowOwner, TreeNode};
 use super::builder::{Builder, along};
 use super::coordinates::Coordinates;
 use super::particle::particles;
@@ -203,7 +203,7 @@ impl<G: Space> Builder<'_, G> {
         }
         m.bodies[branch.body].path = path;
         let after = (after != Pose::identity()).then_some(after);
-        m.nodes.push(Node {
+        m.nodes.push(TreeNode {
             body: branch.body,
             parent: branch.parent,
             before,

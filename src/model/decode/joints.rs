@@ -7,7 +7,7 @@ use crate::expression::{Dimension, Id};
 use crate::model::coordinates::{Coordinate, coordinates, wanted_of};
 use crate::model::entities::{Joint, JointKind};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::{COORDINATE, DAMPING, DIRECTION, ENDS, Field, LENGTH, ROLL_PITCH_YAW, Shape, Size, Table, Want, may, one_of};
+use crate::model::fields::{COORDINATE, DAMPING, DIRECTION, ENDS, Field, LENGTH, ROLL_PITCH_YAW, Record, Shape, Size, Want, may, one_of};
 use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -135,7 +135,7 @@ const NAMES: [&str; KINDS.len()] = {
 };
 
 /// A joint: the key of one of the kinds, and what all kinds share.
-pub(crate) static JOINT: Table = {
+pub(crate) static JOINT: Record = {
     const N: usize = KINDS.len() + JointKeys::FIELDS.len();
     const FIELDS: [Field; N] = {
         let mut fields = [KINDS[0].field; N];
@@ -146,7 +146,7 @@ pub(crate) static JOINT: Table = {
         }
         fields
     };
-    Table { what: COMMON.what, choices: &[one_of(&NAMES)], fields: &FIELDS }
+    Record { what: COMMON.what, choices: &[one_of(&NAMES)], fields: &FIELDS }
 };
 
 impl<'n> Decoder<'n> {

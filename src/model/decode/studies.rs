@@ -8,7 +8,7 @@ use super::outside::{Outside, retarget};
 use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::{ANY, Choice, Field, Keys, MOST_RUNS, Shape, Size, Table, Want};
+use crate::model::fields::{ANY, Choice, Field, Keys, MOST_RUNS, Record, Shape, Size, Want};
 use crate::model::keys::{Entry, Words, keys, words};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -79,7 +79,7 @@ keys! {
 }
 
 /// A study: the key of one of the kinds, and what all kinds have.
-pub(crate) static STUDY: Table = {
+pub(crate) static STUDY: Record = {
     const N: usize = KINDS.len() + StudyKeys::FIELDS.len();
     const FIELDS: [Field; N] = {
         let mut fields = [KINDS[0].field; N];
@@ -99,7 +99,7 @@ pub(crate) static STUDY: Table = {
         }
         names
     };
-    Table { what: COMMON.what, choices: &[Choice { keys: &NAMES, required: true }], fields: &FIELDS }
+    Record { what: COMMON.what, choices: &[Choice { keys: &NAMES, required: true }], fields: &FIELDS }
 };
 
 keys! {

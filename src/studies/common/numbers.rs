@@ -1,7 +1,7 @@
 //! The numbers of a study: scalars and expectations from functionals and results.
 
 use super::case::Case;
-use crate::expression::{Cause, Id, Program, Table};
+use crate::expression::{Cause, Id, LookupTable, Program};
 use crate::model::{FunctionalKind, Quantity, Tolerance};
 use crate::results::{Checked, Finding, Undefined};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub(crate) struct Numbers {
 /// What numbers are made of.
 pub(crate) struct Sources<'a> {
     pub(crate) case: Case<'a>,
-    pub(crate) tables: &'a Arc<[Table]>,
+    pub(crate) tables: &'a Arc<[LookupTable]>,
     /// Values of `study.functionals`, in their order.
     pub(crate) functionals: &'a [f64],
     /// Values of `study.results`, in their order.

@@ -3,7 +3,7 @@
 use crate::expression::Dimension;
 use crate::model::decode::decoder::Decoder;
 use crate::model::fault::At;
-use crate::model::fields::{Field, Shape, Table, may};
+use crate::model::fields::{Field, Record, Shape, may};
 use crate::model::keys::{Words, words};
 use crate::model::merge::Node;
 use crate::model::study::Kind;
@@ -49,7 +49,7 @@ impl Features {
 }
 
 impl Declared {
-    pub(super) const fn new(key: &'static str, keys: &'static Table, about: &'static str, read: Reader) -> Self {
+    pub(super) const fn new(key: &'static str, keys: &'static Record, about: &'static str, read: Reader) -> Self {
         Self { field: may(key, Shape::Map(keys), about), read }
     }
 }
