@@ -30,6 +30,11 @@ impl Rank {
     /// null space. Costs about 2 nv² · max(nv, m) operations.
     pub fn new(g: &[f64], metric: &[f64], g_scale: &[f64], tolerance: f64) -> Self {
         let (nv, m) = (metric.len(), g_scale.len());
+        if m == 0 {
+            // the unit vectors one after the other
+            let null_space = (0..nv * nv).map(|k| if k % (nv + 1) == 0 { metric[k / nv].sqrt().recip() } else { 0.0 }).collect();
+            return Self { rank: 0, independent: Vec::new(), dependent: Vec::new(), null_space, freedoms: (0..nv).collect() };
+        }
         let mut rows = scaled_rows(g, metric, g_scale);
         let mut basis: Vec<Vec<f64>> = Vec::with_capacity(nv);
         let mut left: Vec<usize> = (0..m).collect();
@@ -129,6 +134,16 @@ mod tests {
         assert_eq!(found.dependent, [2, 3]);
         assert_eq!(found.freedoms, [2]);
         assert_eq!(found.null_space, [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn without_rows_every_velocity_is_free() {
+        let metric = [4.0, 1.0, 0.25];
+        let found = Rank::new(&[], &metric, &[], RANK_TOLERANCE);
+        // a row of round-off is none, and takes the long way to the same
+        let long = Rank::new(&[1e-30; 3], &metric, &[1.0], RANK_TOLERANCE);
+        assert_eq!((found.rank, &found.freedoms), (0, &vec![0, 1, 2]));
+        assert_eq!((found.null_space, found.freedoms), (long.null_space, long.freedoms));
     }
 
     #[test]

@@ -25,6 +25,30 @@ impl Sparsity {
         Self { rows, starts, indices: entries.into_iter().map(|(_, i)| i).collect() }
     }
 
+    /// The pattern of a square matrix in which all indices of a group meet each other, for each of the groups, whose indices may come
+    /// in any order, repeated or not.
+    ///
+    /// Groups may overlap in most of their indices, as the paths to the bodies of a chain do: each costs its length times a row of
+    /// bits, not the square of its length.
+    pub fn of_groups<'g>(size: usize, groups: impl IntoIterator<Item = &'g [usize]>) -> Self {
+        let words = size.div_ceil(64);
+        let mut met = vec![0_u64; size * words];
+        let mut own = vec![0_u64; words];
+        for group in groups {
+            own.fill(0);
+            group.iter().filter(|&&i| i < size).for_each(|&i| own[i / 64] |= 1 << (i % 64));
+            for &j in group.iter().filter(|&&j| j < size) {
+                met[j * words..][..words].iter_mut().zip(&own).for_each(|(met, own)| *met |= own);
+            }
+        }
+        let (mut starts, mut indices) = (vec![0], Vec::new());
+        for column in 0..size {
+            indices.extend((0..size).filter(|i| met[column * words + i / 64] >> (i % 64) & 1 == 1));
+            starts.push(indices.len());
+        }
+        Self { rows: size, starts, indices }
+    }
+
     /// A full matrix.
     pub fn dense(rows: usize, columns: usize) -> Self {
         Self { rows, starts: (0..=columns).map(|j| j * rows).collect(), indices: (0..columns).flat_map(|_| 0..rows).collect() }
@@ -157,6 +181,14 @@ impl Pattern {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn groups_are_their_pairs() {
+        let groups: [&[usize]; 4] = [&[0, 2], &[70, 2, 2], &[5], &[9, 70, 80]];
+        let pairs = groups.iter().flat_map(|g| g.iter().flat_map(|&i| g.iter().map(move |&k| (i, k))));
+        assert_eq!(Sparsity::of_groups(71, groups), Sparsity::new(71, 71, pairs));
+        assert_eq!(Sparsity::of_groups(0, [[].as_slice()]), Sparsity::empty(0, 0));
+    }
 
     #[test]
     fn entries_are_sorted_and_unique_and_inside() {

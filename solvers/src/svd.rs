@@ -34,11 +34,12 @@ impl Svd {
     fn tall(mut w: DMatrix<f64>) -> Self {
         let n = w.ncols();
         let mut v = DMatrix::identity(n, n);
+        let mut squares: Vec<f64> = w.column_iter().map(|c| c.norm_squared()).collect();
         for _ in 0..SWEEPS {
             let mut rotated = false;
             for p in 0..n {
                 for q in p + 1..n {
-                    let (a, b, c) = (w.column(p).norm_squared(), w.column(q).norm_squared(), w.column(p).dot(&w.column(q)));
+                    let (a, b, c) = (squares[p], squares[q], w.column(p).dot(&w.column(q)));
                     if c.abs() > f64::EPSILON * (a * b).sqrt() {
                         rotated = true;
                         let zeta = (b - a) / (2.0 * c);
@@ -46,6 +47,7 @@ impl Svd {
                         let cos = t.hypot(1.0).recip();
                         rotate(&mut w, p, q, [cos, cos * t]);
                         rotate(&mut v, p, q, [cos, cos * t]);
+                        (squares[p], squares[q]) = (w.column(p).norm_squared(), w.column(q).norm_squared());
                     }
                 }
             }

@@ -71,6 +71,9 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let passive = m.rows.iter().zip(self.work.g.chunks_exact(m.nv.max(1)).zip(scale));
         let passive = passive.filter(|(row, _)| !m.is_moved(row));
         let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
+        if scale.is_empty() {
+            return Vec::new();
+        }
         let rank = Rank::new(&g.concat(), metric, &scale, RANK_TOLERANCE);
         let (n, unit) = (rank.mobility(), m.units());
         let along = |phase: f64| {
@@ -80,7 +83,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
             let most = delta.iter().zip(&unit).fold(0.0, |m, (d, u): (&f64, &f64)| f64::max(m, d.abs() / u));
             delta.iter().map(|d| STEP * d / most).collect()
         };
-        if n == 0 || scale.is_empty() { Vec::new() } else { PHASES.map(along).to_vec() }
+        if n == 0 { Vec::new() } else { PHASES.map(along).to_vec() }
     }
 
     /// Sizes of the entries of G (rows × nv) before they cancel, at the position evaluated last. Allocates.

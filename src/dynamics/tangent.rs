@@ -61,7 +61,7 @@ pub fn pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
             groups.push([law.clone(), of_stretch(m, effort.along)].concat());
         }
     }
-    Sparsity::new(m.nv, m.nv, groups.iter().flat_map(|g| g.iter().flat_map(move |&i| g.iter().map(move |&k| (i, k)))))
+    Sparsity::of_groups(m.nv, groups.iter().map(Vec::as_slice))
 }
 
 /// Columns that a gauge knows.

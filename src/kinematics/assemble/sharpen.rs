@@ -52,6 +52,9 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn small(&mut self, q: &[f64]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
         let g = self.metric_rows(q);
         let (rows, nv) = g.shape();
+        if least_singular_value(&g) > SMALL[1] * g.norm() {
+            return None;
+        }
         let svd = Svd::new(&g.resize(rows.max(nv), nv, 0.0));
         let largest = svd.largest();
         let between: Vec<usize> = (0..nv).filter(|&k| svd.values[k] > SMALL[0] * largest && svd.values[k] < SMALL[1] * largest).collect();
@@ -96,5 +99,32 @@ impl<G: Space<S = f64>> System<'_, G> {
         r.iter_mut().for_each(|r| *r = -*r);
         let step = shortest_beyond(1e-7, &jacobian, &r, &self.metric, 0.0);
         step.iter().all(|x| x.is_finite()).then_some(step)
+    }
+}
+
+/// A bound from below of the singular values of a matrix, σ ≥ 1/‖R⁻¹‖_F with A = Q R or Aᵀ = Q R: a small part of the work that the
+/// values themselves take. 0 if R is singular.
+fn least_singular_value(a: &DMatrix<f64>) -> f64 {
+    let r = if a.nrows() < a.ncols() { a.transpose().qr().unpack_r() } else { a.clone().qr().unpack_r() };
+    let n = r.ncols();
+    if n == 0 || (0..n).any(|i| r[(i, i)] == 0.0) {
+        return 0.0;
+    }
+    r.solve_upper_triangular(&DMatrix::identity(n, n)).map_or(0.0, |inverse| inverse.norm().recip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn singular_values_are_bounded_from_below() {
+        for (rows, columns) in [(4, 7), (7, 4), (5, 5)] {
+            let a = DMatrix::from_fn(rows, columns, |i, k| ((3 * i + 5 * k * k + i * k) as f64).sin());
+            let least = Svd::new(&a).values.into_iter().fold(f64::INFINITY, f64::min);
+            let bound = least_singular_value(&a);
+            assert!(bound <= least && bound > 0.3 * least, "{bound} {least}");
+        }
+        assert_eq!(least_singular_value(&DMatrix::zeros(2, 3)), 0.0);
     }
 }

@@ -205,7 +205,7 @@ where
     D: Space<S = Dual<LANES>>,
 {
     let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
-    trajectory.go(t, piece).ok()?;
+    trajectory.place(t, piece).ok()?;
     Some(trajectory.system(piece).dynamics.poses())
 }
 

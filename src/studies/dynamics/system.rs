@@ -224,7 +224,8 @@ where
         &modes[..m.switches + m.windings]
     }
 
-    fn kinematics(&mut self, at: &At<'_>) {
+    /// Evaluates positions and velocities of a state.
+    pub(crate) fn kinematics(&mut self, at: &At<'_>) {
         self.dynamics.work.z.copy_from_slice(at.z);
         self.dynamics.work.held.copy_from_slice(at.live);
         self.dynamics.time(at.t, at.modes);

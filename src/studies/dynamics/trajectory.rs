@@ -45,7 +45,7 @@ struct Piece {
 }
 
 /// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
-pub(crate) struct Era<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+pub(crate) struct PhaseSystem<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     key: usize,
     pub(crate) system: Mechanical<'m, G, D>,
     pub(crate) engine: Engine,
@@ -62,7 +62,7 @@ pub(crate) struct Off {
 
 /// A motion in time.
 pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(crate) phases: Vec<Era<'m, G, D>>,
+    pub(crate) phases: Vec<PhaseSystem<'m, G, D>>,
     /// State, accelerations and multipliers evaluated last.
     pub(crate) node: Node,
     steps: Vec<Step>,
@@ -111,7 +111,7 @@ where
         self.current = self.phases.iter().position(|phase| phase.key == key).unwrap_or_else(|| {
             let system = make();
             let engine = Engine::new(&system, Control::Tolerance(1e-8));
-            self.phases.push(Era { key, system, engine });
+            self.phases.push(PhaseSystem { key, system, engine });
             self.phases.len() - 1
         });
     }
@@ -243,7 +243,7 @@ where
     /// the constraints.
     pub(crate) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
         let own = self.take(t, piece)?;
-        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
+        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         // next to a singular position a state may not be moved to the constraints: there it counts as it is
         if own || engine.settle(system, &mut self.node).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
@@ -254,6 +254,17 @@ where
         Ok(())
     }
 
+    /// Places the bodies as they are at `t` on a piece, without forces and accelerations.
+    pub(crate) fn place(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+        let own = self.take(t, piece)?;
+        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
+        if !own && engine.project(system, &mut self.node.state).is_err() {
+            self.dense.evaluate(t, &mut self.node.state);
+        }
+        system.kinematics(&self.node.state.at());
+        Ok(())
+    }
+
     /// As [`Trajectory::go`], but without accelerations where no column needs them.
     fn glance(&mut self, t: f64, piece: usize) -> Result<(), Off> {
         let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
@@ -261,7 +272,7 @@ where
             return self.go(t, piece);
         }
         let own = self.take(t, piece)?;
-        let Era { system, engine, .. } = &mut self.phases[phase];
+        let PhaseSystem { system, engine, .. } = &mut self.phases[phase];
         if !own && engine.project(system, &mut self.node.state).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
         }
@@ -286,7 +297,7 @@ where
         self.dense.evaluate(t, &mut self.node.state);
         self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
         self.node.state.live.copy_from_slice(&p.live);
-        let Era { system, engine, .. } = &mut self.phases[p.phase];
+        let PhaseSystem { system, engine, .. } = &mut self.phases[p.phase];
         // phases differ in the rows that hold joints on their stops
         self.node.lambda.resize(system.dims().rows(), 0.0);
         if self.follow {
@@ -297,7 +308,7 @@ where
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
     pub(crate) fn residuals(&mut self, piece: usize) -> [f64; 2] {
-        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
+        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         engine.evaluate(system, self.node.state.at(), Stage::Velocity);
         [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
     }
@@ -384,7 +395,7 @@ where
         if self.go(self.pieces[piece].from, piece).is_err() {
             return true;
         }
-        let Era { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
+        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         let (pattern, mut weakest) = (system.pattern(), Sigma::new(self.node.lambda.len()));
         weakest.begin(engine, &pattern.metric, &pattern.g_scale);
         if self.go(at, piece).is_err() {

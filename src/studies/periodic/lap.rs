@@ -14,7 +14,7 @@ use crate::studies::dynamics::march::Recorded;
 use crate::studies::dynamics::phases::Phases;
 use crate::studies::dynamics::setup::Plan;
 use crate::studies::dynamics::system::Mechanical;
-use crate::studies::dynamics::trajectory::{Era, Trajectory};
+use crate::studies::dynamics::trajectory::{PhaseSystem, Trajectory};
 use grashof_solvers::{Control, Method, Node, Settings, State, System};
 use std::cell::Cell;
 
@@ -227,6 +227,6 @@ fn with_modes(state: &State, kept: usize, all: usize) -> State {
 /// The first phase of a trajectory: a system with its engine, to evaluate other states with.
 pub(super) fn tools<'t, 'e, G: Space<S = f64>>(
     trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
-) -> &'t mut Era<'e, G, G::Lift<Dual<LANES>>> {
+) -> &'t mut PhaseSystem<'e, G, G::Lift<Dual<LANES>>> {
     &mut trajectory.phases[0]
 }

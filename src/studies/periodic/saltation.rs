@@ -20,7 +20,7 @@ use crate::geometry::Space;
 use crate::kinematics::linear::spin;
 use crate::scalar::Dual;
 use crate::studies::dynamics::system::{Mechanical, Root};
-use crate::studies::dynamics::trajectory::Era;
+use crate::studies::dynamics::trajectory::PhaseSystem;
 use grashof_solvers::{Effect, Engine, Node, Span, State, System};
 use nalgebra::{DMatrix, DVector};
 
@@ -48,8 +48,8 @@ pub(super) struct Side<'a, 'm, G: Space<S = f64>> {
     pub(super) engine: &'a mut Engine,
 }
 
-impl<'a, 'm, G: Space<S = f64>> From<&'a mut Era<'m, G, G::Lift<Dual<LANES>>>> for Side<'a, 'm, G> {
-    fn from(phase: &'a mut Era<'m, G, G::Lift<Dual<LANES>>>) -> Self {
+impl<'a, 'm, G: Space<S = f64>> From<&'a mut PhaseSystem<'m, G, G::Lift<Dual<LANES>>>> for Side<'a, 'm, G> {
+    fn from(phase: &'a mut PhaseSystem<'m, G, G::Lift<Dual<LANES>>>) -> Self {
         Self { system: &mut phase.system, engine: &mut phase.engine }
     }
 }
