@@ -14,7 +14,11 @@ use crate::model::vocabulary::Known;
 
 keys! {
     /// A clutch.
-    pub(crate) CLUTCH = ClutchKeys "a clutch" [one_of(&["joint", "between"]), one_of(&["torque", "force", "one_way"]), at_most_one(&["stick_speed", "one_way"])] {
+    pub(crate) CLUTCH = ClutchKeys "a clutch" [
+        one_of(&["joint", "between"]),
+        one_of(&["torque", "force", "one_way"]),
+        at_most_one(&["stick_speed", "one_way"])
+    ] {
         joint: may JOINT_NAME, "A brake: it acts on the coordinate of this joint.";
         between: may Shape::List(&JOINT_NAME, Size::Exactly(2)),
             "A clutch: it acts on the coordinate of the second joint less that of the first.";

@@ -16,6 +16,9 @@ use crate::model::suggest;
 use crate::model::suggest::clip;
 use crate::model::vocabulary::{Known, Quantity};
 
+const FORCE: Shape = Shape::Value(Want::Of(Dimension::FORCE));
+const TORQUE: Shape = Shape::Value(Want::Of(Dimension::TORQUE));
+
 keys! {
     /// A coupling.
     pub(crate) COUPLING = CouplingKeys "a coupling" [one_of(&["gear", "rack", "zero"])] {
@@ -54,9 +57,9 @@ keys! {
     pub(crate) LOAD = LoadKeys "a load" [one_of(&["at", "joint"])] {
         at: may POINT, "The point of a body that it acts on.";
         joint: may JOINT_NAME, "The joint whose coordinate it acts on: on the second body, reaction on the first.";
-        force: may Shape::Either(&[Shape::Value(Want::Of(Dimension::FORCE)), Shape::List(&Shape::Value(Want::Of(Dimension::FORCE)), Size::Space)]),
+        force: may Shape::Either(&[FORCE, Shape::List(&FORCE, Size::Space)]),
             "Force: a vector at a point, a number on a slider.";
-        torque: may Shape::Either(&[Shape::Value(Want::Of(Dimension::TORQUE)), Shape::List(&Shape::Value(Want::Of(Dimension::TORQUE)), Size::Exactly(3))]),
+        torque: may Shape::Either(&[TORQUE, Shape::List(&TORQUE, Size::Exactly(3))]),
             "Torque: a number in the plane or on a joint, a vector in space.";
         frame: may Shape::Name("a body, a point `body.point` with axes of its own, or `world`"),
             "Body or point whose axes the components are in; `world` if omitted.";

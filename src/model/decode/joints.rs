@@ -21,7 +21,8 @@ keys! {
     COMMON = JointKeys "a joint" [] {
         axis: may DIRECTION, "Axis in the first body's frame.";
         to: may DIRECTION, "Spatial: the same axis in the second body's frame; the numbers of `axis` if omitted.";
-        rpy: may ROLL_PITCH_YAW, "Spatial, instead of `to`: orientation of the second body in the first at 0, turned about x, then y, then z.";
+        rpy: may ROLL_PITCH_YAW,
+            "Spatial, instead of `to`: orientation of the second body in the first at 0, turned about x, then y, then z.";
         axes: may Shape::List(&DIRECTION, Size::Exactly(2)), "Universal: axis in the first body's frame, axis in the second's.";
         pitch: may LENGTH, "Screw: advance per turn.";
         length: may LENGTH, "Distance: length of the link; as drawn if omitted.";

@@ -19,7 +19,11 @@ const TIMED: Allow = Allow { what: "a spring", ..Allow::DRIVER };
 
 keys! {
     /// A spring.
-    pub(crate) SPRING = SpringKeys "a spring" [one_of(&["between", "joint", "stretch"]), at_most_one(&["stiffness", "force"]), at_most_one(&["length", "rest"])] {
+    pub(crate) SPRING = SpringKeys "a spring" [
+        one_of(&["between", "joint", "stretch"]),
+        at_most_one(&["stiffness", "force"]),
+        at_most_one(&["length", "rest"])
+    ] {
         between: may ENDS, "The two points that it connects.";
         joint: may JOINT_NAME, "The joint whose coordinate it acts on.";
         stretch: may Shape::Formula("an expression of positions and `t`"),

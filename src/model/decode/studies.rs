@@ -57,11 +57,13 @@ words! {
     }
 }
 
+const VARIANT: Shape = Shape::Name("the name of a variant");
+
 keys! {
     /// A study, beside its kind.
     pub(crate) COMMON = StudyKeys "a study" [] {
         about: may Shape::Text, "What the study is for.";
-        variant: may Shape::Either(&[Shape::Name("the name of a variant"), Shape::List(&Shape::Name("the name of a variant"), Size::AtLeast(0))]),
+        variant: may Shape::Either(&[VARIANT, Shape::List(&VARIANT, Size::AtLeast(0))]),
             "Variants, applied in order.";
         set: may Shape::Named(Keys::Reference, "a parameter", &ANY), "Parameters for this study.";
         take: may Shape::Named(Keys::Name, "a scalar of another study", &Shape::Name("a scalar of another study, `STUDY.SCALAR`")),
@@ -73,8 +75,10 @@ keys! {
         undefined: may Shape::List(&COLUMN, Size::AtLeast(1)), "Columns that may be undefined: their cells are blank there.";
         scalars: may Shape::Named(Keys::Name, "a scalar", &Shape::Formula("an expression of functionals, parameters and scalars")),
             "Numbers of the whole study.";
-        plot: may Shape::Named(Keys::Title, "a figure", &Shape::Either(&[Shape::Map(&PLOT), Shape::List(&COLUMN, Size::AtLeast(1))])), "Figures.";
-        expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)), "What must come out; if not, exit code 1.";
+        plot: may Shape::Named(Keys::Title, "a figure", &Shape::Either(&[Shape::Map(&PLOT), Shape::List(&COLUMN, Size::AtLeast(1))])),
+            "Figures.";
+        expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)),
+            "What must come out; if not, exit code 1.";
     }
 }
 
