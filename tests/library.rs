@@ -233,3 +233,34 @@ measures:
         }
     }
 }
+
+/// A slide pressed on its guide by the force alone: its friction is that of the force, whichever side it presses on.
+#[test]
+fn friction_by_reactions_sees_forces_from_outside() {
+    let slide = |more: &str| {
+        let text = format!(
+            "
+grashof: 1
+name: slide
+space: planar
+gravity: none
+bodies: {{ block: {{ mass: 2 kg, inertia: 0.1 kg m^2 }} }}
+joints: {{ S: {{ slider: [ground, block.origin], axis: [1, 0], friction: {{ coulomb: 0.4, stick_speed: 1e-3 m/s, length: 10 cm }} }} }}
+start: {{ S.position: 0 m, S.velocity: 3 m/s }}
+{more}
+"
+        );
+        Model::parse(&text).unwrap_or_else(|e| panic!("{e}")).mechanism().unwrap_or_else(|e| panic!("{e}"))
+    };
+    for press in [-20.0, 20.0] {
+        let file = slide(&format!("loads: {{ push: {{ at: block.origin, force: [0 N, {press} N] }} }}"));
+        let own = slide("").with_force(&["block"], move |_, _, out| out[0].force.y = press).unwrap();
+        for method in [Method::Dop853, Method::Radau5] {
+            let settings = Settings { method, control: Control::Tolerance(1e-10), balance: true, ..Settings::default() };
+            let [x, y] = [&file, &own].map(|m| m.simulate(settings).unwrap().advance(0.5).unwrap().clone());
+            // a = -0.4 * 20 N / 2 kg
+            assert!((x.v[0] - 1.0).abs() < 1e-8, "{method:?} {press}: {} m/s", x.v[0]);
+            assert!((x.v[0] - y.v[0]).abs() < 1e-8, "{method:?} {press}: {} {} m/s", x.v[0], y.v[0]);
+        }
+    }
+}

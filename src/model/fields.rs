@@ -175,6 +175,28 @@ impl Shape {
     }
 }
 
+/// The fields of one list and of another behind it; N is their number.
+pub(crate) const fn joined<const N: usize>(first: &[Field], second: &[Field]) -> [Field; N] {
+    let mut fields = [first[0]; N];
+    let mut i = 0;
+    while i < N {
+        fields[i] = if i < first.len() { first[i] } else { second[i - first.len()] };
+        i += 1;
+    }
+    fields
+}
+
+/// The keys of fields.
+pub(crate) const fn keys_of<const N: usize>(fields: &[Field; N]) -> [&'static str; N] {
+    let mut keys = [""; N];
+    let mut i = 0;
+    while i < N {
+        keys[i] = fields[i].key;
+        i += 1;
+    }
+    keys
+}
+
 /// Most intervals of a study.
 pub(crate) const MOST_SAMPLES: u64 = 10_000_000;
 /// Most steps of a continuation.

@@ -7,7 +7,9 @@ use crate::expression::{Dimension, Id};
 use crate::model::coordinates::{Coordinate, coordinates, wanted_of};
 use crate::model::entities::{Joint, JointKind};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::{COORDINATE, DAMPING, DIRECTION, ENDS, Field, LENGTH, ROLL_PITCH_YAW, Record, Shape, Size, Want, may, one_of};
+use crate::model::fields::{
+    COORDINATE, DAMPING, DIRECTION, ENDS, Field, LENGTH, ROLL_PITCH_YAW, Record, Shape, Size, Want, joined, keys_of, may, one_of,
+};
 use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -124,30 +126,25 @@ const KINDS: [Declared; 11] = [
     Declared { spaces: [false, true], ..Declared::new("spherical", "Spatial: ball joint.", |_, _| Some(JointKind::Spherical)) },
 ];
 
-/// Their keys.
-const NAMES: [&str; KINDS.len()] = {
-    let mut names = [""; KINDS.len()];
+/// What the kinds declare.
+const OF_KINDS: [Field; KINDS.len()] = {
+    let mut fields = [KINDS[0].field; KINDS.len()];
     let mut i = 0;
-    while i < names.len() {
-        names[i] = KINDS[i].field.key;
+    while i < fields.len() {
+        fields[i] = KINDS[i].field;
         i += 1;
     }
-    names
+    fields
 };
 
+/// Their keys.
+const NAMES: [&str; KINDS.len()] = keys_of(&OF_KINDS);
+
 /// A joint: the key of one of the kinds, and what all kinds share.
-pub(crate) static JOINT: Record = {
-    const N: usize = KINDS.len() + JointKeys::FIELDS.len();
-    const FIELDS: [Field; N] = {
-        let mut fields = [KINDS[0].field; N];
-        let mut i = 0;
-        while i < N {
-            fields[i] = if i < KINDS.len() { KINDS[i].field } else { JointKeys::FIELDS[i - KINDS.len()] };
-            i += 1;
-        }
-        fields
-    };
-    Record { what: COMMON.what, choices: &[one_of(&NAMES)], fields: &FIELDS }
+pub(crate) static JOINT: Record = Record {
+    what: COMMON.what,
+    choices: &[one_of(&NAMES)],
+    fields: &joined::<{ KINDS.len() + JointKeys::FIELDS.len() }>(&OF_KINDS, JointKeys::FIELDS),
 };
 
 impl<'n> Decoder<'n> {

@@ -3,12 +3,12 @@
 use super::columns::{COLUMN, PLOT};
 use super::decoder::{Check, Decoder};
 use super::frame::Frame;
-use super::kinds::{Features, KINDS};
+use super::kinds::{Features, OF_KINDS};
 use super::outside::{Outside, retarget};
 use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::{ANY, Choice, Field, Keys, MOST_RUNS, Record, Shape, Size, Want};
+use crate::model::fields::{ANY, Keys, MOST_RUNS, Record, Shape, Size, Want, joined, keys_of, one_of};
 use crate::model::keys::{Entry, Words, keys, words};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -82,28 +82,11 @@ keys! {
     }
 }
 
-/// A study: the key of one of the kinds, and what all kinds have.
-pub(crate) static STUDY: Record = {
-    const N: usize = KINDS.len() + StudyKeys::FIELDS.len();
-    const FIELDS: [Field; N] = {
-        let mut fields = [KINDS[0].field; N];
-        let mut i = 0;
-        while i < N {
-            fields[i] = if i < KINDS.len() { KINDS[i].field } else { StudyKeys::FIELDS[i - KINDS.len()] };
-            i += 1;
-        }
-        fields
-    };
-    const NAMES: [&str; KINDS.len()] = {
-        let mut names = [""; KINDS.len()];
-        let mut i = 0;
-        while i < names.len() {
-            names[i] = KINDS[i].field.key;
-            i += 1;
-        }
-        names
-    };
-    Record { what: COMMON.what, choices: &[Choice { keys: &NAMES, required: true }], fields: &FIELDS }
+/// A study: the key of one of the kinds, and what all kinds share.
+pub(crate) static STUDY: Record = Record {
+    what: COMMON.what,
+    choices: &[one_of(&keys_of::<{ OF_KINDS.len() }>(&OF_KINDS))],
+    fields: &joined::<{ OF_KINDS.len() + StudyKeys::FIELDS.len() }>(&OF_KINDS, StudyKeys::FIELDS),
 };
 
 keys! {

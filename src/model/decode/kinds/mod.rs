@@ -13,6 +13,7 @@ pub(crate) use contract::Features;
 
 use super::decoder::Decoder;
 use crate::model::fault::At;
+use crate::model::fields::Field;
 use crate::model::merge::Node;
 use crate::model::study::Kind;
 use contract::Declared;
@@ -28,6 +29,17 @@ pub(crate) const KINDS: [Declared; 8] = [
     periodic::PERIODIC,
     balance::BALANCE,
 ];
+
+/// What they declare.
+pub(crate) const OF_KINDS: [Field; KINDS.len()] = {
+    let mut fields = [KINDS[0].field; KINDS.len()];
+    let mut i = 0;
+    while i < fields.len() {
+        fields[i] = KINDS[i].field;
+        i += 1;
+    }
+    fields
+};
 
 impl<'n> Decoder<'n> {
     /// The key of the kind of a study, and what stands there, if it is sound.
