@@ -1,8 +1,9 @@
 //! What other programs add to the library: force laws and integrators of their own.
 
+use allocation_counter::measure;
 use grashof::api::{PointMotion, Wrench};
 use grashof::results::{Column, Sink};
-use grashof::solvers::{Control, Level, Method, Settings, Span, State, Tangent, schemes};
+use grashof::solvers::{Control, Level, Method, Settings, Span, Stage, State, Tangent, Terms, schemes};
 use grashof::{Mechanism, Model};
 use nalgebra::Vector3;
 use std::sync::Mutex;
@@ -141,6 +142,24 @@ fn tangents_are_the_differences_of_residuals() {
             }
         }
     }
+}
+
+#[test]
+fn forces_from_outside_allocate_nothing() {
+    let mechanism = bars("spatial", "").with_force(&["ground.post", "lower.end"], spring).unwrap();
+    let mut system = mechanism.system();
+    let dims = system.dims();
+    let state = State { q: mechanism.start().0, ..State::new(dims) };
+    let (mut terms, mut tangent, mut work) = (Terms::new(dims), Tangent::new(dims), vec![0.0; dims.work]);
+    let (a, lambda) = (vec![0.0; dims.v], vec![0.0; dims.rows()]);
+    let mut evaluate = || {
+        system.terms(state.at(), Stage::Dynamics, &mut terms);
+        system.tangent(state.at(), &a, &lambda, &mut tangent);
+        system.power(state.at(), &a, &lambda, &mut work);
+    };
+    // scratch is made by the first evaluation
+    evaluate();
+    assert_eq!(measure(evaluate).count_total, 0);
 }
 
 #[test]

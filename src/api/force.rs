@@ -105,8 +105,10 @@ impl<G: Space<S = f64>> Force for Elements<'_, G> {
         self.dynamics.velocity(at.v, at.modes);
         self.on_bodies.fill(geometry::Force::default());
         for element in self.elements {
-            let motions = element.points.iter().map(|&point| self.motion(point));
-            self.motions = motions.collect();
+            let mut motions = std::mem::take(&mut self.motions);
+            motions.clear();
+            motions.extend(element.points.iter().map(|&point| self.motion(point)));
+            self.motions = motions;
             self.wrenches.clear();
             self.wrenches.resize(element.points.len(), Wrench::default());
             (element.law)(at.t, &self.motions, &mut self.wrenches);

@@ -38,7 +38,7 @@ pub(super) struct Wanted {
     #[arg(long)]
     pub(super) expect: bool,
     /// Compute each motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and report how many
-    /// digits stand
+    /// digits are certain
     #[arg(long)]
     verify: bool,
 }
