@@ -2,10 +2,12 @@
 
 use allocation_counter::measure;
 use grashof::api::{PointMotion, Wrench};
+use grashof::output::{CsvRows, write_csv};
 use grashof::results::{Column, Sink};
 use grashof::solvers::{Control, Level, Method, Settings, Span, Stage, State, Tangent, Terms, schemes};
 use grashof::{Mechanism, Model};
 use nalgebra::Vector3;
+use std::path::Path;
 use std::sync::Mutex;
 
 /// The tip of the second bar held by a spring with a damper.
@@ -250,6 +252,48 @@ measures:
             assert_eq!(row[0], table.independent.values[i]);
             assert!(row[1..].iter().copied().eq(table.table.row(i)));
         }
+    }
+}
+
+#[test]
+fn rows_go_to_a_file_as_the_table_does() {
+    let model = Model::parse(SWING).unwrap_or_else(|e| panic!("{e}"));
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rows_go_to_a_file");
+    std::fs::create_dir_all(&directory).unwrap();
+    let path = directory.join("swing.csv");
+    let left = || std::fs::read_dir(&directory).unwrap().map(|f| f.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>();
+    let table = model.study("swing").unwrap().run().unwrap().table;
+    for finished in [true, false] {
+        let file = CsvRows::create(&path).unwrap();
+        model.study("swing").unwrap().rows_to(&file).run().unwrap();
+        if finished {
+            file.finish().unwrap();
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), write_csv(&table));
+            assert_eq!(left(), ["swing.csv"]);
+            std::fs::remove_file(&path).unwrap();
+        } else {
+            assert_eq!(left(), [".swing.csv.new"]);
+            drop(file);
+            assert!(left().is_empty());
+        }
+    }
+    let nowhere = CsvRows::create(&directory.join("nowhere/swing.csv")).unwrap_err();
+    assert!(nowhere.to_string().contains("nowhere/swing.csv"), "{nowhere}");
+}
+
+#[test]
+fn rows_go_out_while_the_motion_runs() {
+    let model = Model::parse(SWING).unwrap_or_else(|e| panic!("{e}"));
+    let whole = model.study("swing").unwrap().run().unwrap();
+    let kept = Kept::default();
+    let rows = || kept.0.lock().unwrap().1.len();
+    let results = model.study("swing").unwrap().rows_to(&kept).stop_if(|| rows() >= 5).run().unwrap();
+    assert!(results.stopped.is_some_and(|why| why.contains("interrupted")));
+    let kept = kept.0.into_inner().unwrap().1;
+    assert!(kept.len() >= 5 && kept.len() < whole.table.rows() / 2, "{} of {}", kept.len(), whole.table.rows());
+    // all but the last, which is where the motion was ended
+    for (row, place) in kept[..kept.len() - 1].iter().zip(&whole.independent.values) {
+        assert_eq!(row[0], *place);
     }
 }
 

@@ -19,7 +19,7 @@ pub fn write_csv(table: &Table) -> String {
     text
 }
 
-fn push_line<'a>(text: &mut String, fields: impl Iterator<Item = Cow<'a, str>>) {
+pub(super) fn push_line<'a>(text: &mut String, fields: impl Iterator<Item = Cow<'a, str>>) {
     for (index, field) in fields.enumerate() {
         let separator = if index == 0 { "" } else { "," };
         // Writing to a String cannot fail.
@@ -29,7 +29,7 @@ fn push_line<'a>(text: &mut String, fields: impl Iterator<Item = Cow<'a, str>>) 
 }
 
 /// A field as RFC 4180 has it: in quotes, inner quotes doubled, if it holds a comma, a quote or a line end.
-fn quoted(field: &str) -> Cow<'_, str> {
+pub(super) fn quoted(field: &str) -> Cow<'_, str> {
     if field.contains([',', '"', '\n', '\r']) { Cow::Owned(format!("\"{}\"", field.replace('"', "\"\""))) } else { Cow::Borrowed(field) }
 }
 

@@ -1,11 +1,12 @@
 //! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
 //!
 //! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
-//! pure but [`Staging::commit`] and [`prepare`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
+//! pure but [`Staging::commit`], [`prepare`] and [`CsvRows`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 pub mod comparison;
 mod csv;
+mod csv_rows;
 mod drawing;
 mod figure;
 mod figures;
@@ -36,6 +37,7 @@ mod write_error;
 
 pub use crate::results::number;
 pub use csv::write_csv;
+pub use csv_rows::CsvRows;
 pub use drawing::render_drawing;
 pub use figure::render_figure;
 pub use figures::{drawing, figures};

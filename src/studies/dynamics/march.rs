@@ -7,6 +7,7 @@ use super::energy::{Balance, Begins};
 use super::explain;
 use super::pace::Pace;
 use super::phases::{Holds, Phases};
+use super::rows::Rows;
 use super::setup::Plan;
 use super::system::{Mechanical, Met};
 use super::trajectory::Trajectory;
@@ -37,7 +38,8 @@ pub(crate) struct Recorded<'m, G: Space<S = f64>> {
     pub(crate) findings: Vec<Finding>,
 }
 
-/// Runs a plan from a state, or from the start; the trajectory has the columns `ids`.
+/// Runs a plan from a state, or from the start; the trajectory has the columns `ids`. `stop` is asked between steps, and rows are taken
+/// behind each.
 ///
 /// # Errors
 /// If the run did not begin.
@@ -47,7 +49,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     ids: &[Id],
     phases: &'m Phases<G>,
     from: Option<&State>,
-    stop: &dyn Fn() -> bool,
+    (stop, rows): (&dyn Fn() -> bool, Option<&mut Rows<'_>>),
 ) -> Result<Recorded<'m, G>, Failure> {
     let Case { model, study, parameters, .. } = case;
     let (all, watched) = watched(model, ids);
@@ -65,6 +67,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
         plan,
         stop,
         trajectory: &mut trajectory,
+        rows,
         events: Vec::new(),
         balance: Balance::default(),
         findings: Vec::new(),
@@ -139,12 +142,13 @@ enum After {
 }
 
 /// A run in progress.
-struct Flow<'a, 'm, G: Space<S = f64>> {
+struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
     model: &'a Model,
     study: &'a Study,
     plan: &'a Plan,
     stop: &'a dyn Fn() -> bool,
     trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    rows: Option<&'a mut Rows<'r>>,
     events: Vec<Happened>,
     balance: Balance,
     findings: Vec<Finding>,
@@ -167,7 +171,7 @@ struct Flow<'a, 'm, G: Space<S = f64>> {
     undefined: Option<Undefined>,
 }
 
-impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
+impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
     /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
     /// laws of friction.
     fn choose(
@@ -303,6 +307,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, 'm, G> {
             }
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
                 break After::Stopped(slow.explain(self.model, phase, self.plan, &node));
+            }
+            if let Some(rows) = &mut self.rows {
+                rows.follow(self.trajectory);
             }
             if progress == Progress::End {
                 break After::Done;

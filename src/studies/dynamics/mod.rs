@@ -11,6 +11,7 @@ pub(crate) mod explain;
 pub(crate) mod march;
 mod pace;
 pub(crate) mod phases;
+pub(crate) mod rows;
 pub(crate) mod setup;
 pub(crate) mod system;
 pub(crate) mod trajectory;
@@ -31,7 +32,6 @@ use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
 use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
-use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, Resolution};
@@ -39,6 +39,7 @@ use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use march::Recorded;
 use phases::Phases;
+use rows::Rows;
 use trajectory::{Off, Trajectory};
 
 /// Most numbers in the rows of a run: 4 GB of them.
@@ -58,8 +59,11 @@ where
     let watched = Watched::of(study);
     let phases = Phases::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
+    let clock = Clock::of_time(plan.until);
+    let rows = || Rows::new(Recorder::new(case, &watched, clock, ["time", "t"]), plan.every);
+    let mut taken = rows();
     let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
-        march::march(case, &plan, &watched.ids, &phases, None, stop)?;
+        march::march(case, &plan, &watched.ids, &phases, None, (stop, Some(&mut taken)))?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
         return Err(match undefined {
@@ -67,9 +71,8 @@ where
             None => Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"),
         });
     }
-    let clock = Clock::of_time(plan.until);
     let seen = loop {
-        match see(&mut trajectory, case, &watched, &plan) {
+        match see(&mut trajectory, case, &watched, &plan, taken) {
             Ok(seen) => break seen,
             Err(Off { at, gap: None }) => {
                 return Err(Failure::numerical(
@@ -81,6 +84,7 @@ where
                 let explain = |gap: &Gap, at: f64| gap.explain(model, study, &format!("t = {at:.6} s"));
                 let Some(Off { at, gap: behind }) = trajectory.end_before(at) else { return Err(Failure::Undefined(explain(&gap, at))) };
                 undefined = Some(explain(&behind.unwrap_or(gap), at));
+                taken = rows();
             }
         }
     };
@@ -152,7 +156,13 @@ struct Seen<'a> {
 }
 
 /// Rows, extremes and functionals of a motion.
-fn see<'a, G, D>(trajectory: &mut Trajectory<'_, G, D>, case: Case<'a>, watched: &Watched, plan: &setup::Plan) -> Result<Seen<'a>, Off>
+fn see<'a, G, D>(
+    trajectory: &mut Trajectory<'_, G, D>,
+    case: Case<'a>,
+    watched: &Watched,
+    plan: &setup::Plan,
+    rows: Rows<'a>,
+) -> Result<Seen<'a>, Off>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
@@ -164,38 +174,12 @@ where
     trajectory.all_defined(&resolved)?;
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let clock = Clock::of_time(plan.until);
-    let mut recorder = Recorder::new(case, watched, clock, ["time", "t"]);
-    rows(trajectory, &breaks, plan.every, &mut recorder)?;
+    let recorder = rows.finish(trajectory)?;
     let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], "time", clock);
     let mut functionals =
         Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = functionals.all(case, &watched.functionals, &mut findings)?;
     Ok(Seen { breaks, rows: recorder, extremes, functionals, findings, resolution: resolved.quality() })
-}
-
-/// Rows on the grid of the study, or at every step, with both sides of every switch.
-fn rows<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], every: Option<f64>, recorder: &mut Recorder<'_>) -> Result<(), Off>
-where
-    G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
-{
-    let mut out = vec![0.0; trajectory.columns()];
-    for (piece, ends) in breaks.windows(2).enumerate() {
-        let places = match every {
-            None => trajectory.ends_of(piece),
-            Some(every) => {
-                let inside = (ends[0] / every).floor() as i64..=(ends[1] / every).ceil() as i64;
-                let near = 1e-9 * every;
-                let grid = inside.map(|k| k as f64 * every).filter(|t| *t > ends[0] + near && *t < ends[1] - near);
-                std::iter::once(ends[0]).chain(grid).chain([ends[1]]).collect()
-            }
-        };
-        for t in places {
-            trajectory.row(t, piece, &mut out)?;
-            recorder.row(t, piece, &out);
-        }
-    }
-    Ok(())
 }
 
 /// Poses of the bodies at a time.

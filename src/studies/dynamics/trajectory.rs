@@ -203,6 +203,28 @@ where
         std::iter::once(first).chain(self.pieces.iter().map(|p| p.to)).collect()
     }
 
+    /// Number of pieces.
+    pub(crate) fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Times of the begin and the end of a piece.
+    pub(crate) fn ends(&self, piece: usize) -> [f64; 2] {
+        [self.pieces[piece].from, self.pieces[piece].to]
+    }
+
+    /// Number of steps of a piece and of parts of them.
+    pub(crate) fn steps_of(&self, piece: usize) -> usize {
+        let (low, high) = self.pieces[piece].steps;
+        high - low
+    }
+
+    /// The time at which a step of a piece ends; none for a part of a step that goes on.
+    pub(crate) fn end_of_step(&self, piece: usize, step: usize) -> Option<f64> {
+        let step = &self.steps[self.pieces[piece].steps.0 + step];
+        step.whole.then_some(step.end)
+    }
+
     /// Ends of the steps of a piece, with its begin.
     pub(crate) fn ends_of(&self, piece: usize) -> Vec<f64> {
         let p = &self.pieces[piece];

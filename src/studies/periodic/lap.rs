@@ -145,7 +145,7 @@ impl Search<'_> {
         let modes = self.alone(phases, &[]).dims().modes + self.model.events.len();
         let state = with_modes(from, m.switches + m.windings, modes);
         let case = Case::new(&self.model, self.study, &phases.parameters);
-        let recorded = march::march(case, &plan, &self.ids, phases, Some(&state), &stop)?;
+        let recorded = march::march(case, &plan, &self.ids, phases, Some(&state), (&stop, None))?;
         Ok((recorded, steps.get() > MOST_STEPS))
     }
 
