@@ -27,8 +27,9 @@
 //! ```
 //!
 //! [`Model::load`] reads a file with what it includes. [`Study::over`] runs a study for many values of a parameter, [`Study::compare`]
-//! computes a motion by several integrators, [`Study::rows_to`] gives rows to a sink as they are computed ([`output::CsvRows`] writes them to a file). Errors have places in the
-//! file and remedies. What is computed is plain data ([`Results`]), from which [`output`] makes CSV, JSON, figures and drawings.
+//! computes a motion by several integrators, [`Study::rows_to`] gives rows to a sink as they are computed, which may be a file
+//! ([`output::CsvRows`]). Errors have places in the file and remedies. What is computed is plain data ([`Results`]), from which
+//! [`output`] makes CSV, JSON, figures and drawings.
 //!
 //! The mechanism itself can be evaluated by hand, and stepped:
 //!

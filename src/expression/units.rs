@@ -161,6 +161,12 @@ impl Dimension {
         *self == Self::NONE && self.angle == 2
     }
 
+    /// Whether a unit of the other may show a number of this dimension: an angle is none of a plain number.
+    #[must_use]
+    pub fn is_shown_as(&self, other: Self) -> bool {
+        *self == other && self.angle == other.angle
+    }
+
     /// The dimension of a sum of both, which are equal: `O.angle + 1` is an angle.
     pub(super) fn or_angle(self, other: Self) -> Self {
         if self.angle == 0 { other } else { self }

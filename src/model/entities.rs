@@ -18,6 +18,17 @@ pub enum Dimensions {
     Spatial,
 }
 
+/// A unit in which results of its dimension are shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DisplayUnit {
+    /// Its name: `mm`.
+    pub name: String,
+    /// Its size in SI.
+    pub size: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+}
+
 /// A named number that can be set from outside.
 #[derive(Clone, Debug)]
 pub struct Parameter {

@@ -20,6 +20,11 @@ pub(crate) static FILE: Record = Record {
             Either(&[Word(&["none"]), List(&Value(Want::Of(D::ACCELERATION)), Size::Space), Map(&GRAVITY)]),
             "Acceleration of gravity, or a field of it, or `none`.",
         ),
+        may(
+            "units",
+            List(&Text, Size::AtLeast(1)),
+            "Units in which figures and the terminal show results, one for a dimension: `[mm, deg, kN]`.",
+        ),
         may("parameters", Named(Keys::Name, "a parameter", &ANY), "Numbers with names; each can be set from outside."),
         may("tables", Named(Keys::Name, "a table", &Map(&TABLE)), "Functions given by points, called `name(x)`."),
         may("ground", Named(Keys::Name, "a point of the frame", &PLACED), "Points of the frame: `ground.NAME`."),

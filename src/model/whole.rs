@@ -2,7 +2,9 @@
 
 use super::bodies::{Attraction, Body};
 use super::contacts::Clutch;
-use super::entities::{Coupling, Dimensions, Driver, Event, FirstOrder, Joint, Load, Measure, Motor, Parameter, Spring, Start, Table};
+use super::entities::{
+    Coupling, Dimensions, DisplayUnit, Driver, Event, FirstOrder, Joint, Load, Measure, Motor, Parameter, Spring, Start, Table,
+};
 use super::rules::Check;
 use super::study::Study;
 use super::vocabulary::Quantity;
@@ -17,6 +19,8 @@ pub struct Model {
     pub about: String,
     /// `space`.
     pub space: Dimensions,
+    /// Units in which results are shown, one for a dimension.
+    pub units: Vec<DisplayUnit>,
     /// Every expression of the model.
     pub pool: Pool,
     /// What each input leaf of the pool stands for: `Node::Input(i)` is `inputs[i]`.

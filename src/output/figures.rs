@@ -31,7 +31,7 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
                 _ => y.name.clone(),
             };
             let points = joined(x.map_or(&[], |x| &x.values), &y.values, &run.table.switches, plot.over.is_some());
-            curves.push(Curve { label: name, unit: Some(y.unit.clone()), points });
+            curves.push(curve(name, y, points));
         }
     }
     let first = runs.first().map(|(_, run)| *run);
@@ -46,9 +46,10 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
         _ => vec![],
     };
     let shown: Vec<&Column> = first.map_or_else(Vec::new, |run| plot.show.iter().filter_map(|name| column(run, name)).collect());
-    let same_plane = plot.over.is_some() && shown.iter().copied().chain(over).all(|column| column.unit == "m");
+    let lengths = |column: &Column| column.unit == "m" && unit(column).0 == x.unit;
+    let same_plane = plot.over.is_some() && shown.iter().copied().chain(over).all(lengths);
     let y = match shown[..] {
-        [only] if several && plot.show.len() == 1 => Axis { label: only.name.clone(), unit: only.unit.clone(), ..Axis::default() },
+        [only] if several && plot.show.len() == 1 => Axis { label: only.name.clone(), unit: unit(only).0, ..Axis::default() },
         _ => Axis::default(),
     };
     Figure { title: title(results, plot), x, y, curves, breaks, equal: same_plane, ..Figure::default() }
@@ -62,13 +63,12 @@ fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
     };
     let (x, factor) = axis(plot, Some(over));
     let nowhere = vec![f64::NAN; results.table.rows()];
-    let curve = |name: &String| {
-        let column = results.table.column(name);
-        let values = column.map_or(&nowhere, |column| &column.values);
-        let points = over.values.iter().copied().zip(values.iter().copied()).collect();
-        Curve { label: name.clone(), unit: Some(column.map_or_else(String::new, |column| column.unit.clone())), points }
+    let none = Column { values: nowhere, ..Column::default() };
+    let shown = |name: &String| {
+        let column = results.table.column(name).unwrap_or(&none);
+        curve(name.clone(), column, over.values.iter().copied().zip(column.values.iter().copied()).collect())
     };
-    let mut curves: Vec<Curve> = plot.show.iter().map(curve).collect();
+    let mut curves: Vec<Curve> = plot.show.iter().map(shown).collect();
     scale_x(&mut curves, factor);
     Some(Figure { title: title(results, plot), x, curves, ..Figure::default() })
 }
@@ -96,10 +96,23 @@ fn title(results: &Results, plot: &Plot) -> String {
 
 /// The horizontal axis and the factor that its values are divided by.
 fn axis(plot: &Plot, over: Option<&Column>) -> (Axis, f64) {
-    let (label, unit) = over.map_or_else(Default::default, |column| (column.name.clone(), column.unit.clone()));
-    match &plot.unit {
-        Some((word, factor)) => (Axis { label, unit: word.clone(), scale: Scale::Linear }, *factor),
-        None => (Axis { label, unit, scale: Scale::Linear }, 1.0),
+    let label = over.map_or_else(String::new, |column| column.name.clone());
+    let (unit, size) = plot.unit.clone().or_else(|| over.map(unit)).unwrap_or_else(|| (String::new(), 1.0));
+    (Axis { label, unit, scale: Scale::Linear }, size)
+}
+
+/// A curve in the unit in which its column is shown; `points` are SI.
+fn curve(label: String, column: &Column, mut points: Vec<(f64, f64)>) -> Curve {
+    let (unit, size) = unit(column);
+    points.iter_mut().for_each(|point| point.1 /= size);
+    Curve { label, unit: Some(unit), points }
+}
+
+/// The unit in which figures show a column, and its size in SI: degrees for radians, if the model asks for none.
+fn unit(column: &Column) -> (String, f64) {
+    match column.shown() {
+        ("rad", size) if column.shown_in.is_none() => ("deg".into(), size.to_radians()),
+        (unit, size) => (unit.into(), size),
     }
 }
 

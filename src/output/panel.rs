@@ -28,7 +28,7 @@ pub(super) struct Ruler {
 }
 
 impl Ruler {
-    /// An axis for `values`, in SI units; `plain` forbids to shift the origin.
+    /// An axis for `values`; `plain` forbids to shift the origin.
     pub(super) fn over(values: impl Iterator<Item = f64>, axis: &Axis, unit: &str, plain: bool) -> Self {
         let usable = |x: &f64| x.abs() < HUGE && (axis.scale == Scale::Linear || *x > 1e-290);
         let range = values
@@ -39,7 +39,7 @@ impl Ruler {
             scale: axis.scale,
             name: axis.label.clone(),
             unit: unit.to_owned(),
-            shown: units::base(unit),
+            shown: units::plain(unit),
             offset: 0.0,
             low,
             high,
@@ -150,12 +150,11 @@ impl Ruler {
 
     /// What the axis says, cut to `room` pixels.
     fn label(&self, room: f64) -> String {
-        let base = units::base(&self.unit);
-        let offset = match self.offset * base.factor {
+        let offset = match self.offset {
             0.0 => String::new(),
             offset => {
                 let sign = if offset < 0.0 { '+' } else { '−' };
-                format!(" {sign} {} {}", significant(offset.abs(), 12), base.unit).trim_end().to_owned()
+                format!(" {sign} {} {}", significant(offset.abs(), 12), units::pretty(&self.unit)).trim_end().to_owned()
             }
         };
         let unit = match (self.shown.unit.as_str(), self.name.is_empty()) {

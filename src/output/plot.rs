@@ -5,7 +5,7 @@
 pub struct Figure {
     /// Above the picture; may be empty.
     pub title: String,
-    /// The common axis. Radians are shown as degrees, on both axes.
+    /// The common axis.
     pub x: Axis,
     /// The other axis. Its `unit` counts for curves that have none of their own; curves of different units stand in panels of
     /// their own, up to three, one above the other. An empty `label` is made from the names of the curves.
@@ -27,7 +27,7 @@ pub struct Figure {
 pub struct Axis {
     /// The quantity, without its unit.
     pub label: String,
-    /// The SI unit as text, `N m`; empty for a pure number.
+    /// The unit as text, `N m`; empty for a pure number. Where numbers would be long it is shown with a prefix or a power of ten.
     pub unit: String,
     /// Even or logarithmic.
     pub scale: Scale,
@@ -43,7 +43,7 @@ pub enum Scale {
     Log,
 }
 
-/// One curve, in SI units.
+/// One curve, in the units of its axes.
 #[derive(Clone, Debug, Default)]
 pub struct Curve {
     /// Its name in the legend.

@@ -6,7 +6,8 @@ const LONGEST_NAME: usize = 32;
 
 /// The aligned table, each line indented by two and ended by a line end; empty for no scalars.
 pub(super) fn table(scalars: &[&Scalar]) -> String {
-    let texts: Vec<_> = scalars.iter().map(|scalar| significant(scalar.value, 10)).collect();
+    let shown: Vec<_> = scalars.iter().map(|scalar| scalar.shown()).collect();
+    let texts: Vec<_> = shown.iter().map(|(value, _)| significant(*value, 10)).collect();
     // The first part of a value ends before its point (or exponent): there the column is aligned.
     let parts: Vec<_> = texts.iter().map(|text| text.split_at(text.find(['.', 'e']).unwrap_or(text.len()))).collect();
     let count = |text: &str| text.chars().count();
@@ -15,13 +16,13 @@ pub(super) fn table(scalars: &[&Scalar]) -> String {
     let rest = parts.iter().map(|(_, rest)| count(rest)).max().unwrap_or(0);
 
     let mut table = String::new();
-    for (scalar, (before, after)) in scalars.iter().zip(&parts) {
+    for ((scalar, (_, unit)), (before, after)) in scalars.iter().zip(&shown).zip(&parts) {
         let mut name = scalar.name.as_str();
         if count(name) > LONGEST_NAME {
             table.push_str(&format!("  {name}\n"));
             name = "";
         }
-        let line = format!("  {name:<names$}  {before:>whole$}{after:<rest$}  {}", scalar.unit);
+        let line = format!("  {name:<names$}  {before:>whole$}{after:<rest$}  {unit}");
         table.push_str(line.trim_end());
         table.push('\n');
     }

@@ -32,9 +32,19 @@ pub fn summary(results: &Results) -> String {
 /// `solved: I_f = 279.25 kg m^2 (12 runs), delta = 0.01`; empty where nothing is solved.
 fn solution(results: &Results) -> String {
     let Some(solved) = &results.solution else { return String::new() };
-    let p = &solved.parameter;
-    let value = format!("{} {}", ten_digits(p.value), p.unit);
-    format!("  solved: {} = {} ({} runs), {} = {}\n", p.name, value.trim_end(), solved.runs, solved.of, ten_digits(solved.found))
+    let (value, unit) = solved.parameter.shown();
+    let value = format!("{} {unit}", ten_digits(value));
+    // a number without its unit, but where the model asks for one
+    let of = results.scalars.iter().find(|scalar| scalar.name == solved.of && scalar.shown_in.is_some());
+    let found = of.map_or_else(
+        || ten_digits(solved.found),
+        |scalar| {
+            let scalar = Scalar { value: solved.found, ..scalar.clone() };
+            let (value, unit) = scalar.shown();
+            format!("{} {unit}", ten_digits(value))
+        },
+    );
+    format!("  solved: {} = {} ({} runs), {} = {found}\n", solved.parameter.name, value.trim_end(), solved.runs, solved.of)
 }
 
 /// How many rows there are, and over what.
@@ -48,8 +58,11 @@ fn range(results: &Results) -> String {
     if results.independent.name.is_empty() {
         return String::new();
     }
-    let (from, to) = (place(places.first()), place(places.last()));
-    format!("  {} rows over {} from {from} to {to}{switches}\n", places.len(), results.independent.name)
+    let (unit, size) = results.independent.shown();
+    let unit = results.independent.shown_in.as_ref().map_or_else(String::new, |_| format!(" {unit}"));
+    let end = |x: Option<&f64>| place(x.map(|x| x / size).as_ref());
+    let (from, to) = (end(places.first()), end(places.last()));
+    format!("  {} rows over {} from {from} to {to}{unit}{switches}\n", places.len(), results.independent.name)
 }
 
 fn place(x: Option<&f64>) -> String {

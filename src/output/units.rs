@@ -1,33 +1,28 @@
-//! Units as a reader of figures wants them: angles in degrees, powers as superscripts, a prefix or a power of ten where numbers
-//! would be long.
-
-/// 180/π.
-const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+//! Units as a reader of figures wants them: powers as superscripts, a prefix or a power of ten where numbers would be long.
 
 /// A unit to show numbers in.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shown {
     /// The unit to be printed, with prefix or power of ten.
     pub(super) unit: String,
-    /// From SI to what the ticks say.
+    /// From the unit as it is to what the ticks say.
     pub(super) factor: f64,
 }
 
-/// The unit in which figures show numbers of the SI unit `unit`, before any prefix: degrees for radians.
-pub(super) fn base(unit: &str) -> Shown {
-    if unit == "rad" { Shown { unit: "deg".into(), factor: DEGREES } } else { Shown { unit: pretty(unit), factor: 1.0 } }
+/// The unit without prefix.
+pub(super) fn plain(unit: &str) -> Shown {
+    Shown { unit: pretty(unit), factor: 1.0 }
 }
 
-/// The unit for SI numbers up to `largest`: `kN m` for 25 000 N m, `10⁻⁶ kg m²` where no prefix fits.
+/// The unit for numbers up to `largest`: `kN m` for 25 000 N m, `10⁻⁶ kg m²` where no prefix fits.
 pub(super) fn scaled(unit: &str, largest: f64) -> Shown {
-    let plain = base(unit);
-    let largest = largest * plain.factor;
-    if unit == "rad" && largest >= 1e-2 || (1e-2..1e4).contains(&largest) || largest == 0.0 || !largest.is_finite() {
+    let plain = plain(unit);
+    if unit == "deg" && largest >= 1e-2 || (1e-2..1e4).contains(&largest) || largest == 0.0 || !largest.is_finite() {
         return plain;
     }
     // Shown numbers reach from 0.5 to 500: 0.9e-6 is better read as 0.9 µ than as 900 n.
     let power = ((largest.log10() + 0.3) / 3.0).floor() as i32 * 3;
-    let factor = plain.factor * 10f64.powi(-power);
+    let factor = 10f64.powi(-power);
     match prefix(&plain.unit, power) {
         Some(prefix) => Shown { unit: format!("{prefix}{}", plain.unit), factor },
         None => Shown { unit: format!("10{} {}", superscript(power), plain.unit).trim_end().into(), factor },
@@ -98,8 +93,8 @@ mod tests {
         assert_eq!(scaled("m", 2e-3).unit, "mm");
         assert_eq!(scaled("m", 2e5).unit, "10³ m");
         assert_eq!(scaled("", 2e-13).unit, "10⁻¹⁵");
-        assert_eq!(scaled("rad", 6.0).unit, "deg");
-        assert_eq!(scaled("rad", 1e-5).unit, "10⁻³ deg");
+        assert_eq!(scaled("deg", 4e5).unit, "deg");
+        assert_eq!(scaled("deg", 1e-3).unit, "10⁻³ deg");
         assert_eq!(scaled("rad/s", 6.0).unit, "rad/s");
         assert_eq!(pretty("m/s^2"), "m/s²");
         assert_eq!(pretty("N*s^-1"), "N s⁻¹");

@@ -21,7 +21,7 @@ pub use finding::{Checked, Finding, Happened};
 pub use number::number;
 pub use rows::{Rows, Sink};
 pub use scene::{Plot, Scene, SceneJoint};
-pub use table::{Column, Table};
+pub use table::{Column, ShownIn, Table};
 pub use unknown::Unknown;
 
 use serde::{Deserialize, Serialize};
@@ -97,10 +97,29 @@ pub struct Scalar {
     pub quantity: String,
     /// The SI unit; empty for a number.
     pub unit: String,
+    /// The unit to show it in, if the model asks for one.
+    pub shown_in: Option<ShownIn>,
     /// The value, SI.
     pub value: f64,
     /// Who gives it.
     pub by: By,
+}
+
+impl Scalar {
+    /// The value in the unit to show it in, and that unit.
+    #[must_use]
+    pub fn shown(&self) -> (f64, &str) {
+        match &self.shown_in {
+            // 0.3 m are 300 mm, not 299.99999999999994
+            Some(asked) => (significant(self.value / asked.size), &asked.unit),
+            None => (self.value, &self.unit),
+        }
+    }
+}
+
+/// Fifteen significant digits of a number.
+fn significant(x: f64) -> f64 {
+    format!("{x:.14e}").parse().unwrap_or(x)
 }
 
 /// Who gives a scalar.

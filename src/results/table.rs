@@ -2,6 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
+/// A unit to show numbers in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShownIn {
+    /// Its name: `mm`.
+    pub unit: String,
+    /// Its size in SI.
+    pub size: f64,
+}
+
 /// A named column of numbers, SI.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Column {
@@ -11,8 +20,18 @@ pub struct Column {
     pub quantity: String,
     /// The SI unit, `N m`; empty for a number.
     pub unit: String,
+    /// The unit to show it in, if the model asks for one.
+    pub shown_in: Option<ShownIn>,
     /// The values; NaN where there is none.
     pub values: Vec<f64>,
+}
+
+impl Column {
+    /// The unit to show it in, and its size in SI.
+    #[must_use]
+    pub fn shown(&self) -> (&str, f64) {
+        self.shown_in.as_ref().map_or((&self.unit, 1.0), |asked| (&asked.unit, asked.size))
+    }
 }
 
 /// Columns of one length.

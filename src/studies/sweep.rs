@@ -151,7 +151,7 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
     let (solved, solve) = (run.solved.as_ref()?, study.solve.as_ref()?);
     let parameter = &model.parameters[solve.parameter];
     Some(Solution {
-        parameter: named::scalar(&parameter.name, parameter.dimension, solved.value, By::File),
+        parameter: named::scalar(model, &parameter.name, parameter.dimension, solved.value, By::File),
         of: solve.target.0.clone(),
         found: solved.found,
         target: solved.target,
@@ -165,7 +165,9 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
 fn label(model: &Model, study: &Study, at: &[f64]) -> String {
     let value = |(sweep, x): (&Sweep, &f64)| {
         let parameter = &model.parameters[sweep.parameter];
-        format!("{} = {} {}", parameter.name, number(*x), parameter.dimension.si()).trim_end().to_string()
+        let value = named::scalar(model, &parameter.name, parameter.dimension, *x, By::File);
+        let (x, unit) = value.shown();
+        format!("{} = {} {unit}", value.name, number(x)).trim_end().to_string()
     };
     study.sweep.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
 }
@@ -178,7 +180,7 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
     };
     let parameter = |index: usize, values: Vec<f64>| {
         let p = &model.parameters[index];
-        named::column(&p.name, p.dimension, values)
+        named::column(model, &p.name, p.dimension, values)
     };
     let swept = study.sweep.iter().enumerate();
     let mut columns: Vec<Column> = swept.map(|(k, s)| parameter(s.parameter, runs.iter().map(|r| r.at[k]).collect())).collect();
@@ -190,10 +192,10 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
     for (i, result) in study.results.iter().enumerate().filter(|(i, _)| !lists || has(*i)) {
         // a range that could not be begun is not a full turn
         let none = if result.name == "turns_fully" { 0.0 } else { f64::NAN };
-        columns.push(named::column(&result.name, result.dimension, of(&|o| o.results.get(i).copied(), none)));
+        columns.push(named::column(model, &result.name, result.dimension, of(&|o| o.results.get(i).copied(), none)));
     }
     for (i, scalar) in study.scalars.iter().enumerate() {
-        columns.push(named::column(&scalar.name, scalar.dimension, of(&|o| o.scalars.get(i).copied(), f64::NAN)));
+        columns.push(named::column(model, &scalar.name, scalar.dimension, of(&|o| o.scalars.get(i).copied(), f64::NAN)));
     }
     let reason = |run: &Run| match &run.result {
         Ok(outcome) => outcome.stopped.clone().unwrap_or_default(),

@@ -45,6 +45,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             // numbers, units, expressions
             "wrong-unit",
             "misspelt-unit",
+            "units-of-results",
             "misspelt-function",
             "parameter-without-unit",
             "hertz",

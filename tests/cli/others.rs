@@ -322,3 +322,33 @@ studies:
     assert_eq!(words("rate_squared"), ["9.869604401", "rad^2/s^2"]);
     assert_eq!(words("power_over_torque"), ["3.141592654", "1/s"]);
 }
+
+/// Results are shown in the units that the model asks for; files stay SI.
+#[test]
+fn results_are_shown_in_the_units_of_the_model() {
+    let place = Place::new("shown");
+    let text = model().replacen("parameters:", "units: [mm, deg, kN mm, rad/s]\nparameters:", 1);
+    place.put("units.yaml", &text);
+    place.put("plain.yaml", &model());
+    let [shown, plain] = ["units", "plain"].map(|name| {
+        let file = format!("{name}.yaml");
+        place.run(&["run", &file, "--study", "turn", "-o", name]).ends(0).stdout
+    });
+    let number = |text: &str, name: &str| -> (f64, String) {
+        let line = text.lines().find(|line| line.split_whitespace().next() == Some(name)).unwrap_or_else(|| panic!("{name}\n{text}"));
+        let words: Vec<&str> = line.split_whitespace().collect();
+        (words[1].parse().unwrap(), words.get(2).map_or(String::new(), |unit| (*unit).to_owned()))
+    };
+    let (swing, power) = (number(&shown, "swing"), number(&shown, "mean_power"));
+    assert_eq!((swing.1.as_str(), power.1.as_str()), ("deg", "W"));
+    assert!((swing.0.to_radians() - number(&plain, "swing").0).abs() < 1e-8);
+    assert_eq!(power, number(&plain, "mean_power"));
+    assert!(shown.contains("from 90 to 450 deg"), "{shown}");
+    for file in ["turn.csv", "turn.json"] {
+        assert_eq!(place.text(&format!("units/{file}")), place.text(&format!("plain/{file}")), "{file}");
+    }
+    assert!(place.text("units/turn-torque.svg").contains("in kN mm<"));
+    assert!(place.text("plain/turn-torque.svg").contains("in N m<"));
+    let runs = place.run(&["run", "units.yaml", "--study", "lengths", "--no-plots", "-o", "units"]).ends(0).stdout;
+    assert!(runs.contains("l3 [mm]") && runs.contains("swing [deg]") && runs.contains(" 550 "), "{runs}");
+}

@@ -2,7 +2,7 @@
 
 use super::decoder::{Decoder, Origin};
 use super::frame::Frame;
-use crate::expression::{self, Dimension, Id};
+use crate::expression::{Dimension, Id};
 use crate::model::fault::At;
 use crate::model::fields::{Shape, Size};
 use crate::model::keys::{Entry, keys};
@@ -267,20 +267,13 @@ impl<'n> Decoder<'n> {
     fn plot_unit(&mut self, unit: Entry<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
         let text = unit.text()?;
         let here = at.key(unit);
-        match expression::parse_unit(text) {
-            Some((factor, dimension)) => {
-                if axis.is_some_and(|axis| axis != dimension) {
-                    let expected = axis.map(|axis| axis.name()).unwrap_or_default();
-                    self.fault("wrong-dimension", &here, format!("`{}` is a unit of {}", clip(text), dimension.name()), expected);
-                    return None;
-                }
-                Some((text.to_owned(), factor))
-            }
-            None => {
-                self.fault("unknown-unit", &here, format!("`{}` is no unit", clip(text)), "a unit such as `rpm`, `deg`, `mm`, `N m`");
-                None
-            }
+        let (factor, dimension) = self.unit(text, &here)?;
+        if axis.is_some_and(|axis| axis != dimension) {
+            let expected = axis.map(|axis| axis.name()).unwrap_or_default();
+            self.fault("wrong-dimension", &here, format!("`{}` is a unit of {}", clip(text), dimension.name()), expected);
+            return None;
         }
+        Some((text.to_owned(), factor))
     }
 
     /// What a name in a figure refers to; several where it stands for several quantities.

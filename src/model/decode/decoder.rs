@@ -68,6 +68,7 @@ impl<'n> Decoder<'n> {
             name: text("name"),
             about: text("about"),
             space,
+            units: Vec::new(),
             pool: Pool::new(),
             inputs: Vec::new(),
             parameters: Vec::new(),
@@ -105,6 +106,7 @@ impl<'n> Decoder<'n> {
             input_of: HashMap::new(),
         };
         let mut decoder = Self { layers, root, pool: Pool::new(), name_space, faults, checks: Vec::new(), parsed };
+        decoder.display_units();
         decoder.parameters();
         decoder.tables();
         decoder.bodies();

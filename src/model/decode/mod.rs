@@ -21,6 +21,7 @@ mod springs;
 mod start;
 mod stops;
 mod studies;
+mod units;
 mod values;
 
 pub(crate) use bodies::{BODY, PLACED};

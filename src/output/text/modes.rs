@@ -14,11 +14,15 @@ const NUMBERS: [&str; 5] = ["eigenvalue_real", "eigenvalue_imaginary", "eigenval
 pub(super) fn summary(results: &Results) -> String {
     let numbers: Vec<&Column> = results.table.columns.iter().filter(|c| NUMBERS.contains(&c.name.as_str())).collect();
     let mut lines: Vec<Vec<String>> = vec![vec!["mode".into()]];
-    lines[0].extend(numbers.iter().map(|c| if c.unit.is_empty() { c.name.clone() } else { format!("{} [{}]", c.name, c.unit) }));
+    let head = |column: &&Column| match column.shown() {
+        ("", _) => column.name.clone(),
+        (unit, _) => format!("{} [{unit}]", column.name),
+    };
+    lines[0].extend(numbers.iter().map(head));
     lines[0].extend(["[1/s]".into(), "period [s]".into()]);
     for i in 0..results.shapes.len() {
         let mut line = vec![format!("{}", i + 1)];
-        line.extend(numbers.iter().map(|c| digits(c.values.get(i).copied().unwrap_or(f64::NAN), 10)));
+        line.extend(numbers.iter().map(|c| digits(c.values.get(i).copied().unwrap_or(f64::NAN) / c.shown().1, 10)));
         let frequency = results.list("frequencies").and_then(|f| f.get(i).copied()).unwrap_or(f64::NAN);
         let swings = frequency > 0.0;
         line.extend([frequency / TAU, TAU / frequency].map(|x| if swings { digits(x, 6) } else { "-".into() }));

@@ -1,14 +1,20 @@
 //! The runs of a sweep, columns aligned.
 
 use crate::output::scalars::ten_digits;
-use crate::results::Table;
+use crate::results::{Column, Table};
 
 /// A head and a line for each run, with the reason of those that are not whole.
 pub(super) fn summary(table: &Table) -> String {
-    let head = table.columns.iter().map(|c| if c.unit.is_empty() { c.name.clone() } else { format!("{} [{}]", c.name, c.unit) });
+    let head = |column: &Column| match column.shown() {
+        ("", _) => column.name.clone(),
+        (unit, _) => format!("{} [{unit}]", column.name),
+    };
+    let sizes: Vec<f64> = table.columns.iter().map(|column| column.shown().1).collect();
+    let head = table.columns.iter().map(head);
     let mut lines: Vec<Vec<String>> = vec![head.collect()];
     for row in 0..table.rows() {
-        lines.push(table.row(row).map(|x| if x.is_nan() { "-".into() } else { ten_digits(x) }).collect());
+        let values = table.row(row).zip(&sizes).map(|(x, size)| x / size);
+        lines.push(values.map(|x| if x.is_nan() { "-".into() } else { ten_digits(x) }).collect());
     }
     let widths: Vec<usize> = (0..table.columns.len()).map(|i| lines.iter().map(|l| l[i].chars().count()).max().unwrap_or(0)).collect();
     let mut out = String::new();

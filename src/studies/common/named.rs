@@ -2,15 +2,15 @@
 
 use super::outcome::Outcome;
 use super::watched::extra_curves;
-use crate::expression::Dimension;
+use crate::expression::{Dimension, parse_unit};
 use crate::model::{Kind, Model, Shown, ShownWhat, Study};
-use crate::results::{By, Column, LinearSystem, Plot, Results, Scalar, Table};
+use crate::results::{By, Column, LinearSystem, Plot, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
 #[must_use]
 pub fn named(model: &Model, study: &Study, outcome: &Outcome) -> Results {
     let columns = study.columns.iter();
-    let (table, curves) = tables(study, outcome);
+    let (table, curves) = tables(model, study, outcome);
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
@@ -19,10 +19,10 @@ pub fn named(model: &Model, study: &Study, outcome: &Outcome) -> Results {
         stopped: outcome.stopped.clone(),
         undefined: outcome.undefined.clone(),
         parameters: parameters(model, outcome.parameters.iter().map(|(_, value)| *value)),
-        independent: column(&outcome.independent, study.independent.unwrap_or(Dimension::NONE), outcome.places.clone()),
+        independent: column(model, &outcome.independent, study.independent.unwrap_or(Dimension::NONE), outcome.places.clone()),
         table,
         curves,
-        scalars: scalars(study, outcome),
+        scalars: scalars(model, study, outcome),
         extremes: columns.zip(&outcome.extremes).map(|(c, extremes)| (c.name.clone(), *extremes)).collect(),
         lists: outcome.lists.clone(),
         shapes: outcome.shapes.clone(),
@@ -39,18 +39,26 @@ pub fn named(model: &Model, study: &Study, outcome: &Outcome) -> Results {
 }
 
 /// A column of values.
-pub(crate) fn column(name: &str, dimension: Dimension, values: Vec<f64>) -> Column {
-    Column { name: name.into(), quantity: dimension.quantity().into(), unit: dimension.si(), values }
+pub(crate) fn column(model: &Model, name: &str, dimension: Dimension, values: Vec<f64>) -> Column {
+    let (quantity, unit) = (dimension.quantity().into(), dimension.si());
+    Column { name: name.into(), quantity, unit, shown_in: shown_in(model, dimension), values }
+}
+
+/// The unit in which the model asks to show numbers of a dimension.
+fn shown_in(model: &Model, dimension: Dimension) -> Option<ShownIn> {
+    let asked = model.units.iter().find(|unit| unit.dimension.is_shown_as(dimension))?;
+    Some(ShownIn { unit: asked.name.clone(), size: asked.size })
 }
 
 /// A named number.
-pub(crate) fn scalar(name: &str, dimension: Dimension, value: f64, by: By) -> Scalar {
-    Scalar { name: name.into(), quantity: dimension.quantity().into(), unit: dimension.si(), value, by }
+pub(crate) fn scalar(model: &Model, name: &str, dimension: Dimension, value: f64, by: By) -> Scalar {
+    let (quantity, unit) = (dimension.quantity().into(), dimension.si());
+    Scalar { name: name.into(), quantity, unit, shown_in: shown_in(model, dimension), value, by }
 }
 
 /// Parameters by name.
 pub(crate) fn parameters(model: &Model, values: impl Iterator<Item = f64>) -> Vec<Scalar> {
-    model.parameters.iter().zip(values).map(|(p, x)| scalar(&p.name, p.dimension, x, By::File)).collect()
+    model.parameters.iter().zip(values).map(|(p, x)| scalar(model, &p.name, p.dimension, x, By::File)).collect()
 }
 
 /// The figures of a study.
@@ -67,28 +75,28 @@ pub(crate) fn plots(study: &Study) -> Vec<Plot> {
 }
 
 /// Those taken from other studies, those of the kind that are there, those of the file.
-fn scalars(study: &Study, outcome: &Outcome) -> Vec<Scalar> {
-    let taken = study.take.iter().map(|t| scalar(&t.name, t.dimension, t.value, By::Study));
+fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
+    let taken = study.take.iter().map(|t| scalar(model, &t.name, t.dimension, t.value, By::Study));
     // a kind may name results that this mechanism does not have, as the frequency of a mode
     let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
-    let of_kind = present.map(|(r, value)| scalar(&r.name, r.dimension, *value, By::Kind));
-    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| scalar(&s.name, s.dimension, *value, By::File));
+    let of_kind = present.map(|(r, value)| scalar(model, &r.name, r.dimension, *value, By::Kind));
+    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| scalar(model, &s.name, s.dimension, *value, By::File));
     taken.chain(of_kind).chain(own).collect()
 }
 
 /// The table of the kind, and the curves that only figures show.
-fn tables(study: &Study, outcome: &Outcome) -> (Table, Vec<Column>) {
+fn tables(model: &Model, study: &Study, outcome: &Outcome) -> (Table, Vec<Column>) {
     match study.kind {
-        Kind::Modes(_) => return (modes(outcome), Vec::new()),
+        Kind::Modes(_) => return (modes(model, outcome), Vec::new()),
         Kind::Linearize(_) => return (outcome.linear.as_ref().map_or_else(Table::default, state), Vec::new()),
         _ => {}
     }
     let values = |k: usize| if k < outcome.rows.width() { outcome.rows.column(k).collect() } else { Vec::new() };
-    let columns = study.columns.iter().enumerate().map(|(k, c)| column(&c.name, c.dimension, values(k))).collect();
+    let columns = study.columns.iter().enumerate().map(|(k, c)| column(model, &c.name, c.dimension, values(k))).collect();
     let shown = study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
     let named = |id| shown.clone().find(|s| s.what == ShownWhat::Column(id));
     let extra = extra_curves(study).into_iter().enumerate();
-    let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(&s.name, s.dimension, values(study.columns.len() + k))));
+    let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(model, &s.name, s.dimension, values(study.columns.len() + k))));
     let curves = curves.collect();
     (Table { columns, switches: outcome.switches.clone(), reasons: None }, curves)
 }
@@ -96,28 +104,32 @@ fn tables(study: &Study, outcome: &Outcome) -> (Table, Vec<Column>) {
 /// The outputs in the state of a linearised motion, one row.
 fn state(system: &LinearSystem) -> Table {
     let values = system.outputs.iter().zip(&system.values[3]);
-    Table { columns: values.map(|(name, y)| plain(name, "", vec![*y])).collect(), ..Table::default() }
+    Table {
+        columns: values.map(|(name, y)| Column { name: name.clone(), values: vec![*y], ..Column::default() }).collect(),
+        ..Table::default()
+    }
 }
 
 /// A column by its unit.
-fn plain(name: &str, unit: &str, values: Vec<f64>) -> Column {
-    Column { name: name.into(), quantity: String::new(), unit: unit.into(), values }
+fn plain(model: &Model, name: &str, unit: &str, values: Vec<f64>) -> Column {
+    let shown_in = parse_unit(unit).and_then(|(_, dimension)| shown_in(model, dimension));
+    Column { name: name.into(), quantity: String::new(), unit: unit.into(), shown_in, values }
 }
 
 /// One row a mode: its numbers, then its shape by coordinates.
-fn modes(outcome: &Outcome) -> Table {
+fn modes(model: &Model, outcome: &Outcome) -> Table {
     let list = |name: &str| outcome.lists.iter().find(|l| l.name == name).map(|l| &l.values);
     let count = outcome.shapes.len();
-    let mut columns = vec![plain("mode", "", (1..=count).map(|i| i as f64).collect())];
+    let mut columns = vec![plain(model, "mode", "", (1..=count).map(|i| i as f64).collect())];
     for (name, unit, of) in MODE_NUMBERS {
         // eigenvalues in pairs take the place of those of a mechanism without damping
         if let Some(values) = list(of).filter(|_| of != "eigenvalues" || list("eigenvalues_real").is_none()) {
-            columns.push(plain(name, unit, (0..count).map(|i| values.get(i).copied().unwrap_or(f64::NAN)).collect()));
+            columns.push(plain(model, name, unit, (0..count).map(|i| values.get(i).copied().unwrap_or(f64::NAN)).collect()));
         }
     }
     for (k, (name, _)) in outcome.shapes.first().into_iter().flatten().enumerate() {
         let unit = if name.ends_with(".phase") { "rad" } else { "" };
-        columns.push(plain(name, unit, outcome.shapes.iter().map(|shape| shape.get(k).map_or(f64::NAN, |(_, x)| *x)).collect()));
+        columns.push(plain(model, name, unit, outcome.shapes.iter().map(|shape| shape.get(k).map_or(f64::NAN, |(_, x)| *x)).collect()));
     }
     Table { columns, ..Table::default() }
 }

@@ -40,8 +40,8 @@ impl<'a> Recorder<'a> {
         let shown: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let study = case.study;
         if let Some(sink) = case.sink {
-            let columns: Vec<Column> = study.columns.iter().map(|c| column(&c.name, c.dimension, Vec::new())).collect();
-            sink.begin(&column(name, study.independent.unwrap_or(Dimension::NONE), Vec::new()), &columns);
+            let columns: Vec<Column> = study.columns.iter().map(|c| column(case.model, &c.name, c.dimension, Vec::new())).collect();
+            sink.begin(&column(case.model, name, study.independent.unwrap_or(Dimension::NONE), Vec::new()), &columns);
         }
         let (rows, blank) = (Rows::new(shown.len()), vec![(0, 0.0); study.columns.len()]);
         Self { case, clock, symbol, shown, progress: Vec::new(), pieces: Vec::new(), rows, blank }
