@@ -181,7 +181,7 @@ mod tests {
     fn a_jump_is_not_joined() {
         let points = vec![(0.0, 1.0), (1.0, 2.0), (1.0, -2.0), (2.0, -1.0)];
         let figure = Figure {
-            x: axis("theta", "rad"),
+            x: axis("theta", "deg"),
             y: axis("torque", "N m"),
             curves: vec![curve("torque", None, points)],
             breaks: vec![1.0],
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn curves_of_different_units_have_panels_of_their_own() {
         let points = vec![(0.0, 0.0), (1.0, 1.0)];
-        let curves = vec![curve("delta", Some("rad"), points.clone()), curve("omega", Some("rad/s"), points)];
+        let curves = vec![curve("delta", Some("deg"), points.clone()), curve("omega", Some("rad/s"), points)];
         let figure = Figure { x: axis("t", "s"), curves, ..Figure::default() };
         let svg = svg(&figure);
         assert!(svg.contains("height=\"900\"") && svg.contains(">delta in deg<") && svg.contains(">omega in rad/s<"));

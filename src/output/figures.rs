@@ -145,3 +145,24 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
         traces: scene.traces.iter().map(|(name, points)| Trace { name: name.clone(), points: points.clone() }).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::ShownIn;
+
+    #[test]
+    fn columns_are_in_the_units_that_are_asked_for_and_angles_else_in_degrees() {
+        let asked = |unit: &str, size| Some(ShownIn { unit: unit.into(), size });
+        let shown = |si: &str, asked: Option<ShownIn>| {
+            let column = Column { unit: si.into(), shown_in: asked, ..Column::default() };
+            let curve = curve("a".into(), &column, vec![(0.0, 6.0)]);
+            (curve.unit.unwrap_or_default(), curve.points[0].1)
+        };
+        assert_eq!(shown("m", asked("mm", 1e-3)), ("mm".into(), 6000.0));
+        assert_eq!(shown("m", None), ("m".into(), 6.0));
+        assert_eq!(shown("rad", None), ("deg".into(), 6.0_f64.to_degrees()));
+        assert_eq!(shown("rad", asked("rad", 1.0)), ("rad".into(), 6.0));
+        assert_eq!(shown("rad/s", None), ("rad/s".into(), 6.0));
+    }
+}
