@@ -9,7 +9,7 @@ use grashof::dynamics::{self, Dynamics};
 use grashof::geometry::{Force, Motion, Planar, Space, Spatial};
 use grashof::mechanism::{Coordinates, EffortLaw, Mechanism, Rotor, StretchOf};
 use grashof::scalar::Dual;
-use grashof_solvers::{Coloring, Dims, Tangent};
+use grashof_solvers::{Block, Coloring, Tangent};
 
 const PLANAR: &str = include_str!("common/planar.yaml");
 const SPATIAL: &str = include_str!("common/spatial.yaml");
@@ -63,12 +63,12 @@ fn kinetic_energy_is_half_v_m_v_and_m_is_symmetric() {
         let mut half = 0.0;
         for i in 0..n {
             for k in 0..n {
-                half += 0.5 * s.v[i] * d.work.mass[i * n + k] * s.v[k];
-                assert_eq!(d.work.mass[i * n + k].to_bits(), d.work.mass[k * n + i].to_bits());
+                half += 0.5 * s.v[i] * d.work.mass.at(i, k) * s.v[k];
+                assert_eq!(d.work.mass.at(i, k).to_bits(), d.work.mass.at(k, i).to_bits());
             }
         }
         close("T", &[d.kinetic_energy()], &[half], EXACT);
-        let metric = nalgebra::DMatrix::from_row_slice(n, n, &d.work.mass);
+        let metric = nalgebra::DMatrix::from_row_slice(n, n, &d.work.mass.to_dense());
         assert!(metric.cholesky().is_some(), "M is positive definite");
     }
     everywhere!(law);
@@ -100,7 +100,7 @@ fn columns_of_m_are_what_unit_accelerations_cost() {
             let mut e = zero.clone();
             e[k] = 1.0;
             let cost: Vec<f64> = newton_euler(&d, &e).iter().zip(&rest).map(|(x, y)| x - y).collect();
-            let column: Vec<f64> = (0..n).map(|i| d.work.mass[i * n + k]).collect();
+            let column: Vec<f64> = (0..n).map(|i| d.work.mass.at(i, k)).collect();
             close("column of M", &column, &cost, EXACT);
         }
     }
@@ -280,7 +280,7 @@ fn evaluations_in_any_order_give_the_same_bits() {
             s.evaluate(d);
             let r = react(d, &s.a, &s.lambda);
             let w = &d.work;
-            let mut bits: Vec<u64> = [&w.mass, &w.force, &w.phi, &w.g, &w.nu, &w.gamma, &w.efforts, &r.drives]
+            let mut bits: Vec<u64> = [&*w.mass, &w.force, &w.phi, &*w.g, &w.nu, &w.gamma, &w.efforts, &r.drives]
                 .into_iter()
                 .flatten()
                 .map(|x| x.to_bits())
@@ -410,20 +410,20 @@ fn moving<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) -> State {
     let mut d = Dynamics::new(m);
     s.evaluate(&mut d);
     let n = m.nv;
-    let mass = nalgebra::DMatrix::from_row_slice(n, n, &d.work.mass);
+    let mass = nalgebra::DMatrix::from_row_slice(n, n, &d.work.mass.to_dense());
     let mut rhs = nalgebra::DVector::from_column_slice(&d.work.force);
     for (r, l) in s.lambda.iter().enumerate() {
         for k in 0..n {
-            rhs[k] -= d.work.g[r * n + k] * l;
+            rhs[k] -= d.work.g.at(r, k) * l;
         }
     }
     let a = mass.cholesky().expect("M is positive definite").solve(&rhs);
     State { a: a.as_slice().to_vec(), ..s.clone() }
 }
 
-/// A x for A of rows as long as x.
-fn product(a: &[f64], x: &[f64]) -> Vec<f64> {
-    a.chunks_exact(x.len()).map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum()).collect()
+/// A x.
+fn product(a: &Block, x: &[f64]) -> Vec<f64> {
+    a.lines().map(|row| row.dot(x)).collect()
 }
 
 /// What wrenches on bodies and sizes along rotors' gauges do along each column.

@@ -123,7 +123,7 @@ fn tangents_are_the_differences_of_residuals() {
     let a: Vec<f64> = (0..dims.v).map(|i| 1.0 + i as f64).collect();
     let lambda = vec![0.5; dims.rows()];
     let state = State { q, v, ..State::new(dims) };
-    let mut tangent = Tangent::new(dims);
+    let mut tangent = Tangent::new(system.pattern());
     system.tangent(state.at(), &a, &lambda, &mut tangent);
     let h = 1e-5;
     for j in 0..dims.v {
@@ -138,7 +138,7 @@ fn tangents_are_the_differences_of_residuals() {
             system.residual(faster.at(), &a, &lambda, &mut c[side]);
         }
         for i in 0..dims.v {
-            for (what, sides, got) in [("k", &k, tangent.k[i * dims.v + j]), ("c", &c, tangent.c[i * dims.v + j])] {
+            for (what, sides, got) in [("k", &k, tangent.k.at(i, j)), ("c", &c, tangent.c.at(i, j))] {
                 let expected = (sides[0][i] - sides[1][i]) / (2.0 * h);
                 assert!((got - expected).abs() < 1e-7 * (1.0 + expected.abs()), "{what}[{i}, {j}]: {got} for {expected}");
             }
@@ -152,7 +152,7 @@ fn forces_from_outside_allocate_nothing() {
     let mut system = mechanism.system();
     let dims = system.dims();
     let state = State { q: mechanism.start().0, ..State::new(dims) };
-    let (mut terms, mut tangent, mut work) = (Terms::new(dims), Tangent::new(dims), vec![0.0; dims.work]);
+    let (mut terms, mut tangent, mut work) = (Terms::new(dims, system.pattern()), Tangent::new(system.pattern()), vec![0.0; dims.work]);
     let (a, lambda) = (vec![0.0; dims.v], vec![0.0; dims.rows()]);
     let mut evaluate = || {
         system.terms(state.at(), Stage::Dynamics, &mut terms);

@@ -126,7 +126,7 @@ where
             let mut d = Dynamics::new(m);
             d.time(0.0, &self.start.modes);
             d.position(&q, &self.start.modes);
-            let step = self.dependent(reduced, &d.work.g, &d.work.phi);
+            let step = self.dependent(reduced, &d.work.g.to_dense(), &d.work.phi);
             m.retract(&mut q, &step);
         }
         q
@@ -156,8 +156,8 @@ where
         d.velocity(&vec![0.0; m.nv], &self.start.modes);
         let mut v = vec![0.0; m.nv];
         reduced.partition.independent.iter().zip(&state[n..]).for_each(|(&i, u)| v[i] = *u);
-        let y: Vec<f64> = (0..m.rows.len()).map(|r| (0..m.nv).map(|k| d.work.g[r * m.nv + k] * v[k]).sum::<f64>() - d.work.nu[r]).collect();
-        let rest = self.dependent(reduced, &d.work.g, &y);
+        let y: Vec<f64> = (0..m.rows.len()).map(|r| (0..m.nv).map(|k| d.work.g.at(r, k) * v[k]).sum::<f64>() - d.work.nu[r]).collect();
+        let rest = self.dependent(reduced, &d.work.g.to_dense(), &y);
         v.iter_mut().zip(rest).for_each(|(v, x)| *v += x);
         d.terms(0.0, &q, &v, &self.start.modes);
         d.rates(&self.start.modes);
@@ -221,7 +221,7 @@ fn matrix_on_all_coordinates_is_the_derivative_of_accelerations() {
             let mut d = Dynamics::new(&m);
             s.evaluate(&mut d);
             let (a, lambda) = accelerate(&d);
-            let metric: Vec<f64> = (0..m.nv).map(|i| d.work.mass[i * m.nv + i]).collect();
+            let metric: Vec<f64> = (0..m.nv).map(|i| d.work.mass.at(i, i)).collect();
             let at = Point { t: s.t, q: &s.q, v: &s.v, z: &[], a: &a, lambda: &lambda, modes: &s.modes };
             let matrix = Linear::new(&m, &mut Linearizer::new(&lifted), &at, &metric).expect("regular").state_matrix();
             for j in 0..2 * m.nv {

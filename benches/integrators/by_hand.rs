@@ -81,7 +81,7 @@ impl ByHand {
             curve: CURVE.iter().map(|[n, m]| [n * rpm / GEAR, m * GEAR]).collect(),
             dims,
             pattern: Pattern::dense(dims),
-            terms: Terms::new(dims),
+            terms: Terms::new(dims, &Pattern::dense(dims)),
         }
     }
 

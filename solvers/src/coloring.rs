@@ -22,16 +22,15 @@ impl Coloring {
     pub fn new(pattern: &Sparsity) -> Self {
         let words = pattern.columns().div_ceil(64);
         let mut by_row = vec![0_u64; pattern.rows() * words];
-        for j in 0..pattern.columns() {
-            pattern.column(j).iter().for_each(|i| by_row[i * words + j / 64] |= 1 << (j % 64));
-        }
+        pattern.places().for_each(|(i, j)| by_row[i * words + j / 64] |= 1 << (j % 64));
+        let columns = pattern.transposed();
         let mut neighbours = vec![0_u64; words];
         let mut color = vec![usize::MAX; pattern.columns()];
         // taken[c]: the last column that found colour c at a neighbour
         let mut taken: Vec<usize> = Vec::new();
         for j in 0..pattern.columns() {
             neighbours.fill(0);
-            for &i in pattern.column(j) {
+            for &i in columns.row(j) {
                 neighbours.iter_mut().zip(&by_row[i * words..][..words]).for_each(|(all, row)| *all |= row);
             }
             for neighbour in (0..pattern.columns()).filter(|k| neighbours[k / 64] >> (k % 64) & 1 == 1) {
@@ -56,10 +55,11 @@ mod tests {
 
     fn assert_valid(pattern: &Sparsity, coloring: &Coloring) {
         assert_eq!(coloring.color.len(), pattern.columns());
+        let columns = pattern.transposed();
         for j in 0..pattern.columns() {
             assert!(coloring.color[j] < coloring.count);
             for k in 0..j {
-                let share = pattern.column(j).iter().any(|i| pattern.column(k).contains(i));
+                let share = columns.row(j).iter().any(|i| columns.row(k).contains(i));
                 assert!(!share || coloring.color[j] != coloring.color[k], "columns {k} and {j} share a row and a colour");
             }
         }

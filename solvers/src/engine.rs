@@ -10,7 +10,7 @@
 use crate::friction::Friction;
 use crate::kkt::{Kkt, ROUND_OFF};
 pub use crate::why::{Rejected, Why};
-use crate::{At, Common, Dims, Span, Stage, State, System, Terms};
+use crate::{At, Common, Dims, Line, Span, Stage, State, System, Terms};
 
 mod norm;
 mod projection;
@@ -141,7 +141,7 @@ impl Engine {
         let inverse: f64 = pattern.metric.iter().zip(&pattern.size_v).map(|(d, s)| (d * s * s).recip()).sum();
         Self {
             dims,
-            terms: Terms::new(dims),
+            terms: Terms::new(dims, pattern),
             kkt: Kkt::of_pattern(pattern),
             friction: Friction::of_pattern(dims, pattern),
             counts: Counts::default(),
@@ -238,8 +238,11 @@ impl Engine {
         self.rhs.fill(0.0);
         self.kkt.solve(row, &self.rhs, &mut self.delta, &mut self.mu);
         let along = |x: &[f64]| row.iter().zip(x).map(|(r, x)| r * x).sum::<f64>();
-        let masses = self.terms.mass.iter().step_by(self.dims.v + 1);
-        let free: f64 = row.iter().zip(masses).map(|(r, m)| if *m > 0.0 { r * r / m } else { 0.0 }).sum();
+        let free = |(i, r): (usize, &f64)| match self.terms.mass.at(i, i) {
+            m if m > 0.0 => r * r / m,
+            _ => 0.0,
+        };
+        let free: f64 = row.iter().enumerate().map(free).sum();
         if along(&self.delta) < HELD * free {
             return Ok(false);
         }
@@ -263,8 +266,9 @@ impl Engine {
     /// If it is singular or not finite.
     pub fn factor(&mut self) -> Result<(), Why> {
         self.counts.factorisations += 1;
-        self.kkt.factor(&self.terms.mass, &self.terms.g).map_err(|_| match self.terms.mass.iter().position(|x| !x.is_finite()) {
-            Some(i) => Why::NotFinite(i / self.dims.v),
+        let Terms { mass, g, .. } = &self.terms;
+        self.kkt.factor(mass, g).map_err(|_| match mass.lines().position(|row| row.values.iter().any(|x| !x.is_finite())) {
+            Some(i) => Why::NotFinite(i),
             None => Why::Singular,
         })
     }
@@ -281,14 +285,12 @@ impl Engine {
 
     /// Largest |G v − ν| as a velocity, by the same units, of the terms evaluated last.
     pub fn velocity_residual(&self, v: &[f64]) -> f64 {
-        let rows = self.terms.g.chunks_exact(self.dims.v.max(1)).zip(&self.terms.nu);
-        self.rows_residual(rows.map(|(row, nu)| row.iter().zip(v).map(|(g, v)| g * v).sum::<f64>() - nu))
+        self.rows_residual(self.terms.g.lines().zip(&self.terms.nu).map(|(row, nu)| row.dot(v) - nu))
     }
 
     fn rows_residual(&self, residuals: impl Iterator<Item = f64>) -> f64 {
-        let nv = self.dims.v.max(1);
         let mut largest = 0.0;
-        for (r, (row, whole)) in residuals.zip(self.terms.g.chunks_exact(nv).zip(&self.row_reach)) {
+        for (r, (row, whole)) in residuals.zip(self.terms.g.lines().zip(&self.row_reach)) {
             let reach = reach(row, &self.size_v);
             let size = r.abs() / if reach > ROUND_OFF * whole { reach } else { *whole };
             largest = f64::max(largest, size);
@@ -320,8 +322,8 @@ impl Engine {
 }
 
 /// |G_i| in units of size: how much Φ changes when the coordinates move by their size.
-fn reach(row: &[f64], size: &[f64]) -> f64 {
-    row.iter().zip(size).fold(0.0, |m, (g, s)| f64::max(m, (g * s).abs()))
+fn reach(row: Line<'_>, size: &[f64]) -> f64 {
+    row.entries().fold(0.0, |m, (j, g)| f64::max(m, (g * size[j]).abs()))
 }
 
 /// Index and size of the entry that is largest in size.

@@ -10,10 +10,10 @@
 
 use crate::matrix::{Blocks, Coefficients, Matrix};
 use crate::why::Why;
-use crate::{Dims, Pattern, Sparsity, Terms};
+use crate::{Block, Dims, Pattern, Sparsity, Terms};
 
 /// Writes f_λ (nv) and R_λ (nv × m) of the multipliers (m) that it is given.
-pub type ReactionFriction<'a> = dyn FnMut(&[f64], &mut [f64], &mut [f64]) + 'a;
+pub type ReactionFriction<'a> = dyn FnMut(&[f64], &mut [f64], &mut Block) + 'a;
 
 /// The solver; sized at construction, then free of allocation.
 #[derive(Clone, Debug)]
@@ -61,9 +61,9 @@ impl Friction {
         };
         Some(Self {
             dims,
-            blocks: Blocks::new(dims),
+            blocks: Blocks::new(&bare),
             matrix: Matrix::new(dims, &bare),
-            factored: vec![0.0; nv * m],
+            factored: vec![0.0; pattern.r_lambda.entries()],
             weight: pattern.metric.iter().chain(&pattern.g_scale).map(|x| x.sqrt()).collect(),
             force: vec![0.0; nv],
             step: vec![0.0; nv + m],
@@ -90,7 +90,7 @@ impl Friction {
             if let Some(i) = self.step[..nv].iter().position(|r| !r.is_finite()) {
                 return Err(Why::NotFinite(i));
             }
-            if !factored || self.factored != self.blocks.tangent.r_lambda {
+            if !factored || self.factored[..] != self.blocks.tangent.r_lambda[..] {
                 self.factored.copy_from_slice(&self.blocks.tangent.r_lambda);
                 self.matrix.factor(&self.blocks, Coefficients { q: 0.0, v: 0.0, z: 0.0 }).map_err(|_| Why::Friction)?;
                 factored = true;
@@ -111,15 +111,13 @@ impl Friction {
 
     /// f + f_λ − M a − Gᵀλ and γ − G a.
     fn right_hand_side(&mut self, t: &Terms, a: &[f64], lambda: &[f64]) {
-        let nv = self.dims.v;
-        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-        let (motion, rows) = self.step.split_at_mut(nv);
-        for (i, r) in motion.iter_mut().enumerate() {
-            *r = t.force[i] + self.force[i] - dot(&t.mass[i * nv..(i + 1) * nv], a);
+        let (motion, rows) = self.step.split_at_mut(self.dims.v);
+        for ((i, r), row) in motion.iter_mut().enumerate().zip(t.mass.lines()) {
+            *r = t.force[i] + self.force[i] - row.dot(a);
         }
-        for ((r, row), (l, gamma)) in rows.iter_mut().zip(t.g.chunks_exact(nv.max(1))).zip(lambda.iter().zip(&t.gamma)) {
-            motion.iter_mut().zip(row).for_each(|(r, g)| *r -= g * l);
-            *r = gamma - dot(row, a);
+        for ((r, row), (l, gamma)) in rows.iter_mut().zip(t.g.lines()).zip(lambda.iter().zip(&t.gamma)) {
+            row.add_to(-l, motion);
+            *r = gamma - row.dot(a);
         }
     }
 

@@ -8,9 +8,10 @@
 //! ```
 //!
 //! Nothing here knows a body or a joint. [`Integration`] drives a [`Scheme`] over a [`System`]: steps, events, singular positions.
-//! The blocks of a system are dense and row-major with a pattern beside them; factors are dense or sparse by size. Nothing
+//! The blocks of a system have fixed patterns: full and row-major where that is faster, else sparse, and so are factors. Nothing
 //! allocates after construction except [`rank`] and [`coloring`], which serve at assembly, and sparse factors that need new pivots.
 
+pub mod block;
 pub mod coloring;
 pub mod dense_output;
 pub mod engine;
@@ -23,6 +24,7 @@ pub mod matrix;
 pub mod method;
 pub mod minimal;
 pub mod newton;
+pub mod pattern;
 pub mod rank;
 pub mod scheme;
 pub mod schemes;
@@ -37,6 +39,7 @@ pub mod why;
 #[cfg(test)]
 mod noise;
 
+pub use block::{Block, Line};
 pub use coloring::Coloring;
 pub use dense_output::Dense;
 pub use engine::{Control, Counts, Engine, Node};
@@ -51,10 +54,11 @@ pub use kkt::sparse::SparseLu;
 pub use loaded::{Force, Loaded};
 pub use method::Method;
 pub use minimal::Minimal;
+pub use pattern::{Common, Pattern, Power};
 pub use scheme::{Level, Scheme};
 pub use settings::Settings;
 pub use sigma::Sigma;
-pub use sparsity::{Common, Pattern, Power, Sparsity};
+pub use sparsity::Sparsity;
 pub use state::{At, Dims, Span, State};
 pub use system::{Ahead, Effect, Stage, System, Tangent, Terms};
 pub use why::{Rejected, Why};

@@ -1,7 +1,7 @@
 //! A system with forces of one's own beside those that it has.
 
-use crate::sparsity::Power;
-use crate::{Ahead, At, Dims, Effect, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::pattern::Power;
+use crate::{Ahead, At, Block, Dims, Effect, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 
 /// A force law: a function of the state, smooth within the steps of a run, since it tells no switches.
 pub trait Force {
@@ -20,6 +20,8 @@ pub struct Loaded<'s> {
     force: Box<dyn Force + 's>,
     pattern: Pattern,
     dims: Dims,
+    /// The tangent of the system without these forces.
+    own: Tangent,
     sum: Vec<f64>,
     sides: [Vec<f64>; 2],
     q: Vec<f64>,
@@ -30,14 +32,15 @@ impl<'s> Loaded<'s> {
     /// The system with these forces.
     #[must_use]
     pub fn new(system: Box<dyn System + 's>, force: Box<dyn Force + 's>) -> Self {
-        let own = system.dims();
-        let nv = own.v;
+        let inner = system.dims();
+        let nv = inner.v;
         let power = if system.pattern().power == Power::Zero { Power::State } else { system.pattern().power };
         let (k, c) = (Sparsity::dense(nv, nv), Sparsity::dense(nv, nv));
         let pattern = Pattern { k, c, power, ..system.pattern().clone() };
         let sides = [vec![0.0; nv], vec![0.0; nv]];
-        let dims = Dims { work: own.work + 1, ..own };
-        Self { system, force, pattern, dims, sum: vec![0.0; nv], sides, q: vec![0.0; own.q], v: vec![0.0; nv] }
+        let dims = Dims { work: inner.work + 1, ..inner };
+        let own = Tangent::new(system.pattern());
+        Self { system, force, pattern, dims, own, sum: vec![0.0; nv], sides, q: vec![0.0; inner.q], v: vec![0.0; nv] }
     }
 
     /// f_e at a state, in `sum`.
@@ -47,10 +50,9 @@ impl<'s> Loaded<'s> {
     }
 
     /// Takes (f_e(+) − f_e(−))/(2h) from a column of a matrix of nv rows and columns.
-    fn take_slope(&self, column: usize, h: f64, out: &mut [f64]) {
-        let nv = self.dims.v;
+    fn take_slope(&self, column: usize, h: f64, out: &mut Block) {
         for (i, (ahead, behind)) in self.sides[0].iter().zip(&self.sides[1]).enumerate() {
-            out[i * nv + column] -= (ahead - behind) / (2.0 * h);
+            out.set(i, column, out.at(i, column) - (ahead - behind) / (2.0 * h));
         }
     }
 }
@@ -77,12 +79,19 @@ impl System for Loaded<'_> {
         r.iter_mut().zip(&self.sum).for_each(|(r, f)| *r -= f);
     }
 
-    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut Block) {
         self.system.reaction_friction(at, lambda, force, r_lambda);
     }
 
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
-        self.system.tangent(at, a, lambda, out);
+        self.system.tangent(at, a, lambda, &mut self.own);
+        let Tangent { k, c, r_z, r_lambda, z_q, z_v, z_z } = &self.own;
+        for (out, own) in [(&mut out.k, k), (&mut out.c, c)] {
+            out.fill(0.0);
+            own.pattern().places().zip(&**own).for_each(|((i, j), x)| out.set(i, j, *x));
+        }
+        let same = [(&mut out.r_z, r_z), (&mut out.r_lambda, r_lambda), (&mut out.z_q, z_q), (&mut out.z_v, z_v), (&mut out.z_z, z_z)];
+        same.into_iter().for_each(|(out, own)| out.copy_from_slice(own));
         for column in 0..self.dims.v {
             let h = PART * self.pattern.size_v[column];
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {

@@ -12,7 +12,7 @@
 //! simplified one.
 
 use crate::kkt::{REGULARIZATION, root_inverse};
-use crate::{Dims, Factor, Number, Pattern, Singular, Sparsity, Tangent, Terms};
+use crate::{Block, Dims, Factor, Number, Pattern, Singular, Sparsity, Tangent, Terms};
 
 /// Coefficients of a scheme: δq = c_q δa, δv = c_v δa, δz = c_z δż.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,17 +29,17 @@ pub struct Coefficients<T> {
 #[derive(Clone, Debug)]
 pub struct Blocks {
     /// M (nv × nv).
-    pub mass: Vec<f64>,
+    pub mass: Block,
     /// G (m × nv).
-    pub g: Vec<f64>,
+    pub g: Block,
     /// K, C, R_z, R_λ, Z_q, Z_v, Z_z.
     pub tangent: Tangent,
 }
 
 impl Blocks {
-    /// Zeros of the right sizes.
-    pub fn new(dims: Dims) -> Self {
-        Self { mass: vec![0.0; dims.v * dims.v], g: vec![0.0; dims.rows() * dims.v], tangent: Tangent::new(dims) }
+    /// Zeros of the patterns of a system.
+    pub fn new(pattern: &Pattern) -> Self {
+        Self { mass: Block::new(&pattern.mass), g: Block::new(&pattern.g), tangent: Tangent::new(pattern) }
     }
 
     /// Takes M and G of terms.
@@ -49,24 +49,27 @@ impl Blocks {
     }
 }
 
-/// An entry of the matrix: which blocks it is made of, and where in them.
+/// An entry of the matrix: which blocks it is made of, and where in them; [`NOWHERE`] for a block without it.
 #[derive(Clone, Copy, Debug)]
 enum Entry {
-    /// M + c_v C + c_q K.
-    Motion(usize),
+    /// M + c_v C + c_q K: places in M, C and K.
+    Motion([usize; 3]),
     /// c_z R_z.
     OfState(usize),
     /// Gᵀ + R_λ: places in G and in R_λ.
     OfMultiplier(usize, usize),
-    /// −c_q Z_q − c_v Z_v.
-    StateByMotion(usize),
-    /// δ − c_z Z_z, with the diagonal told.
+    /// −c_q Z_q − c_v Z_v: places in both.
+    StateByMotion([usize; 2]),
+    /// δ − c_z Z_z, and whether it is on the diagonal.
     StateByState(usize, bool),
     /// G.
     Row(usize),
     /// −E.
     Regular(f64),
 }
+
+/// The place of an entry that a block has not.
+const NOWHERE: usize = usize::MAX;
 
 /// The matrix over real or complex numbers, factored.
 #[derive(Clone, Debug)]
@@ -81,14 +84,12 @@ pub struct Matrix<T: Number> {
 impl<T: Number> Matrix<T> {
     /// Room for the matrix of a system.
     pub fn new(dims: Dims, pattern: &Pattern) -> Self {
-        let (nv, nz, m) = (dims.v, dims.z, dims.rows());
-        let n = nv + nz + m;
+        let (nv, nz) = (dims.v, dims.z);
+        let n = nv + nz + dims.rows();
         let mut scale = vec![1.0; n];
         let units = pattern.metric.iter().chain(std::iter::repeat_n(&1.0, nz)).chain(&pattern.g_scale);
         scale.iter_mut().zip(units).for_each(|(s, unit)| *s = root_inverse(*unit));
-        let block = |s: &Sparsity, row: usize, column: usize| {
-            (0..s.columns()).flat_map(|j| s.column(j).iter().map(move |&i| (row + i, column + j))).collect::<Vec<_>>()
-        };
+        let block = |s: &Sparsity, row: usize, column: usize| s.places().map(|(i, j)| (row + i, column + j)).collect::<Vec<_>>();
         let mut places = Vec::new();
         for s in [&pattern.mass, &pattern.k, &pattern.c] {
             places.extend(block(s, 0, 0));
@@ -102,17 +103,19 @@ impl<T: Number> Matrix<T> {
         places.extend(block(&pattern.g, nv + nz, 0));
         places.extend((nv..n).map(|i| (i, i)));
         let whole = Sparsity::new(n, n, places);
+        let p = pattern;
+        let at = |block: &Sparsity, i: usize, j: usize| block.place(i, j).unwrap_or(NOWHERE);
         let entry = |i: usize, j: usize| match (i, j) {
-            _ if i < nv && j < nv => Entry::Motion(i * nv + j),
-            _ if i < nv && j < nv + nz => Entry::OfState(i * nz + j - nv),
-            _ if i < nv => Entry::OfMultiplier((j - nv - nz) * nv + i, i * m + j - nv - nz),
-            _ if i < nv + nz && j < nv => Entry::StateByMotion((i - nv) * nv + j),
-            _ if i < nv + nz => Entry::StateByState((i - nv) * nz + j - nv, i == j),
-            _ if j < nv => Entry::Row((i - nv - nz) * nv + j),
-            _ => Entry::Regular(REGULARIZATION * pattern.g_scale[i - nv - nz]),
+            _ if i < nv && j < nv => Entry::Motion([&p.mass, &p.c, &p.k].map(|block| at(block, i, j))),
+            _ if i < nv && j < nv + nz => Entry::OfState(at(&p.r_z, i, j - nv)),
+            _ if i < nv => Entry::OfMultiplier(at(&p.g, j - nv - nz, i), at(&p.r_lambda, i, j - nv - nz)),
+            _ if i < nv + nz && j < nv => Entry::StateByMotion([&p.z_q, &p.z_v].map(|block| at(block, i - nv, j))),
+            _ if i < nv + nz => Entry::StateByState(at(&p.z_z, i - nv, j - nv), i == j),
+            _ if j < nv => Entry::Row(at(&p.g, i - nv - nz, j)),
+            _ => Entry::Regular(REGULARIZATION * p.g_scale[i - nv - nz]),
         };
-        let entries: Vec<_> =
-            (0..n).flat_map(|j| whole.column(j).iter().map(move |&i| (i, j))).map(|(i, j)| (entry(i, j), scale[i] * scale[j])).collect();
+        // the factor takes its values column after column
+        let entries: Vec<_> = whole.transposed().places().map(|(j, i)| (entry(i, j), scale[i] * scale[j])).collect();
         Self { values: vec![T::from(0.0); entries.len()], factor: Factor::new(&whole), entries, scale }
     }
 
@@ -122,14 +125,15 @@ impl<T: Number> Matrix<T> {
     /// If it is singular or not finite.
     pub fn factor(&mut self, blocks: &Blocks, c: Coefficients<T>) -> Result<(), Singular> {
         let t = &blocks.tangent;
+        let of = |block: &Block, place: usize| T::from(block.get(place).copied().unwrap_or(0.0));
         for (value, &(entry, scale)) in self.values.iter_mut().zip(&self.entries) {
             let x = match entry {
-                Entry::Motion(i) => T::from(blocks.mass[i]) + c.v * T::from(t.c[i]) + c.q * T::from(t.k[i]),
-                Entry::OfState(i) => c.z * T::from(t.r_z[i]),
-                Entry::OfMultiplier(g, r) => T::from(blocks.g[g] + t.r_lambda[r]),
-                Entry::StateByMotion(i) => -(c.q * T::from(t.z_q[i]) + c.v * T::from(t.z_v[i])),
-                Entry::StateByState(i, diagonal) => T::from(f64::from(u8::from(diagonal))) - c.z * T::from(t.z_z[i]),
-                Entry::Row(i) => T::from(blocks.g[i]),
+                Entry::Motion([mass, by_v, by_q]) => of(&blocks.mass, mass) + c.v * of(&t.c, by_v) + c.q * of(&t.k, by_q),
+                Entry::OfState(i) => c.z * of(&t.r_z, i),
+                Entry::OfMultiplier(g, r) => of(&blocks.g, g) + of(&t.r_lambda, r),
+                Entry::StateByMotion([q, v]) => -(c.q * of(&t.z_q, q) + c.v * of(&t.z_v, v)),
+                Entry::StateByState(i, diagonal) => T::from(f64::from(u8::from(diagonal))) - c.z * of(&t.z_z, i),
+                Entry::Row(i) => of(&blocks.g, i),
                 Entry::Regular(e) => T::from(-e),
             };
             *value = x * T::from(scale);

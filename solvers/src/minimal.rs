@@ -14,7 +14,7 @@
 
 use crate::engine::{Node, Why};
 use crate::kkt::row_scale;
-use crate::{Ahead, At, Common, Dims, Effect, Pattern, Power, Span, Sparsity, Stage, State, System, Tangent, Terms};
+use crate::{Ahead, At, Block, Common, Dims, Effect, Line, Pattern, Power, Span, Stage, State, System, Tangent, Terms};
 use loops::Loops;
 use std::cell::RefCell;
 
@@ -104,15 +104,14 @@ impl<S: System> Minimal<S> {
 
     /// Scales of the equations at the start.
     fn scale(&mut self, at: At<'_>) {
-        let mut terms = Terms::new(self.dims);
+        let mut terms = Terms::new(self.dims, &self.pattern);
         self.terms(at, Stage::Position, &mut terms);
         let n = self.dims.v;
         let loops = self.loops.get_mut();
         let inner = loops.inner.pattern();
         let p = &mut self.pattern;
-        p.metric = (0..n).map(|i| if terms.mass[i * (n + 1)] > 0.0 { terms.mass[i * (n + 1)] } else { 1.0 }).collect();
-        p.g_scale = row_scale(&terms.g, &p.metric);
-        p.r_lambda = Sparsity::empty(n, self.dims.rows());
+        p.metric = (0..n).map(|i| terms.mass.at(i, i)).map(|m| if m > 0.0 { m } else { 1.0 }).collect();
+        p.g_scale = row_scale(&p.g, &terms.g, &p.metric);
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
         let place = |k: usize| loops.independent.iter().position(|i| *i == k);
@@ -220,11 +219,11 @@ impl<S: System> Minimal<S> {
 }
 
 /// out := Pᵀ X P for X (nv × nv) by way of X P (nv × n).
-fn congruent(x: &[f64], p: &[f64], n: usize, product: &mut [f64], out: &mut [f64]) {
+fn congruent(x: &Block, p: &[f64], n: usize, product: &mut [f64], out: &mut [f64]) {
     let nv = p.len() / n.max(1);
     let product = &mut product[..nv * n];
-    for (line, row) in product.chunks_exact_mut(n.max(1)).zip(x.chunks_exact(nv.max(1))) {
-        combine(row, p, line);
+    for (line, row) in product.chunks_exact_mut(n.max(1)).zip(x.lines()) {
+        combine_entries(row.entries(), p, line);
     }
     out.fill(0.0);
     gather(p, n, product, out);
@@ -232,9 +231,15 @@ fn congruent(x: &[f64], p: &[f64], n: usize, product: &mut [f64], out: &mut [f64
 
 /// out := x P for a row x (nv).
 fn combine(x: &[f64], p: &[f64], out: &mut [f64]) {
+    combine_entries(x.iter().copied().enumerate(), p, out);
+}
+
+/// out := x P for the entries of a row x (nv).
+fn combine_entries(x: impl Iterator<Item = (usize, f64)>, p: &[f64], out: &mut [f64]) {
+    let n = out.len();
     out.fill(0.0);
-    for (x, p) in x.iter().zip(p.chunks_exact(out.len().max(1))) {
-        out.iter_mut().zip(p).for_each(|(o, p)| *o += x * p);
+    for (i, x) in x {
+        out.iter_mut().zip(&p[i * n..][..n]).for_each(|(o, p)| *o += x * p);
     }
 }
 
@@ -248,11 +253,9 @@ fn gather(p: &[f64], n: usize, x: &[f64], out: &mut [f64]) {
     }
 }
 
-/// rows · x for rows of the length of x.
-fn times(rows: &[f64], x: &[f64], out: &mut [f64]) {
-    for (out, row) in out.iter_mut().zip(rows.chunks_exact(x.len().max(1))) {
-        *out = row.iter().zip(x).map(|(r, x)| r * x).sum();
-    }
+/// The product of rows with x.
+fn times<'b>(rows: impl Iterator<Item = Line<'b>>, x: &[f64], out: &mut [f64]) {
+    out.iter_mut().zip(rows).for_each(|(out, row)| *out = row.dot(x));
 }
 
 impl<S: System> System for Minimal<S> {
@@ -277,18 +280,18 @@ impl<S: System> System for Minimal<S> {
         }
         let inner = &loops.terms;
         congruent(&inner.mass, &loops.p, n, &mut self.product, &mut out.mass);
-        let psi = &inner.g[h * self.inner.v..];
-        for (out, row) in out.g.chunks_exact_mut(n.max(1)).zip(psi.chunks_exact(self.inner.v.max(1))) {
-            combine(row, &loops.p, out);
+        let psi = inner.g.lines().skip(h);
+        for (out, row) in out.g.chunks_exact_mut(n.max(1)).zip(psi.clone()) {
+            combine_entries(row.entries(), &loops.p, out);
         }
         if stage > Stage::Position {
-            times(psi, &loops.drift, &mut out.nu);
+            times(psi.clone(), &loops.drift, &mut out.nu);
             out.nu.iter_mut().zip(&inner.nu[h..]).for_each(|(x, nu)| *x = nu - *x);
             times(psi, &loops.bend, &mut out.gamma);
             out.gamma.iter_mut().zip(&inner.gamma[h..]).for_each(|(x, gamma)| *x = gamma - *x);
         }
         if stage == Stage::Dynamics {
-            times(&inner.mass, &loops.bend, &mut self.row);
+            times(inner.mass.lines(), &loops.bend, &mut self.row);
             self.row
                 .iter_mut()
                 .zip(&inner.force)
@@ -304,22 +307,20 @@ impl<S: System> System for Minimal<S> {
             return r.fill(f64::NAN);
         }
         let loops = self.loops.get_mut();
-        let (nv, h) = (self.inner.v, self.inner.holonomic);
-        times(&loops.terms.mass, &loops.a, &mut self.row);
+        let h = self.inner.holonomic;
+        times(loops.terms.mass.lines(), &loops.a, &mut self.row);
         self.row
             .iter_mut()
             .zip(&loops.terms.force)
             .zip(&loops.friction_by_reactions)
             .for_each(|((r, f), friction_of)| *r -= f + friction_of);
-        for (row, l) in loops.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
-            self.row.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
-        }
+        loops.terms.g.lines().skip(h).zip(lambda).for_each(|(row, l)| row.add_to(*l, &mut self.row));
         combine(&self.row, &loops.p, r);
     }
 
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
         let closed = self.react(at, a, lambda);
-        let (n, nz, nv) = (self.dims.v, self.dims.z, self.inner.v);
+        let (n, nz) = (self.dims.v, self.dims.z);
         let loops = self.loops.get_mut();
         let Loops { inner, state, a, lambda, tangent, p, .. } = loops;
         inner.tangent(state.at(), a, lambda, tangent);
@@ -327,15 +328,17 @@ impl<S: System> System for Minimal<S> {
         congruent(&tangent.c, p, n, &mut self.product, &mut out.c);
         out.r_z.fill(0.0);
         if nz > 0 {
-            gather(p, n, &tangent.r_z, &mut out.r_z);
+            self.product[..self.inner.v * nz].fill(0.0);
+            tangent.r_z.pattern().places().zip(&*tangent.r_z).for_each(|((i, j), x)| self.product[i * nz + j] = *x);
+            gather(p, n, &self.product[..self.inner.v * nz], &mut out.r_z);
         }
         for (from, to) in [(&tangent.z_q, &mut out.z_q), (&tangent.z_v, &mut out.z_v)] {
-            for (to, from) in to.chunks_exact_mut(n.max(1)).zip(from.chunks_exact(nv.max(1))) {
-                combine(from, p, to);
+            for (to, from) in to.chunks_exact_mut(n.max(1)).zip(from.lines()) {
+                combine_entries(from.entries(), p, to);
             }
         }
-        out.z_z.copy_from_slice(&tangent.z_z);
-        out.r_lambda.fill(0.0);
+        out.z_z.fill(0.0);
+        tangent.z_z.pattern().places().zip(&*tangent.z_z).for_each(|((i, j), x)| out.z_z.set(i, j, *x));
         if !closed {
             out.k.fill(f64::NAN);
         }

@@ -133,7 +133,7 @@ impl Newton {
         let dims = system.dims();
         let n = dims.v + dims.z + dims.rows();
         Self {
-            blocks: Blocks::new(dims),
+            blocks: Blocks::new(system.pattern()),
             matrix: Matrix::new(dims, system.pattern()),
             factored: None,
             fresh: false,
@@ -257,11 +257,11 @@ impl Newton {
             *r = g - zdot;
         }
         let t = &engine.terms;
-        for (i, (r, row)) in r_c.iter_mut().zip(t.g.chunks_exact(nv.max(1))).enumerate() {
+        for (i, (r, row)) in r_c.iter_mut().zip(t.g.lines()).enumerate() {
             *r = match stage.level {
                 Level::Position if i < holonomic => -t.phi[i] / stage.c.q,
-                Level::Acceleration => t.gamma[i] - dot(row, &x.a),
-                _ => (t.nu[i] - dot(row, &state.v)) / stage.c.v,
+                Level::Acceleration => t.gamma[i] - row.dot(&x.a),
+                _ => (t.nu[i] - row.dot(&state.v)) / stage.c.v,
             };
         }
         Ok(())
@@ -298,9 +298,9 @@ impl Newton {
         if stage.level == Level::Stabilized && holonomic > 0 {
             self.second.fill(0.0);
             let t = &engine.terms;
-            let rows = t.phi.iter().zip(t.g.chunks_exact(nv.max(1)));
+            let rows = t.phi.iter().zip(t.g.lines());
             for (r, (phi, row)) in self.second[nv + nz..].iter_mut().zip(rows) {
-                *r = -phi - dot(row, &self.step_q);
+                *r = -phi - row.dot(&self.step_q);
             }
             self.matrix.solve(&mut self.second);
         }
@@ -318,13 +318,10 @@ fn noise(engine: &Engine, stage: &Implicit<'_>, state: &State) -> f64 {
 /// r = M a + Gᵀλ − f − f_λ of the terms evaluated last at `at`.
 pub fn residual(system: &mut dyn System, engine: &mut Engine, at: At<'_>, a: &[f64], lambda: &[f64], r: &mut [f64]) {
     let t = &engine.terms;
-    let nv = r.len();
     r.fill(0.0);
-    for (row, l) in t.g.chunks_exact(nv.max(1)).zip(lambda) {
-        r.iter_mut().zip(row).for_each(|(r, g)| *r += g * l);
-    }
-    for ((r, row), f) in r.iter_mut().zip(t.mass.chunks_exact(nv.max(1))).zip(&t.force) {
-        *r = dot(row, a) + *r - f;
+    t.g.lines().zip(lambda).for_each(|(row, l)| row.add_to(*l, r));
+    for ((r, row), f) in r.iter_mut().zip(t.mass.lines()).zip(&t.force) {
+        *r = row.dot(a) + *r - f;
     }
     if let Some(friction) = &mut engine.friction {
         let force = friction.force(lambda, &mut |l, f, slope| system.reaction_friction(at, l, f, slope));
@@ -358,8 +355,4 @@ fn place(system: &dyn System, engine: &Engine, stage: &Implicit<'_>, x: &Unknown
             system.displace(span, &mut state.q, d);
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

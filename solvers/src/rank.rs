@@ -117,6 +117,7 @@ fn norm(x: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Sparsity;
     use crate::kkt::{metric, natural_row_scale, row_scale};
     use crate::noise::Noise;
     use crate::svd::Svd;
@@ -124,7 +125,7 @@ mod tests {
 
     fn rank(g: &[f64], nv: usize) -> Rank {
         let metric = vec![1.0; nv];
-        Rank::new(g, &metric, &row_scale(g, &metric), RANK_TOLERANCE)
+        Rank::new(g, &metric, &row_scale(&Sparsity::dense(g.len() / nv, nv), g, &metric), RANK_TOLERANCE)
     }
 
     #[test]
@@ -153,10 +154,10 @@ mod tests {
         for _ in 0..20 {
             let base = DMatrix::from_row_slice(r, nv, &noise.vector(r * nv));
             let g = DMatrix::from_row_slice(m, r, &noise.vector(m * r)) * base;
-            let mass: Vec<f64> = (0..nv * nv).map(|k| if k % (nv + 1) == 0 { 10f64.powf(3.0 * noise.next()) } else { 0.0 }).collect();
+            let masses: Vec<f64> = (0..nv).map(|_| 10f64.powf(3.0 * noise.next())).collect();
             let rows = g.transpose().as_slice().to_vec();
-            let d = metric(&mass, &vec![0; nv]);
-            let scale = row_scale(&rows, &d);
+            let d = metric(masses, &vec![0; nv]);
+            let scale = row_scale(&Sparsity::dense(m, nv), &rows, &d);
             let found = Rank::new(&rows, &d, &scale, RANK_TOLERANCE);
             assert_eq!((found.rank, found.dependent.len(), found.mobility()), (r, m - r, nv - r));
             let basis = DMatrix::from_row_slice(nv, nv - r, &found.null_space);
@@ -178,7 +179,7 @@ mod tests {
         let metric = [2.0, 1e-3, 40.0];
         for size in [1.0, 1e-6, 1e6] {
             let natural = vec![size; m * nv];
-            let scale = |g: &[f64]| natural_row_scale(g, &natural, &metric);
+            let scale = |g: &[f64]| natural_row_scale(&Sparsity::dense(m, nv), g, &natural, &metric);
             let round_off: Vec<f64> = noise.vector(m * nv).iter().map(|x| 1e-15 * size * x).collect();
             let found = Rank::new(&round_off, &metric, &scale(&round_off), RANK_TOLERANCE);
             assert_eq!((found.rank, found.mobility(), found.dependent.len()), (0, 3, 5));

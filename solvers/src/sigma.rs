@@ -82,7 +82,7 @@ impl Sigma {
         if sigma > ZERO {
             return sigma;
         }
-        engine.redundant = self.rows - Rank::new(&engine.terms.g, metric, g_scale, ZERO).rank;
+        engine.redundant = self.rows - Rank::new(&engine.terms.g.to_dense(), metric, g_scale, ZERO).rank;
         loop {
             self.restart(engine);
             self.vectors.fill(0.0);
@@ -111,8 +111,7 @@ mod tests {
 
     /// An engine that has factored rows.
     fn factored(engine: &mut Engine, g: &[f64]) {
-        engine.terms.mass = vec![0.0; 16];
-        (0..4).for_each(|i| engine.terms.mass[5 * i] = 1.0);
+        (0..4).for_each(|i| engine.terms.mass.set(i, i, 1.0));
         engine.terms.g.copy_from_slice(g);
         engine.factor().unwrap();
     }

@@ -1,16 +1,25 @@
-//! Which entries of a system's matrices can be other than zero.
+//! Which entries of a matrix can be other than zero.
 
-use crate::Dims;
+use std::ops::Range;
+use std::sync::Arc;
 
-/// The pattern of a matrix, by columns: entries outside of it are zero in every state.
+/// Largest order of a matrix that is always kept and factored as a full one: up to here that form has code of its own for every order.
+pub const DENSE_UP_TO: usize = 12;
+
+/// Time of a number moved or multiplied in the sparse form over that of a multiplication in the dense form.
+pub(crate) const SPARSE_COST: usize = 3;
+
+/// The pattern of a matrix, by rows: entries outside of it are zero in every state. A copy shares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sparsity {
-    /// Number of rows.
-    rows: usize,
-    /// Where each column begins in `indices`, and the end (columns + 1).
-    starts: Vec<usize>,
-    /// Rows of the entries, column after column, rising in each.
-    indices: Vec<usize>,
+    /// Number of columns.
+    columns: usize,
+    /// Where each row begins in `indices`, and the end (rows + 1).
+    starts: Arc<[usize]>,
+    /// Columns of the entries, row after row, rising in each.
+    indices: Arc<[usize]>,
+    /// Whether every entry is in it.
+    full: bool,
 }
 
 impl Sparsity {
@@ -18,11 +27,17 @@ impl Sparsity {
     ///
     /// Entries outside of the matrix are ignored.
     pub fn new(rows: usize, columns: usize, entries: impl IntoIterator<Item = (usize, usize)>) -> Self {
-        let mut entries: Vec<_> = entries.into_iter().filter(|&(i, j)| i < rows && j < columns).map(|(i, j)| (j, i)).collect();
+        let mut entries: Vec<_> = entries.into_iter().filter(|&(i, j)| i < rows && j < columns).collect();
         entries.sort_unstable();
         entries.dedup();
-        let starts = (0..=columns).map(|j| entries.partition_point(|&(column, _)| column < j)).collect();
-        Self { rows, starts, indices: entries.into_iter().map(|(_, i)| i).collect() }
+        let starts = (0..=rows).map(|i| entries.partition_point(|&(row, _)| row < i)).collect();
+        Self::of(columns, starts, entries.into_iter().map(|(_, j)| j).collect())
+    }
+
+    /// The pattern of rows that begin at `starts` of the columns `indices`.
+    fn of(columns: usize, starts: Vec<usize>, indices: Vec<usize>) -> Self {
+        let full = indices.len() == (starts.len() - 1) * columns;
+        Self { columns, starts: starts.into(), indices: indices.into(), full }
     }
 
     /// The pattern of a square matrix in which all indices of a group meet each other, for each of the groups, whose indices may come
@@ -42,31 +57,40 @@ impl Sparsity {
             }
         }
         let (mut starts, mut indices) = (vec![0], Vec::new());
-        for column in 0..size {
-            indices.extend((0..size).filter(|i| met[column * words + i / 64] >> (i % 64) & 1 == 1));
+        for row in 0..size {
+            indices.extend((0..size).filter(|i| met[row * words + i / 64] >> (i % 64) & 1 == 1));
             starts.push(indices.len());
         }
-        Self { rows: size, starts, indices }
+        Self::of(size, starts, indices)
     }
 
     /// A full matrix.
     pub fn dense(rows: usize, columns: usize) -> Self {
-        Self { rows, starts: (0..=columns).map(|j| j * rows).collect(), indices: (0..columns).flat_map(|_| 0..rows).collect() }
+        Self::of(columns, (0..=rows).map(|i| i * columns).collect(), (0..rows).flat_map(|_| 0..columns).collect())
     }
 
     /// A matrix of zeros.
     pub fn empty(rows: usize, columns: usize) -> Self {
-        Self { rows, starts: vec![0; columns + 1], indices: Vec::new() }
+        Self::of(columns, vec![0; rows + 1], Vec::new())
+    }
+
+    /// The full pattern in place of this one where dense code is faster: for small matrices, and for those of which so many entries can
+    /// be other than zero that a walk from one to the next costs more than one along all.
+    #[must_use]
+    pub fn or_dense(self) -> Self {
+        let (rows, columns) = (self.rows(), self.columns);
+        let small = rows.max(columns) <= DENSE_UP_TO;
+        if small || SPARSE_COST * self.entries() >= rows * columns { Self::dense(rows, columns) } else { self }
     }
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.rows
+        self.starts.len() - 1
     }
 
     /// Number of columns.
     pub fn columns(&self) -> usize {
-        self.starts.len() - 1
+        self.columns
     }
 
     /// Number of entries.
@@ -74,107 +98,47 @@ impl Sparsity {
         self.indices.len()
     }
 
-    /// Rows of the entries of a column, rising.
-    pub fn column(&self, j: usize) -> &[usize] {
-        &self.indices[self.starts[j]..self.starts[j + 1]]
+    /// Whether every entry is in it.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
+    /// Columns of the entries of a row, rising.
+    pub fn row(&self, i: usize) -> &[usize] {
+        &self.indices[self.range(i)]
+    }
+
+    /// Where the entries of a row stand among all.
+    pub fn range(&self, i: usize) -> Range<usize> {
+        self.starts[i]..self.starts[i + 1]
+    }
+
+    /// Where an entry stands among all, if it is in the pattern.
+    pub fn place(&self, i: usize, j: usize) -> Option<usize> {
+        if self.full {
+            return Some(i * self.columns + j);
+        }
+        self.row(i).binary_search(&j).ok().map(|k| self.starts[i] + k)
+    }
+
+    /// Rows and columns of all entries, in order.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        (0..self.rows()).flat_map(|i| self.row(i).iter().map(move |&j| (i, j)))
     }
 
     /// The pattern of the transposed matrix.
     pub fn transposed(&self) -> Self {
-        let entries = (0..self.columns()).flat_map(|j| self.column(j).iter().map(move |&i| (j, i)));
-        Self::new(self.columns(), self.rows, entries)
-    }
-}
-
-/// The velocities that share in a common translation, each with its components along up to three directions that are orthogonal unit
-/// vectors (nv each); the velocities of two common translations differ.
-pub type Common = Vec<(usize, [f64; 3])>;
-
-/// What powers are functions of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Power {
-    /// Nothing: they are zero, the energy stays as it is.
-    Zero,
-    /// t, q, v and z.
-    State,
-    /// The reactions, too, which take a solution of the accelerations.
-    Reactions,
-}
-
-/// Patterns of all blocks of a system, and the scales of its equations; both taken once, at assembly.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pattern {
-    /// M (nv × nv).
-    pub mass: Sparsity,
-    /// G (m × nv).
-    pub g: Sparsity,
-    /// K = ∂r/∂q (nv × nv).
-    pub k: Sparsity,
-    /// C = ∂r/∂v (nv × nv).
-    pub c: Sparsity,
-    /// ∂r/∂z (nv × nz).
-    pub r_z: Sparsity,
-    /// ∂r/∂λ beyond Gᵀ (nv × m); without entries no force depends on the reactions, and [`System::reaction_friction`](crate::System::reaction_friction) is not asked.
-    pub r_lambda: Sparsity,
-    /// ∂ż/∂q (nz × nv).
-    pub z_q: Sparsity,
-    /// ∂ż/∂v (nz × nv).
-    pub z_v: Sparsity,
-    /// ∂ż/∂z (nz × nz).
-    pub z_z: Sparsity,
-    /// D (nv), see [`kkt::metric`](crate::kkt::metric).
-    pub metric: Vec<f64>,
-    /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::natural_row_scale`](crate::kkt::natural_row_scale), and
-    /// [`kkt::row_scale`](crate::kkt::row_scale) where nothing is known of rows but their entries; E = 1e-8 of it.
-    pub g_scale: Vec<f64>,
-    /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
-    pub size_q: Vec<f64>,
-    /// The same for displacements and velocities (nv): errors of v count relative to size + |v|, where |v| is what is left without
-    /// the velocity in `common`.
-    pub size_v: Vec<f64>,
-    /// Translations of bodies that nothing holds in place: a constant velocity of all of them is no motion that errors are measured by.
-    pub common: Vec<Common>,
-    /// What the powers of [`System::power`](crate::System::power) are functions of.
-    pub power: Power,
-    /// Whether root functions read a and λ; else they are functions of t, q, v and z alone, which saves a solution at each look.
-    pub roots_by_reactions: bool,
-    /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
-    /// events, and of contacts whose crossing gives a blow.
-    pub acting: Vec<usize>,
-    /// Roots behind which forces follow other laws: a step that reaches far beyond one is made again.
-    pub forceful: Vec<usize>,
-    /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
-    pub timed: Vec<usize>,
-    /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
-    pub rough: Vec<usize>,
-}
-
-impl Pattern {
-    /// Full blocks of the given sizes, with scales of one; no force depends on the reactions.
-    pub fn dense(dims: Dims) -> Self {
-        let (v, z, m) = (dims.v, dims.z, dims.rows());
-        Self {
-            mass: Sparsity::dense(v, v),
-            g: Sparsity::dense(m, v),
-            k: Sparsity::dense(v, v),
-            c: Sparsity::dense(v, v),
-            r_z: Sparsity::dense(v, z),
-            r_lambda: Sparsity::empty(v, m),
-            z_q: Sparsity::dense(z, v),
-            z_v: Sparsity::dense(z, v),
-            z_z: Sparsity::dense(z, z),
-            metric: vec![1.0; v],
-            g_scale: vec![1.0; m],
-            size_q: vec![1.0; dims.q],
-            size_v: vec![1.0; v],
-            common: Vec::new(),
-            power: Power::Reactions,
-            roots_by_reactions: false,
-            acting: Vec::new(),
-            forceful: Vec::new(),
-            timed: Vec::new(),
-            rough: Vec::new(),
+        // counting, as entries come by rows already
+        let mut starts = vec![0; self.columns + 1];
+        self.indices.iter().for_each(|&j| starts[j + 1] += 1);
+        (0..self.columns).for_each(|j| starts[j + 1] += starts[j]);
+        let mut next = starts.clone();
+        let mut indices = vec![0; self.entries()];
+        for (i, j) in self.places() {
+            indices[next[j]] = i;
+            next[j] += 1;
         }
+        Self::of(self.rows(), starts, indices)
     }
 }
 
@@ -192,17 +156,28 @@ mod tests {
 
     #[test]
     fn entries_are_sorted_and_unique_and_inside() {
-        let pattern = Sparsity::new(3, 2, [(2, 1), (0, 1), (2, 1), (1, 0), (5, 0), (0, 7)]);
-        assert_eq!((pattern.rows(), pattern.columns(), pattern.entries()), (3, 2, 3));
-        assert_eq!(pattern.column(0), [1]);
-        assert_eq!(pattern.column(1), [0, 2]);
-        assert_eq!(pattern.transposed(), Sparsity::new(2, 3, [(0, 1), (1, 0), (1, 2)]));
+        let pattern = Sparsity::new(2, 3, [(1, 2), (1, 0), (1, 2), (0, 1), (0, 5), (7, 0)]);
+        assert_eq!((pattern.rows(), pattern.columns(), pattern.entries()), (2, 3, 3));
+        assert_eq!((pattern.row(0), pattern.row(1)), ([1].as_slice(), [0, 2].as_slice()));
+        assert_eq!([(0, 1), (1, 2), (0, 0)].map(|(i, j)| pattern.place(i, j)), [Some(0), Some(2), None]);
+        assert_eq!(pattern.transposed(), Sparsity::new(3, 2, [(0, 1), (1, 0), (2, 1)]));
         assert_eq!(pattern.transposed().transposed(), pattern);
+        assert!(pattern.places().eq([(0, 1), (1, 0), (1, 2)]));
     }
 
     #[test]
     fn dense_and_empty_are_the_extremes() {
         assert_eq!(Sparsity::dense(2, 3), Sparsity::new(2, 3, (0..2).flat_map(|i| (0..3).map(move |j| (i, j)))));
         assert_eq!(Sparsity::empty(2, 3), Sparsity::new(2, 3, []));
+        assert!(Sparsity::dense(2, 3).is_full() && !Sparsity::empty(2, 3).is_full() && Sparsity::empty(0, 3).is_full());
+        assert_eq!(Sparsity::dense(2, 3).place(1, 2), Some(5));
+    }
+
+    #[test]
+    fn what_is_small_or_nearly_full_is_kept_full() {
+        let band = |n: usize, width: usize| Sparsity::new(n, n, (0..n).flat_map(|i| (0..width).map(move |k| (i, i + k))));
+        assert!(band(12, 1).or_dense().is_full());
+        assert!(!band(13, 1).or_dense().is_full());
+        assert!(band(30, 20).or_dense().is_full());
     }
 }

@@ -1,6 +1,6 @@
 //! What an integrator asks of a mechanical system.
 
-use crate::{At, Dims, Pattern, Span, State};
+use crate::{At, Block, Dims, Pattern, Span, State};
 
 /// How much of [`Terms`] is wanted; each stage includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,21 +13,21 @@ pub enum Stage {
     Dynamics,
 }
 
-/// The terms of the equations of motion at one state; matrices dense and row-major.
+/// The terms of the equations of motion at one state; matrices by the patterns of the system.
 ///
 /// Units: a row of M, f and Gᵀλ is a generalised force (N for a slide, N·m for a turn); a row of Φ has its own unit (m or rad),
 /// and λ is force per that unit of the row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Terms {
     /// M (nv × nv), symmetric, positive semi-definite.
-    pub mass: Vec<f64>,
+    pub mass: Block,
     /// f (nv): applied, elastic, damping and gyroscopic forces; positive along v, so that M a = f where nothing constrains.
     /// What depends on the reactions is not in it, see [`System::reaction_friction`].
     pub force: Vec<f64>,
     /// Φ (holonomic rows).
     pub phi: Vec<f64>,
     /// G (m × nv): ∂Φ̇/∂v, then Ψ. The generalised force of the constraints is −Gᵀλ.
-    pub g: Vec<f64>,
+    pub g: Block,
     /// ν (m): G v = ν; −Φ_t, then ψ.
     pub nu: Vec<f64>,
     /// γ (m): G a = γ; minus all of Φ̈ that does not hold a, then the same of the velocity-level rows.
@@ -37,14 +37,14 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// Zeros of the right sizes.
-    pub fn new(dims: Dims) -> Self {
-        let (v, m) = (dims.v, dims.rows());
+    /// Zeros of the sizes and patterns of a system.
+    pub fn new(dims: Dims, pattern: &Pattern) -> Self {
+        let m = dims.rows();
         Self {
-            mass: vec![0.0; v * v],
-            force: vec![0.0; v],
+            mass: Block::new(&pattern.mass),
+            force: vec![0.0; dims.v],
             phi: vec![0.0; dims.holonomic],
-            g: vec![0.0; m * v],
+            g: Block::new(&pattern.g),
             nu: vec![0.0; m],
             gamma: vec![0.0; m],
             zdot: vec![0.0; dims.z],
@@ -52,39 +52,38 @@ impl Terms {
     }
 }
 
-/// Derivatives of the residual r = M a + Gᵀλ − f and of ż; dense and row-major.
+/// Derivatives of the residual r = M a + Gᵀλ − f and of ż, by the patterns of the system.
 ///
 /// A derivative by q is along velocities: K δ = d r(q ⊕ εδ)/dε at ε = 0, so every block by q has nv columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tangent {
     /// K = ∂r/∂q (nv × nv).
-    pub k: Vec<f64>,
+    pub k: Block,
     /// C = ∂r/∂v (nv × nv).
-    pub c: Vec<f64>,
+    pub c: Block,
     /// ∂r/∂z (nv × nz).
-    pub r_z: Vec<f64>,
+    pub r_z: Block,
     /// ∂r/∂λ − Gᵀ (nv × m): friction that depends on reactions.
-    pub r_lambda: Vec<f64>,
+    pub r_lambda: Block,
     /// ∂ż/∂q (nz × nv).
-    pub z_q: Vec<f64>,
+    pub z_q: Block,
     /// ∂ż/∂v (nz × nv).
-    pub z_v: Vec<f64>,
+    pub z_v: Block,
     /// ∂ż/∂z (nz × nz).
-    pub z_z: Vec<f64>,
+    pub z_z: Block,
 }
 
 impl Tangent {
-    /// Zeros of the right sizes.
-    pub fn new(dims: Dims) -> Self {
-        let (v, z, m) = (dims.v, dims.z, dims.rows());
+    /// Zeros of the patterns of a system.
+    pub fn new(pattern: &Pattern) -> Self {
         Self {
-            k: vec![0.0; v * v],
-            c: vec![0.0; v * v],
-            r_z: vec![0.0; v * z],
-            r_lambda: vec![0.0; v * m],
-            z_q: vec![0.0; z * v],
-            z_v: vec![0.0; z * v],
-            z_z: vec![0.0; z * z],
+            k: Block::new(&pattern.k),
+            c: Block::new(&pattern.c),
+            r_z: Block::new(&pattern.r_z),
+            r_lambda: Block::new(&pattern.r_lambda),
+            z_q: Block::new(&pattern.z_q),
+            z_v: Block::new(&pattern.z_v),
+            z_z: Block::new(&pattern.z_z),
         }
     }
 }
@@ -130,7 +129,7 @@ pub enum Ahead {
 ///
 /// Every evaluation is a pure function of its arguments: calls in any order give the same bits. `&mut self` is for workspace
 /// only. No method allocates, and none knows the index of the equations, the step or the scheme. Slices have the sizes of
-/// [`dims`](Self::dims) and are overwritten, not added to.
+/// [`dims`](Self::dims), blocks the patterns of [`pattern`](Self::pattern), and are overwritten, not added to.
 pub trait System {
     /// Sizes; constant.
     fn dims(&self) -> Dims;
@@ -146,7 +145,7 @@ pub trait System {
 
     /// The forces f_λ (nv) that depend on the reactions λ, and −∂f_λ/∂λ (nv × m): r = M a + Gᵀλ − f − f_λ. Asked only where
     /// [`Pattern::r_lambda`] has entries; a system without such forces writes zeros, which is the default.
-    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut Block) {
         let _ = (at, lambda);
         force.fill(0.0);
         r_lambda.fill(0.0);
@@ -218,7 +217,8 @@ mod tests {
     #[test]
     fn blocks_have_the_sizes_of_their_names() {
         let dims = Dims { q: 4, v: 3, z: 2, holonomic: 1, nonholonomic: 1, ..Dims::default() };
-        let (terms, tangent) = (Terms::new(dims), Tangent::new(dims));
+        let pattern = Pattern { r_lambda: crate::Sparsity::dense(3, 2), ..Pattern::dense(dims) };
+        let (terms, tangent) = (Terms::new(dims, &pattern), Tangent::new(&pattern));
         assert_eq!((terms.mass.len(), terms.g.len(), terms.phi.len(), terms.nu.len(), terms.zdot.len()), (9, 6, 1, 2, 2));
         assert_eq!((tangent.k.len(), tangent.r_z.len(), tangent.r_lambda.len(), tangent.z_q.len(), tangent.z_z.len()), (9, 6, 6, 6, 4));
     }

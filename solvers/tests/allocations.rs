@@ -48,7 +48,7 @@ fn factor_chain<T: Number>(unit: T) {
                 }
             }
         };
-        let places: Vec<_> = (0..n).flat_map(|j| pattern.column(j).iter().map(move |&i| (i, j))).collect();
+        let places: Vec<_> = pattern.transposed().places().map(|(j, i)| (i, j)).collect();
         let mut values: Vec<T> = places.iter().map(|&(i, j)| T::from(value(i, j)) * unit).collect();
         for mut factor in [Factor::new(&pattern), Factor::dense(&pattern), Factor::sparse(&pattern)] {
             let mut b = vec![unit; n];

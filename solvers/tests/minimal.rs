@@ -70,9 +70,9 @@ fn agrees(problem: impl Problem + Clone, independent: &[usize]) {
         reference.lambda
     );
     // the same bits again after calls elsewhere
-    let mut terms = Terms::new(system.dims());
+    let mut terms = Terms::new(system.dims(), system.pattern());
     system.terms(node.state.at(), Stage::Dynamics, &mut terms);
-    let (mut elsewhere, mut again) = (node.state.clone(), Terms::new(system.dims()));
+    let (mut elsewhere, mut again) = (node.state.clone(), Terms::new(system.dims(), system.pattern()));
     system.retract(Span::at(elsewhere.t), &mut elsewhere.q, &vec![0.01; node.state.v.len()]);
     elsewhere.t += 0.02;
     system.terms(elsewhere.at(), Stage::Dynamics, &mut again);
@@ -107,7 +107,7 @@ fn impossible_choices_are_refused() {
 fn the_tangent_is_that_of_the_residual_at_rest() {
     // without velocities only the slope of ṗ and of P a is missing: none of them at a = 0
     let (mut system, start) = minimal(SliderCrank::new(0.1, 0.3, [0.2, 0.5, 1.0], 0.4, 0.0), &[2]);
-    let mut tangent = Tangent::new(system.dims());
+    let mut tangent = Tangent::new(system.pattern());
     system.tangent(start.at(), &[0.0], &[], &mut tangent);
     let mut side = |sign: f64| {
         let (mut s, mut r) = (start.clone(), [0.0]);
@@ -253,7 +253,7 @@ fn loops_stay_closed_and_energy_stays() {
     let problem = SliderCrank::new(0.1, 0.3, [0.2, 0.5, 1.0], 0.4, 10.0);
     let (probe, mut own) = (problem.clone(), problem.clone());
     let before = probe.energy(&probe.start());
-    let mut terms = Terms::new(problem.dims());
+    let mut terms = Terms::new(problem.dims(), problem.pattern());
     let (mut open, mut drift) = (0.0_f64, 0.0_f64);
     run(problem, &[2], tolerance(Method::Dop853, 1e-10), 10.0, |node| {
         own.terms(node.state.at(), Stage::Position, &mut terms);

@@ -143,11 +143,10 @@ impl Mechanism {
     pub fn accelerations(&self, t: f64, q: &[f64], v: &[f64]) -> Result<(DVector<f64>, DVector<f64>), Error> {
         let mut system = self.system();
         let state = self.state(&mut *system, t, q, v)?;
-        let mut terms = grashof_solvers::Terms::new(system.dims());
+        let mut terms = grashof_solvers::Terms::new(system.dims(), system.pattern());
         system.terms(state.at(), Stage::Dynamics, &mut terms);
         let dims = system.dims();
-        let mut kkt = Kkt::new(dims.v, dims.rows());
-        kkt.set_scale(&system.pattern().metric, &system.pattern().g_scale);
+        let mut kkt = Kkt::of_pattern(system.pattern());
         kkt.factor(&terms.mass, &terms.g).map_err(|_| Error::Refused {
             message: "the accelerations are not determined: mass is missing".into(),
             help: "give each body that moves a mass".into(),
@@ -261,13 +260,13 @@ fn sized(what: &str, x: &[f64], size: usize) -> Result<(), Error> {
 
 fn terms(system: &mut dyn System, state: &State) -> Terms {
     let dims = system.dims();
-    let mut terms = grashof_solvers::Terms::new(dims);
+    let mut terms = grashof_solvers::Terms::new(dims, system.pattern());
     system.terms(state.at(), Stage::Dynamics, &mut terms);
     Terms {
-        mass: DMatrix::from_row_slice(dims.v, dims.v, &terms.mass),
+        mass: DMatrix::from_row_slice(dims.v, dims.v, &terms.mass.to_dense()),
         force: DVector::from_vec(terms.force),
         phi: DVector::from_vec(terms.phi),
-        g: DMatrix::from_row_slice(dims.rows(), dims.v, &terms.g),
+        g: DMatrix::from_row_slice(dims.rows(), dims.v, &terms.g.to_dense()),
         nu: DVector::from_vec(terms.nu),
         gamma: DVector::from_vec(terms.gamma),
     }

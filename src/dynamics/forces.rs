@@ -147,7 +147,9 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn mass(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;
-        let Workspace { composite, inertias, columns, mass, readings, .. } = &mut self.work;
+        let Workspace { composite, inertias, columns, mass, mass_places, readings, .. } = &mut self.work;
+        let full = mass.pattern().is_full();
+        let mut places = mass_places.iter();
         composite.copy_from_slice(inertias);
         if !m.rotors.is_empty() {
             // a rotor between two branches adds to entries that no ancestor writes
@@ -159,8 +161,11 @@ impl<G: Space> Dynamics<'_, G> {
                 let momentum = whole * columns[k];
                 for &j in &m.ancestors[k] {
                     let x = momentum.power(columns[j]);
-                    mass[j * nv + k] = x;
-                    mass[k * nv + j] = x;
+                    let [above, below] = match places.next() {
+                        Some(places) => *places,
+                        None => [j * nv + k, k * nv + j],
+                    };
+                    (mass[above], mass[below]) = (x, x);
                 }
             }
             if node.parent != 0 {
@@ -170,7 +175,10 @@ impl<G: Space> Dynamics<'_, G> {
         for rotor in &m.rotors {
             let (gauge, reading) = (&m.gauges[rotor.gauge], &readings[rotor.gauge]);
             gauge.project(reading, columns, |j, x| {
-                gauge.project(reading, columns, |k, y| mass[j * nv + k] += rotor.inertia * (x * y));
+                gauge.project(reading, columns, |k, y| {
+                    let place = if full { Some(j * nv + k) } else { mass.pattern().place(j, k) };
+                    place.into_iter().for_each(|place| mass[place] += rotor.inertia * (x * y));
+                });
             });
         }
     }
@@ -178,16 +186,11 @@ impl<G: Space> Dynamics<'_, G> {
     /// M a + Gᵀλ − f − f_λ (shapes nv, rows → nv); after [`Dynamics::mass`].
     pub fn residual(&self, a: &[G::S], lambda: &[G::S], r: &mut [G::S]) {
         let w = &self.work;
-        let nv = self.mechanism.nv;
-        for (i, r) in r.iter_mut().enumerate() {
-            *r = -w.force[i];
-            for (m, a) in w.mass[i * nv..(i + 1) * nv].iter().zip(a) {
-                *r += *m * *a;
-            }
-            for (row, l) in lambda.iter().enumerate() {
-                *r += w.g[row * nv + i] * *l;
-            }
+        for ((r, f), row) in r.iter_mut().zip(&w.force).zip(w.mass.lines()) {
+            *r = -*f;
+            row.entries().for_each(|(j, m)| *r += m * a[j]);
         }
+        w.g.lines().zip(lambda).for_each(|(row, l)| row.add_to(*l, r));
         self.add_friction(lambda, r);
     }
 }

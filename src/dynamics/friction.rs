@@ -6,9 +6,9 @@
 
 use super::{Dynamics, Workspace};
 use crate::geometry::Space;
-use crate::mechanism::{EffortLaw, Mechanism, Pressed, StretchOf};
+use crate::mechanism::{EffortLaw, Pressed, StretchOf};
 use crate::scalar::Scalar;
-use grashof_solvers::Sparsity;
+use grashof_solvers::Block;
 
 /// Part of the largest force that counts as none.
 const NO_FORCE: f64 = 1e-10;
@@ -80,7 +80,7 @@ impl<G: Space> Dynamics<'_, G> {
 
 impl<G: Space<S = f64>> Dynamics<'_, G> {
     /// f_λ (nv) of the multipliers `lambda` (rows), and R_λ = −∂f_λ/∂λ (nv × rows); after [`Dynamics::loads`].
-    pub fn friction(&self, lambda: &[f64], force: &mut [f64], slope: &mut [f64]) {
+    pub fn friction(&self, lambda: &[f64], force: &mut [f64], slope: &mut Block) {
         force.fill(0.0);
         self.add_friction(lambda, force);
         force.iter_mut().for_each(|f| *f = -*f);
@@ -88,9 +88,8 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
     }
 
     /// R_λ = −∂f_λ/∂λ (nv × rows); after [`Dynamics::loads`].
-    pub fn friction_slope(&self, lambda: &[f64], slope: &mut [f64]) {
+    pub fn friction_slope(&self, lambda: &[f64], slope: &mut Block) {
         slope.fill(0.0);
-        let rows = lambda.len();
         let Workspace { readings, columns, force_outputs, .. } = &self.work;
         self.friction_by_reactions(|gauge, output, pressing| {
             for (place, side) in self.places(pressing) {
@@ -102,7 +101,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
                         _ => sum::<G>(component, lambda) / whole,
                     };
                     self.mechanism.gauges[gauge].project(&readings[gauge], columns, |k, x| {
-                        component.iter().for_each(|&(row, c)| slope[k * rows + row] -= force_outputs[output] * x * unit * c);
+                        component.iter().for_each(|&(row, c)| slope.set(k, row, slope.at(k, row) - force_outputs[output] * x * unit * c));
                     });
                 }
             }
@@ -115,18 +114,6 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let places = self.mechanism.pressings.iter().flat_map(|p| &p.places).zip(&self.work.sides);
         places.filter(|(p, _)| p.components.len() == 1).map(|(p, side)| (size::<G>(p, *side, lambda), p.side))
     }
-}
-
-/// Entries that R_λ may have: what a joint with friction moves, by the rows that press on it.
-#[must_use]
-pub fn friction_pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
-    let mut entries = Vec::new();
-    for effort in &m.efforts {
-        let (EffortLaw::Friction { pressing: Some(pressing), .. }, StretchOf::Gauge(gauge)) = (effort.law, effort.along) else { continue };
-        let rows = m.pressings[pressing].places.iter().flat_map(|p| p.components.iter().flatten());
-        entries.extend(rows.flat_map(|&(row, _)| m.gauges[gauge].columns.iter().map(move |&(k, _)| (k, row))));
-    }
-    Sparsity::new(m.nv, m.rows.len(), entries)
 }
 
 /// Normal force that counts as none, N: below it the side on which a joint presses does not matter, and rounding would change it.

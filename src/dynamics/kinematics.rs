@@ -172,10 +172,12 @@ impl<G: Space> Dynamics<'_, G> {
     /// Φ and G from the gauges, and ν of functions of time; entries outside of the pattern stay 0.
     pub(super) fn rows(&mut self) {
         let m = self.mechanism;
-        let nv = m.nv;
-        let Workspace { readings, columns, functions, motions, phi, g, nu, held, .. } = &mut self.work;
+        let Workspace { readings, columns, functions, motions, phi, g: rows, nu, held, line, .. } = &mut self.work;
+        let full = rows.pattern().is_full();
         for (index, (row, phi)) in m.rows.iter().zip(phi.iter_mut()).enumerate() {
-            let g = &mut g[index * nv..(index + 1) * nv];
+            let (entries, values) = rows.line_mut(index);
+            let g: &mut [G::S] = if full { &mut *values } else { &mut *line };
+            let clear = |g: &mut [G::S]| entries.iter().for_each(|k| g[*k] = G::S::default());
             let offset = if let RowOwner::Contact(contact) = row.owner { held[contact] } else { row.offset };
             match row.kind {
                 RowKind::Gauge(i) => {
@@ -188,7 +190,7 @@ impl<G: Space> Dynamics<'_, G> {
                 }
                 RowKind::Ratio { first, second, ratio } => {
                     *phi = readings[second].x - row.offset - readings[first].x.scale(ratio);
-                    g.fill(G::S::default());
+                    clear(g);
                     m.gauges[second].project(&readings[second], columns, |k, x| g[k] += x);
                     m.gauges[first].project(&readings[first], columns, |k, x| g[k] -= x.scale(ratio));
                 }
@@ -198,12 +200,15 @@ impl<G: Space> Dynamics<'_, G> {
                     if let Some(by_time) = function.by_time {
                         nu[index] = -functions[by_time];
                     }
-                    g.fill(G::S::default());
+                    clear(g);
                     for (i, &gauge) in function.gauges.iter().enumerate() {
                         let slope = functions[function.value + 1 + i];
                         m.gauges[gauge].project(&readings[gauge], columns, |k, x| g[k] += slope * x);
                     }
                 }
+            }
+            if !full {
+                values.iter_mut().zip(entries).for_each(|(value, k)| *value = line[*k]);
             }
         }
     }

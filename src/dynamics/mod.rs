@@ -15,6 +15,7 @@ mod external;
 mod forces;
 mod friction;
 mod kinematics;
+mod patterns;
 mod reaction;
 mod scale;
 mod switches;
@@ -23,7 +24,8 @@ mod undefined;
 mod workspace;
 
 pub use evaluator::Dynamics;
-pub use friction::{friction_pattern, slack};
+pub use friction::slack;
+pub use patterns::{friction_pattern, mass_pattern, row_pattern, tangent_pattern};
 pub use reaction::Reactions;
-pub use tangent::{LANES, Linearizer, Point, RowTangent, pattern};
+pub use tangent::{LANES, Linearizer, Point, RowTangent};
 pub use workspace::Workspace;

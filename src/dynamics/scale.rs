@@ -13,6 +13,7 @@
 use super::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Gauge, Measured, RowKind, Step};
+use grashof_solvers::Block;
 use grashof_solvers::kkt::natural_row_scale;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
@@ -40,13 +41,14 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let m = self.mechanism;
         let mut natural = self.natural();
         let here = &self.work.g;
-        let scale = natural_row_scale(here, &natural, metric);
+        let scale = natural_row_scale(here.pattern(), here, &natural, metric);
         let motions = self.motions(&scale, metric);
         if motions.is_empty() {
             return scale;
         }
         let unit = m.units();
-        let mut entries: Vec<f64> = here.iter().map(|g| g.abs()).collect();
+        let mut entries = here.clone();
+        entries.iter_mut().for_each(|g| *g = g.abs());
         let mut around = self.clone();
         for delta in motions {
             let mut q = q.to_vec();
@@ -55,20 +57,22 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
             grow(&mut natural, &around.natural());
             grow(&mut entries, &around.work.g);
         }
-        let square = |row: &[f64]| row.iter().zip(&unit).map(|(g, u)| (g * u).powi(2)).sum::<f64>();
-        for (row, here) in entries.chunks_exact_mut(m.nv).zip(here.chunks_exact(m.nv)) {
+        let square = |columns: &[usize], row: &[f64]| columns.iter().zip(row).map(|(k, g)| (g * unit[*k]).powi(2)).sum::<f64>();
+        for (i, here) in here.lines().enumerate() {
+            let (columns, row) = entries.line_mut(i);
             // by units and not by D: beside the constraints a body that hardly resists a turn would count too much
-            if square(here) >= VANISHING * square(row) {
-                row.copy_from_slice(here);
+            if square(columns, here.values) >= VANISHING * square(columns, row) {
+                row.copy_from_slice(here.values);
             }
         }
-        natural_row_scale(&entries, &natural, metric)
+        natural_row_scale(entries.pattern(), &entries, &natural, metric)
     }
 
     /// Large displacements (nv each) along motions that the rows leave but for those that time moves.
     fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
         let m = self.mechanism;
-        let passive = m.rows.iter().zip(self.work.g.chunks_exact(m.nv.max(1)).zip(scale));
+        let g = self.work.g.to_dense();
+        let passive = m.rows.iter().zip(g.chunks_exact(m.nv.max(1)).zip(scale));
         let passive = passive.filter(|(row, _)| !m.is_moved(row));
         let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
         if scale.is_empty() {
@@ -88,13 +92,16 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
 
     /// Sizes of the entries of G (rows × nv) before they cancel, at the position evaluated last. Allocates.
     #[must_use]
-    pub fn natural(&self) -> Vec<f64> {
+    pub fn natural(&self) -> Block {
         let m = self.mechanism;
         let sizes = self.sizes();
-        let mut out = vec![0.0; m.rows.len() * m.nv];
-        for (row, out) in m.rows.iter().zip(out.chunks_exact_mut(m.nv.max(1))) {
+        let mut out = Block::new(self.work.g.pattern());
+        let mut line = vec![0.0; m.nv];
+        for (i, row) in m.rows.iter().enumerate() {
+            let (columns, values) = out.line_mut(i);
+            columns.iter().for_each(|k| line[*k] = 0.0);
             let mut add = |gauge: usize, slope: f64| {
-                sizes.project(&m.gauges[gauge], self, |k, x| out[k] += slope.abs() * x);
+                sizes.project(&m.gauges[gauge], self, |k, x| line[k] += slope.abs() * x);
             };
             match row.kind {
                 RowKind::Gauge(gauge) | RowKind::Driver { gauge, .. } => add(gauge, 1.0),
@@ -108,6 +115,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
                     function.gauges.iter().zip(slopes).for_each(|(&gauge, &slope)| add(gauge, slope));
                 }
             }
+            values.iter_mut().zip(columns).for_each(|(value, k)| *value = line[*k]);
         }
         out
     }
@@ -115,12 +123,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
     /// Length of each row of [`Dynamics::natural`] times D^−½ (rows), at the position evaluated last. Allocates.
     #[must_use]
     pub fn natural_length(&self, metric: &[f64]) -> Vec<f64> {
-        let length = |row: &[f64]| row.iter().zip(metric).map(|(x, d)| x * x / d).sum::<f64>().sqrt();
-        if metric.is_empty() {
-            vec![0.0; self.mechanism.rows.len()]
-        } else {
-            self.natural().chunks_exact(metric.len()).map(length).collect()
-        }
+        self.natural().lines().map(|row| row.entries().map(|(k, x)| x * x / metric[k]).sum::<f64>().sqrt()).collect()
     }
 
     fn sizes(&self) -> Sizes {

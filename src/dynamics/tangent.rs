@@ -4,10 +4,11 @@
 //! (Curtis, Powell & Reid 1974), so the cost is the number of colours, not of columns; [`LANES`] directions go in one pass.
 
 use super::Dynamics;
+use super::patterns::{friction_pattern, known_by, known_together, tangent_pattern};
 use crate::geometry::Space;
-use crate::mechanism::{Leaf, Mechanism, StagedProgram, StretchOf};
+use crate::mechanism::Mechanism;
 use crate::scalar::{Dual, Scalar};
-use grashof_solvers::{Coloring, Sparsity, Tangent};
+use grashof_solvers::{Coloring, Dims, Pattern, Sparsity, Tangent};
 
 /// Directions carried in one pass.
 pub const LANES: usize = 4;
@@ -31,7 +32,7 @@ pub struct Point<'a> {
     pub modes: &'a [i32],
 }
 
-/// Derivatives of the rates of the constraint rows at fixed a; dense and row-major (rows × nv), by q along velocities as
+/// Derivatives of the rates of the constraint rows at fixed a; full and row-major (rows × nv), by q along velocities as
 /// [`Tangent`] has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RowTangent {
@@ -43,60 +44,13 @@ pub struct RowTangent {
     pub acceleration_v: Vec<f64>,
 }
 
-/// Entries that K or C may have: columns i and k meet if one body's path, one gauge or one force law knows both.
-#[must_use]
-pub fn pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
-    let mut groups: Vec<Vec<usize>> = m.bodies.iter().map(|b| b.path.clone()).collect();
-    groups.extend((0..m.active_gauges).map(|g| of_gauge(m, g)));
-    for f in &m.functions {
-        groups.push(f.gauges.iter().flat_map(|&g| of_gauge(m, g)).collect());
-    }
-    // a force given by a program may depend on every input of it and acts on its bodies
-    let law = known_by(m, &m.force_program);
-    if m.force_program.outputs > 0 {
-        for pull in &m.point_loads {
-            groups.push([law.clone(), m.bodies[pull.body].path.clone(), m.bodies[pull.frame].path.clone()].concat());
-        }
-        for effort in &m.efforts {
-            groups.push([law.clone(), of_stretch(m, effort.along)].concat());
-        }
-    }
-    Sparsity::of_groups(m.nv, groups.iter().map(Vec::as_slice))
-}
-
-/// Columns that a gauge knows.
-fn of_gauge<G: Space>(m: &Mechanism<G>, gauge: usize) -> Vec<usize> {
-    let g = &m.gauges[gauge];
-    [m.bodies[g.a].path.clone(), m.bodies[g.b].path.clone()].concat()
-}
-
-/// Columns that a stretch knows.
-fn of_stretch<G: Space>(m: &Mechanism<G>, of: StretchOf) -> Vec<usize> {
-    match of {
-        StretchOf::Gauge(g) => of_gauge(m, g),
-        StretchOf::Function(f) => m.functions[f].gauges.iter().flat_map(|&g| of_gauge(m, g)).collect(),
-    }
-}
-
-/// Columns that a program knows by its inputs.
-fn known_by<G: Space>(m: &Mechanism<G>, program: &StagedProgram) -> Vec<usize> {
-    let mut columns = Vec::new();
-    for &(_, leaf) in &program.fills {
-        match leaf {
-            Leaf::Time | Leaf::State(_) => {}
-            Leaf::Gauge { gauge, .. } => columns.extend(of_gauge(m, gauge)),
-            Leaf::Stretch { spring, .. } => columns.extend(of_stretch(m, m.stretches[spring].of)),
-            Leaf::Spin { body, .. } => columns.extend(&m.bodies[body].path),
-        }
-    }
-    columns
-}
-
 /// Exact tangents of a mechanism; sized once, then free of allocation.
 #[derive(Clone, Debug)]
 pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
     dynamics: Dynamics<'m, D>,
-    pattern: Sparsity,
+    /// Rows that each column of K and C knows, and the places of these entries in the blocks.
+    columns: Sparsity,
+    places: Vec<usize>,
     coloring: Coloring,
     q: Vec<Dual<LANES>>,
     v: Vec<Dual<LANES>>,
@@ -114,16 +68,17 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
     #[must_use]
     pub fn new(lifted: &'m Mechanism<D>) -> Self {
         let (nq, nv, nz, rows) = (lifted.nq, lifted.nv, lifted.state_starts.len(), lifted.rows.len());
-        let pattern = pattern(lifted);
+        let pattern = known_together(lifted);
+        let (stored, columns) = (tangent_pattern(lifted), pattern.transposed());
         // the rates of states are further rows: every one may know what their program knows
         let known = known_by(lifted, &lifted.state_program);
-        let entries = (0..nv).flat_map(|k| pattern.column(k).iter().map(move |&i| (i, k)));
         let states = (0..nz).flat_map(|j| known.iter().map(move |&k| (nv + j, k)));
-        let coloring = Coloring::new(&Sparsity::new(nv + nz, nv, entries.chain(states)));
+        let coloring = Coloring::new(&Sparsity::new(nv + nz, nv, pattern.places().chain(states)));
         let zeros = |n: usize| vec![Dual::constant(0.0); n];
         Self {
             dynamics: Dynamics::new(lifted),
-            pattern,
+            places: columns.places().filter_map(|(k, i)| stored.place(i, k)).collect(),
+            columns,
             coloring,
             q: zeros(nq),
             v: zeros(nv),
@@ -134,6 +89,15 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
             plain: vec![0.0; nq],
             qdot: vec![0.0; nq],
         }
+    }
+
+    /// The patterns of what [`Linearizer::tangents`] writes, with `nz` states; those of M and G are full.
+    #[must_use]
+    pub fn pattern(&self, nz: usize) -> Pattern {
+        let m = self.dynamics.mechanism;
+        let dims = Dims { q: m.nq, v: m.nv, z: nz, holonomic: m.rows.len(), ..Dims::default() };
+        let block = tangent_pattern(m);
+        Pattern { k: block.clone(), c: block, r_lambda: friction_pattern(m), ..Pattern::dense(dims) }
     }
 
     /// K, C, ∂r/∂z and the derivatives of ż at a point; `r_lambda` is left as it is, see [`Dynamics::friction_slope`].
@@ -169,32 +133,31 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         let (target, states) = if by_velocity { (&mut out.c, &mut out.z_v) } else { (&mut out.k, &mut out.z_q) };
         for k in 0..nv {
             let Some(l) = lane(&self.coloring, first, k) else { continue };
-            for &i in self.pattern.column(k) {
-                target[i * nv + k] = self.r[i].d[l];
+            for (&i, &place) in self.columns.row(k).iter().zip(&self.places[self.columns.range(k)]) {
+                target[place] = self.r[i].d[l];
             }
             for j in 0..nz {
-                states[j * nv + k] = self.dynamics.work.zdot[j].d[l];
+                states.set(j, k, self.dynamics.work.zdot[j].d[l]);
             }
         }
     }
 
     /// Derivatives by the states in the lanes from `first` on.
     fn states(&mut self, first: usize, at: &Point<'_>, out: &mut Tangent) {
-        let nz = at.z.len();
         constants(&mut self.q, at.q);
         constants(&mut self.v, at.v);
         constants(&mut self.dynamics.work.z, at.z);
-        let last = nz.min(first + LANES);
+        let last = at.z.len().min(first + LANES);
         for j in first..last {
             self.dynamics.work.z[j].d[j - first] = 1.0;
         }
         self.evaluate(at);
         for j in first..last {
             for (i, r) in self.r.iter().enumerate() {
-                out.r_z[i * nz + j] = r.d[j - first];
+                out.r_z.set(i, j, r.d[j - first]);
             }
             for (i, rate) in self.dynamics.work.zdot.iter().enumerate() {
-                out.z_z[i * nz + j] = rate.d[j - first];
+                out.z_z.set(i, j, rate.d[j - first]);
             }
         }
     }
@@ -222,12 +185,11 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
             dynamics.position(q, at.modes);
             dynamics.velocity(v, at.modes);
             let w = &dynamics.work;
-            for i in 0..rows {
-                let g = &w.g[i * nv..(i + 1) * nv];
+            for (i, row) in w.g.lines().enumerate() {
                 let (mut speed, mut acceleration) = (-w.nu[i], -w.gamma[i]);
-                for ((g, v), a) in g.iter().zip(&*v).zip(at.a) {
-                    speed += *g * *v;
-                    acceleration += g.scale(*a);
+                for (j, g) in row.entries() {
+                    speed += g * v[j];
+                    acceleration += g.scale(at.a[j]);
                 }
                 for k in first..last {
                     if by_velocity {

@@ -1,8 +1,10 @@
 //! The scratch of one evaluator, grouped by the stage that fills it. Sized once; no evaluation allocates.
 
+use super::patterns::{mass_pattern, row_pattern};
 use crate::geometry::{Force, Inertia, Motion, Pose, Quaternion, Space};
 use crate::mechanism::{Measured, Mechanism, Reading, StagedProgram};
 use crate::scalar::Scalar;
+use grashof_solvers::{Block, Sparsity};
 
 /// What evaluations leave behind, for the state that was evaluated last.
 #[derive(Clone, Debug)]
@@ -34,8 +36,8 @@ pub struct Workspace<G: Space> {
     pub functions: Vec<G::S>,
     /// Φ (rows).
     pub phi: Vec<G::S>,
-    /// G, row by row (rows × nv).
-    pub g: Vec<G::S>,
+    /// G (rows × nv).
+    pub g: Block<G::S>,
 
     // ---- velocity: written by `Dynamics::velocity`
     /// Twist of each body.
@@ -68,12 +70,17 @@ pub struct Workspace<G: Space> {
     pub zdot: Vec<G::S>,
     /// Right-hand side f (nv).
     pub force: Vec<G::S>,
-    /// Mass matrix M, row by row (nv × nv).
-    pub mass: Vec<G::S>,
+    /// Mass matrix M (nv × nv).
+    pub mass: Block<G::S>,
+    /// Places in it of what [`Dynamics::mass`](super::Dynamics::mass) writes, in its order: an entry and the one across the diagonal;
+    /// empty where the matrix is full.
+    pub(super) mass_places: Vec<[usize; 2]>,
     /// Wrench sums along the tree.
     pub(super) sums: Vec<Force<G>>,
 
-    // ---- scratch of the programs
+    // ---- scratch of the rows and of the programs
+    /// A row of G.
+    pub(super) line: Vec<G::S>,
     pub(super) inputs: Vec<G::S>,
     pub(super) registers: Vec<G::S>,
     /// Inputs, registers and modes as plain numbers, where modes are set anew.
@@ -88,6 +95,7 @@ impl<G: Space> Workspace<G> {
     pub fn new(mechanism: &Mechanism<G>) -> Self {
         let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
+        let of_mass = mass_pattern(mechanism);
         let programs = mechanism.programs();
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         let needs_quaternions = mechanism.gauges.iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
@@ -107,7 +115,7 @@ impl<G: Space> Workspace<G> {
             readings: vec![Reading::default(); mechanism.gauges.len()],
             functions: zeros(mechanism.position_program.outputs),
             phi: zeros(rows),
-            g: zeros(rows * nv),
+            g: Block::new(&row_pattern(mechanism)),
             twists: vec![Motion::default(); bodies],
             bias: vec![Motion::default(); bodies],
             drifts: zeros(mechanism.velocity_program.outputs),
@@ -123,8 +131,10 @@ impl<G: Space> Workspace<G> {
             z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
             zdot: zeros(mechanism.state_starts.len()),
             force: zeros(nv),
-            mass: zeros(nv * nv),
+            mass_places: mass_places(mechanism, &of_mass),
+            mass: Block::new(&of_mass),
             sums: vec![Force::default(); bodies],
+            line: zeros(nv),
             inputs: zeros(most(|p| p.inputs)),
             registers: zeros(most(|p| p.program.registers())),
             values: vec![0.0; mechanism.force_program.inputs],
@@ -132,4 +142,14 @@ impl<G: Space> Workspace<G> {
             saved: mechanism.modes(),
         }
     }
+}
+
+/// Places in M of each column with its ancestors, from the last node to the first; none if the matrix is full.
+fn mass_places<G: Space>(m: &Mechanism<G>, pattern: &Sparsity) -> Vec<[usize; 2]> {
+    if pattern.is_full() {
+        return Vec::new();
+    }
+    let columns = m.nodes.iter().rev().flat_map(|node| node.columns.clone());
+    let pairs = columns.flat_map(|k| m.ancestors[k].iter().map(move |&j| [(j, k), (k, j)]));
+    pairs.filter_map(|[above, below]| Some([pattern.place(above.0, above.1)?, pattern.place(below.0, below.1)?])).collect()
 }

@@ -5,7 +5,7 @@ use crate::dynamics::{Dynamics, Reactions, friction_pattern, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use grashof_solvers::kkt::ROUND_OFF;
-use grashof_solvers::{Dims, Friction, Kkt, Lu, Pattern, Terms};
+use grashof_solvers::{Block, Dims, Friction, Kkt, Lu, Pattern, Terms};
 
 /// Newton did not reach a position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,9 +57,9 @@ struct ByReactions {
 #[derive(Clone, Debug)]
 enum Solver {
     /// As many rows as velocities: one factorisation of G, its rows scaled to unit size (rows; and the same for each entry).
-    Square { lu: Lu, scale: Vec<f64>, entries: Vec<f64> },
+    Square { lu: Lu, scale: Vec<f64> },
     /// Redundant rows: the regularised system with the mass metric (nv × nv) in the place of M.
-    Redundant { kkt: Box<Kkt>, metric: Vec<f64>, probe: Vec<f64> },
+    Redundant { kkt: Box<Kkt>, metric: Box<Block>, probe: Vec<f64> },
 }
 
 /// A correction below this leaves an error below round-off, and moves everything linearly to within round-off.
@@ -78,7 +78,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         dynamics.time(0.0, &start.modes);
         dynamics.position(&start.q, &start.modes);
         let g_scale = dynamics.row_scale(&start.q, &start.modes, &start.metric);
-        let friction_by_reactions = ByReactions::new(mechanism, &start.metric, &g_scale);
+        let friction_by_reactions = ByReactions::new(&dynamics, &start.metric, &g_scale);
         let solver = if rows == nv {
             let size = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
             // a row that is round-off keeps its natural size, so that it leaves G as singular as it is
@@ -88,16 +88,14 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
                 _ => size(row).recip(),
             };
             let natural = dynamics.natural();
-            let scale: Vec<f64> = dynamics.work.g.chunks_exact(nv.max(1)).zip(natural.chunks_exact(nv.max(1))).map(unit).collect();
-            let entries = scale.iter().flat_map(|s| std::iter::repeat_n(*s, nv)).collect();
-            Solver::Square { lu: Lu::new(nv), scale, entries }
+            let rows = dynamics.work.g.lines().zip(natural.lines());
+            let scale = rows.map(|(row, natural)| unit((row.values, natural.values))).collect();
+            Solver::Square { lu: Lu::new(nv), scale }
         } else {
-            let mut kkt = Kkt::new(nv, rows);
+            let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
             kkt.set_scale(&start.metric, &g_scale);
-            let mut metric = vec![0.0; nv * nv];
-            for (i, d) in start.metric.iter().enumerate() {
-                metric[i * nv + i] = *d;
-            }
+            let mut metric = Box::new(Block::new(dynamics.work.mass.pattern()));
+            start.metric.iter().enumerate().for_each(|(i, d)| metric.set(i, i, *d));
             // a force in no special direction
             let probe = start.metric.iter().enumerate().map(|(i, d)| d.sqrt() * (1.0 + 0.37 * (i as f64 * 2.39).sin())).collect();
             Solver::Redundant { kkt: Box::new(kkt), metric, probe }
@@ -255,9 +253,11 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     fn factor(&mut self) -> Result<(), NotReached> {
         let g = &self.dynamics.work.g;
         match &mut self.solver {
-            Solver::Square { lu, entries, .. } => {
-                for ((out, g), s) in lu.matrix_mut().iter_mut().zip(g).zip(entries) {
-                    *out = g * *s;
+            Solver::Square { lu, scale } => {
+                let matrix = lu.matrix_mut();
+                matrix.fill(0.0);
+                for ((out, row), s) in matrix.chunks_exact_mut(scale.len().max(1)).zip(g.lines()).zip(&*scale) {
+                    row.entries().for_each(|(k, g)| out[k] = g * s);
                 }
                 lu.factor_in_place().map_err(|_| NotReached)
             }
@@ -275,10 +275,9 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             Solver::Redundant { kkt, metric, probe } => {
                 self.rhs.fill(0.0);
                 kkt.solve(probe, &self.rhs, &mut self.delta, &mut self.scratch);
-                let nv = probe.len();
-                let weight = |x: f64, i: usize| x * x * metric[i * nv + i];
+                let weight = |x: f64, i: usize| x * x * metric.at(i, i);
                 let moved: f64 = self.delta.iter().enumerate().map(|(i, x)| weight(*x, i)).sum();
-                let asked: f64 = probe.iter().enumerate().map(|(i, f)| f * f / metric[i * nv + i]).sum();
+                let asked: f64 = probe.iter().enumerate().map(|(i, f)| f * f / metric.at(i, i)).sum();
                 let ratio = (moved / asked).sqrt();
                 // within a factor of the regularisation nothing is left to tell apart
                 if ratio > 1e-3 { 0.0 } else { 1.0 }
@@ -294,11 +293,19 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
 }
 
 impl ByReactions {
-    fn new<G: Space>(m: &Mechanism<G>, metric: &[f64], g_scale: &[f64]) -> Option<Box<Self>> {
+    fn new<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, metric: &[f64], g_scale: &[f64]) -> Option<Box<Self>> {
+        let (m, w) = (dynamics.mechanism, &dynamics.work);
         let dims = Dims { q: m.nq, v: m.nv, holonomic: m.rows.len(), ..Dims::default() };
-        let pattern = Pattern { r_lambda: friction_pattern(m), metric: metric.to_vec(), g_scale: g_scale.to_vec(), ..Pattern::dense(dims) };
+        let pattern = Pattern {
+            mass: w.mass.pattern().clone(),
+            g: w.g.pattern().clone(),
+            r_lambda: friction_pattern(m),
+            metric: metric.to_vec(),
+            g_scale: g_scale.to_vec(),
+            ..Pattern::dense(dims)
+        };
         let friction = Friction::of_pattern(dims, &pattern)?;
-        Some(Box::new(Self { friction, terms: Terms::new(dims), a: vec![0.0; m.nv], metric: metric.to_vec() }))
+        Some(Box::new(Self { friction, terms: Terms::new(dims, &pattern), a: vec![0.0; m.nv], metric: metric.to_vec() }))
     }
 
     /// λ at the position and velocity evaluated last; not numbers where there is none.
@@ -312,7 +319,7 @@ impl ByReactions {
         t.gamma.copy_from_slice(&w.gamma);
         self.a.copy_from_slice(a);
         lambda.fill(0.0);
-        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| dynamics.friction(l, f, slope);
+        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut Block| dynamics.friction(l, f, slope);
         if self.friction.solve(t, friction_of, &mut self.a, lambda).is_err() {
             lambda.fill(f64::NAN);
         }

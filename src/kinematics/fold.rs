@@ -75,7 +75,7 @@ impl<G: Space<S = f64>> Along<'_, '_, G> {
             d.velocity(&zeros, self.modes);
             let mut a = vec![0.0; (m.rows.len() + 1) * n];
             for row in 0..m.rows.len() {
-                a[row * n..row * n + m.nv].copy_from_slice(&d.work.g[row * m.nv..(row + 1) * m.nv]);
+                d.work.g.line(row).entries().for_each(|(k, g)| a[row * n + k] = g);
                 a[row * n + m.nv] = -d.work.nu[row];
             }
             a[m.rows.len() * n + self.k] = 1.0;

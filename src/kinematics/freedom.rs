@@ -26,5 +26,5 @@ pub(super) fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     let scale = dynamics.row_scale(q, modes, metric);
-    (dynamics.work.g, scale)
+    (dynamics.work.g.to_dense(), scale)
 }

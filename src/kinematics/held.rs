@@ -21,7 +21,7 @@ use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::Dual;
-use grashof_solvers::{Dims, Tangent};
+use grashof_solvers::{Block, Tangent};
 use nalgebra::{DMatrix, DVector};
 
 /// A pose: coordinates (nq), first-order states (nz), modes.
@@ -89,7 +89,7 @@ impl Held {
         dynamics.work.z.copy_from_slice(pose.z);
         dynamics.terms(0.0, pose.q, &rest, pose.modes);
         let w = &dynamics.work;
-        let g = DMatrix::from_row_slice(rows, nv, &w.g);
+        let g = DMatrix::from_row_slice(rows, nv, &w.g.to_dense());
         let force = DVector::from_column_slice(&w.force);
         if !force.iter().chain(g.iter()).all(|x| x.is_finite()) {
             return Err(Singular);
@@ -102,9 +102,9 @@ impl Held {
             modes[side] = if modes[side] < 0 { 1 } else { -1 };
         }
         let at = Point { t: 0.0, q: pose.q, v: &rest, z: pose.z, a: &rest, lambda: lambda.as_slice(), modes: &modes };
-        let mut tangent = Tangent::new(Dims { v: nv, z: nz, holonomic: rows, ..Dims::default() });
+        let mut tangent = Tangent::new(&linearizer.pattern(nz));
         linearizer.tangents(&at, &mut tangent);
-        let matrix = |rows: usize, columns: usize, x: &[f64]| DMatrix::from_row_slice(rows, columns, x);
+        let matrix = |rows: usize, columns: usize, x: &Block| DMatrix::from_row_slice(rows, columns, &x.to_dense());
         let r = g.transpose() * &lambda - &force;
         let (mut k, c) = (matrix(nv, nv, &tangent.k), matrix(nv, nv, &tangent.c));
         geodesic(mechanism, &r, &mut k);

@@ -26,7 +26,7 @@ use crate::dynamics::{Dynamics, LANES, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::Dual;
-use grashof_solvers::{Dims, Kkt, Tangent};
+use grashof_solvers::{Kkt, Tangent};
 use nalgebra::DMatrix;
 
 /// The terms of a linearised motion at one state.
@@ -87,17 +87,17 @@ impl Linear {
         let mut dynamics = Dynamics::new(mechanism);
         dynamics.work.z.copy_from_slice(at.z);
         dynamics.terms(at.t, at.q, at.v, at.modes);
-        let mut tangent = Tangent::new(Dims { v: nv, z: nz, holonomic: rows, ..Dims::default() });
+        let mut tangent = Tangent::new(&linearizer.pattern(nz));
         linearizer.tangents(at, &mut tangent);
-        let mut kkt = Kkt::new(nv, rows);
+        let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
         let row_scale = dynamics.row_scale(at.q, at.modes, metric);
         kkt.set_scale(metric, &row_scale);
         kkt.factor(&dynamics.work.mass, &dynamics.work.g).map_err(|_| Singular)?;
         Ok(Self {
             rows: linearizer.rows(at),
             tangent,
-            mass: DMatrix::from_row_slice(nv, nv, &dynamics.work.mass),
-            g: DMatrix::from_row_slice(rows, nv, &dynamics.work.g),
+            mass: DMatrix::from_row_slice(nv, nv, &dynamics.work.mass.to_dense()),
+            g: DMatrix::from_row_slice(rows, nv, &dynamics.work.g.to_dense()),
             spin: spin(mechanism, at.v),
             nz,
             metric: metric.to_vec(),

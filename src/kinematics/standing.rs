@@ -70,7 +70,7 @@ pub(crate) fn place<G: Space<S = f64>>(d: &mut Dynamics<'_, G>, q: &[f64], way: 
         d.work.phi.clone()
     });
     let moved: Vec<f64> = before.iter().zip(&now).map(|(before, now)| before - now).collect();
-    let speeds: Vec<f64> = d.work.g.chunks_exact(way.len()).map(|row| row.iter().zip(way).map(|(g, v)| g * v).sum()).collect();
+    let speeds: Vec<f64> = d.work.g.lines().map(|row| row.dot(way)).collect();
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     sum(&speeds, &moved) / sum(&speeds, &speeds)
 }

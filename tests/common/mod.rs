@@ -140,11 +140,11 @@ pub(crate) fn accelerate<G: Space<S = f64>>(d: &Dynamics<'_, G>) -> (Vec<f64>, V
     let mut kkt = DMatrix::zeros(n + m, n + m);
     for i in 0..n {
         for k in 0..n {
-            kkt[(i, k)] = w.mass[i * n + k];
+            kkt[(i, k)] = w.mass.at(i, k);
         }
         for r in 0..m {
-            kkt[(i, n + r)] = w.g[r * n + i];
-            kkt[(n + r, i)] = w.g[r * n + i];
+            kkt[(i, n + r)] = w.g.at(r, i);
+            kkt[(n + r, i)] = w.g.at(r, i);
         }
     }
     let b = DVector::from_iterator(n + m, w.force.iter().chain(&w.gamma).copied());

@@ -2,11 +2,11 @@
 
 use super::{close, done, drift, last};
 use crate::common::{Noise, State, mechanism, slope};
-use grashof::dynamics::{Dynamics, LANES, Linearizer, Point};
+use grashof::dynamics::{Dynamics, LANES, Linearizer, Point, friction_pattern};
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::mechanism::{Coordinates, Mechanism};
 use grashof::scalar::Dual;
-use grashof_solvers::{Dims, Tangent};
+use grashof_solvers::{Block, Tangent};
 
 /// A slider-crank with friction in its guide and in the pin of its rod.
 fn slider_crank(space: &str, guide: &str, driver: &str, study: &str) -> String {
@@ -129,9 +129,9 @@ where
             d.residual(&s.a, lambda, &mut r);
             r
         };
-        let mut tangent = Tangent::new(Dims { q: m.nq, v: nv, z: nz, holonomic: rows, ..Dims::default() });
-        Linearizer::new(&lifted)
-            .tangents(&Point { t: s.t, q: &s.q, v: &s.v, z: &z, a: &s.a, lambda: &s.lambda, modes: &modes }, &mut tangent);
+        let mut linearizer = Linearizer::new(&lifted);
+        let mut tangent = Tangent::new(&linearizer.pattern(nz));
+        linearizer.tangents(&Point { t: s.t, q: &s.q, v: &s.v, z: &z, a: &s.a, lambda: &s.lambda, modes: &modes }, &mut tangent);
         for k in 0..nv {
             let unit = |e: f64| (0..nv).map(|i| if i == k { e } else { 0.0 }).collect::<Vec<_>>();
             let by_q = slope(1e-5, |e| {
@@ -141,11 +141,11 @@ where
             });
             let by_v = slope(1e-5, |e| residual(&s.q, &s.v.iter().zip(unit(e)).map(|(v, d)| v + d).collect::<Vec<_>>(), &s.lambda));
             for i in 0..nv {
-                close("K", tangent.k[i * nv + k], by_q[i], 1e-6 * (1.0 + by_q[i].abs()));
-                close("C", tangent.c[i * nv + k], by_v[i], 1e-6 * (1.0 + by_v[i].abs()));
+                close("K", tangent.k.at(i, k), by_q[i], 1e-6 * (1.0 + by_q[i].abs()));
+                close("C", tangent.c.at(i, k), by_v[i], 1e-6 * (1.0 + by_v[i].abs()));
             }
         }
-        let (mut force, mut by_lambda) = (vec![0.0; nv], vec![0.0; nv * rows]);
+        let (mut force, mut by_lambda) = (vec![0.0; nv], Block::new(&friction_pattern(&m)));
         let g: Vec<Vec<f64>> = (0..rows)
             .map(|j| {
                 slope(1e-5, |e| {
@@ -156,8 +156,8 @@ where
         d.terms(s.t, &s.q, &s.v, &modes);
         d.friction(&s.lambda, &mut force, &mut by_lambda);
         for (j, g) in g.iter().enumerate() {
-            for i in 0..nv {
-                close("R_λ", d.work.g[j * nv + i] + by_lambda[i * rows + j], g[i], 1e-6 * (1.0 + g[i].abs()));
+            for (i, g) in g.iter().enumerate() {
+                close("R_λ", d.work.g.at(j, i) + by_lambda.at(i, j), *g, 1e-6 * (1.0 + g.abs()));
             }
         }
         assert!(by_lambda.iter().any(|x| x.abs() > 1e-3), "the friction depends on the reactions");

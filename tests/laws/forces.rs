@@ -84,10 +84,10 @@ fn tangents_are_derivatives_of_the_residual() {
         D: Space<S = Dual<{ dynamics::LANES }>>,
     {
         let lifted = m.lift::<Dual<{ dynamics::LANES }>>();
-        let dims = Dims { q: m.nq, v: m.nv, holonomic: m.rows.len(), ..Dims::default() };
-        let mut out = Tangent::new(dims);
         let at = dynamics::Point { t: s.t, q: &s.q, v: &s.v, z: &[], a: &s.a, lambda: &s.lambda, modes: &s.modes };
-        dynamics::Linearizer::<D>::new(&lifted).tangents(&at, &mut out);
+        let mut linearizer = dynamics::Linearizer::<D>::new(&lifted);
+        let mut out = Tangent::new(&linearizer.pattern(0));
+        linearizer.tangents(&at, &mut out);
         let residual = |s: &State| {
             let mut d = Dynamics::new(m);
             s.evaluate(&mut d);
@@ -108,7 +108,7 @@ fn tangents_are_derivatives_of_the_residual() {
                 next.v[k] += e;
                 residual(&next)
             });
-            let column = |x: &[f64]| (0..n).map(|i| x[i * n + k]).collect::<Vec<_>>();
+            let column = |x: &Block| (0..n).map(|i| x.at(i, k)).collect::<Vec<_>>();
             close("K", &column(&out.k), &by_position, 1e-9);
             close("C", &column(&out.c), &by_velocity, 1e-9);
         }
@@ -128,7 +128,7 @@ fn a_chain_in_cartesian_coordinates_needs_few_colours() {
         "grashof: 1\nname: chain\nspace: planar\ngravity: [0, -9.81]\nbodies:\n{links}joints:\n  j0: {{ revolute: [ground, l0.start] }}\n{joints}"
     );
     let m = mechanism::<Planar<f64>>(&text, Coordinates::Cartesian);
-    let coloring = Coloring::new(&dynamics::pattern(&m));
+    let coloring = Coloring::new(&dynamics::tangent_pattern(&m));
     assert_eq!(m.nv, 90);
     assert!(coloring.count <= 15, "{} colours", coloring.count);
 }

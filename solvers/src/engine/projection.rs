@@ -123,14 +123,13 @@ impl Engine {
 
     /// The shortest δv with G (v + δv) = ν, into `delta`; false if v is there already.
     fn velocity_correction(&mut self, v: &[f64]) -> bool {
-        let nv = self.dims.v;
         let mut needed = false;
-        let rows = self.terms.g.chunks_exact(nv.max(1)).zip(&self.row_reach);
+        let rows = self.terms.g.lines().zip(&self.row_reach);
         for ((r, nu), (row, whole)) in self.rhs.iter_mut().zip(&self.terms.nu).zip(rows) {
             let (mut sum, mut size) = (0.0, 0.0);
-            for (g, v) in row.iter().zip(v) {
-                sum += g * v;
-                size += (g * v).abs();
+            for (j, g) in row.entries() {
+                sum += g * v[j];
+                size += (g * v[j]).abs();
             }
             *r = nu - sum;
             needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs()) && reach(row, &self.size_v) > ROUND_OFF * whole;
@@ -143,9 +142,8 @@ impl Engine {
 
     /// Removes from a velocity (nv) what lies across the constraints, in the metric M, by the terms and factors at hand.
     pub fn tangential(&mut self, x: &mut [f64]) {
-        let nv = self.dims.v;
-        for (r, row) in self.rhs.iter_mut().zip(self.terms.g.chunks_exact(nv.max(1))) {
-            *r = -row.iter().zip(&*x).map(|(g, x)| g * x).sum::<f64>();
+        for (r, row) in self.rhs.iter_mut().zip(self.terms.g.lines()) {
+            *r = -row.dot(x);
         }
         self.kkt.solve(&self.zeros, &self.rhs, &mut self.delta, &mut self.mu);
         x.iter_mut().zip(&self.delta).for_each(|(x, d)| *x += d);

@@ -5,12 +5,7 @@ use super::number::Number;
 use super::ordering::Ordering;
 use super::sparse::SparseLu;
 use crate::Sparsity;
-
-/// Largest order that is always factored as a dense matrix: up to here the dense form has code of its own for every order.
-pub const DENSE_UP_TO: usize = 12;
-
-/// Time of a number moved or multiplied in the sparse form over that of a multiplication in the dense form.
-const SPARSE_COST: usize = 3;
+use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
 
 /// A factorisation A = L U of matrices of one square pattern.
 ///
@@ -52,7 +47,7 @@ impl<T: Number> Factor<T> {
     /// The dense form.
     pub fn dense(pattern: &Sparsity) -> Self {
         let n = pattern.columns();
-        let place = (0..n).flat_map(|j| pattern.column(j).iter().map(move |&i| i * n + j)).collect();
+        let place = pattern.transposed().places().map(|(j, i)| i * n + j).collect();
         Self::Dense(Dense { lu: Lu::new(n), place })
     }
 

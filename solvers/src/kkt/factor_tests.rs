@@ -297,8 +297,8 @@ fn the_form_follows_the_pattern() {
     assert!(matches!(Factor::<f64>::new(&Sparsity::empty(0, 0)), Factor::Dense(_)));
     assert!(matches!(Factor::<f64>::new(&Sparsity::dense(60, 60)), Factor::Dense(_)));
     let diagonal = |n| Sparsity::new(n, n, (0..n).map(|i| (i, i)));
-    assert!(matches!(Factor::<f64>::new(&diagonal(factor::DENSE_UP_TO)), Factor::Dense(_)));
-    assert!(matches!(Factor::<f64>::new(&diagonal(factor::DENSE_UP_TO + 1)), Factor::Sparse(_)));
+    assert!(matches!(Factor::<f64>::new(&diagonal(DENSE_UP_TO)), Factor::Dense(_)));
+    assert!(matches!(Factor::<f64>::new(&diagonal(DENSE_UP_TO + 1)), Factor::Sparse(_)));
 }
 
 #[test]

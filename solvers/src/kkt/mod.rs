@@ -31,9 +31,10 @@ pub mod sparse;
 pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
+use crate::sparsity::DENSE_UP_TO;
 use crate::{Pattern, Sparsity};
 use dense::{Lu, Singular, sized, square, square_mut};
-use factor::{DENSE_UP_TO, Factor};
+use factor::Factor;
 
 /// Solver of M a + Gᵀλ = f, G a = γ; sized at construction, then free of allocation.
 ///
@@ -48,6 +49,9 @@ pub struct Kkt {
     /// Scaled E (m).
     e: Vec<f64>,
     refinements: usize,
+    /// Patterns of M and G, and places of the diagonal of M (nv).
+    patterns: [Sparsity; 2],
+    diagonal: Vec<usize>,
     /// Scaled [M Gᵀ; G 0] (n × n); not kept by the sparse form.
     matrix: Vec<f64>,
     /// L D Lᵀ of the scaled [M Gᵀ; G −E]: L (n × n), 1/D (n).
@@ -98,60 +102,71 @@ const REFINEMENTS_WITHOUT_MASS: usize = 8;
 const LIGHT: f64 = 1e-2;
 
 impl Kkt {
-    /// A dense one for `nv` velocities and `rows` constraint rows, with scales of one.
+    /// One for full matrices of `nv` velocities and `rows` constraint rows, with scales of one.
     pub fn new(nv: usize, rows: usize) -> Self {
-        let n = nv + rows;
+        Self::dense([&Sparsity::dense(nv, nv), &Sparsity::dense(rows, nv)])
+    }
+
+    /// One for the pattern of a system, with its scales; sparse where that pays.
+    pub fn of_pattern(pattern: &Pattern) -> Self {
+        let mut kkt = Self::of_blocks(&pattern.mass, &pattern.g);
+        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        kkt
+    }
+
+    /// One for the patterns of M and G, with scales of one; sparse where that pays.
+    pub fn of_blocks(mass: &Sparsity, g: &Sparsity) -> Self {
+        if g.columns() + g.rows() <= DENSE_UP_TO {
+            return Self::dense([mass, g]);
+        }
+        Self::sparse([mass, g]).unwrap_or_else(|| Self::dense([mass, g]))
+    }
+
+    fn dense(patterns: [&Sparsity; 2]) -> Self {
+        let n = patterns[1].columns() + patterns[1].rows();
         let small = if n <= DENSE_UP_TO { n } else { 0 };
         Self {
             matrix: vec![0.0; n * n],
             l: vec![0.0; small * small],
             inverse: vec![0.0; small],
             factors: Factors::Dense(Lu::new(n)),
-            ..Self::vectors(nv, rows)
+            ..Self::vectors(patterns)
         }
     }
 
-    /// One for the pattern of a system, with its scales; sparse where that pays.
-    pub fn of_pattern(pattern: &Pattern) -> Self {
-        let (nv, rows) = (pattern.g.columns(), pattern.g.rows());
-        let n = nv + rows;
-        let mut kkt = if n <= DENSE_UP_TO { Self::new(nv, rows) } else { Self::sparse(nv, rows, pattern) };
-        kkt.set_scale(&pattern.metric, &pattern.g_scale);
-        kkt
-    }
-
-    fn sparse(nv: usize, rows: usize, pattern: &Pattern) -> Self {
-        let n = nv + rows;
-        let mut places: Vec<(usize, usize)> = Vec::new();
-        for j in 0..nv {
-            places.extend(pattern.mass.column(j).iter().map(|&i| (i, j)));
-            places.extend(pattern.g.column(j).iter().flat_map(|&i| [(nv + i, j), (j, nv + i)]));
-        }
-        places.extend((nv..n).map(|i| (i, i)));
-        let whole = Sparsity::new(n, n, places);
+    /// A sparse one; none where elimination fills the matrix.
+    fn sparse(patterns: [&Sparsity; 2]) -> Option<Self> {
+        let [mass, g] = patterns;
+        let nv = g.columns();
+        let n = nv + g.rows();
+        let rows = g.places().flat_map(|(i, j)| [(nv + i, j), (j, nv + i)]);
+        let whole = Sparsity::new(n, n, mass.places().chain(rows).chain((nv..n).map(|i| (i, i))));
         let factor = Factor::new(&whole);
         if matches!(factor, Factor::Dense(_)) {
-            return Self::new(nv, rows);
+            return None;
         }
+        let at = |block: &Sparsity, i: usize, j: usize| block.place(i, j).unwrap_or_default();
         let source = |i: usize, j: usize| match (i < nv, j < nv) {
-            (true, true) => Source::Mass(i * nv + j),
-            (true, false) => Source::Row((j - nv) * nv + i),
-            (false, true) => Source::Row((i - nv) * nv + j),
+            (true, true) => Source::Mass(at(mass, i, j)),
+            (true, false) => Source::Row(at(g, j - nv, i)),
+            (false, true) => Source::Row(at(g, i - nv, j)),
             (false, false) => Source::Regular(i - nv),
         };
-        let entries: Vec<_> =
-            (0..n).flat_map(|j| whole.column(j).iter().map(move |&i| (i, j))).map(|(i, j)| (i, j, source(i, j))).collect();
+        let entries: Vec<_> = whole.transposed().places().map(|(j, i)| (i, j, source(i, j))).collect();
         let values = vec![0.0; entries.len()];
         let sparse = Sparse { factor, plain: values.clone(), values, entries };
-        Self { factors: Factors::Sparse(Box::new(sparse)), ..Self::vectors(nv, rows) }
+        Some(Self { factors: Factors::Sparse(Box::new(sparse)), ..Self::vectors(patterns) })
     }
 
     /// Vectors without matrices.
-    fn vectors(nv: usize, rows: usize) -> Self {
+    fn vectors(patterns: [&Sparsity; 2]) -> Self {
+        let (nv, rows) = (patterns[1].columns(), patterns[1].rows());
         let n = nv + rows;
         Self {
             nv,
             rows,
+            diagonal: (0..nv).filter_map(|i| patterns[0].place(i, i)).collect(),
+            patterns: patterns.map(Clone::clone),
             scale: vec![1.0; n],
             e: vec![REGULARIZATION; rows],
             refinements: REFINEMENTS,
@@ -168,8 +183,8 @@ impl Kkt {
 
     /// Takes the scales from the matrices at assembly; see [`metric`] and [`row_scale`]. Allocates.
     pub fn scale(&mut self, mass: &[f64], g: &[f64], unit: &[u8]) {
-        let metric = metric(mass, unit);
-        let g_scale = row_scale(g, &metric);
+        let metric = metric(self.diagonal.iter().map(|k| mass[*k]), unit);
+        let g_scale = row_scale(&self.patterns[1], g, &metric);
         self.set_scale(&metric, &g_scale);
     }
 
@@ -183,7 +198,7 @@ impl Kkt {
         }
     }
 
-    /// Factors the matrix of M (nv × nv) and G (m × nv).
+    /// Factors the matrix of M (nv × nv) and G (m × nv), by their patterns.
     ///
     /// Fails where M is singular on the free motions (a massless freedom), and where a number is not finite.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
@@ -191,7 +206,7 @@ impl Kkt {
             // nothing is free and nothing constrains: minimal coordinates of what cannot move
             return Ok(());
         }
-        let light = mass.iter().step_by(self.nv + 1).zip(&self.scale).any(|(m, s)| m * s * s < LIGHT);
+        let light = self.diagonal.iter().zip(&self.scale).any(|(k, s)| mass[*k] * s * s < LIGHT);
         self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
         if let Factors::Sparse(sparse) = &mut self.factors {
             return sparse.factor(mass, g, &self.scale, &self.e);
@@ -221,6 +236,17 @@ impl Kkt {
             return;
         }
         let (d, s) = self.scale.split_at(nv);
+        if self.patterns.iter().any(|pattern| !pattern.is_full()) {
+            // entries outside of the patterns stay 0
+            let [of_mass, of_g] = &self.patterns;
+            of_mass.places().zip(mass).for_each(|((i, j), m)| self.matrix[i * n + j] = m * d[i] * d[j]);
+            for ((i, j), g) in of_g.places().zip(g) {
+                let x = g * s[i] * d[j];
+                self.matrix[(nv + i) * n + j] = x;
+                self.matrix[j * n + nv + i] = x;
+            }
+            return;
+        }
         let (upper, lower) = self.matrix.split_at_mut(nv * n);
         for ((out, row), di) in upper.chunks_exact_mut(n).zip(mass.chunks_exact(nv)).zip(d) {
             for ((x, m), dj) in out.iter_mut().zip(row).zip(d) {

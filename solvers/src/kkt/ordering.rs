@@ -70,7 +70,7 @@ impl Quotient {
         let other = pattern.transposed();
         let variables: Vec<Vec<usize>> = (0..n)
             .map(|j| {
-                let mut row: Vec<usize> = pattern.column(j).iter().chain(other.column(j)).copied().filter(|&i| i != j).collect();
+                let mut row: Vec<usize> = pattern.row(j).iter().chain(other.row(j)).copied().filter(|&i| i != j).collect();
                 row.sort_unstable();
                 row.dedup();
                 row
@@ -224,7 +224,7 @@ mod tests {
     fn fill_of(pattern: &Sparsity, order: &[usize]) -> usize {
         let n = order.len();
         let mut full = vec![vec![false; n]; n];
-        for (i, j) in (0..n).flat_map(|j| pattern.column(j).iter().map(move |&i| (i, j))) {
+        for (i, j) in pattern.places() {
             full[i][j] = true;
             full[j][i] = true;
         }

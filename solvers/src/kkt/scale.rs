@@ -1,5 +1,7 @@
 //! Scales of coordinates and constraint rows: taken once, at assembly.
 
+use crate::Sparsity;
+
 /// E is this times diag(G D⁻¹ Gᵀ) (measured: 1e-10 loses energy in singular positions).
 pub const REGULARIZATION: f64 = 1e-8;
 
@@ -14,45 +16,46 @@ pub const ROUND_OFF: f64 = 1e-11;
 
 /// D (nv): the diagonal of M, with a floor at 1e-6 of the largest entry of the same unit.
 ///
-/// `mass` is nv × nv; `unit[i]` names the unit of coordinate i (0 an angle, 1 a length, as the caller likes). A unit without any
+/// `masses` are the diagonal of M; `unit[i]` names the unit of coordinate i (0 an angle, 1 a length, as the caller likes). A unit without any
 /// mass counts as 1, so D = 1 if nothing has mass.
-pub fn metric(mass: &[f64], unit: &[u8]) -> Vec<f64> {
-    let n = unit.len();
-    let diagonal = |i: usize| mass[i * n + i];
-    (0..n)
-        .map(|i| {
-            let largest = (0..n).filter(|&j| unit[j] == unit[i]).fold(0.0, |m, j| f64::max(m, diagonal(j)));
-            if largest > 0.0 { diagonal(i).max(MASS_FLOOR * largest) } else { 1.0 }
-        })
-        .collect()
+pub fn metric(masses: impl IntoIterator<Item = f64>, unit: &[u8]) -> Vec<f64> {
+    let masses: Vec<f64> = masses.into_iter().collect();
+    let mut largest = [0.0; 256];
+    masses.iter().zip(unit).for_each(|(m, unit)| largest[usize::from(*unit)] = f64::max(largest[usize::from(*unit)], *m));
+    let metric = |(m, unit): (&f64, &u8)| match largest[usize::from(*unit)] {
+        largest if largest > 0.0 => m.max(MASS_FLOOR * largest),
+        _ => 1.0,
+    };
+    masses.iter().zip(unit).map(metric).collect()
 }
 
-/// diag(G D⁻¹ Gᵀ) (m): the inverse of the mass that each constraint row feels. `g` is m × nv.
+/// diag(G D⁻¹ Gᵀ) (m): the inverse of the mass that each constraint row feels; `g` by its pattern (m × nv).
 ///
 /// For rows of which nothing but their entries is known: those that vanish against the largest count as that. If all of them are
 /// round-off, that is not seen; see [`natural_row_scale`].
-pub fn row_scale(g: &[f64], metric: &[f64]) -> Vec<f64> {
-    let mut scale = squares(g, metric);
+pub fn row_scale(pattern: &Sparsity, g: &[f64], metric: &[f64]) -> Vec<f64> {
+    let mut scale = squares(pattern, g, metric);
     let largest = scale.iter().fold(0.0, |m, &x| f64::max(m, x));
     let largest = if largest > 0.0 { largest } else { 1.0 };
     scale.iter_mut().filter(|x| **x < ROW_FLOOR * largest).for_each(|x| *x = largest);
     scale
 }
 
-/// The same for rows whose entries have the sizes `natural` (m × nv) before they cancel: n·ω + f·v has the size |n||ω| + |f||v|.
+/// The same for rows whose entries have the sizes `natural` (by the same pattern) before they cancel: n·ω + f·v has the size |n||ω| + |f||v|.
 ///
 /// A row that is below 1e-11 of its natural size is round-off and takes the scale of that size, Σ natural²/D: scaled by it, it is
 /// nearly 0 and constrains nothing. So each row is judged by itself. A row that happens to vanish in this position is to be given
 /// with the entries of another one: E must last when it grows.
-pub fn natural_row_scale(g: &[f64], natural: &[f64], metric: &[f64]) -> Vec<f64> {
+pub fn natural_row_scale(pattern: &Sparsity, g: &[f64], natural: &[f64], metric: &[f64]) -> Vec<f64> {
     let scale = |(own, natural): (f64, f64)| if own > ROUND_OFF * ROUND_OFF * natural { own } else { natural };
     let positive = |x: f64| if x > 0.0 { x } else { 1.0 };
-    squares(g, metric).into_iter().zip(squares(natural, metric)).map(scale).map(positive).collect()
+    squares(pattern, g, metric).into_iter().zip(squares(pattern, natural, metric)).map(scale).map(positive).collect()
 }
 
 /// Σ_j g_ij²/D_j of each row.
-fn squares(g: &[f64], metric: &[f64]) -> Vec<f64> {
-    g.chunks_exact(metric.len().max(1)).map(|row| row.iter().zip(metric).map(|(g, d)| g * g / d).sum()).collect()
+fn squares(pattern: &Sparsity, g: &[f64], metric: &[f64]) -> Vec<f64> {
+    let row = |i: usize| pattern.row(i).iter().zip(&g[pattern.range(i)]).map(|(j, g)| g * g / metric[*j]).sum();
+    (0..pattern.rows()).map(row).collect()
 }
 
 /// The power of two nearest to 1/√x: scaling by it rounds nothing.
@@ -66,15 +69,15 @@ mod tests {
 
     #[test]
     fn small_masses_are_raised_within_their_unit() {
-        let mass = [2.0, 0.1, 0.0, 0.1, 1e-9, 0.0, 0.0, 0.0, 1e-9];
-        assert_eq!(metric(&mass, &[0, 0, 1]), [2.0, 2e-6, 1e-9]);
-        assert_eq!(metric(&[0.0; 4], &[0, 1]), [1.0, 1.0]);
+        assert_eq!(metric([2.0, 1e-9, 1e-9], &[0, 0, 1]), [2.0, 2e-6, 1e-9]);
+        assert_eq!(metric([0.0; 2], &[0, 1]), [1.0, 1.0]);
     }
 
     #[test]
     fn rows_feel_the_inverse_mass() {
-        assert_eq!(row_scale(&[1.0, 2.0, 0.0, 0.0], &[2.0, 4.0]), [1.5, 1.5]);
-        assert_eq!(row_scale(&[0.0, 0.0], &[2.0, 4.0]), [1.0]);
+        assert_eq!(row_scale(&Sparsity::dense(2, 2), &[1.0, 2.0, 0.0, 0.0], &[2.0, 4.0]), [1.5, 1.5]);
+        assert_eq!(row_scale(&Sparsity::new(2, 2, [(1, 1)]), &[2.0], &[2.0, 4.0]), [1.0, 1.0]);
+        assert_eq!(row_scale(&Sparsity::dense(1, 2), &[0.0, 0.0], &[2.0, 4.0]), [1.0]);
     }
 
     #[test]
@@ -83,8 +86,8 @@ mod tests {
         let natural = [1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 0.0, 0.0];
         // a real row, one that is small for good, noise alone, and a row that is nothing
         let g = [0.5, 2.0, 1e-9, 0.0, 1e-16, -3e-17, 0.0, 0.0];
-        assert_eq!(natural_row_scale(&g, &natural, &metric), [1.125, 0.5e-18, 1.5, 1.0]);
-        assert_eq!(natural_row_scale(&[], &[], &[]), []);
+        assert_eq!(natural_row_scale(&Sparsity::dense(4, 2), &g, &natural, &metric), [1.125, 0.5e-18, 1.5, 1.0]);
+        assert_eq!(natural_row_scale(&Sparsity::dense(0, 0), &[], &[], &[]), []);
     }
 
     #[test]

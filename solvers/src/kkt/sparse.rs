@@ -21,9 +21,8 @@ const GROWTH: f64 = 100.0;
 /// of U grow 100 times as much as with fresh pivots, the pivots are chosen anew.
 #[derive(Clone, Debug)]
 pub struct SparseLu<T: Number> {
-    pattern: Sparsity,
-    /// Place of the first value of each column (n).
-    starts: Vec<usize>,
+    /// Rows of the entries of each column.
+    columns: Sparsity,
     /// Column eliminated at each step: Q (n).
     order: Vec<usize>,
     /// Step at which each row is the pivot: P (n).
@@ -62,10 +61,8 @@ impl<T: Number> SparseLu<T> {
     pub(super) fn with_order(pattern: &Sparsity, ordering: Ordering) -> Self {
         let n = pattern.columns();
         let half = ordering.fill / 2;
-        let starts = (0..n).scan(0, |place, j| Some(std::mem::replace(place, *place + pattern.column(j).len()))).collect();
         Self {
-            pattern: pattern.clone(),
-            starts,
+            columns: pattern.transposed(),
             step: vec![0; n],
             factored: false,
             source: Columns::with_capacity(n, pattern.entries()),
@@ -178,7 +175,7 @@ impl<T: Number> SparseLu<T> {
         self.upper_values.clear();
         let mut largest_u = 0.0_f64;
         for (k, &column) in self.order.iter().enumerate() {
-            let (rows, entries) = (self.pattern.column(column), &values[self.starts[column]..]);
+            let (rows, entries) = (self.columns.row(column), &values[self.columns.range(column)]);
             let pivot = pivoting.column(k, column, rows, entries, lower, &self.lower_values)?;
             largest_u = largest_u.max(pivot.abs1());
             self.inverse[k] = pivot.recip();
@@ -209,7 +206,7 @@ impl<T: Number> SparseLu<T> {
         }
         self.source.clear();
         for &column in &self.order {
-            for (place, &row) in (self.starts[column]..).zip(self.pattern.column(column)) {
+            for (place, &row) in self.columns.range(column).zip(self.columns.row(column)) {
                 self.source.items.push((place as u32, self.step[row]));
             }
             self.source.close();

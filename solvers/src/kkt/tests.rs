@@ -10,6 +10,11 @@ fn mass(noise: &mut Noise, n: usize) -> Vec<f64> {
     (&a * a.transpose() + DMatrix::identity(n, n)).as_slice().to_vec()
 }
 
+/// D of a mass matrix of one unit, row-major.
+fn metric_of(mass: &[f64], nv: usize) -> Vec<f64> {
+    metric(mass.iter().step_by(nv + 1).copied(), &vec![0; nv])
+}
+
 /// max |x − y|.
 fn distance(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
@@ -49,13 +54,13 @@ fn every_form_gives_the_same_solution() {
         for _ in 0..10 {
             let (mass, g) = (mass(&mut noise, nv), noise.vector(m * nv));
             let (f, gamma) = (noise.vector(nv), noise.vector(m));
-            let dims = crate::Dims { q: nv, v: nv, holonomic: m, ..Default::default() };
             let mut quasi = Kkt::new(nv, m);
             quasi.scale(&mass, &g, &vec![0; nv]);
             let mut pivoted = quasi.clone();
-            let mut sparse = Kkt::sparse(nv, m, &Pattern::dense(dims));
-            let metric = metric(&mass, &vec![0; nv]);
-            sparse.set_scale(&metric, &row_scale(&g, &metric));
+            let pattern = Sparsity::dense(m, nv);
+            let mut sparse = Kkt::of_blocks(&Sparsity::dense(nv, nv), &pattern);
+            let metric = metric_of(&mass, nv);
+            sparse.set_scale(&metric, &row_scale(&pattern, &g, &metric));
             let mut results = Vec::new();
             for (kkt, pivot) in [(&mut quasi, false), (&mut pivoted, true), (&mut sparse, false)] {
                 let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
@@ -87,27 +92,29 @@ fn a_sparse_pattern_is_factored_as_one() {
         (g[i * n + i], g[i * n + i + 1]) = (1.0 + noise.next().abs(), -1.0);
     }
     let entries = (0..n - 1).flat_map(|i| [(i, i), (i, i + 1)]);
+    let (of_mass, of_g) = (Sparsity::new(n, n, (0..n).map(|i| (i, i))), Sparsity::new(n - 1, n, entries));
+    let values = |pattern: &Sparsity, dense: &[f64]| pattern.places().map(|(i, j)| dense[i * n + j]).collect::<Vec<_>>();
+    let (sparse_mass, sparse_g) = (values(&of_mass, &mass), values(&of_g, &g));
+    let metric = metric_of(&mass, n);
     let dims = crate::Dims { q: n, v: n, holonomic: n - 1, ..Default::default() };
-    let pattern = Pattern {
-        mass: Sparsity::new(n, n, (0..n).map(|i| (i, i))),
-        g: Sparsity::new(n - 1, n, entries),
-        metric: metric(&mass, &vec![0; n]),
-        g_scale: row_scale(&g, &metric(&mass, &vec![0; n])),
-        ..Pattern::dense(dims)
-    };
+    let pattern = Pattern { g_scale: row_scale(&of_g, &sparse_g, &metric), mass: of_mass, g: of_g, metric, ..Pattern::dense(dims) };
     let (mut sparse, mut dense) = (Kkt::of_pattern(&pattern), Kkt::new(n, n - 1));
+    // the dense form of a sparse pattern
+    let mut filled = Kkt::dense([&pattern.mass, &pattern.g]);
     assert!(matches!(sparse.factors, Factors::Sparse(_)));
     dense.set_scale(&pattern.metric, &pattern.g_scale);
+    filled.set_scale(&pattern.metric, &pattern.g_scale);
     let (f, gamma) = (noise.vector(n), noise.vector(n - 1));
     let mut results = Vec::new();
-    for kkt in [&mut sparse, &mut dense] {
+    for (kkt, mass, g) in [(&mut sparse, &sparse_mass, &sparse_g), (&mut dense, &mass, &g), (&mut filled, &sparse_mass, &sparse_g)] {
         let (mut a, mut lambda) = (vec![0.0; n], vec![0.0; n - 1]);
-        kkt.factor(&mass, &g).unwrap();
+        kkt.factor(mass, g).unwrap();
         kkt.solve(&f, &gamma, &mut a, &mut lambda);
         results.push((a, lambda));
     }
     assert!(distance(&results[0].0, &results[1].0) < 1e-11 * (1.0 + largest(&results[0].0)));
     assert!(distance(&results[0].1, &results[1].1) < 1e-9 * (1.0 + largest(&results[0].1)));
+    assert_eq!(results[1], results[2]);
 }
 
 #[test]
@@ -144,7 +151,7 @@ fn four_redundant_rows_of_ten_change_no_acceleration() {
         assert!(distance(&a, expected.as_slice()) < 1e-12 * (1.0 + largest(&a)), "trial {trial}: {:e}", distance(&a, expected.as_slice()));
 
         // λ of least λᵀEλ: λ = E^−½ (Gᵀ E^−½)⁺ (f − M a)
-        let e = row_scale(&g_rows, &metric(&mass, &vec![0; nv]));
+        let e = row_scale(&Sparsity::dense(m, nv), &g_rows, &metric_of(&mass, nv));
         let root = DMatrix::from_diagonal(&DVector::from_iterator(m, e.iter().map(|e| e.sqrt().recip())));
         let rhs = &f - &m_matrix * &expected;
         let least = &root * (g.transpose() * &root).svd(true, true).solve(&rhs, 1e-10).unwrap();

@@ -1,6 +1,6 @@
 //! The loops of a mechanism: which velocities are independent, how the others follow, how positions are closed.
 
-use crate::{At, Dims, Friction, Kkt, Lu, Span, Stage, State, System, Tangent, Terms};
+use crate::{At, Block, Dims, Friction, Kkt, Lu, Span, Sparsity, Stage, State, System, Tangent, Terms};
 
 /// Most Newton steps of a closing.
 const CLOSINGS: usize = 12;
@@ -61,6 +61,8 @@ pub(super) struct Loops<S> {
     lu: Lu,
     /// Serves where rows are redundant.
     kkt: Kkt,
+    /// Entries of the holonomic rows of G.
+    loop_entries: usize,
     /// The whole accelerations and multipliers where forces depend on reactions, and these forces f_λ (nv; else zeros).
     friction: Option<Friction>,
     pub(super) friction_by_reactions: Vec<f64>,
@@ -81,9 +83,12 @@ impl<S: System> Loops<S> {
         let unit = pattern.metric.iter().map(root).collect();
         let size = pattern.size_v.clone();
         let friction = Friction::of_pattern(dims, pattern);
-        let mut kkt = Kkt::new(nv, dims.holonomic);
+        let holonomic = Sparsity::new(dims.holonomic, nv, pattern.g.places());
+        let loop_entries = holonomic.entries();
+        let mut kkt = Kkt::of_blocks(&pattern.mass, &holonomic);
         kkt.set_scale(&pattern.metric, &pattern.g_scale[..dims.holonomic]);
-        let mut terms = Terms::new(dims);
+        let mut terms = Terms::new(dims, pattern);
+        let tangent = Tangent::new(pattern);
         inner.terms(start.at(), Stage::Velocity, &mut terms);
         let mut loops = Self {
             inner,
@@ -103,7 +108,7 @@ impl<S: System> Loops<S> {
             before: start.q.clone(),
             known: false,
             terms,
-            tangent: Tangent::new(dims),
+            tangent,
             p: Vec::new(),
             drift: vec![0.0; nv],
             bend: vec![0.0; nv],
@@ -111,6 +116,7 @@ impl<S: System> Loops<S> {
             lambda: vec![0.0; dims.rows()],
             lu: Lu::new(0),
             kkt,
+            loop_entries,
             friction,
             friction_by_reactions: vec![0.0; nv],
             whole: (vec![0.0; nv], vec![0.0; dims.rows()]),
@@ -133,10 +139,9 @@ impl<S: System> Loops<S> {
     /// a pivot. At most `most` rows are taken; the first time these become the rows of the loops.
     fn choose(&mut self, kept: &[usize], most: usize) -> usize {
         let (nv, h) = (self.dims.v, self.dims.holonomic);
-        for i in 0..h {
-            for j in 0..nv {
-                self.work[i * nv + j] = self.terms.g[i * nv + j] * self.row_unit[i] * self.unit[j];
-            }
+        self.work.fill(0.0);
+        for (i, row) in self.terms.g.lines().take(h).enumerate() {
+            row.entries().for_each(|(j, g)| self.work[i * nv + j] = g * self.row_unit[i] * self.unit[j]);
         }
         self.taken.fill(false);
         self.rows.clear();
@@ -298,11 +303,11 @@ impl<S: System> Loops<S> {
 
     /// Factors the scaled G_d.
     fn factor(&mut self) -> bool {
-        let (nv, r) = (self.dims.v, self.rows.len());
+        let r = self.rows.len();
         let matrix = self.lu.matrix_mut();
         for (i, &row) in self.rows.iter().enumerate() {
             for (j, &column) in self.dependent.iter().enumerate() {
-                matrix[i * r + j] = self.terms.g[row * nv + column] * self.row_unit[row] * self.unit[column];
+                matrix[i * r + j] = self.terms.g.at(row, column) * self.row_unit[row] * self.unit[column];
             }
         }
         r == 0 || self.lu.factor_in_place().is_ok()
@@ -318,11 +323,11 @@ impl<S: System> Loops<S> {
 
     /// P = [−G_d⁻¹ G_i; I] and p₀ = [G_d⁻¹ ν; 0].
     fn span(&mut self) {
-        let (nv, n) = (self.dims.v, self.independent.len());
+        let n = self.independent.len();
         for k in 0..n {
             let column = self.independent[k];
             for (r, &row) in self.rhs.iter_mut().zip(&self.rows) {
-                *r = -self.terms.g[row * nv + column];
+                *r = -self.terms.g.at(row, column);
             }
             self.solve();
             for (x, &j) in self.rhs.iter().zip(&self.dependent) {
@@ -388,7 +393,7 @@ impl<S: System> Loops<S> {
         let Some(friction) = friction else { return };
         a.fill(0.0);
         lambda.fill(0.0);
-        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut [f64]| inner.reaction_friction(state.at(), l, f, slope);
+        let friction_of = &mut |l: &[f64], f: &mut [f64], slope: &mut Block| inner.reaction_friction(state.at(), l, f, slope);
         match friction.solve(terms, friction_of, a, lambda) {
             Ok(()) => friction_by_reactions.copy_from_slice(friction.force(lambda, friction_of)),
             Err(_) => friction_by_reactions.fill(f64::NAN),
@@ -400,15 +405,13 @@ impl<S: System> Loops<S> {
     ///
     /// Gᵀλ = f − M a has one solution with the independent rows, and where others are redundant that of least λᵀEλ.
     pub(super) fn react(&mut self, a: &[f64], lambda: &[f64]) {
-        let (nv, h) = (self.dims.v, self.dims.holonomic);
+        let h = self.dims.holonomic;
         self.accelerate(a);
-        let rows = self.terms.mass.chunks_exact(nv.max(1)).zip(&self.terms.force);
+        let rows = self.terms.mass.lines().zip(&self.terms.force);
         for ((r, (row, f)), friction_of) in self.full.iter_mut().zip(rows).zip(&self.friction_by_reactions) {
-            *r = f + friction_of - row.iter().zip(&self.a).map(|(m, a)| m * a).sum::<f64>();
+            *r = f + friction_of - row.dot(&self.a);
         }
-        for (row, l) in self.terms.g.chunks_exact(nv.max(1)).skip(h).zip(lambda) {
-            self.full.iter_mut().zip(row).for_each(|(r, g)| *r -= g * l);
-        }
+        self.terms.g.lines().skip(h).zip(lambda).for_each(|(row, l)| row.add_to(-l, &mut self.full));
         self.lambda[h..].copy_from_slice(lambda);
         if self.rows.len() == h {
             self.rhs.iter_mut().zip(&self.dependent).for_each(|(x, &j)| *x = self.full[j] * self.unit[j]);
@@ -416,7 +419,7 @@ impl<S: System> Loops<S> {
             for (l, (x, unit)) in self.lambda.iter_mut().zip(self.rhs[..h].iter().zip(&self.row_unit)) {
                 *l = x * unit;
             }
-        } else if self.kkt.factor(&self.terms.mass, &self.terms.g[..h * nv]).is_ok() {
+        } else if self.kkt.factor(&self.terms.mass, &self.terms.g[..self.loop_entries]).is_ok() {
             self.work[..h].fill(0.0);
             self.kkt.solve(&self.full, &self.work[..h], &mut self.left, &mut self.lambda[..h]);
         } else {

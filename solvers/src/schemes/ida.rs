@@ -45,7 +45,7 @@ impl Ida {
         Self {
             solver: Solver::new(&differential),
             layout,
-            work: Work::new(dims),
+            work: Work::new(dims, system.pattern()),
             follow,
             reached: None,
             first: 0.0,

@@ -197,13 +197,13 @@ impl Newmark {
 
     /// ȧ_N of the slope, with the factors of the KKT matrix and the G evaluated last, which belong to about this position.
     fn split(&mut self, engine: &mut Engine) {
-        let (nv, holonomic) = (engine.dims.v, engine.dims.holonomic);
+        let holonomic = engine.dims.holonomic;
         if self.level != Level::Position || holonomic == 0 {
             return;
         }
         self.rows.fill(0.0);
-        for (r, g) in self.rows.iter_mut().zip(engine.terms.g.chunks_exact(nv)).take(holonomic) {
-            *r = g.iter().zip(&self.motion.slope).map(|(g, s)| g * s).sum();
+        for (r, g) in self.rows.iter_mut().zip(engine.terms.g.lines()).take(holonomic) {
+            *r = g.dot(&self.motion.slope);
         }
         self.hats[0].fill(0.0);
         engine.kkt.solve(&self.hats[0], &self.rows, &mut self.normal, &mut self.mu);

@@ -1,7 +1,7 @@
 //! What all problems share: storage, the residual from the terms, vector coordinates, the absence of events, and noise.
 
 use grashof_solvers::kkt::{metric, row_scale};
-use grashof_solvers::{Dims, Pattern, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Block, Dims, Pattern, Stage, State, System, Tangent, Terms};
 
 /// A system with a start and an energy.
 pub(crate) trait Problem: System {
@@ -28,28 +28,29 @@ pub(crate) struct Base {
 impl Base {
     /// Full patterns; scales of one.
     pub(crate) fn new(dims: Dims) -> Self {
-        Self { dims, pattern: Pattern::dense(dims), terms: Terms::new(dims) }
+        Self { dims, pattern: Pattern::dense(dims), terms: Terms::new(dims, &Pattern::dense(dims)) }
     }
 }
 
 /// Gives a problem the scales of its start; `unit` names the unit of each velocity (0 an angle, 1 a length).
 pub(crate) fn scaled<P: Problem>(mut problem: P, base: impl Fn(&mut P) -> &mut Base, unit: &[u8]) -> P {
     let start = problem.start();
-    let mut terms = Terms::new(problem.dims());
+    let mut terms = Terms::new(problem.dims(), problem.pattern());
     problem.terms(start.at(), Stage::Position, &mut terms);
     let pattern = &mut base(&mut problem).pattern;
-    pattern.metric = metric(&terms.mass, unit);
-    pattern.g_scale = row_scale(&terms.g, &pattern.metric);
+    pattern.metric = metric((0..unit.len()).map(|i| terms.mass.at(i, i)), unit);
+    pattern.g_scale = row_scale(&pattern.g, &terms.g, &pattern.metric);
+    let pattern = pattern.clone();
+    let base = base(&mut problem);
+    base.terms = Terms::new(base.dims, &pattern);
     problem
 }
 
 /// r = M a + Gᵀλ − f.
 pub(crate) fn residual(terms: &Terms, a: &[f64], lambda: &[f64], r: &mut [f64]) {
-    let n = a.len();
-    for (i, r) in r.iter_mut().enumerate() {
-        let inertia: f64 = terms.mass[i * n..][..n].iter().zip(a).map(|(m, a)| m * a).sum();
-        let constraints: f64 = lambda.iter().enumerate().map(|(j, l)| terms.g[j * n + i] * l).sum();
-        *r = inertia + constraints - terms.force[i];
+    for ((i, r), mass) in r.iter_mut().enumerate().zip(terms.mass.lines()) {
+        let constraints: f64 = lambda.iter().enumerate().map(|(j, l)| terms.g.at(j, i) * l).sum();
+        *r = mass.dot(a) + constraints - terms.force[i];
     }
 }
 
@@ -60,10 +61,15 @@ pub(crate) fn clear(t: &mut Tangent) {
     }
 }
 
-/// The first `n` unit entries of a diagonal (n × n) times `value`, the rest zero.
-pub(crate) fn diagonal(matrix: &mut [f64], values: impl IntoIterator<Item = f64>, n: usize) {
+/// A diagonal matrix.
+pub(crate) fn diagonal(matrix: &mut Block, values: impl IntoIterator<Item = f64>) {
     matrix.fill(0.0);
-    values.into_iter().enumerate().for_each(|(i, x)| matrix[i * (n + 1)] = x);
+    values.into_iter().enumerate().for_each(|(i, x)| matrix.set(i, i, x));
+}
+
+/// Adds to an entry.
+pub(crate) fn add(matrix: &mut Block, i: usize, j: usize, x: f64) {
+    matrix.set(i, j, matrix.at(i, j) + x);
 }
 
 /// A number in [−1, 1) that depends on the bits of (t, q) and on `salt` alone (the finaliser of MurmurHash3, A. Appleby 2011).

@@ -88,7 +88,7 @@ impl System for CarAxis {
         let ((pl, pr), (vl, vr)) = (ends(at.q), ends(at.v));
         let [b, b1, b2] = road(at.t);
         let (d, d1) = (minus(pl, pr), minus(vl, vr));
-        diagonal(&mut out.mass, [MASS; 4], 4);
+        diagonal(&mut out.mass, [MASS; 4]);
         out.phi.copy_from_slice(&[-dot(pl, b), 1.0 - dot(d, d)]);
         out.g.copy_from_slice(&[-b[0], -b[1], 0.0, 0.0, -2.0 * d[0], -2.0 * d[1], 2.0 * d[0], 2.0 * d[1]]);
         if stage >= Stage::Velocity {

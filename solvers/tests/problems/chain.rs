@@ -2,7 +2,7 @@
 //!
 //! Φᵢ = (|pᵢ − pᵢ₋₁|² − l²)/2 with p₋₁ the pivot at the origin; λᵢ l is the tension.
 
-use super::base::{Base, Problem, clear, diagonal, scaled};
+use super::base::{Base, Problem, add, clear, diagonal, scaled};
 use grashof_solvers::{At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 
 /// Gravity (m/s²), in −y.
@@ -72,15 +72,16 @@ impl System for Chain {
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let n = at.q.len();
-        diagonal(&mut out.mass, (0..n).map(|_| 1.0), n);
+        diagonal(&mut out.mass, (0..n).map(|_| 1.0));
         out.g.fill(0.0);
         for i in 0..n / 2 {
             let [x, y] = link(at.q, i);
             out.phi[i] = 0.5 * (x * x + y * y - self.length * self.length);
-            let row = &mut out.g[i * n..][..n];
-            row[2 * i..2 * i + 2].copy_from_slice(&[x, y]);
-            if i > 0 {
-                row[2 * i - 2..2 * i].copy_from_slice(&[-x, -y]);
+            for (k, x) in [x, y].into_iter().enumerate() {
+                out.g.set(i, 2 * i + k, x);
+                if i > 0 {
+                    out.g.set(i, 2 * i - 2 + k, -x);
+                }
             }
             if stage >= Stage::Velocity {
                 let [vx, vy] = link(at.v, i);
@@ -98,12 +99,12 @@ impl System for Chain {
         let n = at.q.len();
         for i in 0..n {
             let row = i / 2;
-            out.k[i * (n + 1)] += lambda[row];
+            add(&mut out.k, i, i, lambda[row]);
             if row > 0 {
                 let before = i - 2;
-                out.k[before * (n + 1)] += lambda[row];
-                out.k[i * n + before] -= lambda[row];
-                out.k[before * n + i] -= lambda[row];
+                add(&mut out.k, before, before, lambda[row]);
+                add(&mut out.k, i, before, -lambda[row]);
+                add(&mut out.k, before, i, -lambda[row]);
             }
         }
     }

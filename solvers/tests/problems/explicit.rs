@@ -20,9 +20,12 @@ type Slope = [Vec<f64>; 4];
 impl Explicit {
     pub(crate) fn new(problem: &mut dyn Problem) -> Self {
         let dims = problem.dims();
-        let mut kkt = Kkt::new(dims.v, dims.rows());
-        kkt.set_scale(&problem.pattern().metric, &problem.pattern().g_scale);
-        Self { kkt, terms: Terms::new(dims), a: vec![0.0; dims.v], lambda: vec![0.0; dims.rows()] }
+        Self {
+            kkt: Kkt::of_pattern(problem.pattern()),
+            terms: Terms::new(dims, problem.pattern()),
+            a: vec![0.0; dims.v],
+            lambda: vec![0.0; dims.rows()],
+        }
     }
 
     /// Evaluates a and λ.
@@ -37,7 +40,7 @@ impl Explicit {
         problem.terms(state.at(), Stage::Velocity, &mut self.terms);
         self.kkt.factor(&self.terms.mass, &self.terms.g).expect("regular");
         let n = state.v.len();
-        let miss: Vec<f64> = (0..self.lambda.len()).map(|i| self.terms.nu[i] - dot(&self.terms.g[i * n..][..n], &state.v)).collect();
+        let miss: Vec<f64> = self.terms.g.lines().zip(&self.terms.nu).map(|(row, nu)| nu - row.dot(&state.v)).collect();
         self.kkt.solve(&vec![0.0; n], &miss, &mut self.a, &mut self.lambda);
         state.v.iter_mut().zip(&self.a).for_each(|(v, d)| *v += d);
     }

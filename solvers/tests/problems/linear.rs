@@ -57,7 +57,7 @@ impl System for StiffPair {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        diagonal(&mut out.mass, [1.0, 1.0], 2);
+        diagonal(&mut out.mass, [1.0, 1.0]);
         if stage >= Stage::Dynamics {
             let between = self.stiffness * (at.q[0] - at.q[1]) + self.damping * (at.v[0] - at.v[1]);
             out.force.copy_from_slice(&[-at.q[0] - between, -at.q[1] + between]);

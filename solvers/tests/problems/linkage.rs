@@ -6,7 +6,7 @@
 //! ∂p/∂(c, θ) = [1 0 −ry; 0 1 rx],   p̈ = c̈ + θ̈ (−ry, rx) − θ̇² (rx, ry),   ∂(Gᵀλ)_θ/∂θ = −(λx rx + λy ry)
 //! ```
 
-use super::base::{Base, Problem, add_noise, clear, diagonal, scaled};
+use super::base::{Base, Problem, add, add_noise, clear, diagonal, scaled};
 use grashof_solvers::{At, Dims, Effect, Pattern, Sparsity, Stage, State, System, Tangent, Terms};
 
 /// A point of a body: number, local coordinates (m).
@@ -55,14 +55,13 @@ impl Linkage {
 
     /// Adds a pin's end with its sign to the two rows of a joint.
     fn add_point(&self, at: At<'_>, stage: Stage, row: usize, sign: f64, point: Point, out: &mut Terms) {
-        let n = self.base.dims.v;
         let ([rx, ry], [x, y], i) = located(at.q, point);
         out.phi[row] += sign * x;
         out.phi[row + 1] += sign * y;
-        out.g[row * n + i] += sign;
-        out.g[row * n + i + 2] -= sign * ry;
-        out.g[(row + 1) * n + i + 1] += sign;
-        out.g[(row + 1) * n + i + 2] += sign * rx;
+        add(&mut out.g, row, i, sign);
+        add(&mut out.g, row, i + 2, -sign * ry);
+        add(&mut out.g, row + 1, i + 1, sign);
+        add(&mut out.g, row + 1, i + 2, sign * rx);
         if stage >= Stage::Velocity {
             let square = at.v[i + 2] * at.v[i + 2];
             out.gamma[row] += sign * square * rx;
@@ -103,8 +102,7 @@ impl System for Linkage {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        let n = self.base.dims.v;
-        diagonal(&mut out.mass, self.bodies.iter().flat_map(|&[m, inertia]| [m, m, inertia]), n);
+        diagonal(&mut out.mass, self.bodies.iter().flat_map(|&[m, inertia]| [m, m, inertia]));
         out.phi.fill(0.0);
         out.g.fill(0.0);
         if stage >= Stage::Velocity {
@@ -125,8 +123,8 @@ impl System for Linkage {
                 }
                 Joint::Slide(body) => {
                     out.phi[row..row + 2].copy_from_slice(&at.q[3 * body + 1..3 * body + 3]);
-                    out.g[row * n + 3 * body + 1] = 1.0;
-                    out.g[(row + 1) * n + 3 * body + 2] = 1.0;
+                    out.g.set(row, 3 * body + 1, 1.0);
+                    out.g.set(row + 1, 3 * body + 2, 1.0);
                 }
             }
         }
@@ -142,10 +140,9 @@ impl System for Linkage {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], lambda: &[f64], out: &mut Tangent) {
         clear(out);
-        let n = self.base.dims.v;
         let mut bend = |row: usize, sign: f64, point: Point| {
             let ([rx, ry], _, i) = located(at.q, point);
-            out.k[(i + 2) * (n + 1)] -= sign * (lambda[row] * rx + lambda[row + 1] * ry);
+            add(&mut out.k, i + 2, i + 2, -sign * (lambda[row] * rx + lambda[row + 1] * ry));
         };
         for (k, joint) in self.joints.iter().enumerate() {
             match *joint {

@@ -63,7 +63,7 @@ impl System for Pendulum {
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let (q, v) = (at.q, at.v);
-        diagonal(&mut out.mass, [1.0, 1.0], 2);
+        diagonal(&mut out.mass, [1.0, 1.0]);
         out.phi[0] = 0.5 * (q[0] * q[0] + q[1] * q[1] - 1.0);
         out.g.copy_from_slice(q);
         if stage >= Stage::Velocity {
@@ -77,7 +77,7 @@ impl System for Pendulum {
 
     fn tangent(&mut self, _: At<'_>, _: &[f64], lambda: &[f64], out: &mut Tangent) {
         clear(out);
-        diagonal(&mut out.k, [lambda[0]; 2], 2);
+        diagonal(&mut out.k, [lambda[0]; 2]);
     }
 }
 

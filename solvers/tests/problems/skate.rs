@@ -49,7 +49,7 @@ impl System for Skate {
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let (s, c) = at.q[2].sin_cos();
-        diagonal(&mut out.mass, [1.0, 1.0, INERTIA], 3);
+        diagonal(&mut out.mass, [1.0, 1.0, INERTIA]);
         out.g.copy_from_slice(&[-s, c, 0.0]);
         if stage >= Stage::Velocity {
             out.nu[0] = 0.0;

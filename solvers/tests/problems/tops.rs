@@ -114,7 +114,7 @@ impl System for FreeBody {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        diagonal(&mut out.mass, Self::INERTIA, 3);
+        diagonal(&mut out.mass, Self::INERTIA);
         if stage >= Stage::Dynamics {
             out.force.copy_from_slice(&gyroscopic(Self::INERTIA, three(at.v)).0.map(|x| -x));
         }
@@ -204,7 +204,7 @@ impl System for HeavyTop {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        diagonal(&mut out.mass, ABOUT_PIVOT, 3);
+        diagonal(&mut out.mass, ABOUT_PIVOT);
         if stage >= Stage::Dynamics {
             let gyro = gyroscopic(ABOUT_PIVOT, three(at.v)).0;
             let weight = cross(WEIGHT, turned_back(&rotation(at.q), [0.0, 0.0, 1.0]));
@@ -267,7 +267,7 @@ impl System for HeavyTopCartesian {
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let r = rotation(&at.q[3..]);
         let omega = three(&at.v[3..]);
-        diagonal(&mut out.mass, [MASS; 3].into_iter().chain(CENTRAL), 6);
+        diagonal(&mut out.mass, [MASS; 3].into_iter().chain(CENTRAL));
         let arm = turned(&r, TO_PIVOT);
         out.g.fill(0.0);
         (0..3).for_each(|i| {

@@ -97,7 +97,9 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         for &row in &self.rows {
             let scale = self.row_scale(row);
             r.push(w.phi[row] * scale - self.ahead.get(row).copied().unwrap_or(0.0));
-            jacobian.extend(w.g[row * m.nv..(row + 1) * m.nv].iter().map(|x| x * scale));
+            let begin = jacobian.len();
+            jacobian.resize(begin + m.nv, 0.0);
+            w.g.line(row).entries().for_each(|(k, x)| jacobian[begin + k] = x * scale);
         }
         if self.held != Held::Nothing {
             self.asked(self.held == Held::Exact, r, jacobian);

@@ -100,7 +100,10 @@ impl<G: Space<S = f64>> System<'_, G> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         let scale = |row: usize| if m.rows[row].angular { 1.0 } else { 1.0 / self.size };
         let natural = self.dynamics.natural_length(&self.metric);
-        let a = rows.iter().flat_map(|&r| w.g[r * m.nv..(r + 1) * m.nv].iter().map(move |x| x * scale(r))).collect();
+        let mut a = vec![0.0; rows.len() * m.nv];
+        for (i, &r) in rows.iter().enumerate() {
+            w.g.line(r).entries().for_each(|(k, x)| a[i * m.nv + k] = x * scale(r));
+        }
         (a, grashof_solvers::kkt::ROUND_OFF * rows.iter().map(|&r| natural[r] * scale(r)).fold(0.0, f64::max))
     }
 

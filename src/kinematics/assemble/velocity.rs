@@ -103,7 +103,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         let missing = |row: &[f64], b: f64| b - row.iter().zip(v).map(|(a, v)| a * v).sum::<f64>();
         let exact: Vec<(&Start, Vec<f64>)> =
             m.starts.iter().filter(|s| !s.guess).filter_map(|s| Some((s, self.asked_rate(s)?.0))).collect();
-        let of_rows = w.g.chunks_exact(m.nv.max(1)).zip(&w.nu).map(|(row, nu)| missing(row, *nu));
+        let of_rows = w.g.lines().zip(&w.nu).map(|(row, nu)| nu - row.dot(v));
         let off: Vec<f64> = of_rows.chain(exact.iter().map(|(s, row)| missing(row, s.value))).collect();
         let wanted = w.nu.iter().copied().chain(exact.iter().map(|(s, _)| s.value));
         let scale = 1.0 + wanted.fold(0.0_f64, |m, x| m.max(x.abs()));

@@ -31,8 +31,8 @@ where
     if open.is_nan() || open < OPEN {
         return None;
     }
-    let rows = w.g.chunks_exact(m.nv.max(1)).zip(&scale);
-    let g: Vec<f64> = rows.flat_map(|(row, scale)| row.iter().map(move |g| g * scale)).collect();
+    let mut g = w.g.to_dense();
+    g.chunks_exact_mut(m.nv.max(1)).zip(&scale).for_each(|(row, scale)| row.iter_mut().for_each(|g| *g *= scale));
     let metric: Vec<f64> = m.units().iter().map(|unit| 1.0 / (unit * unit)).collect();
     let delta = shortest(&g, &phi, &metric, 0.0);
     let left = phi.iter().zip(g.chunks_exact(m.nv.max(1))).map(|(phi, row)| phi - row.iter().zip(&delta).map(|(g, d)| g * d).sum::<f64>());

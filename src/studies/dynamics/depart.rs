@@ -107,7 +107,7 @@ pub(super) fn depart<'m, G: Space<S = f64>>(
     }
     let pattern = system.pattern().clone();
     let row = pattern.g_scale.iter().map(|s| if *s > 0.0 { s.sqrt().recip() } else { 1.0 }).collect();
-    let terms = Terms::new(system.dims());
+    let terms = Terms::new(system.dims(), &pattern);
     let mut beside = Beside { system, terms, metric: pattern.metric, row, size: pattern.size_v };
     let moves = phase.mechanism.rows.iter().any(|row| phase.mechanism.is_moved(row)) && change.rests;
     let branches = if change.open { &change.branches[..] } else { &change.branches[..1] };
@@ -146,7 +146,8 @@ impl<'m, G: Space<S = f64>> Beside<'_, 'm, G> {
     /// Rows G, scaled, and a right side likewise.
     fn rows(&self, b: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let nv = self.metric.len().max(1);
-        let a = self.terms.g.chunks_exact(nv).zip(&self.row).flat_map(|(row, s)| row.iter().map(move |x| x * s)).collect();
+        let mut a = self.terms.g.to_dense();
+        a.chunks_exact_mut(nv).zip(&self.row).for_each(|(row, s)| row.iter_mut().for_each(|x| *x *= s));
         (a, b.iter().zip(&self.row).map(|(b, s)| b * s).collect())
     }
 
@@ -159,7 +160,7 @@ impl<'m, G: Space<S = f64>> Beside<'_, 'm, G> {
     /// a = V y of the motions V (nv × f) with Vᵀ(M a − f) = 0.
     fn pushed(&self, ways: &DMatrix<f64>, given: &[f64]) -> Vec<f64> {
         let nv = self.metric.len();
-        let mass = DMatrix::from_row_slice(nv, nv, &self.terms.mass);
+        let mass = DMatrix::from_row_slice(nv, nv, &self.terms.mass.to_dense());
         let force = DVector::from_column_slice(&self.terms.force) - &mass * DVector::from_column_slice(given);
         let (inertia, push) = (ways.transpose() * &mass * ways, ways.transpose() * force);
         let y = shortest(inertia.transpose().as_slice(), push.as_slice(), &vec![1.0; ways.ncols()], 0.0);
@@ -200,8 +201,7 @@ impl<'m, G: Space<S = f64>> Beside<'_, 'm, G> {
         }
         self.evaluate(state);
         let v = &state.v;
-        let rate = |row: &[f64]| row.iter().zip(v).map(|(g, v)| g * v).sum::<f64>();
-        let open: Vec<f64> = self.terms.g.chunks_exact(v.len().max(1)).zip(&self.terms.nu).map(|(row, nu)| nu - rate(row)).collect();
+        let open: Vec<f64> = self.terms.g.lines().zip(&self.terms.nu).map(|(row, nu)| nu - row.dot(v)).collect();
         let way = self.meet(&open);
         state.v.iter_mut().zip(way).for_each(|(v, way)| *v += way);
     }
@@ -218,10 +218,9 @@ impl<'m, G: Space<S = f64>> Beside<'_, 'm, G> {
         let mut q = vec![0.0; state.q.len()];
         self.system.rate(state.t, &state.q, &state.v, &mut q);
         // Gᵀλ = f − M a
-        let left: Vec<f64> =
-            (0..nv).map(|i| self.terms.force[i] - (0..nv).map(|k| self.terms.mass[i * nv + k] * a[k]).sum::<f64>()).collect();
+        let left: Vec<f64> = self.terms.mass.lines().zip(&self.terms.force).map(|(row, f)| f - row.dot(&a)).collect();
         let count = self.terms.phi.len();
-        let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..count).map(move |i| (i, k))).map(|(i, k)| self.terms.g[i * nv + k]).collect();
+        let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..count).map(move |i| (i, k))).map(|(i, k)| self.terms.g.at(i, k)).collect();
         let lambda = shortest(&transposed, &left, &vec![1.0; count], 0.0);
         let mut work = vec![0.0; state.work.len()];
         let z = self.terms.zdot.clone();

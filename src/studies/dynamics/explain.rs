@@ -279,7 +279,7 @@ fn unresisted<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) ->
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.terms(0.0, &start.q, &start.v, &start.modes);
     let nv = mechanism.nv;
-    let mass = |k: usize| dynamics.work.mass[k * (nv + 1)];
+    let mass = |k: usize| dynamics.work.mass.at(k, k);
     let largest = (0..nv).fold(0.0, |m, k| f64::max(m, mass(k)));
     let k = (0..nv).find(|&k| mass(k) <= 1e-14 * largest)?;
     let node = mechanism.nodes.iter().find(|n| n.columns.contains(&k))?;

@@ -19,21 +19,19 @@
 mod ahead;
 mod contact;
 mod events;
-mod patterns;
 mod power;
 mod root;
 mod sticking;
 mod works;
 
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, friction_pattern, pattern};
+use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, friction_pattern, tangent_pattern};
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
 use crate::scalar::Dual;
 use crate::studies::common::observe::{Needs, Observer};
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
-use grashof_solvers::{Ahead, At, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
-use patterns::known_by_rows;
+use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 pub(crate) use root::{Met, Root, Watched};
 pub(super) use works::WORKS;
 
@@ -145,7 +143,7 @@ where
         dynamics.position(&start.q, &start.modes);
         let outputs: Vec<usize> = events.iter().map(|event| event.output).collect();
         let timed = ahead::timed(mechanism, &observer, &roots, &outputs, mechanism.switches + mechanism.windings);
-        let block = pattern(mechanism);
+        let block = tangent_pattern(mechanism);
         let size: Vec<f64> = crate::kinematics::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
         let mut size_q = vec![1.0; mechanism.nq];
         for step in &mechanism.steps {
@@ -154,8 +152,8 @@ where
             }
         }
         let pattern = Pattern {
-            mass: block.clone(),
-            g: known_by_rows(mechanism),
+            mass: dynamics.work.mass.pattern().clone(),
+            g: dynamics.work.g.pattern().clone(),
             k: block.clone(),
             c: block,
             r_z: Sparsity::dense(nv, nz),
@@ -179,8 +177,7 @@ where
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
         };
-        let mut kkt = Kkt::new(nv, rows);
-        kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        let kkt = Kkt::of_pattern(&pattern);
         let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
         let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
         Self {
@@ -191,7 +188,7 @@ where
             registers: vec![0.0; most(|p| p.program.registers())],
             scratch: vec![0.0; switches],
             friction: Friction::of_pattern(dims, &pattern),
-            terms: Terms::new(dims),
+            terms: Terms::new(dims, &pattern),
             a: vec![0.0; nv],
             lambda: vec![0.0; rows],
             size: start.size,
@@ -324,7 +321,7 @@ where
         self.dynamics.residual(a, lambda, r);
     }
 
-    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut [f64]) {
+    fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut Block) {
         self.kinematics(&at);
         self.dynamics.loads(at.modes);
         self.dynamics.friction(lambda, force, r_lambda);

@@ -1,6 +1,6 @@
 //! A mechanism as u̇, ż and y of its independent state and its parameters, for differences.
 
-use crate::dynamics::{Dynamics, Reactions};
+use crate::dynamics::{Dynamics, Reactions, mass_pattern, row_pattern};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::partition::Partition;
@@ -54,7 +54,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         Self {
             reactions: dynamics.reactions(),
             observer: Observer::new(model, mechanism, parameters, ids),
-            kkt: Kkt::new(mechanism.nv, mechanism.rows.len()),
+            kkt: Kkt::of_blocks(&mass_pattern(mechanism), &row_pattern(mechanism)),
             dynamics,
             metric,
             gap: None,
@@ -111,7 +111,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         }
         self.dynamics.velocity(&vec![0.0; m.nv], &at.modes);
         let w = &self.dynamics.work;
-        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &w.g);
+        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &w.g.to_dense());
         let row_scale = self.dynamics.row_scale(&at.q, &at.modes, self.metric);
         let here = Partition::of(&g, self.metric, &row_scale, partition.independent.clone());
         let nu = DMatrix::from_column_slice(m.rows.len(), 1, &w.nu);

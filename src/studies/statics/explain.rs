@@ -44,7 +44,7 @@ impl Names {
     /// Independent velocities at a pose, which was evaluated last, and the motions P of the others with them.
     pub(super) fn partition<G: Space<S = f64>>(&self, dynamics: &Dynamics<'_, G>, pose: &Pose) -> Partition {
         let m = dynamics.mechanism;
-        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &dynamics.work.g);
+        let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &dynamics.work.g.to_dense());
         Partition::new(&g, &self.metric, &dynamics.row_scale(&pose.q, &pose.modes, &self.metric), &self.preferred)
     }
 

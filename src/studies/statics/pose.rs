@@ -82,7 +82,7 @@ where
     pub(super) fn new(system: Mechanical<'m, G, D>, size: f64) -> Self {
         let dims = system.dims();
         let unit = system.pattern().size_v.clone();
-        let (state, terms, tangent) = (State::new(dims), Terms::new(dims), Tangent::new(dims));
+        let (state, terms, tangent) = (State::new(dims), Terms::new(dims, system.pattern()), Tangent::new(system.pattern()));
         Self { size, unit, state, terms, tangent, zeros: vec![0.0; dims.v], system }
     }
 
@@ -137,14 +137,14 @@ where
         self.state.modes.copy_from_slice(&pose.modes);
         self.system.tangent(self.state.at(), &self.zeros, &pose.lambda, &mut self.tangent);
         let (nv, nz) = (self.zeros.len(), pose.z.len());
-        let mut k = DMatrix::from_row_slice(nv, nv, &self.tangent.k);
+        let mut k = DMatrix::from_row_slice(nv, nv, &self.tangent.k.to_dense());
         if nz > 0 {
             let mut follow = DMatrix::zeros(nz, nv);
             for j in 0..nv {
-                let rates: Vec<f64> = (0..nz).map(|i| self.tangent.z_q[i * nv + j]).collect();
-                follow.set_column(j, &DVector::from_vec(shortest(&self.tangent.z_z, &rates, &vec![1.0; nz], 0.0)));
+                let rates: Vec<f64> = (0..nz).map(|i| self.tangent.z_q.at(i, j)).collect();
+                follow.set_column(j, &DVector::from_vec(shortest(&self.tangent.z_z.to_dense(), &rates, &vec![1.0; nz], 0.0)));
             }
-            k -= DMatrix::from_row_slice(nv, nz, &self.tangent.r_z) * follow;
+            k -= DMatrix::from_row_slice(nv, nz, &self.tangent.r_z.to_dense()) * follow;
         }
         let h = pose.basis.transpose() * k * &pose.basis;
         // an entry without bound belongs to a force that is none
@@ -233,7 +233,7 @@ where
                 return Ok(());
             }
             let wanted: Vec<f64> = self.terms.phi.iter().map(|p| -p).collect();
-            let delta = shortest_beyond(round_off, &self.terms.g, &wanted, &self.system.pattern().metric, 0.0);
+            let delta = shortest_beyond(round_off, &self.terms.g.to_dense(), &wanted, &self.system.pattern().metric, 0.0);
             self.system.retract(Span::at(self.state.t), &mut self.state.q, &delta);
         }
         // round-off may shrink for ever

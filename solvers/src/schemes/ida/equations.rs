@@ -4,7 +4,7 @@ use super::c::Equations;
 use crate::engine::{Engine, Why};
 use crate::kkt::REGULARIZATION;
 use crate::newton::residual;
-use crate::{Dims, Lu, Span, Stage, State, System, Tangent};
+use crate::{Block, Dims, Lu, Pattern, Span, Stage, State, System, Tangent};
 
 /// Part of the size of a coordinate by which rows G v − ν are differentiated.
 const NUDGE: f64 = 1e-6;
@@ -77,7 +77,7 @@ pub(super) struct Work {
     gram: Lu,
     column: Vec<f64>,
     /// ∂(G v − ν)/∂q along velocities (m × nv), and G v − ν.
-    bend: Vec<f64>,
+    bend: Block,
     rows: Vec<f64>,
     unit: Vec<f64>,
     rate: [Vec<f64>; 2],
@@ -85,18 +85,18 @@ pub(super) struct Work {
 
 impl Work {
     /// Room for a system.
-    pub(super) fn new(dims: Dims) -> Self {
+    pub(super) fn new(dims: Dims, pattern: &Pattern) -> Self {
         let (nq, nv, m) = (dims.q, dims.v, dims.rows());
         Self {
             state: State::new(dims),
             layout: Layout::new(dims),
-            tangent: Tangent::new(dims),
+            tangent: Tangent::new(pattern),
             u: vec![0.0; nv],
             n: vec![0.0; nq * nv],
             inverse: vec![0.0; nv * nq],
             gram: Lu::new(nv),
             column: vec![0.0; nv],
-            bend: vec![0.0; m * nv],
+            bend: Block::full(m, nv),
             rows: vec![0.0; m],
             unit: vec![0.0; nv],
             rate: [vec![0.0; nq], vec![0.0; nq]],
@@ -132,9 +132,7 @@ impl Lent<'_> {
         }
         self.engine.evaluate(self.system, state.at(), Stage::Dynamics);
         u.fill(0.0);
-        for (row, mu) in self.engine.terms.g.chunks_exact(v.len().max(1)).zip(mu) {
-            u.iter_mut().zip(row).for_each(|(u, g)| *u += g * mu);
-        }
+        self.engine.terms.g.lines().zip(mu).for_each(|(row, mu)| row.add_to(*mu, u));
         let metric = &self.system.pattern().metric;
         for ((u, v), d) in u.iter_mut().zip(v).zip(metric) {
             *u = v - *u / d;
@@ -143,8 +141,8 @@ impl Lent<'_> {
 
     /// G v − ν of the terms evaluated last, into `out`.
     fn velocity_rows(engine: &Engine, v: &[f64], out: &mut [f64]) {
-        for ((r, row), nu) in out.iter_mut().zip(engine.terms.g.chunks_exact(v.len().max(1))).zip(&engine.terms.nu) {
-            *r = row.iter().zip(v).map(|(g, v)| g * v).sum::<f64>() - nu;
+        for ((r, row), nu) in out.iter_mut().zip(engine.terms.g.lines()).zip(&engine.terms.nu) {
+            *r = row.dot(v) - nu;
         }
     }
 
@@ -189,8 +187,8 @@ impl Lent<'_> {
             self.engine.evaluate(self.system, state.at(), Stage::Velocity);
             unit[j] = -nudge;
             self.system.retract(Span::at(state.t), &mut state.q, unit);
-            for (i, (row, nu)) in self.engine.terms.g.chunks_exact(nv).zip(&self.engine.terms.nu).enumerate() {
-                let there = row.iter().zip(&state.v).map(|(g, v)| g * v).sum::<f64>() - nu;
+            for (i, (row, nu)) in self.engine.terms.g.lines().zip(&self.engine.terms.nu).enumerate() {
+                let there = row.dot(&state.v) - nu;
                 bend[i * nv + j] = (there - rows[i]) / nudge;
             }
         }
@@ -199,7 +197,7 @@ impl Lent<'_> {
     /// Columns of q: displacements (NᵀN)⁻¹Nᵀ of the tangent's blocks, and the rate of the coordinates itself.
     fn columns_of_q(&mut self, c: f64, out: &mut [f64]) {
         let Work { state, layout, tangent, u, inverse, bend, rate, .. } = &mut *self.work;
-        let (nq, nv, size) = (state.q.len(), u.len(), layout.size());
+        let (nq, size) = (state.q.len(), layout.size());
         let [here, there] = rate;
         self.system.rate(state.t, &state.q, u, here);
         let blocks = [(&tangent.k, 1.0), (&tangent.z_q, -1.0), (&*bend, 1.0), (&self.engine.terms.g, 1.0)];
@@ -213,8 +211,8 @@ impl Lent<'_> {
                 *r = f64::from(u8::from(i == j)) * c - (there[i] - here[i]) / nudge;
             }
             for (rows, (block, sign)) in rest.into_iter().zip(blocks) {
-                for (r, line) in rows.iter_mut().zip(block.chunks_exact(nv.max(1))) {
-                    *r = sign * line.iter().enumerate().map(|(k, x)| x * inverse[k * nq + j]).sum::<f64>();
+                for (r, line) in rows.iter_mut().zip(block.lines()) {
+                    *r = sign * line.entries().map(|(k, x)| x * inverse[k * nq + j]).sum::<f64>();
                 }
             }
         }
@@ -230,21 +228,21 @@ impl Lent<'_> {
         let mut set = |row: usize, column: usize, value: f64| out[column * size + row] = value;
         for j in 0..nv {
             (0..nq).for_each(|i| set(i, v + j, -n[i * nv + j]));
-            (0..nv).for_each(|i| set(v + i, v + j, c * terms.mass[i * nv + j] + tangent.c[i * nv + j]));
-            (0..nz).for_each(|i| set(z + i, v + j, -tangent.z_v[i * nv + j]));
-            (0..m).for_each(|i| set(lambda + i, v + j, terms.g[i * nv + j]));
+            (0..nv).for_each(|i| set(v + i, v + j, c * terms.mass.at(i, j) + tangent.c.at(i, j)));
+            (0..nz).for_each(|i| set(z + i, v + j, -tangent.z_v.at(i, j)));
+            (0..m).for_each(|i| set(lambda + i, v + j, terms.g.at(i, j)));
         }
         for j in 0..nz {
-            (0..nv).for_each(|i| set(v + i, z + j, tangent.r_z[i * nz + j]));
-            (0..nz).for_each(|i| set(z + i, z + j, f64::from(u8::from(i == j)) * c - tangent.z_z[i * nz + j]));
+            (0..nv).for_each(|i| set(v + i, z + j, tangent.r_z.at(i, j)));
+            (0..nz).for_each(|i| set(z + i, z + j, f64::from(u8::from(i == j)) * c - tangent.z_z.at(i, j)));
         }
         for j in 0..m {
-            (0..nv).for_each(|i| set(v + i, lambda + j, terms.g[j * nv + i] + tangent.r_lambda[i * m + j]));
+            (0..nv).for_each(|i| set(v + i, lambda + j, terms.g.at(j, i) + tangent.r_lambda.at(i, j)));
             set(lambda + j, lambda + j, -REGULARIZATION * pattern.g_scale[j] / c);
         }
         for j in 0..self.engine.dims.holonomic {
             for i in 0..nq {
-                let way = (0..nv).map(|k| n[i * nv + k] * terms.g[j * nv + k] / pattern.metric[k]).sum();
+                let way = terms.g.line(j).entries().map(|(k, g)| n[i * nv + k] * g / pattern.metric[k]).sum();
                 set(i, mu + j, way);
             }
             set(mu + j, mu + j, -REGULARIZATION * pattern.g_scale[j] / c);

@@ -123,26 +123,21 @@ impl Estimate {
         let (nv, nz, c) = (self.v.len(), self.z.len(), h / REAL);
         let (blocks, x) = (&stages.blocks, &mut self.x);
         x.fill(0.0);
-        let rows = blocks.mass.chunks_exact(nv.max(1)).zip(blocks.tangent.k.chunks_exact(nv.max(1)));
-        for (x, (mass, k)) in x.iter_mut().zip(rows) {
-            *x = dot(mass, &self.v) - c * dot(k, &self.d);
+        for (x, (mass, k)) in x.iter_mut().zip(blocks.mass.lines().zip(blocks.tangent.k.lines())) {
+            *x = mass.dot(&self.v) - c * k.dot(&self.d);
         }
-        for ((x, e), z_q) in x[nv..].iter_mut().zip(&self.z).zip(blocks.tangent.z_q.chunks_exact(nv.max(1))) {
-            *x = e + c * dot(z_q, &self.d);
+        for ((x, e), z_q) in x[nv..].iter_mut().zip(&self.z).zip(blocks.tangent.z_q.lines()) {
+            *x = e + c * z_q.dot(&self.d);
         }
         stages.real.solve(x);
         self.v.copy_from_slice(&x[..nv]);
         self.z.copy_from_slice(&x[nv..nv + nz]);
         x.fill(0.0);
         if self.level == Level::Stabilized || self.level == Level::Position {
-            for (s, row) in x[nv + nz..].iter_mut().zip(blocks.g.chunks_exact(nv.max(1))) {
-                *s = -row.iter().zip(&self.d).zip(&self.v).map(|((g, d), v)| g * (d + c * v)).sum::<f64>();
+            for (s, row) in x[nv + nz..].iter_mut().zip(blocks.g.lines()) {
+                *s = -row.entries().map(|(j, g)| g * (self.d[j] + c * self.v[j])).sum::<f64>();
             }
             stages.real.solve(x);
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -21,7 +21,7 @@ use crate::engine::{Engine, Node, Why};
 use crate::matrix::{Blocks, Coefficients, Matrix};
 use crate::newton::residual;
 use crate::scheme::Level;
-use crate::{Dims, Span, Stage as Extent, State, System};
+use crate::{Block, Dims, Pattern, Span, Stage as Extent, State, System};
 use nalgebra::Complex;
 
 /// One stage.
@@ -41,13 +41,13 @@ pub(super) struct Stage {
     rate: Vec<f64>,
     /// Φ and G at the last evaluation; only at `Stabilized`.
     phi: Vec<f64>,
-    g: Vec<f64>,
+    g: Block,
     /// Newton's step of q (as displacement), v, z.
     step: [Vec<f64>; 3],
 }
 
 impl Stage {
-    fn new(dims: Dims) -> Self {
+    fn new(dims: Dims, pattern: &Pattern) -> Self {
         Self {
             state: State::new(dims),
             a: vec![0.0; dims.v],
@@ -56,7 +56,7 @@ impl Stage {
             w: vec![0.0; dims.v],
             rate: vec![0.0; dims.q],
             phi: vec![0.0; dims.holonomic],
-            g: vec![0.0; dims.v * dims.holonomic],
+            g: Block::new(&pattern.g),
             step: [vec![0.0; dims.v], vec![0.0; dims.v], vec![0.0; dims.z]],
         }
     }
@@ -116,14 +116,14 @@ impl Stages {
     pub(super) fn new(level: Level, follow: bool, system: &dyn System) -> Self {
         let dims = system.dims();
         let n = dims.v + dims.z + dims.rows();
-        let stage = || [(); 3].map(|()| Stage::new(dims));
+        let stage = || [(); 3].map(|()| Stage::new(dims, system.pattern()));
         Self {
             stage: stage(),
             past: stage(),
             past_h: None,
             level,
             follow,
-            blocks: Blocks::new(dims),
+            blocks: Blocks::new(system.pattern()),
             real: Matrix::new(dims, system.pattern()),
             complex: Matrix::new(dims, system.pattern()),
             factored: None,
@@ -337,16 +337,16 @@ impl Stages {
         for ((r, zdot), g) in r_z.iter_mut().zip(&stage.zdot).zip(&t.zdot) {
             *r = g - zdot;
         }
-        for (k, (r, row)) in r_c.iter_mut().zip(t.g.chunks_exact(nv.max(1))).enumerate() {
+        for (k, (r, row)) in r_c.iter_mut().zip(t.g.lines()).enumerate() {
             *r = match self.level {
                 Level::Position if k < holonomic => -t.phi[k],
-                Level::Acceleration => t.gamma[k] - dot(row, &stage.a),
-                _ => t.nu[k] - dot(row, &stage.state.v),
+                Level::Acceleration => t.gamma[k] - row.dot(&stage.a),
+                _ => t.nu[k] - row.dot(&stage.state.v),
             };
         }
         if self.level == Level::Stabilized {
             stage.phi.copy_from_slice(&t.phi);
-            stage.g.copy_from_slice(&t.g[..holonomic * nv]);
+            stage.g.copy_from_slice(&t.g);
         }
         Ok(())
     }
@@ -418,8 +418,8 @@ impl Stages {
             }
             if self.level == Level::Stabilized && !stage.phi.is_empty() {
                 self.second.fill(0.0);
-                for (s, (phi, row)) in self.second[nv + nz..].iter_mut().zip(stage.phi.iter().zip(stage.g.chunks_exact(nv))) {
-                    *s = -phi - dot(row, &stage.step[0]);
+                for (s, (phi, row)) in self.second[nv + nz..].iter_mut().zip(stage.phi.iter().zip(stage.g.lines())) {
+                    *s = -phi - row.dot(&stage.step[0]);
                 }
                 self.real.solve(&mut self.second);
                 stage.w.iter_mut().zip(&self.second).for_each(|(w, d)| *w += d);
@@ -430,8 +430,4 @@ impl Stages {
         }
         (square / 3.0).sqrt()
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
