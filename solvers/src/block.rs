@@ -41,6 +41,7 @@ impl<T: Copy + Default> Block<T> {
     }
 
     /// The entry at a row and a column.
+    #[inline]
     pub fn at(&self, i: usize, j: usize) -> T {
         self.pattern.place(i, j).map_or_else(T::default, |k| self.values[k])
     }
@@ -64,17 +65,26 @@ impl<T> Block<T> {
     }
 
     /// A row.
+    #[inline]
     pub fn line(&self, i: usize) -> Line<'_, T> {
         let range = self.pattern.range(i);
         Line { columns: self.pattern.row(i), values: &self.values[range], full: self.pattern.is_full() }
     }
 
     /// All rows.
+    #[inline]
     pub fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_, T>> + Clone {
         (0..self.pattern.rows()).map(|i| self.line(i))
     }
 
+    /// Exchanges the values with those of a matrix of the same pattern.
+    pub fn swap_values(&mut self, other: &mut Self) {
+        debug_assert_eq!(self.pattern, other.pattern);
+        std::mem::swap(&mut self.values, &mut other.values);
+    }
+
     /// Columns and values of a row, to be written.
+    #[inline]
     pub fn line_mut(&mut self, i: usize) -> (&[usize], &mut [T]) {
         (self.pattern.row(i), &mut self.values[self.pattern.range(i)])
     }
@@ -103,6 +113,7 @@ impl<T> DerefMut for Block<T> {
 
 impl<T: Copy> Line<'_, T> {
     /// Columns and values of the entries.
+    #[inline]
     pub fn entries(&self) -> impl Iterator<Item = (usize, T)> + Clone + '_ {
         self.columns.iter().copied().zip(self.values.iter().copied())
     }
@@ -110,6 +121,7 @@ impl<T: Copy> Line<'_, T> {
 
 impl<T: Copy + Mul<Output = T> + AddAssign> Line<'_, T> {
     /// out += factor · row.
+    #[inline]
     pub fn add_to(&self, factor: T, out: &mut [T]) {
         if self.full {
             out.iter_mut().zip(self.values).for_each(|(out, x)| *out += *x * factor);
@@ -120,7 +132,18 @@ impl<T: Copy + Mul<Output = T> + AddAssign> Line<'_, T> {
 }
 
 impl Line<'_> {
+    /// Calls with each entry and the number of a vector that it is multiplied by.
+    #[inline]
+    pub fn with(&self, x: &[f64], mut each: impl FnMut(f64, f64)) {
+        if self.full {
+            self.values.iter().zip(x).for_each(|(a, x)| each(*a, *x));
+        } else {
+            self.entries().for_each(|(j, a)| each(a, x[j]));
+        }
+    }
+
     /// The product with a vector.
+    #[inline]
     pub fn dot(&self, x: &[f64]) -> f64 {
         if self.full { self.values.iter().zip(x).map(|(a, x)| a * x).sum() } else { self.entries().map(|(j, a)| a * x[j]).sum() }
     }

@@ -323,7 +323,9 @@ impl Engine {
 
 /// |G_i| in units of size: how much Φ changes when the coordinates move by their size.
 fn reach(row: Line<'_>, size: &[f64]) -> f64 {
-    row.entries().fold(0.0, |m, (j, g)| f64::max(m, (g * size[j]).abs()))
+    let mut largest = 0.0;
+    row.with(size, |g, s| largest = f64::max(largest, (g * s).abs()));
+    largest
 }
 
 /// Index and size of the entry that is largest in size.

@@ -12,14 +12,14 @@ pub(crate) const SPARSE_COST: usize = 3;
 /// The pattern of a matrix, by rows: entries outside of it are zero in every state. A copy shares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sparsity {
-    /// Number of columns.
+    rows: usize,
     columns: usize,
-    /// Where each row begins in `indices`, and the end (rows + 1).
-    starts: Arc<[usize]>,
-    /// Columns of the entries, row after row, rising in each.
-    indices: Arc<[usize]>,
     /// Whether every entry is in it.
     full: bool,
+    /// Where each row begins in `indices`, and the end (rows + 1); nothing if it is full.
+    starts: Arc<[usize]>,
+    /// Columns of the entries, row after row, rising in each; if it is full, all columns once.
+    indices: Arc<[usize]>,
 }
 
 impl Sparsity {
@@ -36,8 +36,11 @@ impl Sparsity {
 
     /// The pattern of rows that begin at `starts` of the columns `indices`.
     fn of(columns: usize, starts: Vec<usize>, indices: Vec<usize>) -> Self {
-        let full = indices.len() == (starts.len() - 1) * columns;
-        Self { columns, starts: starts.into(), indices: indices.into(), full }
+        let rows = starts.len() - 1;
+        if indices.len() == rows * columns {
+            return Self::dense(rows, columns);
+        }
+        Self { rows, columns, full: false, starts: starts.into(), indices: indices.into() }
     }
 
     /// The pattern of a square matrix in which all indices of a group meet each other, for each of the groups, whose indices may come
@@ -66,7 +69,7 @@ impl Sparsity {
 
     /// A full matrix.
     pub fn dense(rows: usize, columns: usize) -> Self {
-        Self::of(columns, (0..=rows).map(|i| i * columns).collect(), (0..rows).flat_map(|_| 0..columns).collect())
+        Self { rows, columns, full: true, starts: Arc::new([]), indices: (0..columns).collect() }
     }
 
     /// A matrix of zeros.
@@ -78,14 +81,14 @@ impl Sparsity {
     /// be other than zero that a walk from one to the next costs more than one along all.
     #[must_use]
     pub fn or_dense(self) -> Self {
-        let (rows, columns) = (self.rows(), self.columns);
+        let (rows, columns) = (self.rows, self.columns);
         let small = rows.max(columns) <= DENSE_UP_TO;
         if small || SPARSE_COST * self.entries() >= rows * columns { Self::dense(rows, columns) } else { self }
     }
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.starts.len() - 1
+        self.rows
     }
 
     /// Number of columns.
@@ -95,25 +98,29 @@ impl Sparsity {
 
     /// Number of entries.
     pub fn entries(&self) -> usize {
-        self.indices.len()
+        if self.full { self.rows * self.columns } else { self.indices.len() }
     }
 
     /// Whether every entry is in it.
+    #[inline]
     pub fn is_full(&self) -> bool {
         self.full
     }
 
     /// Columns of the entries of a row, rising.
+    #[inline]
     pub fn row(&self, i: usize) -> &[usize] {
-        &self.indices[self.range(i)]
+        if self.full { &self.indices } else { &self.indices[self.range(i)] }
     }
 
     /// Where the entries of a row stand among all.
+    #[inline]
     pub fn range(&self, i: usize) -> Range<usize> {
-        self.starts[i]..self.starts[i + 1]
+        if self.full { i * self.columns..(i + 1) * self.columns } else { self.starts[i]..self.starts[i + 1] }
     }
 
     /// Where an entry stands among all, if it is in the pattern.
+    #[inline]
     pub fn place(&self, i: usize, j: usize) -> Option<usize> {
         if self.full {
             return Some(i * self.columns + j);
@@ -123,14 +130,17 @@ impl Sparsity {
 
     /// Rows and columns of all entries, in order.
     pub fn places(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        (0..self.rows()).flat_map(|i| self.row(i).iter().map(move |&j| (i, j)))
+        (0..self.rows).flat_map(|i| self.row(i).iter().map(move |&j| (i, j)))
     }
 
     /// The pattern of the transposed matrix.
     pub fn transposed(&self) -> Self {
+        if self.full {
+            return Self::dense(self.columns, self.rows);
+        }
         // counting, as entries come by rows already
         let mut starts = vec![0; self.columns + 1];
-        self.indices.iter().for_each(|&j| starts[j + 1] += 1);
+        self.places().for_each(|(_, j)| starts[j + 1] += 1);
         (0..self.columns).for_each(|j| starts[j + 1] += starts[j]);
         let mut next = starts.clone();
         let mut indices = vec![0; self.entries()];
@@ -138,7 +148,7 @@ impl Sparsity {
             indices[next[j]] = i;
             next[j] += 1;
         }
-        Self::of(self.rows(), starts, indices)
+        Self::of(self.rows, starts, indices)
     }
 }
 

@@ -161,11 +161,11 @@ impl<G: Space> Dynamics<'_, G> {
                 let momentum = whole * columns[k];
                 for &j in &m.ancestors[k] {
                     let x = momentum.power(columns[j]);
-                    let [above, below] = match places.next() {
-                        Some(places) => *places,
-                        None => [j * nv + k, k * nv + j],
-                    };
-                    (mass[above], mass[below]) = (x, x);
+                    if full {
+                        (mass[j * nv + k], mass[k * nv + j]) = (x, x);
+                    } else if let Some(&[above, below]) = places.next() {
+                        (mass[above], mass[below]) = (x, x);
+                    }
                 }
             }
             if node.parent != 0 {

@@ -127,10 +127,10 @@ impl Engine {
         let rows = self.terms.g.lines().zip(&self.row_reach);
         for ((r, nu), (row, whole)) in self.rhs.iter_mut().zip(&self.terms.nu).zip(rows) {
             let (mut sum, mut size) = (0.0, 0.0);
-            for (j, g) in row.entries() {
-                sum += g * v[j];
-                size += (g * v[j]).abs();
-            }
+            row.with(v, |g, v| {
+                sum += g * v;
+                size += (g * v).abs();
+            });
             *r = nu - sum;
             needed |= r.abs() > 4.0 * f64::EPSILON * (size + nu.abs()) && reach(row, &self.size_v) > ROUND_OFF * whole;
         }

@@ -299,8 +299,8 @@ where
         let w = &mut self.dynamics.work;
         out.phi.copy_from_slice(&w.phi);
         // the same entries are written at every evaluation, the others are zero in both
-        std::mem::swap(&mut out.g, &mut w.g);
-        std::mem::swap(&mut out.mass, &mut w.mass);
+        out.g.swap_values(&mut w.g);
+        out.mass.swap_values(&mut w.mass);
         if stage >= Stage::Velocity {
             out.nu.copy_from_slice(&w.nu);
             out.gamma.copy_from_slice(&w.gamma);
