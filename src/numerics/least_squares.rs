@@ -1,10 +1,17 @@
 //! Small least-squares solves at assembly, where rows may be redundant or contradict each other.
 
 use grashof_solvers::svd::Svd;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Part of the largest singular value below which a direction counts as not determined.
 const RANK_TOLERANCE: f64 = 1e-10;
+
+/// Rows of which no combination is shorter than this part of the longest row are independent beyond doubt; the singular values
+/// themselves, which cost some twenty times as much, decide on others.
+const CLEAR: f64 = 1e-4;
+
+/// Columns up to which singular values cost next to nothing, so that nothing else is asked.
+const FEW: usize = 64;
 
 /// The shortest x (in the metric, Σ dᵢ xᵢ²) that makes |A x − b|² + μ (its size)² least; A is rows × metric.len(), row-major.
 ///
@@ -72,18 +79,49 @@ pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64>
         let rows = DMatrix::from_fn(level.b.len(), n, |i, j| level.a[i * n + j] / root[j]);
         // what is small beside the rows before they are seen along the basis is round-off
         let least = f64::max(RANK_TOLERANCE * rows.row_iter().fold(0.0, |m, row| f64::max(m, row.norm())), level.round_off);
-        let svd = if last { Svd::new(&(&rows * &basis)) } else { padded(&rows * &basis, level.b.len()) };
+        let rows = if index == 0 { rows } else { &rows * &basis };
         let mut right = level.missing(&x);
-        right.resize(svd.u.nrows(), 0.0);
-        let way = svd.solve(&right, |s| if s > least { 1.0 / s } else { 0.0 });
+        let (way, open) = if n > FEW && are_independent(&rows, least) {
+            met(&rows, &right)
+        } else {
+            let svd = if last { Svd::new(&rows) } else { padded(rows, level.b.len()) };
+            right.resize(svd.u.nrows(), 0.0);
+            let way = svd.solve(&right, |s| if s > least { 1.0 / s } else { 0.0 });
+            (way, if last { DMatrix::zeros(0, 0) } else { left_over(&svd, least) })
+        };
         for i in 0..n {
             x[i] += (0..way.len()).map(|k| basis[(i, k)] * way[k]).sum::<f64>() / root[i];
         }
         if !last {
-            basis = &basis * left_over(&svd, least);
+            basis = &basis * open;
         }
     }
     x
+}
+
+/// Whether all singular values of rows A are above `least`, and far above what rounding leaves: A Aᵀ − τ² is positive definite.
+pub(crate) fn are_independent(a: &DMatrix<f64>, least: f64) -> bool {
+    if a.nrows() > a.ncols() {
+        return false;
+    }
+    let longest = a.row_iter().fold(0.0, |m, row| f64::max(m, row.norm()));
+    let clear = f64::max(CLEAR * longest, 10.0 * least);
+    let mut gram = a * a.transpose();
+    (0..a.nrows()).for_each(|i| gram[(i, i)] -= clear * clear);
+    gram.cholesky().is_some()
+}
+
+/// The shortest x with A x = b for independent rows A, and an orthonormal basis of what they leave open, by A = Rᵀ Qᵀ.
+fn met(a: &DMatrix<f64>, b: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    let (rows, columns) = a.shape();
+    let qr = a.transpose().qr();
+    let mut y = DVector::zeros(columns);
+    y.rows_mut(0, rows).copy_from_slice(b);
+    let met = qr.r().tr_solve_upper_triangular_mut(&mut y.rows_mut(0, rows));
+    debug_assert!(met, "independent rows have no zero on the diagonal");
+    let mut transposed = DMatrix::identity(columns, columns);
+    qr.q_tr_mul(&mut transposed);
+    (transposed.tr_mul(&y).as_slice().to_vec(), transposed.rows(rows, columns - rows).transpose())
 }
 
 /// Motions that rows A leave open, as columns that are orthonormal in the metric; A is rows × metric.len(), row-major. Singular
@@ -150,6 +188,40 @@ mod tests {
         let x = in_turn(&levels, &[1.0, 4.0, 1.0, 1.0], vec![0.3, -0.2, 7.0, 1.0]);
         let right = [4.0, -3.0, 0.0, 1.0];
         assert!(x.iter().zip(right).all(|(x, r)| (x - r).abs() < 1e-14), "{x:?}");
+    }
+
+    #[test]
+    fn independent_rows_are_met_as_by_singular_values() {
+        // entries of no special rule; the metric of several sizes
+        let n = FEW + 6;
+        let entry = |i: usize, j: usize| ((3 * i + 7 * j * j + i * j) as f64).sin();
+        let metric: Vec<f64> = (0..n).map(|k| 10f64.powi(k as i32 % 4 - 2)).collect();
+        let level = |rows: std::ops::Range<usize>| {
+            let mut level = Level::default();
+            for i in rows {
+                level.row(&(0..n).map(|j| entry(i, j)).collect::<Vec<_>>(), i as f64 - 3.0, 1.0);
+            }
+            level
+        };
+        let mut levels = [level(0..30), level(30..60), level(60..80)];
+        let met = in_turn(&levels, &metric, vec![0.1; n]);
+        // a copy of a row changes nothing but the way of the solution
+        let scaled = |level: &Level| DMatrix::from_fn(level.b.len(), n, |i, j| level.a[n * i + j] / metric[j].sqrt());
+        assert!(are_independent(&scaled(&levels[0]), 0.0));
+        let (copy, right) = (levels[0].a[..n].to_vec(), levels[0].b[0]);
+        levels[0].row(&copy, right, 1.0);
+        assert!(!are_independent(&scaled(&levels[0]), 0.0));
+        let decomposed = in_turn(&levels, &metric, vec![0.1; n]);
+        assert!(met.iter().zip(&decomposed).all(|(x, y)| (x - y).abs() < 1e-11 * (1.0 + y.abs())), "{met:?} {decomposed:?}");
+        assert!(levels[0].missing(&met).iter().chain(&levels[1].missing(&met)).all(|b| b.abs() < 1e-9));
+    }
+
+    #[test]
+    fn rows_near_dependence_are_left_to_their_singular_values() {
+        let rows = |angle: f64| DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, angle.cos(), angle.sin(), 0.0]);
+        assert!(are_independent(&rows(0.1), 0.0) && !are_independent(&rows(0.1), 0.01));
+        assert!(!are_independent(&rows(1e-5), 0.0) && !are_independent(&rows(0.0), 0.0));
+        assert!(!are_independent(&DMatrix::zeros(3, 2), 0.0) && are_independent(&DMatrix::zeros(0, 2), 0.0));
     }
 
     #[test]

@@ -11,7 +11,7 @@
 use super::close::System;
 use super::shake::Shake;
 use crate::geometry::Space;
-use crate::numerics::least_squares::left_open;
+use crate::numerics::least_squares::{are_independent, left_open};
 use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
@@ -55,8 +55,12 @@ impl<G: Space<S = f64>> System<'_, G> {
             return None;
         }
         let (a, round_off) = self.scaled(&rows);
-        let open = left_open(round_off, &a, &self.metric);
         let root: Vec<f64> = self.metric.iter().map(|d| d.sqrt()).collect();
+        // no combination of rows vanishes
+        if are_independent(&DMatrix::from_fn(rows.len(), m.nv, |i, k| a[i * m.nv + k] / root[k]), round_off) {
+            return None;
+        }
+        let open = left_open(round_off, &a, &self.metric);
         let transposed: Vec<f64> =
             (0..m.nv).flat_map(|k| (0..rows.len()).map(move |i| (i, k))).map(|(i, k)| a[i * m.nv + k] / root[k]).collect();
         let vanishing = left_open(round_off, &transposed, &vec![1.0; rows.len()]);
