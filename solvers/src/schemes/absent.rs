@@ -33,15 +33,3 @@ impl Scheme for Absent {
         "absent"
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::Method;
-    use crate::schemes::available;
-
-    #[test]
-    fn only_ida_can_be_absent() {
-        assert!(!available(Method::Ida));
-        assert!([Method::Auto, Method::Radau5, Method::Bdf { order: None }, Method::Rk4].into_iter().all(available));
-    }
-}

@@ -44,3 +44,15 @@ pub fn new(method: Method, settings: Settings, system: &dyn System) -> Box<dyn S
         Method::Rk4 => Box::new(rk4::Rk4::new(system)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::available;
+    use crate::Method;
+
+    #[test]
+    fn only_ida_can_be_absent() {
+        assert_eq!(available(Method::Ida), cfg!(feature = "sundials"));
+        assert!([Method::Auto, Method::Radau5, Method::Bdf { order: None }, Method::Rk4].into_iter().all(available));
+    }
+}
