@@ -36,7 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut effort = vec![0.0; nv];
         dynamics.unbalanced(&a, &accelerations, &mut effort);
         let effort: Vec<f64> = effort.iter().map(|x| -x).collect();
-        let mass: Vec<&[f64]> = dynamics.work.mass.chunks(nv).collect();
+        let whole = dynamics.work.mass.to_dense();
+        let mass: Vec<&[f64]> = whole.chunks(nv).collect();
         writeln!(out, "{}", json!({ "joints": names, "mass": mass, "bias": bias, "effort": effort }))?;
     }
     Ok(())

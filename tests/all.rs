@@ -20,6 +20,7 @@ mod friction;
 mod hand_written;
 mod joints;
 mod kills;
+mod large;
 mod laws;
 mod library;
 mod linear;

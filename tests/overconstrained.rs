@@ -350,7 +350,7 @@ fn entries_are_no_larger_than_their_natural_sizes() {
             for seed in 0..10 {
                 State::random(&m, seed).evaluate(&mut d);
                 let natural = d.natural();
-                for ((i, _), (g, natural)) in natural.pattern().places().zip(d.work.g.iter().zip(&*natural)) {
+                for ((i, _), (g, natural)) in natural.pattern().places().zip(d.work.g.values().iter().zip(natural.values())) {
                     let row = m.name_of_row(i);
                     assert!(g.abs() <= natural * (1.0 + 1e-12), "{row}: {g:e} {natural:e}");
                     assert!(*natural < 1e3 * g.abs().max(1.0), "{row}: {g:e} {natural:e}");

@@ -175,7 +175,7 @@ impl System for ByHand {
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let r = self.reduced(at.q[0]);
-        out.mass[0] = r.inertia;
+        out.mass.values_mut()[0] = r.inertia;
         if stage == Stage::Dynamics {
             let omega = at.v[0];
             let load = if self.drive == Drive::Geared { self.load(&r, at.modes) } else { 0.0 };
@@ -186,13 +186,13 @@ impl System for ByHand {
     fn residual(&mut self, at: At<'_>, a: &[f64], _: &[f64], out: &mut [f64]) {
         let mut terms = std::mem::take(&mut self.terms);
         self.terms(at, Stage::Dynamics, &mut terms);
-        out[0] = terms.mass[0] * a[0] - terms.force[0];
+        out[0] = terms.mass.values()[0] * a[0] - terms.force[0];
         self.terms = terms;
     }
 
     fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         // explicit schemes alone are compared
-        (out.k[0], out.c[0]) = (f64::NAN, f64::NAN);
+        (out.k.values_mut()[0], out.c.values_mut()[0]) = (f64::NAN, f64::NAN);
     }
 
     fn rate(&self, _: f64, _: &[f64], v: &[f64], qdot: &mut [f64]) {

@@ -1,9 +1,9 @@
 //! Matrices of a fixed pattern.
 
 use crate::Sparsity;
-use std::ops::{AddAssign, Deref, DerefMut, Mul};
+use std::ops::{AddAssign, Mul};
 
-/// A matrix of a fixed pattern; its values, row after row, are what it derefs to. One with a full pattern is a row-major matrix.
+/// A matrix of a fixed pattern: the values of its entries, row after row. One with a full pattern is a row-major matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block<T = f64> {
     pattern: Sparsity,
@@ -56,12 +56,38 @@ impl<T: Copy + Default> Block<T> {
             None => panic!("({i}, {j}) is no entry of the pattern"),
         }
     }
+
+    /// Takes the entries of a matrix of the same size, all of which must be in the pattern.
+    ///
+    /// # Panics
+    /// If one is not.
+    pub fn take(&mut self, other: &Self) {
+        self.values.fill(T::default());
+        other.pattern.places().zip(&other.values).for_each(|((i, j), x)| self.set(i, j, *x));
+    }
 }
 
 impl<T> Block<T> {
     /// Its pattern.
     pub fn pattern(&self) -> &Sparsity {
         &self.pattern
+    }
+
+    /// Values of the entries, row after row.
+    #[inline]
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// Its pattern, and the values of the entries to be written.
+    pub fn parts_mut(&mut self) -> (&Sparsity, &mut [T]) {
+        (&self.pattern, &mut self.values)
     }
 
     /// A row.
@@ -94,20 +120,6 @@ impl<T: Copy + Default> Default for Block<T> {
     /// A matrix without rows and columns.
     fn default() -> Self {
         Self::full(0, 0)
-    }
-}
-
-impl<T> Deref for Block<T> {
-    type Target = [T];
-
-    fn deref(&self) -> &[T] {
-        &self.values
-    }
-}
-
-impl<T> DerefMut for Block<T> {
-    fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.values
     }
 }
 
@@ -161,7 +173,7 @@ mod tests {
             sparse.set(i, j, k as f64 - 1.5);
             dense.set(i, j, k as f64 - 1.5);
         }
-        assert_eq!((sparse.to_dense(), sparse.len()), (dense.to_vec(), 4));
+        assert_eq!((sparse.to_dense(), sparse.values().len()), (dense.values().to_vec(), 4));
         let x = [2.0, -3.0, 5.0];
         for (sparse, dense) in sparse.lines().zip(dense.lines()) {
             assert_eq!(sparse.dot(&x), dense.dot(&x));

@@ -267,9 +267,11 @@ impl Engine {
     pub fn factor(&mut self) -> Result<(), Why> {
         self.counts.factorisations += 1;
         let Terms { mass, g, .. } = &self.terms;
-        self.kkt.factor(mass, g).map_err(|_| match mass.lines().position(|row| row.values.iter().any(|x| !x.is_finite())) {
-            Some(i) => Why::NotFinite(i),
-            None => Why::Singular,
+        self.kkt.factor(mass.values(), g.values()).map_err(|_| {
+            match mass.lines().position(|row| row.values.iter().any(|x| !x.is_finite())) {
+                Some(i) => Why::NotFinite(i),
+                None => Why::Singular,
+            }
         })
     }
 

@@ -90,8 +90,8 @@ impl Friction {
             if let Some(i) = self.step[..nv].iter().position(|r| !r.is_finite()) {
                 return Err(Why::NotFinite(i));
             }
-            if !factored || self.factored[..] != self.blocks.tangent.r_lambda[..] {
-                self.factored.copy_from_slice(&self.blocks.tangent.r_lambda);
+            if !factored || self.factored != self.blocks.tangent.r_lambda.values() {
+                self.factored.copy_from_slice(self.blocks.tangent.r_lambda.values());
                 self.matrix.factor(&self.blocks, Coefficients { q: 0.0, v: 0.0, z: 0.0 }).map_err(|_| Why::Friction)?;
                 factored = true;
             }

@@ -86,12 +86,9 @@ impl System for Loaded<'_> {
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
         self.system.tangent(at, a, lambda, &mut self.own);
         let Tangent { k, c, r_z, r_lambda, z_q, z_v, z_z } = &self.own;
-        for (out, own) in [(&mut out.k, k), (&mut out.c, c)] {
-            out.fill(0.0);
-            own.pattern().places().zip(&**own).for_each(|((i, j), x)| out.set(i, j, *x));
-        }
-        let same = [(&mut out.r_z, r_z), (&mut out.r_lambda, r_lambda), (&mut out.z_q, z_q), (&mut out.z_v, z_v), (&mut out.z_z, z_z)];
-        same.into_iter().for_each(|(out, own)| out.copy_from_slice(own));
+        let Tangent { k: to_k, c: to_c, r_z: to_r_z, r_lambda: to_r_lambda, z_q: to_z_q, z_v: to_z_v, z_z: to_z_z } = &mut *out;
+        let pairs = [(to_k, k), (to_c, c), (to_r_z, r_z), (to_r_lambda, r_lambda), (to_z_q, z_q), (to_z_v, z_v), (to_z_z, z_z)];
+        pairs.into_iter().for_each(|(to, own)| to.take(own));
         for column in 0..self.dims.v {
             let h = PART * self.pattern.size_v[column];
             for (side, sign) in [1.0, -1.0].into_iter().enumerate() {

@@ -44,8 +44,8 @@ impl Blocks {
 
     /// Takes M and G of terms.
     pub fn take(&mut self, terms: &Terms) {
-        self.mass.copy_from_slice(&terms.mass);
-        self.g.copy_from_slice(&terms.g);
+        self.mass.values_mut().copy_from_slice(terms.mass.values());
+        self.g.values_mut().copy_from_slice(terms.g.values());
     }
 }
 
@@ -125,7 +125,7 @@ impl<T: Number> Matrix<T> {
     /// If it is singular or not finite.
     pub fn factor(&mut self, blocks: &Blocks, c: Coefficients<T>) -> Result<(), Singular> {
         let t = &blocks.tangent;
-        let of = |block: &Block, place: usize| T::from(block.get(place).copied().unwrap_or(0.0));
+        let of = |block: &Block, place: usize| T::from(block.values().get(place).copied().unwrap_or(0.0));
         for (value, &(entry, scale)) in self.values.iter_mut().zip(&self.entries) {
             let x = match entry {
                 Entry::Motion([mass, by_v, by_q]) => of(&blocks.mass, mass) + c.v * of(&t.c, by_v) + c.q * of(&t.k, by_q),

@@ -111,7 +111,7 @@ impl<S: System> Minimal<S> {
         let inner = loops.inner.pattern();
         let p = &mut self.pattern;
         p.metric = (0..n).map(|i| terms.mass.at(i, i)).map(|m| if m > 0.0 { m } else { 1.0 }).collect();
-        p.g_scale = row_scale(&p.g, &terms.g, &p.metric);
+        p.g_scale = row_scale(&p.g, terms.g.values(), &p.metric);
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
         let place = |k: usize| loops.independent.iter().position(|i| *i == k);
@@ -271,7 +271,7 @@ impl<S: System> System for Minimal<S> {
         let loops = self.loops.get_mut();
         let (n, h) = (self.dims.v, self.inner.holonomic);
         if !loops.reach(at) {
-            out.mass.fill(f64::NAN);
+            out.mass.values_mut().fill(f64::NAN);
             out.force.fill(f64::NAN);
             return;
         }
@@ -279,9 +279,9 @@ impl<S: System> System for Minimal<S> {
             loops.evaluate(stage);
         }
         let inner = &loops.terms;
-        congruent(&inner.mass, &loops.p, n, &mut self.product, &mut out.mass);
+        congruent(&inner.mass, &loops.p, n, &mut self.product, out.mass.values_mut());
         let psi = inner.g.lines().skip(h);
-        for (out, row) in out.g.chunks_exact_mut(n.max(1)).zip(psi.clone()) {
+        for (out, row) in out.g.values_mut().chunks_exact_mut(n.max(1)).zip(psi.clone()) {
             combine_entries(row.entries(), &loops.p, out);
         }
         if stage > Stage::Position {
@@ -324,23 +324,22 @@ impl<S: System> System for Minimal<S> {
         let loops = self.loops.get_mut();
         let Loops { inner, state, a, lambda, tangent, p, .. } = loops;
         inner.tangent(state.at(), a, lambda, tangent);
-        congruent(&tangent.k, p, n, &mut self.product, &mut out.k);
-        congruent(&tangent.c, p, n, &mut self.product, &mut out.c);
-        out.r_z.fill(0.0);
+        congruent(&tangent.k, p, n, &mut self.product, out.k.values_mut());
+        congruent(&tangent.c, p, n, &mut self.product, out.c.values_mut());
+        out.r_z.values_mut().fill(0.0);
         if nz > 0 {
             self.product[..self.inner.v * nz].fill(0.0);
-            tangent.r_z.pattern().places().zip(&*tangent.r_z).for_each(|((i, j), x)| self.product[i * nz + j] = *x);
-            gather(p, n, &self.product[..self.inner.v * nz], &mut out.r_z);
+            tangent.r_z.pattern().places().zip(tangent.r_z.values()).for_each(|((i, j), x)| self.product[i * nz + j] = *x);
+            gather(p, n, &self.product[..self.inner.v * nz], out.r_z.values_mut());
         }
         for (from, to) in [(&tangent.z_q, &mut out.z_q), (&tangent.z_v, &mut out.z_v)] {
-            for (to, from) in to.chunks_exact_mut(n.max(1)).zip(from.lines()) {
+            for (to, from) in to.values_mut().chunks_exact_mut(n.max(1)).zip(from.lines()) {
                 combine_entries(from.entries(), p, to);
             }
         }
-        out.z_z.fill(0.0);
-        tangent.z_z.pattern().places().zip(&*tangent.z_z).for_each(|((i, j), x)| out.z_z.set(i, j, *x));
+        out.z_z.take(&tangent.z_z);
         if !closed {
-            out.k.fill(f64::NAN);
+            out.k.values_mut().fill(f64::NAN);
         }
     }
 

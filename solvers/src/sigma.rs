@@ -112,7 +112,7 @@ mod tests {
     /// An engine that has factored rows.
     fn factored(engine: &mut Engine, g: &[f64]) {
         (0..4).for_each(|i| engine.terms.mass.set(i, i, 1.0));
-        engine.terms.g.copy_from_slice(g);
+        engine.terms.g.values_mut().copy_from_slice(g);
         engine.factor().unwrap();
     }
 

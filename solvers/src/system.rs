@@ -148,7 +148,7 @@ pub trait System {
     fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut Block) {
         let _ = (at, lambda);
         force.fill(0.0);
-        r_lambda.fill(0.0);
+        r_lambda.values_mut().fill(0.0);
     }
 
     /// Derivatives of [`residual`](Self::residual) and of ż.
@@ -219,7 +219,16 @@ mod tests {
         let dims = Dims { q: 4, v: 3, z: 2, holonomic: 1, nonholonomic: 1, ..Dims::default() };
         let pattern = Pattern { r_lambda: crate::Sparsity::dense(3, 2), ..Pattern::dense(dims) };
         let (terms, tangent) = (Terms::new(dims, &pattern), Tangent::new(&pattern));
-        assert_eq!((terms.mass.len(), terms.g.len(), terms.phi.len(), terms.nu.len(), terms.zdot.len()), (9, 6, 1, 2, 2));
-        assert_eq!((tangent.k.len(), tangent.r_z.len(), tangent.r_lambda.len(), tangent.z_q.len(), tangent.z_z.len()), (9, 6, 6, 6, 4));
+        assert_eq!((terms.mass.values().len(), terms.g.values().len(), terms.phi.len(), terms.nu.len(), terms.zdot.len()), (9, 6, 1, 2, 2));
+        assert_eq!(
+            (
+                tangent.k.values().len(),
+                tangent.r_z.values().len(),
+                tangent.r_lambda.values().len(),
+                tangent.z_q.values().len(),
+                tangent.z_z.values().len()
+            ),
+            (9, 6, 6, 6, 4)
+        );
     }
 }

@@ -46,7 +46,7 @@ impl System for Driven {
 
     fn terms(&mut self, at: At<'_>, _: Stage, out: &mut Terms) {
         let [m, slope, weight] = inertia(at.q[0]);
-        out.mass[0] = m;
+        out.mass.values_mut()[0] = m;
         out.force[0] = drive(at.v[0])[0] - 0.5 * slope * at.v[0] * at.v[0] + weight;
     }
 
@@ -56,8 +56,8 @@ impl System for Driven {
     }
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
-        out.k[0] = 0.0;
-        out.c[0] = inertia(at.q[0])[1] * at.v[0] - drive(at.v[0])[1];
+        out.k.values_mut()[0] = 0.0;
+        out.c.values_mut()[0] = inertia(at.q[0])[1] * at.v[0] - drive(at.v[0])[1];
     }
 
     fn rate(&self, _: f64, _: &[f64], v: &[f64], qdot: &mut [f64]) {

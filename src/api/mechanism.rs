@@ -147,7 +147,7 @@ impl Mechanism {
         system.terms(state.at(), Stage::Dynamics, &mut terms);
         let dims = system.dims();
         let mut kkt = Kkt::of_pattern(system.pattern());
-        kkt.factor(&terms.mass, &terms.g).map_err(|_| Error::Refused {
+        kkt.factor(terms.mass.values(), terms.g.values()).map_err(|_| Error::Refused {
             message: "the accelerations are not determined: mass is missing".into(),
             help: "give each body that moves a mass".into(),
         })?;

@@ -153,8 +153,9 @@ impl<G: Space> Dynamics<'_, G> {
         composite.copy_from_slice(inertias);
         if !m.rotors.is_empty() {
             // a rotor between two branches adds to entries that no ancestor writes
-            mass.fill(G::S::default());
+            mass.values_mut().fill(G::S::default());
         }
+        let (pattern, values) = mass.parts_mut();
         for node in m.nodes.iter().rev() {
             let whole = composite[node.body];
             for k in node.columns.clone() {
@@ -162,9 +163,9 @@ impl<G: Space> Dynamics<'_, G> {
                 for &j in &m.ancestors[k] {
                     let x = momentum.power(columns[j]);
                     if full {
-                        (mass[j * nv + k], mass[k * nv + j]) = (x, x);
+                        (values[j * nv + k], values[k * nv + j]) = (x, x);
                     } else if let Some(&[above, below]) = places.next() {
-                        (mass[above], mass[below]) = (x, x);
+                        (values[above], values[below]) = (x, x);
                     }
                 }
             }
@@ -176,8 +177,7 @@ impl<G: Space> Dynamics<'_, G> {
             let (gauge, reading) = (&m.gauges[rotor.gauge], &readings[rotor.gauge]);
             gauge.project(reading, columns, |j, x| {
                 gauge.project(reading, columns, |k, y| {
-                    let place = if full { Some(j * nv + k) } else { mass.pattern().place(j, k) };
-                    place.into_iter().for_each(|place| mass[place] += rotor.inertia * (x * y));
+                    pattern.place(j, k).into_iter().for_each(|place| values[place] += rotor.inertia * (x * y));
                 });
             });
         }

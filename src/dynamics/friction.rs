@@ -89,7 +89,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
 
     /// R_λ = −∂f_λ/∂λ (nv × rows); after [`Dynamics::loads`].
     pub fn friction_slope(&self, lambda: &[f64], slope: &mut Block) {
-        slope.fill(0.0);
+        slope.values_mut().fill(0.0);
         let Workspace { readings, columns, force_outputs, .. } = &self.work;
         self.friction_by_reactions(|gauge, output, pressing| {
             for (place, side) in self.places(pressing) {

@@ -41,21 +41,21 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let m = self.mechanism;
         let mut natural = self.natural();
         let here = &self.work.g;
-        let scale = natural_row_scale(here.pattern(), here, &natural, metric);
+        let scale = natural_row_scale(here.pattern(), here.values(), natural.values(), metric);
         let motions = self.motions(&scale, metric);
         if motions.is_empty() {
             return scale;
         }
         let unit = m.units();
         let mut entries = here.clone();
-        entries.iter_mut().for_each(|g| *g = g.abs());
+        entries.values_mut().iter_mut().for_each(|g| *g = g.abs());
         let mut around = self.clone();
         for delta in motions {
             let mut q = q.to_vec();
             m.retract(&mut q, &delta);
             around.position(&q, modes);
-            grow(&mut natural, &around.natural());
-            grow(&mut entries, &around.work.g);
+            grow(natural.values_mut(), around.natural().values());
+            grow(entries.values_mut(), around.work.g.values());
         }
         let square = |columns: &[usize], row: &[f64]| columns.iter().zip(row).map(|(k, g)| (g * unit[*k]).powi(2)).sum::<f64>();
         for (i, here) in here.lines().enumerate() {
@@ -65,7 +65,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
                 row.copy_from_slice(here.values);
             }
         }
-        natural_row_scale(entries.pattern(), &entries, &natural, metric)
+        natural_row_scale(entries.pattern(), entries.values(), natural.values(), metric)
     }
 
     /// Large displacements (nv each) along motions that the rows leave but for those that time moves.

@@ -6,7 +6,7 @@
 use super::Dynamics;
 use super::patterns::{friction_pattern, known_by, known_together, tangent_pattern};
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Step};
 use crate::scalar::{Dual, Scalar};
 use grashof_solvers::{Coloring, Dims, Pattern, Sparsity, Tangent};
 
@@ -51,16 +51,14 @@ pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
     /// Rows that each column of K and C knows, and the places of these entries in the blocks.
     columns: Sparsity,
     places: Vec<usize>,
-    coloring: Coloring,
+    /// Columns of each colour, and the step of each column.
+    colors: Vec<Vec<usize>>,
+    steps: Vec<usize>,
     q: Vec<Dual<LANES>>,
     v: Vec<Dual<LANES>>,
     a: Vec<Dual<LANES>>,
     lambda: Vec<Dual<LANES>>,
     r: Vec<Dual<LANES>>,
-    /// A unit velocity, the coordinates, and N(q) of it.
-    unit: Vec<f64>,
-    plain: Vec<f64>,
-    qdot: Vec<f64>,
 }
 
 impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
@@ -74,20 +72,27 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         let known = known_by(lifted, &lifted.state_program);
         let states = (0..nz).flat_map(|j| known.iter().map(move |&k| (nv + j, k)));
         let coloring = Coloring::new(&Sparsity::new(nv + nz, nv, pattern.places().chain(states)));
+        let mut colors = vec![Vec::new(); coloring.count];
+        coloring.color.iter().enumerate().for_each(|(k, color)| colors[*color].push(k));
+        let mut steps = vec![0; nv];
+        for (i, step) in lifted.steps.iter().enumerate() {
+            match *step {
+                Step::Axis { v, .. } => steps[v] = i,
+                Step::Ball { v, .. } => steps[v..v + D::SPIN].fill(i),
+            }
+        }
         let zeros = |n: usize| vec![Dual::constant(0.0); n];
         Self {
             dynamics: Dynamics::new(lifted),
             places: columns.places().filter_map(|(k, i)| stored.place(i, k)).collect(),
             columns,
-            coloring,
+            colors,
+            steps,
             q: zeros(nq),
             v: zeros(nv),
             a: zeros(nv),
             lambda: zeros(rows),
             r: zeros(nv),
-            unit: vec![0.0; nv],
-            plain: vec![0.0; nq],
-            qdot: vec![0.0; nq],
         }
     }
 
@@ -105,8 +110,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         for (lifted, plain) in [(&mut self.a, at.a), (&mut self.lambda, at.lambda)] {
             constants(lifted, plain);
         }
-        self.plain.copy_from_slice(at.q);
-        for first in (0..self.coloring.count).step_by(LANES) {
+        for first in (0..self.colors.len()).step_by(LANES) {
             self.columns(first, false, at, out);
             self.columns(first, true, at, out);
         }
@@ -117,27 +121,27 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
 
     /// Columns whose colours are in the lanes from `first` on, by q or by v.
     fn columns(&mut self, first: usize, by_velocity: bool, at: &Point<'_>, out: &mut Tangent) {
-        let (nv, nz) = (at.v.len(), at.z.len());
         constants(&mut self.q, at.q);
         constants(&mut self.v, at.v);
-        for k in 0..nv {
-            let Some(l) = lane(&self.coloring, first, k) else { continue };
+        let Self { colors, steps, q, v, dynamics, .. } = self;
+        let lanes = || colors[first..].iter().take(LANES).enumerate().flat_map(|(lane, columns)| columns.iter().map(move |&k| (k, lane)));
+        for (k, lane) in lanes() {
             if by_velocity {
-                self.v[k].d[l] = 1.0;
+                v[k].d[lane] = 1.0;
             } else {
-                self.seed(k, l);
+                seed(&dynamics.mechanism.steps[steps[k]], at.q, q, [k, lane]);
             }
         }
         constants(&mut self.dynamics.work.z, at.z);
         self.evaluate(at);
         let (target, states) = if by_velocity { (&mut out.c, &mut out.z_v) } else { (&mut out.k, &mut out.z_q) };
-        for k in 0..nv {
-            let Some(l) = lane(&self.coloring, first, k) else { continue };
+        let lanes = self.colors[first..].iter().take(LANES).enumerate();
+        for (k, lane) in lanes.flat_map(|(lane, columns)| columns.iter().map(move |&k| (k, lane))) {
             for (&i, &place) in self.columns.row(k).iter().zip(&self.places[self.columns.range(k)]) {
-                target[place] = self.r[i].d[l];
+                target.values_mut()[place] = self.r[i].d[lane];
             }
-            for j in 0..nz {
-                states.set(j, k, self.dynamics.work.zdot[j].d[l]);
+            for j in 0..at.z.len() {
+                states.set(j, k, self.dynamics.work.zdot[j].d[lane]);
             }
         }
     }
@@ -167,7 +171,6 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         let (nv, rows) = (at.v.len(), at.lambda.len());
         let mut out =
             RowTangent { velocity_q: vec![0.0; rows * nv], acceleration_q: vec![0.0; rows * nv], acceleration_v: vec![0.0; rows * nv] };
-        self.plain.copy_from_slice(at.q);
         for (first, by_velocity) in (0..nv).step_by(LANES).flat_map(|first| [(first, false), (first, true)]) {
             constants(&mut self.q, at.q);
             constants(&mut self.v, at.v);
@@ -177,7 +180,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
                 if by_velocity {
                     self.v[k].d[k - first] = 1.0;
                 } else {
-                    self.seed(k, k - first);
+                    seed(&self.dynamics.mechanism.steps[self.steps[k]], at.q, &mut self.q, [k, k - first]);
                 }
             }
             let Self { dynamics, q, v, .. } = self;
@@ -209,23 +212,11 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         self.dynamics.rates(at.modes);
         self.dynamics.residual(&self.a, &self.lambda, &mut self.r);
     }
-
-    /// The derivative of q ⊕ ε e_k in a lane: 1 for an axis, ½ q∘(0, e) for a quaternion.
-    fn seed(&mut self, k: usize, lane: usize) {
-        self.unit.fill(0.0);
-        self.unit[k] = 1.0;
-        self.dynamics.mechanism.rate(&self.plain, &self.unit, &mut self.qdot);
-        for (q, d) in self.q.iter_mut().zip(&self.qdot) {
-            if *d != 0.0 {
-                q.d[lane] = *d;
-            }
-        }
-    }
 }
 
-/// The lane of column k among those from `first` on.
-fn lane(coloring: &Coloring, first: usize, k: usize) -> Option<usize> {
-    coloring.color[k].checked_sub(first).filter(|l| *l < LANES)
+/// The derivative of q ⊕ ε e_k in a lane, q being moved by a step.
+fn seed<D: Space<S = Dual<LANES>>>(step: &Step<D>, plain: &[f64], q: &mut [Dual<LANES>], [k, lane]: [usize; 2]) {
+    step.unit_rate(plain, k, |i, x| q[i].d[lane] = x);
 }
 
 fn constants(out: &mut [Dual<LANES>], x: &[f64]) {

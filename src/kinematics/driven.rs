@@ -214,7 +214,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
                 self.dynamics.forces(modes);
                 self.dynamics.mass();
                 let work = &self.dynamics.work;
-                if kkt.factor(&work.mass, &work.g).is_ok() {
+                if kkt.factor(work.mass.values(), work.g.values()).is_ok() {
                     kkt.solve(&work.force, &work.gamma, &mut self.delta, &mut self.lambda);
                 }
                 self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
@@ -261,7 +261,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
                 }
                 lu.factor_in_place().map_err(|_| NotReached)
             }
-            Solver::Redundant { kkt, metric, .. } => kkt.factor(metric, g).map_err(|_| NotReached),
+            Solver::Redundant { kkt, metric, .. } => kkt.factor(metric.values(), g.values()).map_err(|_| NotReached),
         }
     }
 
@@ -313,8 +313,8 @@ impl ByReactions {
         dynamics.forces(modes);
         dynamics.mass();
         let (t, w) = (&mut self.terms, &dynamics.work);
-        t.mass.copy_from_slice(&w.mass);
-        t.g.copy_from_slice(&w.g);
+        t.mass.values_mut().copy_from_slice(w.mass.values());
+        t.g.values_mut().copy_from_slice(w.g.values());
         t.force.copy_from_slice(&w.force);
         t.gamma.copy_from_slice(&w.gamma);
         self.a.copy_from_slice(a);

@@ -26,7 +26,7 @@ use crate::dynamics::{Dynamics, LANES, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::Dual;
-use grashof_solvers::{Kkt, Tangent};
+use grashof_solvers::{Block, Kkt, Tangent};
 use nalgebra::DMatrix;
 
 /// The terms of a linearised motion at one state.
@@ -92,7 +92,7 @@ impl Linear {
         let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
         let row_scale = dynamics.row_scale(at.q, at.modes, metric);
         kkt.set_scale(metric, &row_scale);
-        kkt.factor(&dynamics.work.mass, &dynamics.work.g).map_err(|_| Singular)?;
+        kkt.factor(dynamics.work.mass.values(), dynamics.work.g.values()).map_err(|_| Singular)?;
         Ok(Self {
             rows: linearizer.rows(at),
             tangent,
@@ -118,17 +118,22 @@ impl Linear {
         let (mut force, mut gamma) = (vec![0.0; nv], vec![0.0; rows]);
         let (mut da, mut dl) = (vec![0.0; nv], vec![0.0; rows]);
         for j in 0..n {
-            let of = |by_q: &[f64], by_v: &[f64], by_z: Option<&[f64]>, i: usize| match j {
+            let of = |by_q: &Block, by_v: &Block, by_z: &Block, i: usize| match j {
+                _ if j < nv => by_q.at(i, j),
+                _ if j < 2 * nv => by_v.at(i, j - nv),
+                _ => by_z.at(i, j - 2 * nv),
+            };
+            let of_rows = |by_q: &[f64], by_v: &[f64], i: usize| match j {
                 _ if j < nv => by_q[i * nv + j],
                 _ if j < 2 * nv => by_v[i * nv + j - nv],
-                _ => by_z.map_or(0.0, |z| z[i * nz + j - 2 * nv]),
+                _ => 0.0,
             };
             let (t, r) = (&self.tangent, &self.rows);
-            (0..nv).for_each(|i| force[i] = -of(&t.k, &t.c, Some(&t.r_z), i));
-            (0..rows).for_each(|i| gamma[i] = -of(&r.acceleration_q, &r.acceleration_v, None, i));
+            (0..nv).for_each(|i| force[i] = -of(&t.k, &t.c, &t.r_z, i));
+            (0..rows).for_each(|i| gamma[i] = -of_rows(&r.acceleration_q, &r.acceleration_v, i));
             self.kkt.solve(&force, &gamma, &mut da, &mut dl);
             (0..nv).for_each(|i| a[(nv + i, j)] = da[i]);
-            (0..nz).for_each(|i| a[(2 * nv + i, j)] = of(&t.z_q, &t.z_v, Some(&t.z_z), i));
+            (0..nz).for_each(|i| a[(2 * nv + i, j)] = of(&t.z_q, &t.z_v, &t.z_z, i));
         }
         a
     }
@@ -149,7 +154,8 @@ impl Linear {
         let (p, n) = (&partition.p, partition.independent.len());
         let t = &self.tangent;
         let matrix = |rows: usize, columns: usize, x: &[f64]| DMatrix::from_row_slice(rows, columns, x);
-        let (k, c, r_z) = (matrix(nv, nv, &t.k), matrix(nv, nv, &t.c), matrix(nv, nz, &t.r_z));
+        let whole = |block: &Block| matrix(block.pattern().rows(), block.pattern().columns(), &block.to_dense());
+        let (k, c, r_z) = (whole(&t.k), whole(&t.c), whole(&t.r_z));
         let gamma_q = matrix(rows, nv, &self.rows.acceleration_q);
         let gamma_v = matrix(rows, nv, &self.rows.acceleration_v);
         let w = partition.follow(&(matrix(rows, nv, &self.rows.velocity_q) * p));
@@ -160,7 +166,7 @@ impl Linear {
         let damping = &project * (&c * p + &self.mass * y_v);
         let stiffness = &project * (k * p + c * &w + &self.mass * y_q);
         let factor = mass.clone().cholesky().ok_or(Singular)?;
-        let (z_q, z_v) = (matrix(nz, nv, &t.z_q), matrix(nz, nv, &t.z_v));
+        let (z_q, z_v) = (whole(&t.z_q), whole(&t.z_v));
         let mut a = DMatrix::zeros(2 * n + nz, 2 * n + nz);
         // the rates of x are u but for the joints whose velocities do not commute
         a.view_mut((0, 0), (n, n)).copy_from(&-(&self.spin * p).select_rows(&partition.independent));
@@ -170,7 +176,7 @@ impl Linear {
         a.view_mut((n, 2 * n), (n, nz)).copy_from(&-factor.solve(&(&project * r_z)));
         a.view_mut((2 * n, 0), (nz, n)).copy_from(&(&z_q * p + &z_v * &w));
         a.view_mut((2 * n, n), (nz, n)).copy_from(&(&z_v * p));
-        a.view_mut((2 * n, 2 * n), (nz, nz)).copy_from(&matrix(nz, nz, &t.z_z));
+        a.view_mut((2 * n, 2 * n), (nz, nz)).copy_from(&whole(&t.z_z));
         Ok(Reduced { w, mass, damping, stiffness, a, partition })
     }
 }

@@ -1,5 +1,6 @@
 //! A mechanism and its parts.
 
+use super::step::multiply_quaternion;
 use super::{
     Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, PointLoad, Pressing, Rotor, Row, RowKind,
     RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
@@ -412,14 +413,4 @@ fn retract_quaternion(q: &mut [f64], w: [f64; 3]) {
     let k = 0.5 * if half < 1e-6 { 1.0 - half * half / 6.0 } else { half.sin() / half };
     let product = multiply_quaternion([q[0], q[1], q[2], q[3]], [half.cos(), k * w[0], k * w[1], k * w[2]]);
     q.copy_from_slice(&product);
-}
-
-/// Hamilton's product, (w, x, y, z).
-fn multiply_quaternion(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    [
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    ]
 }

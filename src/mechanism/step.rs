@@ -55,4 +55,28 @@ impl<G: Space> Step<G> {
             Self::Ball { q, v, reversed } => Step::Ball { q, v, reversed },
         }
     }
+
+    /// q̇ of the coordinates that it moves, by the unit velocity `k`, which is one of its own: 1 for an axis, ½ q∘(0, e) for a
+    /// quaternion; written by `put(index in q, rate)`.
+    pub fn unit_rate(&self, q: &[f64], k: usize, mut put: impl FnMut(usize, f64)) {
+        match *self {
+            Self::Axis { q: i, .. } => put(i, 1.0),
+            Self::Ball { q: i, v, .. } => {
+                let mut unit = [0.0; 4];
+                unit[1 + k - v] = 1.0;
+                let turned = multiply_quaternion([q[i], q[i + 1], q[i + 2], q[i + 3]], unit);
+                turned.iter().enumerate().for_each(|(j, x)| put(i + j, 0.5 * x));
+            }
+        }
+    }
+}
+
+/// Hamilton's product, (w, x, y, z).
+pub(super) fn multiply_quaternion(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
 }

@@ -419,7 +419,7 @@ impl<S: System> Loops<S> {
             for (l, (x, unit)) in self.lambda.iter_mut().zip(self.rhs[..h].iter().zip(&self.row_unit)) {
                 *l = x * unit;
             }
-        } else if self.kkt.factor(&self.terms.mass, &self.terms.g[..self.loop_entries]).is_ok() {
+        } else if self.kkt.factor(self.terms.mass.values(), &self.terms.g.values()[..self.loop_entries]).is_ok() {
             self.work[..h].fill(0.0);
             self.kkt.solve(&self.full, &self.work[..h], &mut self.left, &mut self.lambda[..h]);
         } else {

@@ -204,7 +204,7 @@ impl System for Andrews {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        mass(at.q, &mut out.mass);
+        mass(at.q, out.mass.values_mut());
         rows(at, stage, out);
         if stage < Stage::Dynamics {
             return;
@@ -224,22 +224,22 @@ impl System for Andrews {
     fn tangent(&mut self, at: At<'_>, acceleration: &[f64], lambda: &[f64], out: &mut Tangent) {
         clear(out);
         let [length, slope, bend] = spring(at.q[GAMMA]);
-        out.k[8 * GAMMA] = STIFFNESS * (slope * slope + (length - REST) * bend);
+        out.k.values_mut()[8 * GAMMA] = STIFFNESS * (slope * slope + (length - REST) * bend);
         for pair in &PAIRS {
             let [_, h1, h2] = pair.coupling(at.q);
             let (i, j) = (pair.alpha, pair.psi);
             let (a, p) = (at.v[i], at.v[j]);
-            out.k[7 * i + j] += h1 * (2.0 * acceleration[i] + acceleration[j]) + h2 * p * (2.0 * a + p);
-            out.k[8 * j] += h1 * acceleration[i] - h2 * a * a;
-            out.c[8 * i] += 2.0 * h1 * p;
-            out.c[7 * i + j] += 2.0 * h1 * (a + p);
-            out.c[7 * j + i] -= 2.0 * h1 * a;
+            out.k.values_mut()[7 * i + j] += h1 * (2.0 * acceleration[i] + acceleration[j]) + h2 * p * (2.0 * a + p);
+            out.k.values_mut()[8 * j] += h1 * acceleration[i] - h2 * a * a;
+            out.c.values_mut()[8 * i] += 2.0 * h1 * p;
+            out.c.values_mut()[7 * i + j] += 2.0 * h1 * (a + p);
+            out.c.values_mut()[7 * j + i] -= 2.0 * h1 * a;
         }
         for arm in &ARMS {
             let [x, y] = arm.vector(at.q);
             let bent: f64 = arm.blocks.iter().map(|&(b, sign)| -sign * (x * lambda[2 * b] + y * lambda[2 * b + 1])).sum();
             for (&i, &j) in arm.angles.iter().flat_map(|i| arm.angles.iter().map(move |j| (i, j))) {
-                out.k[7 * i + j] += bent;
+                out.k.values_mut()[7 * i + j] += bent;
             }
         }
     }
@@ -267,7 +267,7 @@ fn mass(q: &[f64], m: &mut [f64]) {
 /// Φ and G, and from the velocity stage on ν and γ.
 fn rows(at: At<'_>, stage: Stage, out: &mut Terms) {
     out.phi.copy_from_slice(&[-B[0], -B[1], -A[0], -A[1], -A[0], -A[1]]);
-    out.g.fill(0.0);
+    out.g.values_mut().fill(0.0);
     if stage >= Stage::Velocity {
         out.nu.fill(0.0);
         out.gamma.fill(0.0);
@@ -279,8 +279,8 @@ fn rows(at: At<'_>, stage: Stage, out: &mut Terms) {
             out.phi[row] += sign * x;
             out.phi[row + 1] += sign * y;
             for &i in arm.angles {
-                out.g[7 * row + i] -= sign * y;
-                out.g[7 * (row + 1) + i] += sign * x;
+                out.g.values_mut()[7 * row + i] -= sign * y;
+                out.g.values_mut()[7 * (row + 1) + i] += sign * x;
             }
             if stage >= Stage::Velocity {
                 let omega = arm.sum(at.v);

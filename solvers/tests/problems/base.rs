@@ -39,7 +39,7 @@ pub(crate) fn scaled<P: Problem>(mut problem: P, base: impl Fn(&mut P) -> &mut B
     problem.terms(start.at(), Stage::Position, &mut terms);
     let pattern = &mut base(&mut problem).pattern;
     pattern.metric = metric((0..unit.len()).map(|i| terms.mass.at(i, i)), unit);
-    pattern.g_scale = row_scale(&pattern.g, &terms.g, &pattern.metric);
+    pattern.g_scale = row_scale(&pattern.g, terms.g.values(), &pattern.metric);
     let pattern = pattern.clone();
     let base = base(&mut problem);
     base.terms = Terms::new(base.dims, &pattern);
@@ -57,13 +57,13 @@ pub(crate) fn residual(terms: &Terms, a: &[f64], lambda: &[f64], r: &mut [f64]) 
 /// Sets every block to zero.
 pub(crate) fn clear(t: &mut Tangent) {
     for block in [&mut t.k, &mut t.c, &mut t.r_z, &mut t.r_lambda, &mut t.z_q, &mut t.z_v, &mut t.z_z] {
-        block.fill(0.0);
+        block.values_mut().fill(0.0);
     }
 }
 
 /// A diagonal matrix.
 pub(crate) fn diagonal(matrix: &mut Block, values: impl IntoIterator<Item = f64>) {
-    matrix.fill(0.0);
+    matrix.values_mut().fill(0.0);
     values.into_iter().enumerate().for_each(|(i, x)| matrix.set(i, i, x));
 }
 

@@ -90,7 +90,7 @@ impl System for CarAxis {
         let (d, d1) = (minus(pl, pr), minus(vl, vr));
         diagonal(&mut out.mass, [MASS; 4]);
         out.phi.copy_from_slice(&[-dot(pl, b), 1.0 - dot(d, d)]);
-        out.g.copy_from_slice(&[-b[0], -b[1], 0.0, 0.0, -2.0 * d[0], -2.0 * d[1], 2.0 * d[0], 2.0 * d[1]]);
+        out.g.values_mut().copy_from_slice(&[-b[0], -b[1], 0.0, 0.0, -2.0 * d[0], -2.0 * d[1], 2.0 * d[0], 2.0 * d[1]]);
         if stage >= Stage::Velocity {
             out.nu.copy_from_slice(&[dot(pl, b1), 0.0]);
             out.gamma.copy_from_slice(&[2.0 * dot(vl, b1) + dot(pl, b2), 2.0 * dot(d1, d1)]);
@@ -107,13 +107,13 @@ impl System for CarAxis {
         let pr = minus(pr, road(at.t)[0]);
         for i in 0..2 {
             for j in 0..2 {
-                out.k[4 * i + j] = stiffness(pl, i, j);
-                out.k[4 * (i + 2) + j + 2] = stiffness(pr, i, j);
+                out.k.values_mut()[4 * i + j] = stiffness(pl, i, j);
+                out.k.values_mut()[4 * (i + 2) + j + 2] = stiffness(pr, i, j);
             }
         }
         for i in 0..4 {
-            out.k[5 * i] -= 2.0 * lambda[1];
-            out.k[4 * i + (i + 2) % 4] += 2.0 * lambda[1];
+            out.k.values_mut()[5 * i] -= 2.0 * lambda[1];
+            out.k.values_mut()[4 * i + (i + 2) % 4] += 2.0 * lambda[1];
         }
     }
 

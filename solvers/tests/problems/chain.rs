@@ -73,7 +73,7 @@ impl System for Chain {
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let n = at.q.len();
         diagonal(&mut out.mass, (0..n).map(|_| 1.0));
-        out.g.fill(0.0);
+        out.g.values_mut().fill(0.0);
         for i in 0..n / 2 {
             let [x, y] = link(at.q, i);
             out.phi[i] = 0.5 * (x * x + y * y - self.length * self.length);

@@ -31,14 +31,14 @@ impl Explicit {
     /// Evaluates a and λ.
     pub(crate) fn accelerate(&mut self, problem: &mut dyn Problem, at: At<'_>) {
         problem.terms(at, Stage::Dynamics, &mut self.terms);
-        self.kkt.factor(&self.terms.mass, &self.terms.g).expect("regular");
+        self.kkt.factor(self.terms.mass.values(), self.terms.g.values()).expect("regular");
         self.kkt.solve(&self.terms.force, &self.terms.gamma, &mut self.a, &mut self.lambda);
     }
 
     /// Adds to v the shortest change with G v = ν.
     pub(crate) fn project_velocity(&mut self, problem: &mut dyn Problem, state: &mut State) {
         problem.terms(state.at(), Stage::Velocity, &mut self.terms);
-        self.kkt.factor(&self.terms.mass, &self.terms.g).expect("regular");
+        self.kkt.factor(self.terms.mass.values(), self.terms.g.values()).expect("regular");
         let n = state.v.len();
         let miss: Vec<f64> = self.terms.g.lines().zip(&self.terms.nu).map(|(row, nu)| nu - row.dot(&state.v)).collect();
         self.kkt.solve(&vec![0.0; n], &miss, &mut self.a, &mut self.lambda);

@@ -67,8 +67,8 @@ impl System for StiffPair {
     fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
         let (k, d) = (self.stiffness, self.damping);
-        out.k.copy_from_slice(&[1.0 + k, -k, -k, 1.0 + k]);
-        out.c.copy_from_slice(&[d, -d, -d, d]);
+        out.k.values_mut().copy_from_slice(&[1.0 + k, -k, -k, 1.0 + k]);
+        out.c.values_mut().copy_from_slice(&[d, -d, -d, d]);
     }
 
     /// Of the damper.
@@ -135,7 +135,7 @@ impl System for InductanceMotor {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = self.inertia;
+        out.mass.values_mut()[0] = self.inertia;
         if stage >= Stage::Dynamics {
             out.force[0] = self.constant * at.z[0];
             out.zdot[0] = (self.voltage - self.resistance * at.z[0] - self.constant * at.v[0]) / self.inductance;
@@ -144,9 +144,9 @@ impl System for InductanceMotor {
 
     fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.r_z[0] = -self.constant;
-        out.z_v[0] = -self.constant / self.inductance;
-        out.z_z[0] = -self.resistance / self.inductance;
+        out.r_z.values_mut()[0] = -self.constant;
+        out.z_v.values_mut()[0] = -self.constant / self.inductance;
+        out.z_z.values_mut()[0] = -self.resistance / self.inductance;
     }
 
     /// Of the supply less the heat.

@@ -104,7 +104,7 @@ impl System for Linkage {
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         diagonal(&mut out.mass, self.bodies.iter().flat_map(|&[m, inertia]| [m, m, inertia]));
         out.phi.fill(0.0);
-        out.g.fill(0.0);
+        out.g.values_mut().fill(0.0);
         if stage >= Stage::Velocity {
             out.nu.fill(0.0);
             out.gamma.fill(0.0);

@@ -181,7 +181,7 @@ impl System for FourBarTwin {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             out.force[0] = self.square * at.q[0].sin();
         }
@@ -189,7 +189,7 @@ impl System for FourBarTwin {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.k[0] = -self.square * at.q[0].cos();
+        out.k.values_mut()[0] = -self.square * at.q[0].cos();
     }
 }
 

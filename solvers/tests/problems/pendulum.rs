@@ -65,7 +65,7 @@ impl System for Pendulum {
         let (q, v) = (at.q, at.v);
         diagonal(&mut out.mass, [1.0, 1.0]);
         out.phi[0] = 0.5 * (q[0] * q[0] + q[1] * q[1] - 1.0);
-        out.g.copy_from_slice(q);
+        out.g.values_mut().copy_from_slice(q);
         if stage >= Stage::Velocity {
             out.nu[0] = 0.0;
             out.gamma[0] = -(v[0] * v[0] + v[1] * v[1]);
@@ -118,7 +118,7 @@ impl System for PendulumAngle {
     smooth!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             out.force[0] = -GRAVITY * at.q[0].sin();
         }
@@ -126,7 +126,7 @@ impl System for PendulumAngle {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.k[0] = GRAVITY * at.q[0].cos();
+        out.k.values_mut()[0] = GRAVITY * at.q[0].cos();
     }
 }
 

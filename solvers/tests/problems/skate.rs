@@ -50,7 +50,7 @@ impl System for Skate {
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
         let (s, c) = at.q[2].sin_cos();
         diagonal(&mut out.mass, [1.0, 1.0, INERTIA]);
-        out.g.copy_from_slice(&[-s, c, 0.0]);
+        out.g.values_mut().copy_from_slice(&[-s, c, 0.0]);
         if stage >= Stage::Velocity {
             out.nu[0] = 0.0;
             out.gamma[0] = at.v[2] * (c * at.v[0] + s * at.v[1]);
@@ -63,8 +63,8 @@ impl System for Skate {
     fn tangent(&mut self, at: At<'_>, _: &[f64], lambda: &[f64], out: &mut Tangent) {
         clear(out);
         let (s, c) = at.q[2].sin_cos();
-        out.k[2] = -c * lambda[0];
-        out.k[5] = -s * lambda[0];
+        out.k.values_mut()[2] = -c * lambda[0];
+        out.k.values_mut()[5] = -s * lambda[0];
     }
 }
 

@@ -59,7 +59,7 @@ impl System for BouncingBall {
     conservative!();
 
     fn terms(&mut self, _: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             out.force[0] = -GRAVITY;
         }
@@ -161,7 +161,7 @@ impl System for DryOscillator {
     vectors!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             let mode = at.modes[0];
             // what sticks carries the spring by friction
@@ -171,7 +171,7 @@ impl System for DryOscillator {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.k[0] = if at.modes[0] == 0 { 0.0 } else { Self::STIFFNESS };
+        out.k.values_mut()[0] = if at.modes[0] == 0 { 0.0 } else { Self::STIFFNESS };
     }
 
     /// Of friction; what sticks does not move, and its force is that of the spring.
@@ -253,7 +253,7 @@ impl System for KinkedSpring {
     conservative!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             out.force[0] = -self.of(at.modes[0]) * at.q[0];
         }
@@ -261,7 +261,7 @@ impl System for KinkedSpring {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.k[0] = self.of(at.modes[0]);
+        out.k.values_mut()[0] = self.of(at.modes[0]);
     }
 
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {
@@ -320,7 +320,7 @@ impl<const STOP: bool> System for Gate<STOP> {
     conservative!();
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        out.mass[0] = 1.0;
+        out.mass.values_mut()[0] = 1.0;
         if stage >= Stage::Dynamics {
             out.force[0] = -at.q[0];
         }
@@ -328,7 +328,7 @@ impl<const STOP: bool> System for Gate<STOP> {
 
     fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        out.k[0] = 1.0;
+        out.k.values_mut()[0] = 1.0;
     }
 
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]) {

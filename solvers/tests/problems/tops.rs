@@ -122,7 +122,7 @@ impl System for FreeBody {
 
     fn tangent(&mut self, at: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
         clear(out);
-        put(&mut out.c, 3, 0, 0, gyroscopic(Self::INERTIA, three(at.v)).1);
+        put(out.c.values_mut(), 3, 0, 0, gyroscopic(Self::INERTIA, three(at.v)).1);
     }
 }
 
@@ -216,8 +216,8 @@ impl System for HeavyTop {
         clear(out);
         // a turn δ of the body takes ζ = Rᵀe_z to ζ + ζ × δ
         let up = turned_back(&rotation(at.q), [0.0, 0.0, 1.0]);
-        put(&mut out.k, 3, 0, 0, multiplied(skew(WEIGHT), skew(up)));
-        put(&mut out.c, 3, 0, 0, gyroscopic(ABOUT_PIVOT, three(at.v)).1);
+        put(out.k.values_mut(), 3, 0, 0, multiplied(skew(WEIGHT), skew(up)));
+        put(out.c.values_mut(), 3, 0, 0, gyroscopic(ABOUT_PIVOT, three(at.v)).1);
     }
 }
 
@@ -269,13 +269,13 @@ impl System for HeavyTopCartesian {
         let omega = three(&at.v[3..]);
         diagonal(&mut out.mass, [MASS; 3].into_iter().chain(CENTRAL));
         let arm = turned(&r, TO_PIVOT);
-        out.g.fill(0.0);
+        out.g.values_mut().fill(0.0);
         (0..3).for_each(|i| {
             out.phi[i] = at.q[i] + arm[i];
-            out.g[7 * i] = 1.0;
+            out.g.values_mut()[7 * i] = 1.0;
         });
         // d(R s)/dt = R (ω × s) = −R [s]× ω
-        put(&mut out.g, 6, 0, 3, multiplied(r, skew(TO_PIVOT.map(|x| -x))));
+        put(out.g.values_mut(), 6, 0, 3, multiplied(r, skew(TO_PIVOT.map(|x| -x))));
         if stage >= Stage::Velocity {
             out.nu.fill(0.0);
             out.gamma.copy_from_slice(&turned(&r, cross(omega, cross(omega, TO_PIVOT))).map(|x| -x));
@@ -290,8 +290,8 @@ impl System for HeavyTopCartesian {
         clear(out);
         // the moment of λ is s × Rᵀλ, and a turn δ takes Rᵀλ to Rᵀλ + Rᵀλ × δ
         let force = turned_back(&rotation(&at.q[3..]), three(lambda));
-        put(&mut out.k, 6, 3, 3, multiplied(skew(TO_PIVOT), skew(force)));
-        put(&mut out.c, 6, 3, 3, gyroscopic(CENTRAL, three(&at.v[3..])).1);
+        put(out.k.values_mut(), 6, 3, 3, multiplied(skew(TO_PIVOT), skew(force)));
+        put(out.c.values_mut(), 6, 3, 3, gyroscopic(CENTRAL, three(&at.v[3..])).1);
     }
 
     fn rate(&self, _: f64, q: &[f64], v: &[f64], qdot: &mut [f64]) {

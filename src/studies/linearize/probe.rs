@@ -71,7 +71,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.rates(&at.modes);
         self.gap = d.undefined(&at.modes).map(Gap::Law);
         self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
-        self.kkt.factor(&d.work.mass, &d.work.g).ok()?;
+        self.kkt.factor(d.work.mass.values(), d.work.g.values()).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };
         self.kkt.solve(&d.work.force, &d.work.gamma, &mut out.a, &mut out.lambda);
         out.rates = independent.iter().map(|&i| out.a[i]).chain(d.work.zdot.iter().copied()).collect();

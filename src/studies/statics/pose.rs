@@ -279,7 +279,7 @@ where
     /// −Z_z⁺ ż.
     fn correction(&self) -> Vec<f64> {
         let wanted: Vec<f64> = self.terms.zdot.iter().map(|x| -x).collect();
-        shortest(&self.tangent.z_z, &wanted, &vec![1.0; wanted.len()], 0.0)
+        shortest(&self.tangent.z_z.to_dense(), &wanted, &vec![1.0; wanted.len()], 0.0)
     }
 
     /// The pose at the state evaluated last.
@@ -287,8 +287,8 @@ where
         let pattern = self.system.pattern();
         let (metric, e) = (&pattern.metric, &pattern.g_scale);
         let (nv, m) = (metric.len(), e.len());
-        let Terms { g, force, .. } = &self.terms;
-        let rank = Rank::new(g, metric, e, RANK_TOLERANCE);
+        let (g, force) = (self.terms.g.to_dense(), &self.terms.force);
+        let rank = Rank::new(&g, metric, e, RANK_TOLERANCE);
         let basis = DMatrix::from_row_slice(nv, rank.mobility(), &rank.null_space);
         let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
         let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..m).map(move |i| (i, k))).map(|(i, k)| g[i * nv + k] / root[k]).collect();

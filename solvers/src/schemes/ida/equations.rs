@@ -189,7 +189,7 @@ impl Lent<'_> {
             self.system.retract(Span::at(state.t), &mut state.q, unit);
             for (i, (row, nu)) in self.engine.terms.g.lines().zip(&self.engine.terms.nu).enumerate() {
                 let there = row.dot(&state.v) - nu;
-                bend[i * nv + j] = (there - rows[i]) / nudge;
+                bend.set(i, j, (there - rows[i]) / nudge);
             }
         }
     }

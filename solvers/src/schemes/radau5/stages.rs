@@ -346,7 +346,7 @@ impl Stages {
         }
         if self.level == Level::Stabilized {
             stage.phi.copy_from_slice(&t.phi);
-            stage.g.copy_from_slice(&t.g);
+            stage.g.values_mut().copy_from_slice(t.g.values());
         }
         Ok(())
     }

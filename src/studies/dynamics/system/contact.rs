@@ -42,7 +42,7 @@ where
         self.dynamics.forces(at.modes);
         self.dynamics.mass();
         let w = &self.dynamics.work;
-        if self.kkt.factor(&w.mass, &w.g).is_ok() {
+        if self.kkt.factor(w.mass.values(), w.g.values()).is_ok() {
             self.kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
         }
     }

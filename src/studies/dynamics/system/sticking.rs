@@ -206,7 +206,7 @@ where
         self.dynamics.forces(at.modes);
         self.dynamics.mass();
         let w = &self.dynamics.work;
-        self.kkt.factor(&w.mass, &w.g).ok()?;
+        self.kkt.factor(w.mass.values(), w.g.values()).ok()?;
         let mut free = Response { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()] };
         let none = vec![0.0; m.rows.len()];
         let gamma = if driven { &w.gamma } else { &none };

@@ -1,0 +1,113 @@
+//! Mechanisms of many bodies, whose equations are kept sparse: a row of four-bars hangs and swings as one pendulum.
+//!
+//! N + 1 rods that turn and N that stay level, each of 1 m and 1 kg: ½ I ω² with I = (N + 1)/3 + N, and −(m g) cos θ with
+//! m = (N + 1)/2 + N, so that θ'' = −(m g/I) sin θ.
+
+use grashof::Model;
+use grashof::results::Results;
+
+const GRAVITY: f64 = 9.81;
+
+/// A row of `n` four-bars with a damper in the first hinge, and one study of it.
+fn row(n: usize, damping: f64, start: &str, study: &str) -> Model {
+    let each = |count: usize, line: &dyn Fn(usize) -> String| (0..count).map(line).collect::<String>();
+    let text = format!(
+        "
+grashof: 1
+name: row
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground:
+{}bodies:
+{}{}joints:
+{}{}start:
+  A0.angle: {start}
+{}{}studies: {{ it: {{ {study} }} }}
+",
+        each(n + 1, &|i| format!("  G{i}: [{i} m, 0]\n")),
+        each(n + 1, &|i| format!("  v{i}: {{ bar: {{ length: 1 m, mass: 1 kg }} }}\n")),
+        each(n, &|i| format!("  h{i}: {{ bar: {{ length: 1 m, mass: 1 kg }} }}\n")),
+        each(n + 1, &|i| {
+            let damper = if i == 0 { format!(", damping: {damping} N m s/rad") } else { String::new() };
+            format!("  A{i}: {{ revolute: [ground.G{i}, v{i}.start]{damper} }}\n")
+        }),
+        each(n, &|i| { format!("  B{i}: {{ revolute: [v{i}.end, h{i}.start] }}\n  C{i}: {{ revolute: [h{i}.end, v{}.end] }}\n", i + 1) }),
+        each(n, &|i| format!("  A{}.angle: ~{start}\n", i + 1)),
+        each(n, &|i| format!("  h{i}.angle: ~0 deg\n")),
+    );
+    Model::parse(&text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn run(model: &Model) -> Results {
+    let results = model.study("it").unwrap().run().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(results.stopped, None);
+    results
+}
+
+/// I and m of a row.
+fn inertia(n: usize) -> [f64; 2] {
+    let n = n as f64;
+    [(n + 1.0) / 3.0 + n, (n + 1.0) / 2.0 + n]
+}
+
+#[test]
+fn a_row_vibrates_as_one_pendulum() {
+    for n in [1, 8, 30] {
+        let [inertia, moment] = inertia(n);
+        let square = moment * GRAVITY / inertia;
+        let modes = run(&row(n, 0.0, "-90 deg", "modes: {}"));
+        let frequencies = modes.list("frequencies").unwrap();
+        assert_eq!(frequencies.len(), 1, "{n}");
+        assert!((frequencies[0] / square.sqrt() - 1.0).abs() < 1e-9, "{n}: {frequencies:?}");
+
+        let damping = 0.8 * inertia;
+        let linear = run(&row(n, damping, "-90 deg", "linearize: {}, columns: [A0.angle]"));
+        let [real, imaginary] = ["poles_real", "poles_imaginary"].map(|name| linear.list(name).unwrap()[0]);
+        assert!((real + 0.4).abs() < 1e-9 && (imaginary.abs() - (square - 0.16).sqrt()).abs() < 1e-9, "{n}: {real} {imaginary}");
+    }
+}
+
+#[test]
+fn a_row_rests_where_it_hangs() {
+    for n in [1, 8, 20] {
+        let results = run(&row(n, 0.0, "-50 deg", "statics: { from: start }, columns: [A0.angle], scalars: { angle: last(A0.angle) }"));
+        let angle = results.scalar("angle").unwrap();
+        assert!((angle + std::f64::consts::FRAC_PI_2).abs() < 1e-8, "{n}: {angle}");
+    }
+}
+
+/// With a damper of D = I/s the row moves as a point mass on an arm I/m with a damper of its own inertia a second, by all families of
+/// schemes.
+#[test]
+fn a_row_swings_as_one_pendulum() {
+    let study = |scheme: &str| {
+        let dynamics = format!("dynamics: {{ until: 1 s, tolerance: 1e-7, integrator: {scheme} }}");
+        format!("{dynamics}, columns: [A0.angle], scalars: {{ angle: last(A0.angle) }}")
+    };
+    for n in [8, 30] {
+        let [inertia, moment] = inertia(n);
+        let arm = inertia / moment;
+        let twin = format!(
+            "
+grashof: 1
+name: twin
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: {{ rod: {{ mass: 1 kg, inertia: 0 kg m^2, com: [{arm} m, 0] }} }}
+joints: {{ A0: {{ revolute: [ground, rod.origin], damping: {} N m s/rad }} }}
+start: {{ A0.angle: -20 deg, A0.omega: 0 }}
+studies: {{ it: {{ {} }} }}
+",
+            arm * arm,
+            study("dop853")
+        );
+        let expected = run(&Model::parse(&twin).unwrap_or_else(|e| panic!("{e}"))).scalar("angle").unwrap();
+        for scheme in ["dop853", "radau5", "bdf", "generalized-alpha"] {
+            let results = run(&row(n, inertia, "-20 deg", &study(scheme)));
+            let found = results.scalar("angle").unwrap();
+            assert!((found - expected).abs() < 1e-5, "{n} {scheme}: {found} {expected}");
+            let march = results.certificate.march.unwrap();
+            assert!(march.energy_drift < 1e-4 * march.energy_scale, "{n} {scheme}: {march:?}");
+        }
+    }
+}
