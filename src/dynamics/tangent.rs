@@ -123,20 +123,17 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
     fn columns(&mut self, first: usize, by_velocity: bool, at: &Point<'_>, out: &mut Tangent) {
         constants(&mut self.q, at.q);
         constants(&mut self.v, at.v);
-        let Self { colors, steps, q, v, dynamics, .. } = self;
-        let lanes = || colors[first..].iter().take(LANES).enumerate().flat_map(|(lane, columns)| columns.iter().map(move |&k| (k, lane)));
-        for (k, lane) in lanes() {
+        for (k, lane) in in_lanes(&self.colors, first) {
             if by_velocity {
-                v[k].d[lane] = 1.0;
+                self.v[k].d[lane] = 1.0;
             } else {
-                seed(&dynamics.mechanism.steps[steps[k]], at.q, q, [k, lane]);
+                seed(&self.dynamics.mechanism.steps[self.steps[k]], at.q, &mut self.q, [k, lane]);
             }
         }
         constants(&mut self.dynamics.work.z, at.z);
         self.evaluate(at);
         let (target, states) = if by_velocity { (&mut out.c, &mut out.z_v) } else { (&mut out.k, &mut out.z_q) };
-        let lanes = self.colors[first..].iter().take(LANES).enumerate();
-        for (k, lane) in lanes.flat_map(|(lane, columns)| columns.iter().map(move |&k| (k, lane))) {
+        for (k, lane) in in_lanes(&self.colors, first) {
             for (&i, &place) in self.columns.row(k).iter().zip(&self.places[self.columns.range(k)]) {
                 target.values_mut()[place] = self.r[i].d[lane];
             }
@@ -212,6 +209,12 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         self.dynamics.rates(at.modes);
         self.dynamics.residual(&self.a, &self.lambda, &mut self.r);
     }
+}
+
+/// Columns whose colours are in the lanes from `first` on, with their lanes.
+fn in_lanes(colors: &[Vec<usize>], first: usize) -> impl Iterator<Item = (usize, usize)> {
+    let lanes = colors[first..].iter().take(LANES).enumerate();
+    lanes.flat_map(|(lane, columns)| columns.iter().map(move |&k| (k, lane)))
 }
 
 /// The derivative of q ⊕ ε e_k in a lane, q being moved by a step.

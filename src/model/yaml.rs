@@ -8,6 +8,8 @@ use serde_yaml::{Mapping, Value};
 
 /// Largest file, bytes.
 pub(crate) const MOST_BYTES: usize = 1 << 20;
+/// Most digits of an integer that serde_yaml reads.
+const MOST_DIGITS: usize = 19;
 /// Deepest nesting of maps and lists.
 pub(crate) const MOST_DEPTH: usize = 64;
 
@@ -218,35 +220,33 @@ fn glued(text: &str, line_start: usize) -> Option<Fault> {
 
 /// What serde_yaml refuses although the guard let it pass.
 fn translate(text: &str, error: &serde_yaml::Error) -> Vec<Fault> {
-    let message = error.to_string();
-    if message.contains("duplicate entry") {
-        let twice = Spans::new(text).twice;
-        if !twice.is_empty() {
-            // serde_yaml gives the place of the map, not of the key
-            return twice
-                .into_iter()
-                .map(|(first, second, key)| {
-                    let mut fault = Fault::new("duplicate-key", String::new(), format!("`{key}` appears here twice"), "each key once")
-                        .at(Spot::Bytes(second))
-                        .help("rename or remove one of the two");
-                    fault.other = Some((first, "first here".to_owned()));
-                    fault
-                })
-                .collect();
-        }
+    let twice = Spans::new(text).twice;
+    if !twice.is_empty() {
+        // serde_yaml gives the place of the map, not of the key
+        return twice
+            .into_iter()
+            .map(|(first, second, key)| {
+                let mut fault = Fault::new("duplicate-key", String::new(), format!("`{key}` appears here twice"), "each key once")
+                    .at(Spot::Bytes(second))
+                    .help("rename or remove one of the two");
+                fault.other = Some((first, "first here".to_owned()));
+                fault
+            })
+            .collect();
     }
     let at = error.location().map_or(0, |place| {
         let start = text.split_inclusive('\n').take(place.line().saturating_sub(1)).map(str::len).sum::<usize>().min(text.len());
         start + byte_of(&text[start..], place.column().saturating_sub(1))
     });
-    if message.contains("128") {
-        let digits = text[at..].chars().take_while(|c| c.is_ascii_digit() || *c == '-').count();
+    let digits = text[at..].chars().take_while(|c| c.is_ascii_digit() || *c == '-').count();
+    if digits > MOST_DIGITS {
         return vec![
             Fault::new("bad-number", String::new(), "an integer of more than 19 digits", "a number such as `0.5`, `12` or `1e-3`")
                 .at(Spot::Bytes(at..at + digits))
                 .help("write it with an exponent"),
         ];
     }
+    let message = error.to_string();
     let info = message.split(" at line").next().unwrap_or(&message);
     vec![syntax(text, info, at)]
 }

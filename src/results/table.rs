@@ -32,6 +32,15 @@ impl Column {
     pub fn shown(&self) -> (&str, f64) {
         self.shown_in.as_ref().map_or((&self.unit, 1.0), |asked| (&asked.unit, asked.size))
     }
+
+    /// Its name with the unit to show it in: `torque [N m]`; of a number the name alone.
+    #[must_use]
+    pub fn heading(&self) -> String {
+        match self.shown() {
+            ("", _) => self.name.clone(),
+            (unit, _) => format!("{} [{unit}]", self.name),
+        }
+    }
 }
 
 /// Columns of one length.

@@ -14,11 +14,7 @@ const NUMBERS: [&str; 5] = ["eigenvalue_real", "eigenvalue_imaginary", "eigenval
 pub(super) fn summary(results: &Results) -> String {
     let numbers: Vec<&Column> = results.table.columns.iter().filter(|c| NUMBERS.contains(&c.name.as_str())).collect();
     let mut lines: Vec<Vec<String>> = vec![vec!["mode".into()]];
-    let head = |column: &&Column| match column.shown() {
-        ("", _) => column.name.clone(),
-        (unit, _) => format!("{} [{unit}]", column.name),
-    };
-    lines[0].extend(numbers.iter().map(head));
+    lines[0].extend(numbers.iter().map(|column| column.heading()));
     lines[0].extend(["[1/s]".into(), "period [s]".into()]);
     for i in 0..results.shapes.len() {
         let mut line = vec![format!("{}", i + 1)];

@@ -5,12 +5,8 @@ use crate::results::{Column, Table};
 
 /// A head and a line for each run, with the reason of those that are not whole.
 pub(super) fn summary(table: &Table) -> String {
-    let head = |column: &Column| match column.shown() {
-        ("", _) => column.name.clone(),
-        (unit, _) => format!("{} [{unit}]", column.name),
-    };
     let sizes: Vec<f64> = table.columns.iter().map(|column| column.shown().1).collect();
-    let head = table.columns.iter().map(head);
+    let head = table.columns.iter().map(Column::heading);
     let mut lines: Vec<Vec<String>> = vec![head.collect()];
     for row in 0..table.rows() {
         let values = table.row(row).zip(&sizes).map(|(x, size)| x / size);
