@@ -57,6 +57,15 @@ impl<T: Copy + Default> Block<T> {
         }
     }
 
+    /// The given rows, one after the other.
+    #[must_use]
+    pub fn select_rows(&self, rows: &[usize]) -> Self {
+        let places = rows.iter().enumerate().flat_map(|(i, &row)| self.pattern.row(row).iter().map(move |&j| (i, j)));
+        let pattern = Sparsity::new(rows.len(), self.pattern.columns(), places);
+        let values = rows.iter().flat_map(|&row| self.line(row).values.iter().copied()).collect();
+        Self { pattern, values }
+    }
+
     /// Takes the entries of a matrix of the same size, all of which must be in the pattern.
     ///
     /// # Panics
@@ -183,6 +192,7 @@ mod tests {
             assert_eq!(sums[0], sums[1]);
         }
         assert_eq!((sparse.at(2, 0), sparse.at(1, 1)), (-0.5, 0.0));
+        assert_eq!(sparse.select_rows(&[2, 0]).to_dense(), [&dense.values()[6..], &dense.values()[..3]].concat());
     }
 
     #[test]

@@ -9,11 +9,12 @@
 //!
 //! Nothing here knows a body or a joint. [`Integration`] drives a [`Scheme`] over a [`System`]: steps, events, singular positions.
 //! The blocks of a system have fixed patterns: full and row-major where that is faster, else sparse, and so are factors. Nothing
-//! allocates after construction except [`rank`] and [`coloring`], which serve at assembly, and sparse factors that need new pivots.
+//! allocates after construction except [`rank`], [`elimination`] and [`coloring`], which serve at assembly, and sparse factors that need new pivots.
 
 pub mod block;
 pub mod coloring;
 pub mod dense_output;
+pub mod elimination;
 pub mod engine;
 pub mod friction;
 pub mod halt;
@@ -42,6 +43,7 @@ mod noise;
 pub use block::{Block, Line};
 pub use coloring::Coloring;
 pub use dense_output::Dense;
+pub use elimination::Elimination;
 pub use engine::{Control, Counts, Engine, Node};
 pub use friction::Friction;
 pub use halt::Halt;

@@ -82,7 +82,7 @@ impl Sigma {
         if sigma > ZERO {
             return sigma;
         }
-        engine.redundant = self.rows - Rank::new(&engine.terms.g.to_dense(), metric, g_scale, ZERO).rank;
+        engine.redundant = self.rows - Rank::new(&engine.terms.g, metric, g_scale, ZERO).rank;
         loop {
             self.restart(engine);
             self.vectors.fill(0.0);

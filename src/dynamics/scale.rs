@@ -71,19 +71,17 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
     /// Large displacements (nv each) along motions that the rows leave but for those that time moves.
     fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
         let m = self.mechanism;
-        let g = self.work.g.to_dense();
-        let passive = m.rows.iter().zip(g.chunks_exact(m.nv.max(1)).zip(scale));
-        let passive = passive.filter(|(row, _)| !m.is_moved(row));
-        let (g, scale): (Vec<&[f64]>, Vec<f64>) = passive.map(|(_, (g, scale))| (g, *scale)).unzip();
-        if scale.is_empty() {
+        let passive: Vec<usize> = (0..m.rows.len()).filter(|&row| !m.is_moved(&m.rows[row])).collect();
+        if passive.is_empty() {
             return Vec::new();
         }
-        let rank = Rank::new(&g.concat(), metric, &scale, RANK_TOLERANCE);
-        let (n, unit) = (rank.mobility(), m.units());
+        let scale: Vec<f64> = passive.iter().map(|&row| scale[row]).collect();
+        let rank = Rank::new(&self.work.g.select_rows(&passive), metric, &scale, RANK_TOLERANCE);
+        let (n, unit) = (rank.mobility, m.units());
         let along = |phase: f64| {
             // in no special direction
             let y: Vec<f64> = (0..n).map(|k| (GOLDEN * k as f64 + phase).cos()).collect();
-            let delta: Vec<f64> = rank.null_space.chunks_exact(n).map(|p| p.iter().zip(&y).map(|(p, y)| p * y).sum()).collect();
+            let delta = rank.motion(&y);
             let most = delta.iter().zip(&unit).fold(0.0, |m, (d, u): (&f64, &f64)| f64::max(m, d.abs() / u));
             delta.iter().map(|d| STEP * d / most).collect()
         };

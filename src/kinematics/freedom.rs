@@ -3,28 +3,27 @@
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, RowOwner};
+use grashof_solvers::Block;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
 /// Degrees of freedom without drivers at a position.
 pub(crate) fn freedom<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> usize {
-    undriven(mechanism, &rows(mechanism, q, modes, metric), metric).mobility()
+    undriven(mechanism, &rows(mechanism, q, modes, metric), metric).mobility
 }
 
 /// Rank of all rows but those of drivers.
-pub(super) fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): &(Vec<f64>, Vec<f64>), metric: &[f64]) -> Rank {
-    let nv = mechanism.nv;
+pub(super) fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): &(Block, Vec<f64>), metric: &[f64]) -> Rank {
     let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
     let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
-    let of_undriven: Vec<f64> = undriven.iter().flat_map(|i| g[i * nv..(i + 1) * nv].to_vec()).collect();
-    let scale_of_undriven: Vec<f64> = undriven.iter().filter_map(|&i| scale.get(i).copied()).collect();
-    Rank::new(&of_undriven, metric, &scale_of_undriven, RANK_TOLERANCE)
+    let scale: Vec<f64> = undriven.iter().map(|&i| scale[i]).collect();
+    Rank::new(&g.select_rows(&undriven), metric, &scale, RANK_TOLERANCE)
 }
 
 /// G at the start and the scales of its rows, by an evaluator of its own.
-pub(super) fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> (Block, Vec<f64>) {
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     let scale = dynamics.row_scale(q, modes, metric);
-    (dynamics.work.g.to_dense(), scale)
+    (dynamics.work.g.clone(), scale)
 }

@@ -36,8 +36,8 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();
     Mobility {
         grubler: mechanism.nv as i64 - (mechanism.rows.len() - drivers) as i64,
-        freedom: free.mobility(),
-        left: driven.mobility(),
+        freedom: free.mobility,
+        left: driven.mobility,
         rank: driven.rank,
         moved: mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row)),
         redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),

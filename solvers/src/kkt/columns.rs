@@ -2,32 +2,32 @@
 
 /// Lists of different lengths one after the other.
 #[derive(Clone, Debug)]
-pub(super) struct Columns<I> {
+pub(crate) struct Columns<I> {
     starts: Vec<usize>,
-    pub(super) items: Vec<I>,
+    pub(crate) items: Vec<I>,
 }
 
 impl<I> Columns<I> {
     /// No list yet, with room for `columns` lists of `items` together.
-    pub(super) fn with_capacity(columns: usize, items: usize) -> Self {
+    pub(crate) fn with_capacity(columns: usize, items: usize) -> Self {
         let mut starts = Vec::with_capacity(columns + 1);
         starts.push(0);
         Self { starts, items: Vec::with_capacity(items) }
     }
 
     /// Forgets the lists, not the room.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.starts.truncate(1);
         self.items.clear();
     }
 
     /// What was pushed to `items` since the last call is a list.
-    pub(super) fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.starts.push(self.items.len());
     }
 
     #[inline(always)]
-    pub(super) fn range(&self, k: usize) -> std::ops::Range<usize> {
+    pub(crate) fn range(&self, k: usize) -> std::ops::Range<usize> {
         self.starts[k]..self.starts[k + 1]
     }
 }

@@ -16,13 +16,14 @@
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 
-mod columns;
+pub(crate) mod columns;
 mod definite;
 pub mod dense;
 pub mod factor;
 pub mod number;
 pub mod ordering;
 mod pivoting;
+pub(crate) mod reach;
 mod scale;
 mod singular;
 mod small;

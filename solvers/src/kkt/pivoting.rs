@@ -3,16 +3,14 @@
 use super::columns::Columns;
 use super::dense::Singular;
 use super::number::Number;
+use super::reach::{FREE, Reach};
 
 /// The preferred pivot is taken from this part of the largest entry of its column on.
 const THRESHOLD: f64 = 0.1;
 
-/// Step of a row that is no pivot yet.
-const FREE: u32 = u32::MAX;
-
 /// L U by columns with partial pivoting, where the pattern of a column is found before its numbers.
 ///
-/// Gilbert & Peierls, SIAM J. Sci. Stat. Comput. 9 (1988) 862-874. Step k solves L x = a_k with the columns of L made so far:
+/// Step k solves L x = a_k with the columns of L made so far:
 /// x_j of the rows that are pivots already is column k of U, the rest over the pivot column k of L. The pattern of x are the
 /// rows that can be reached from those of a_k through columns of L.
 ///
@@ -31,13 +29,9 @@ pub(super) struct Pivoting<T> {
     column_step: Vec<u32>,
     /// The present column by rows (n); zeros outside of its pattern.
     x: Vec<T>,
-    /// Column whose pattern each row was last found in (n).
-    mark: Vec<u32>,
-    /// Steps, rising, and free rows of the present column's pattern.
-    above: Vec<u32>,
-    below: Vec<u32>,
-    /// Rows to follow in the search; numbers to sort.
-    stack: Vec<u32>,
+    /// Pattern of the present column.
+    reach: Reach,
+    /// Numbers to sort.
     pairs: Vec<(u32, T)>,
 }
 
@@ -54,10 +48,7 @@ impl<T: Number> Pivoting<T> {
             preferring: vec![0; n],
             column_step,
             x: vec![T::ZERO; n],
-            mark: vec![FREE; n],
-            above: Vec::with_capacity(n),
-            below: Vec::with_capacity(n),
-            stack: Vec::with_capacity(n),
+            reach: Reach::new(n),
             pairs: Vec::with_capacity(n),
         }
     }
@@ -65,7 +56,7 @@ impl<T: Number> Pivoting<T> {
     /// Forgets all pivots.
     pub(super) fn start(&mut self) {
         self.step.fill(FREE);
-        self.mark.fill(FREE);
+        self.reach.clear();
         self.x.fill(T::ZERO);
         for (j, (row, column)) in self.preferred.iter_mut().zip(&mut self.preferring).enumerate() {
             (*row, *column) = (j as u32, j as u32);
@@ -83,12 +74,12 @@ impl<T: Number> Pivoting<T> {
         lower: &Columns<u32>,
         lower_values: &[T],
     ) -> Result<T, Singular> {
-        self.find_pattern(k, rows, lower);
+        self.reach.find(k as u32, rows, &self.step, lower);
         for (&row, value) in rows.iter().zip(values) {
             self.x[row] = *value;
         }
         let mut sum = 0.0;
-        for &j in &self.above {
+        for &j in &self.reach.above {
             let u = self.x[self.pivot[j as usize] as usize];
             sum += u.abs1();
             let range = lower.range(j as usize);
@@ -100,20 +91,20 @@ impl<T: Number> Pivoting<T> {
         self.prefer_elsewhere(column, row);
         self.step[row as usize] = k as u32;
         self.pivot[k] = row;
-        self.below.retain(|&i| i != row);
+        self.reach.below.retain(|&i| i != row);
         Ok(std::mem::replace(&mut self.x[row as usize], T::ZERO))
     }
 
     /// Column of U without the pivot: step and number, steps rising.
     pub(super) fn upper(&mut self) -> impl Iterator<Item = (u32, T)> {
         let (pivot, x) = (&self.pivot, &mut self.x);
-        self.above.iter().map(|&j| (j, std::mem::replace(&mut x[pivot[j as usize] as usize], T::ZERO)))
+        self.reach.above.iter().map(|&j| (j, std::mem::replace(&mut x[pivot[j as usize] as usize], T::ZERO)))
     }
 
     /// Column of L times the pivot: row and number.
     pub(super) fn lower(&mut self) -> impl Iterator<Item = (u32, T)> {
         let x = &mut self.x;
-        self.below.iter().map(|&i| (i, std::mem::replace(&mut x[i as usize], T::ZERO)))
+        self.reach.below.iter().map(|&i| (i, std::mem::replace(&mut x[i as usize], T::ZERO)))
     }
 
     /// Step at which each row is the pivot.
@@ -131,33 +122,6 @@ impl<T: Number> Pivoting<T> {
         }
     }
 
-    /// Rows reached from those of a column through L: `above` the pivots among them, `below` the others.
-    fn find_pattern(&mut self, k: usize, rows: &[usize], lower: &Columns<u32>) {
-        self.above.clear();
-        self.below.clear();
-        self.stack.clear();
-        for &row in rows {
-            if std::mem::replace(&mut self.mark[row], k as u32) != k as u32 {
-                self.stack.push(row as u32);
-            }
-        }
-        while let Some(row) = self.stack.pop() {
-            let step = self.step[row as usize];
-            if step == FREE {
-                self.below.push(row);
-                continue;
-            }
-            self.above.push(step);
-            for &i in &lower.items[lower.range(step as usize)] {
-                if std::mem::replace(&mut self.mark[i as usize], k as u32) != k as u32 {
-                    self.stack.push(i);
-                }
-            }
-        }
-        // a column of L reaches later pivots only, so rising steps are an order of elimination
-        self.above.sort_unstable();
-    }
-
     /// The pivot row: the preferred one if it is large enough, else the largest; none if it is zero or a number is not finite.
     ///
     /// `sum` is that of the magnitudes of the pivot rows. Of equal rows the one whose column comes first is taken.
@@ -166,7 +130,7 @@ impl<T: Number> Pivoting<T> {
         let rank = |row: u32| self.column_step[self.preferring[row as usize] as usize];
         let mut best: Option<(f64, u32)> = None;
         let mut sum = sum;
-        for &row in &self.below {
+        for &row in &self.reach.below {
             let x = size(row);
             sum += x;
             if best.is_none_or(|(most, other)| x > most || (x == most && rank(row) < rank(other))) {
@@ -175,7 +139,7 @@ impl<T: Number> Pivoting<T> {
         }
         let (most, row) = best.filter(|(most, _)| *most > 0.0 && sum < f64::INFINITY)?;
         let preferred = self.preferred[column];
-        let reached = self.mark[preferred as usize] == self.column_step[column];
+        let reached = self.reach.holds(self.column_step[column], preferred);
         Some(if reached && size(preferred) >= THRESHOLD * most { preferred } else { row })
     }
 

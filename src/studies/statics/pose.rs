@@ -19,7 +19,7 @@ use crate::numerics::least_squares::{shortest, shortest_beyond};
 use crate::scalar::Dual;
 use crate::studies::dynamics::system::Mechanical;
 use grashof_solvers::kkt::ROUND_OFF;
-use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
+use grashof_solvers::rank::{NullSpace, RANK_TOLERANCE};
 use grashof_solvers::{Span, Stage, State, System, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 
@@ -288,8 +288,8 @@ where
         let (metric, e) = (&pattern.metric, &pattern.g_scale);
         let (nv, m) = (metric.len(), e.len());
         let (g, force) = (self.terms.g.to_dense(), &self.terms.force);
-        let rank = Rank::new(&g, metric, e, RANK_TOLERANCE);
-        let basis = DMatrix::from_row_slice(nv, rank.mobility(), &rank.null_space);
+        let left = NullSpace::new(&g, metric, e, RANK_TOLERANCE);
+        let basis = DMatrix::from_row_slice(nv, left.mobility, &left.basis);
         let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
         let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..m).map(move |i| (i, k))).map(|(i, k)| g[i * nv + k] / root[k]).collect();
         let scaled: Vec<f64> = force.iter().zip(&root).map(|(f, r)| f / r).collect();
