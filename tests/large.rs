@@ -9,7 +9,7 @@ use grashof::results::Results;
 const GRAVITY: f64 = 9.81;
 
 /// A row of `n` four-bars with a damper in the first hinge, and one study of it.
-fn row(n: usize, damping: f64, start: &str, study: &str) -> Model {
+fn row(n: usize, damping: f64, [start, speed]: [&str; 2], study: &str) -> Model {
     let each = |count: usize, line: &dyn Fn(usize) -> String| (0..count).map(line).collect::<String>();
     let text = format!(
         "
@@ -22,6 +22,7 @@ ground:
 {}{}joints:
 {}{}start:
   A0.angle: {start}
+  A0.omega: {speed}
 {}{}studies: {{ it: {{ {study} }} }}
 ",
         each(n + 1, &|i| format!("  G{i}: [{i} m, 0]\n")),
@@ -55,13 +56,13 @@ fn a_row_vibrates_as_one_pendulum() {
     for n in [1, 8, 30] {
         let [inertia, moment] = inertia(n);
         let square = moment * GRAVITY / inertia;
-        let modes = run(&row(n, 0.0, "-90 deg", "modes: {}"));
+        let modes = run(&row(n, 0.0, ["-90 deg", "0"], "modes: {}"));
         let frequencies = modes.list("frequencies").unwrap();
         assert_eq!(frequencies.len(), 1, "{n}");
         assert!((frequencies[0] / square.sqrt() - 1.0).abs() < 1e-9, "{n}: {frequencies:?}");
 
         let damping = 0.8 * inertia;
-        let linear = run(&row(n, damping, "-90 deg", "linearize: {}, columns: [A0.angle]"));
+        let linear = run(&row(n, damping, ["-90 deg", "0"], "linearize: {}, columns: [A0.angle]"));
         let [real, imaginary] = ["poles_real", "poles_imaginary"].map(|name| linear.list(name).unwrap()[0]);
         assert!((real + 0.4).abs() < 1e-9 && (imaginary.abs() - (square - 0.16).sqrt()).abs() < 1e-9, "{n}: {real} {imaginary}");
     }
@@ -70,10 +71,23 @@ fn a_row_vibrates_as_one_pendulum() {
 #[test]
 fn a_row_rests_where_it_hangs() {
     for n in [1, 8, 20] {
-        let results = run(&row(n, 0.0, "-50 deg", "statics: { from: start }, columns: [A0.angle], scalars: { angle: last(A0.angle) }"));
+        let results =
+            run(&row(n, 0.0, ["-50 deg", "0"], "statics: { from: start }, columns: [A0.angle], scalars: { angle: last(A0.angle) }"));
         let angle = results.scalar("angle").unwrap();
         assert!((angle + std::f64::consts::FRAC_PI_2).abs() < 1e-8, "{n}: {angle}");
     }
+}
+
+/// Above some sixty velocities a start is assembled by sparse factorisations.
+#[test]
+fn a_long_row_starts_as_one_pendulum() {
+    let n = 150;
+    let speeds = "A0.omega, A150.omega, h75.omega, B75.omega";
+    let study = format!("dynamics: {{ until: 1 ms, every: 1 ms, tolerance: 1e-7, integrator: dop853 }}, columns: [{speeds}]");
+    let results = run(&row(n, 0.0, ["-20 deg", "3 rad/s"], &study));
+    let first: Vec<f64> = results.table.columns.iter().map(|column| column.values[0]).collect();
+    let expected = [3.0, 3.0, 0.0, -3.0];
+    assert!(first.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-12), "{first:?}");
 }
 
 /// With a damper of D = I/s the row moves as a point mass on an arm I/m with a damper of its own inertia a second, by all families of
@@ -103,7 +117,7 @@ studies: {{ it: {{ {} }} }}
         );
         let expected = run(&Model::parse(&twin).unwrap_or_else(|e| panic!("{e}"))).scalar("angle").unwrap();
         for scheme in ["dop853", "radau5", "bdf", "generalized-alpha"] {
-            let results = run(&row(n, inertia, "-20 deg", &study(scheme)));
+            let results = run(&row(n, inertia, ["-20 deg", "0"], &study(scheme)));
             let found = results.scalar("angle").unwrap();
             assert!((found - expected).abs() < 1e-5, "{n} {scheme}: {found} {expected}");
             let march = results.certificate.march.unwrap();

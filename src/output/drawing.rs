@@ -1,5 +1,6 @@
 //! The drawing of a mechanism: links, joints and paths in the plane, in one or several positions.
 
+use super::font;
 use super::lettering::{Lettering, Obstacle};
 use super::picture::Picture;
 use super::pose::{Drawing, Placement, Symbol, SymbolKind};
@@ -10,6 +11,8 @@ use super::thin::{self, Point};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
+/// Part of the sheet that names may cover: beyond it none can be read.
+const NAMED: f64 = 0.25;
 /// Fills of bodies, muted: the joints and paths are what one looks for.
 const BODIES: [Color; 7] =
     [[163, 190, 218], [232, 200, 148], [176, 208, 168], [208, 182, 216], [226, 178, 166], [164, 208, 206], [208, 204, 170]];
@@ -95,7 +98,7 @@ fn layout(drawing: &Drawing) -> Scene {
         draw_pose(drawing, pose, strength, &view, &mut scene, &mut letters);
     }
     traces(drawing, &view, &mut scene, &mut letters);
-    name_all(drawing, &view, &mut letters);
+    name_all(drawing, &view, &sheet, &mut letters);
     letters.draw(&mut scene);
     symbols::scale_bar(&mut scene, scale, LETTERS);
     scene
@@ -191,27 +194,12 @@ fn near(a: Point, b: Point) -> bool {
     (a[0] - b[0]).hypot(a[1] - b[1]) < 1.0
 }
 
-/// The names of the strong position. Joints first: their names have the least choice of place.
-fn name_all(drawing: &Drawing, view: &View, letters: &mut Lettering) {
-    for symbol in &drawing.joints {
-        if let Some(placement) = symbol.poses.first().and_then(|placement| view.placement(placement)) {
-            let reach = if symbol.kind == SymbolKind::Slide { 24.0 } else { 13.0 };
-            letters.name(&symbol.name, placement.at, reach, LETTERS, INK);
-        }
-    }
-    for (index, body) in drawing.bodies.iter().enumerate() {
-        let points = view.points(body.poses.first().map_or(&[], Vec::as_slice));
-        if let Some((at, reach)) = symbols::middle(&points) {
-            let color = BODIES[index % BODIES.len()].map(|c| (f64::from(c) * 0.5) as u8);
-            letters.name(&body.name, at, reach, LETTERS, color);
-        }
-    }
-    for link in &drawing.links {
-        if let Some([a, b]) =
-            link.poses.first().map(|ends| ends.map(|end| view.point(end))).filter(|ends| ends.iter().flatten().all(|x| x.is_finite()))
-        {
-            letters.name(&link.name, [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0], 19.0, LETTERS, RUST);
-        }
+/// The names of the strong position, unless they would cover more of the sheet than can be read, and those of paths.
+fn name_all(drawing: &Drawing, view: &View, sheet: &Rect, letters: &mut Lettering) {
+    let names = names(drawing, view);
+    let area: f64 = names.iter().map(|(name, ..)| font::width(name, LETTERS) * LETTERS).sum();
+    if area <= NAMED * sheet.width() * sheet.height() {
+        names.into_iter().for_each(|(name, at, reach, color)| letters.name(name, at, reach, LETTERS, color));
     }
     for (index, trace) in drawing.traces.iter().enumerate() {
         let pixels = view.points(&trace.points);
@@ -219,6 +207,30 @@ fn name_all(drawing: &Drawing, view: &View, letters: &mut Lettering) {
             letters.name(&trace.name, *highest, 6.0, LETTERS, trace_color(index));
         }
     }
+}
+
+/// Names with their places, the distance that they keep from these, and their colours. Joints first: their names have the least choice.
+fn names<'d>(drawing: &'d Drawing, view: &View) -> Vec<(&'d str, Point, f64, Color)> {
+    let mut names = Vec::new();
+    for symbol in &drawing.joints {
+        if let Some(placement) = symbol.poses.first().and_then(|placement| view.placement(placement)) {
+            names.push((symbol.name.as_str(), placement.at, if symbol.kind == SymbolKind::Slide { 24.0 } else { 13.0 }, INK));
+        }
+    }
+    for (index, body) in drawing.bodies.iter().enumerate() {
+        let points = view.points(body.poses.first().map_or(&[], Vec::as_slice));
+        if let Some((at, reach)) = symbols::middle(&points) {
+            let color = BODIES[index % BODIES.len()].map(|c| (f64::from(c) * 0.5) as u8);
+            names.push((body.name.as_str(), at, reach, color));
+        }
+    }
+    for link in &drawing.links {
+        let ends = link.poses.first().map(|ends| ends.map(|end| view.point(end)));
+        if let Some([a, b]) = ends.filter(|ends| ends.iter().flatten().all(|x| x.is_finite())) {
+            names.push((link.name.as_str(), [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0], 19.0, RUST));
+        }
+    }
+    names
 }
 
 #[cfg(test)]
@@ -238,6 +250,18 @@ mod tests {
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }
         assert!(layout(&Drawing::default()).height > 0.0);
+    }
+
+    #[test]
+    fn more_names_than_can_be_read_are_left_out() {
+        let names = |count: u32| {
+            let body = |k| Outline { name: format!("rod {k}"), poses: vec![vec![[f64::from(k), 0.0], [f64::from(k), 1.0]]] };
+            let drawing = Drawing { bodies: (0..count).map(body).collect(), ..Drawing::default() };
+            let is_name =
+                |item: &&super::super::scene::Item| matches!(item, super::super::scene::Item::Text(text) if text.text.starts_with("rod"));
+            layout(&drawing).items.iter().filter(is_name).count()
+        };
+        assert_eq!((names(5), names(5000)), (5, 0));
     }
 
     #[test]

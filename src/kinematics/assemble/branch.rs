@@ -12,7 +12,7 @@ use super::metric::norm;
 use super::shake::Shake;
 use crate::geometry::Space;
 use crate::mechanism::Step;
-use crate::numerics::least_squares::{Level, in_turn};
+use crate::numerics::least_squares::{Level, Rows, in_turn};
 use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
@@ -185,13 +185,13 @@ impl<G: Space<S = f64>> System<'_, G> {
 
     /// The velocity in a space that meets what holds, then the guesses, then rests.
     fn on(&self, space: &DMatrix<f64>, holds: &Level, others: &[Level]) -> Candidate {
-        let (nv, f) = space.shape();
+        let f = space.ncols();
         let within = |level: &Level| {
-            let a =
-                level.a.chunks_exact(nv).flat_map(|row| space.column_iter().map(|u| row.iter().zip(u.iter()).map(|(a, u)| a * u).sum()));
-            let size = level.a.chunks_exact(nv).map(|row| row.iter().zip(&self.metric).map(|(a, d)| a * a / d).sum::<f64>());
+            let mut rows = Rows::default();
+            let along = |row: &[(usize, f64)], i: usize| row.iter().map(|&(k, a)| a * space[(k, i)]).sum();
+            level.rows.lines().for_each(|row| rows.push((0..f).map(|i| (i, along(row, i)))));
             // what vanishes on the branch but for rounding does so
-            Level { a: a.collect(), b: level.b.clone(), round_off: SMALL * size.fold(0.0, f64::max).sqrt() }
+            Level { rows, b: level.b.clone(), round_off: SMALL * level.rows.longest(&self.metric) }
         };
         let levels: Vec<Level> = std::iter::once(holds).chain(others).map(within).collect();
         let y = in_turn(&levels, &vec![1.0; f], vec![0.0; f]);
@@ -201,7 +201,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// Velocities on a curved cone that meet what holds: all of them where they are places, else the one nearest to `v`.
     fn on_curved(&self, cone: &Cone, v: &[f64], holds: &Level) -> Vec<Candidate> {
         let (nv, k) = cone.open.shape();
-        let a = DMatrix::from_row_slice(holds.b.len(), nv, &holds.a) * &cone.open;
+        let a = DMatrix::from_row_slice(holds.b.len(), nv, &holds.rows.to_dense(nv)) * &cone.open;
         let b = DVector::from_column_slice(&holds.b);
         let first: DVector<f64> = DVector::from_fn(k, |i, _| (0..nv).map(|r| cone.open[(r, i)] * self.metric[r] * v[r]).sum());
         let size = f64::max(first.norm(), 1.0);
@@ -273,10 +273,10 @@ impl<G: Space<S = f64>> System<'_, G> {
             scores.push(candidates.iter().map(|c| norm(&guessed.missing(&c.v))).collect());
         }
         if self.guesses() && self.miss(q) > 10.0 * CONVERGED {
-            let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+            let (mut r, mut jacobian) = (Vec::new(), Rows::default());
             self.asked(false, &mut r, &mut jacobian);
             let towards = |v: &Vec<f64>| {
-                let moved: Vec<f64> = jacobian.chunks_exact(v.len()).map(|row| dot(row, v)).collect();
+                let moved: Vec<f64> = jacobian.product(v).collect();
                 let part = -dot(&r, &moved) / (norm(&r) * norm(&moved)).max(f64::MIN_POSITIVE);
                 // without drivers a branch at rest leads both ways
                 if rests && !coming { -part.abs() } else { -part }

@@ -6,7 +6,7 @@ use super::rotation::spin;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, Step};
-use crate::numerics::least_squares::shortest_beyond;
+use crate::numerics::least_squares::{Rows, step};
 use grashof_solvers::kkt::ROUND_OFF;
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
@@ -90,16 +90,14 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     }
 
     /// Residual and Jacobian of constraints and held values.
-    pub(super) fn hard(&self, r: &mut Vec<f64>, jacobian: &mut Vec<f64>) {
-        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
+    pub(super) fn hard(&self, r: &mut Vec<f64>, jacobian: &mut Rows) {
+        let w = &self.dynamics.work;
         r.clear();
         jacobian.clear();
         for &row in &self.rows {
             let scale = self.row_scale(row);
             r.push(w.phi[row] * scale - self.ahead.get(row).copied().unwrap_or(0.0));
-            let begin = jacobian.len();
-            jacobian.resize(begin + m.nv, 0.0);
-            w.g.line(row).entries().for_each(|(k, x)| jacobian[begin + k] = x * scale);
+            jacobian.push(w.g.line(row).entries().map(|(k, x)| (k, x * scale)));
         }
         if self.held != Held::Nothing {
             self.asked(self.held == Held::Exact, r, jacobian);
@@ -107,16 +105,14 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
     }
 
     /// Residual and Jacobian of start values at position level, exact ones alone or all.
-    pub(super) fn asked(&self, exact_only: bool, r: &mut Vec<f64>, jacobian: &mut Vec<f64>) {
+    pub(super) fn asked(&self, exact_only: bool, r: &mut Vec<f64>, jacobian: &mut Rows) {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         for (start, target) in m.starts.iter().zip(&self.targets).filter(|(s, _)| !(exact_only && s.guess)) {
             match (start.asked, target) {
                 (Asked::Gauge { gauge, order: 0 }, Target::Value(value)) => {
                     let scale = self.gauge_scale(gauge);
                     r.push((w.readings[gauge].x - value) * scale);
-                    let first = jacobian.len();
-                    jacobian.resize(first + m.nv, 0.0);
-                    m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| jacobian[first + k] = x * scale);
+                    jacobian.push(self.slopes(gauge, scale));
                 }
                 (Asked::Orientation(k), Target::Rotation(wanted)) => {
                     let body = m.orientations[k].body;
@@ -124,16 +120,21 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                     let theta = rotation::vector(&(wanted.transpose() * found));
                     let slope = rotation::slope(&theta) * found.transpose();
                     r.extend(theta.iter());
-                    let first = jacobian.len();
-                    jacobian.resize(first + 3 * m.nv, 0.0);
-                    for &column in &m.bodies[body].path {
-                        let turned = slope * spin(&w.columns[column]);
-                        (0..3).for_each(|i| jacobian[first + i * m.nv + column] = turned[i]);
+                    for i in 0..3 {
+                        jacobian.push(m.bodies[body].path.iter().map(|&k| (k, (slope * spin(&w.columns[k]))[i])));
                     }
                 }
                 _ => {}
             }
         }
+    }
+
+    /// Slopes of a gauge by the velocities, times a scale.
+    pub(super) fn slopes(&self, gauge: usize, scale: f64) -> Vec<(usize, f64)> {
+        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
+        let mut slopes = Vec::new();
+        m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| slopes.push((k, x * scale)));
+        slopes
     }
 
     pub(super) fn row_scale(&self, row: usize) -> f64 {
@@ -155,7 +156,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
 
     /// Closes constraints and held values; false if they stay open.
     pub(super) fn close(&mut self, q: &mut Vec<f64>) -> bool {
-        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         let mut damping = 0.0;
         self.evaluate(q);
         self.hard(&mut r, &mut jacobian);
@@ -167,15 +168,15 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             let b: Vec<f64> = r.iter().map(|r| -r).collect();
             if size < CONVERGED.max(self.rounding(q)) {
                 // one more step takes the last digits
-                self.dynamics.mechanism.retract(q, &shortest_beyond(self.round_off(), &jacobian, &b, &self.metric, 0.0));
+                self.dynamics.mechanism.retract(q, &step(self.round_off(), &jacobian, &b, &self.metric, 0.0));
                 self.evaluate(q);
                 return true;
             }
-            let delta = self.bounded(shortest_beyond(self.round_off(), &jacobian, &b, &self.metric, damping));
+            let delta = self.bounded(step(self.round_off(), &jacobian, &b, &self.metric, damping));
             let mut trial = q.clone();
             self.dynamics.mechanism.retract(&mut trial, &delta);
             self.evaluate(&trial);
-            let (mut r_trial, mut jacobian_trial) = (Vec::new(), Vec::new());
+            let (mut r_trial, mut jacobian_trial) = (Vec::new(), Rows::default());
             self.hard(&mut r_trial, &mut jacobian_trial);
             let size_trial = norm(&r_trial);
             if size_trial < size {

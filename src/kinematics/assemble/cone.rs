@@ -11,7 +11,7 @@
 use super::close::System;
 use super::shake::Shake;
 use crate::geometry::Space;
-use crate::numerics::least_squares::{are_independent, left_open};
+use crate::numerics::least_squares::{Rows, are_independent, left_open};
 use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
@@ -55,11 +55,12 @@ impl<G: Space<S = f64>> System<'_, G> {
             return None;
         }
         let (a, round_off) = self.scaled(&rows);
-        let root: Vec<f64> = self.metric.iter().map(|d| d.sqrt()).collect();
         // no combination of rows vanishes
-        if are_independent(&DMatrix::from_fn(rows.len(), m.nv, |i, k| a[i * m.nv + k] / root[k]), round_off) {
+        if are_independent(&a, &self.metric, round_off) {
             return None;
         }
+        let a = a.to_dense(m.nv);
+        let root: Vec<f64> = self.metric.iter().map(|d| d.sqrt()).collect();
         let open = left_open(round_off, &a, &self.metric);
         let transposed: Vec<f64> =
             (0..m.nv).flat_map(|k| (0..rows.len()).map(move |i| (i, k))).map(|(i, k)| a[i * m.nv + k] / root[k]).collect();
@@ -99,15 +100,13 @@ impl<G: Space<S = f64>> System<'_, G> {
         (0..m.rows.len()).filter(|&r| !m.is_moved(&m.rows[r])).collect()
     }
 
-    /// Rows in rad and sizes, one after the other, and the singular value below which they are round-off.
-    pub(super) fn scaled(&self, rows: &[usize]) -> (Vec<f64>, f64) {
+    /// Rows in rad and sizes, and the singular value below which they are round-off.
+    pub(super) fn scaled(&self, rows: &[usize]) -> (Rows, f64) {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         let scale = |row: usize| if m.rows[row].angular { 1.0 } else { 1.0 / self.size };
         let natural = self.dynamics.natural_length(&self.metric);
-        let mut a = vec![0.0; rows.len() * m.nv];
-        for (i, &r) in rows.iter().enumerate() {
-            w.g.line(r).entries().for_each(|(k, x)| a[i * m.nv + k] = x * scale(r));
-        }
+        let mut a = Rows::default();
+        rows.iter().for_each(|&r| a.push(w.g.line(r).entries().map(|(k, x)| (k, x * scale(r)))));
         (a, grashof_solvers::kkt::ROUND_OFF * rows.iter().map(|&r| natural[r] * scale(r)).fold(0.0, f64::max))
     }
 

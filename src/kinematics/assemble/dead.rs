@@ -21,7 +21,7 @@ impl<G: Space<S = f64>> System<'_, G> {
             .filter_map(|(row, nu)| if let RowKind::Driver { gauge, .. } = row.kind { Some((gauge, *nu)) } else { None })
             .collect();
         let (a, round_off) = self.scaled(&self.undriven());
-        let open = left_open(round_off, &a, &self.metric);
+        let open = left_open(round_off, &a.to_dense(m.nv), &self.metric);
         let mut sides = Vec::new();
         if open.ncols() == 1 {
             let largest = open.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);

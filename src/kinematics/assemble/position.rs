@@ -7,7 +7,7 @@ use super::rotation;
 use super::shake::Shake;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
-use crate::numerics::least_squares::shortest;
+use crate::numerics::least_squares::{Rows, step};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
@@ -153,13 +153,13 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn pull(&mut self, q: &mut [f64]) {
         for _ in 0..30 {
             self.evaluate(q);
-            let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+            let (mut r, mut jacobian) = (Vec::new(), Rows::default());
             self.asked(false, &mut r, &mut jacobian);
             if norm(&r) < CONVERGED {
                 break;
             }
             r.iter_mut().for_each(|r| *r = -*r);
-            let delta = self.bounded(shortest(&jacobian, &r, &self.metric, 1e-12));
+            let delta = self.bounded(step(0.0, &jacobian, &r, &self.metric, 1e-12));
             self.dynamics.mechanism.retract(q, &delta);
         }
     }
@@ -228,7 +228,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// How far a position is from all asked values.
     pub(super) fn miss(&mut self, q: &[f64]) -> f64 {
         self.evaluate(q);
-        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         self.asked(false, &mut r, &mut jacobian);
         norm(&r)
     }
@@ -236,7 +236,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// Size of the residuals that hold, rad and sizes.
     fn gap(&mut self, q: &[f64]) -> f64 {
         self.evaluate(q);
-        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         self.hard(&mut r, &mut jacobian);
         norm(&r)
     }

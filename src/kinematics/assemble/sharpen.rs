@@ -6,7 +6,7 @@
 use super::close::{CONVERGED, System};
 use super::metric::norm;
 use crate::geometry::Space;
-use crate::numerics::least_squares::shortest_beyond;
+use crate::numerics::least_squares::{Rows, are_above, scaled, step};
 use grashof_solvers::svd::Svd;
 use nalgebra::DMatrix;
 
@@ -38,7 +38,7 @@ impl<G: Space<S = f64>> System<'_, G> {
             }
             small = self.small(q);
         }
-        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         self.evaluate(q);
         self.hard(&mut r, &mut jacobian);
         if small.is_some() || way > NEAR || norm(&r) > CONVERGED {
@@ -51,10 +51,11 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// of the first.
     fn small(&mut self, q: &[f64]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
         let g = self.metric_rows(q);
-        let (rows, nv) = g.shape();
-        if least_singular_value(&g) > SMALL[1] * g.norm() {
+        if are_above(&g, &self.metric, SMALL[1]) {
             return None;
         }
+        let g = scaled(&g, &self.metric);
+        let (rows, nv) = g.shape();
         let svd = Svd::new(&g.resize(rows.max(nv), nv, 0.0));
         let largest = svd.largest();
         let between: Vec<usize> = (0..nv).filter(|&k| svd.values[k] > SMALL[0] * largest && svd.values[k] < SMALL[1] * largest).collect();
@@ -64,19 +65,19 @@ impl<G: Space<S = f64>> System<'_, G> {
         (!between.is_empty()).then_some((l, u))
     }
 
-    /// Rows but those of drivers at a position, in rad and sizes and units of the metric.
-    fn metric_rows(&mut self, q: &[f64]) -> DMatrix<f64> {
+    /// Rows but those of drivers at a position, in rad and sizes.
+    fn metric_rows(&mut self, q: &[f64]) -> Rows {
         self.evaluate(q);
-        let rows = self.undriven();
-        let (a, _) = self.scaled(&rows);
-        let nv = self.metric.len();
-        DMatrix::from_fn(rows.len(), nv, |i, k| a[i * nv + k] / self.metric[k].sqrt())
+        self.scaled(&self.undriven()).0
     }
 
     /// A step of Newton's method.
     fn towards(&mut self, q: &[f64], l: &DMatrix<f64>, u: &DMatrix<f64>) -> Option<Vec<f64>> {
         let nv = self.metric.len();
-        let value = |system: &mut Self, q: &[f64]| l.transpose() * system.metric_rows(q) * u;
+        let value = |system: &mut Self, q: &[f64]| {
+            let rows = system.metric_rows(q);
+            l.transpose() * scaled(&rows, &system.metric) * u
+        };
         let mut slopes = Vec::with_capacity(nv);
         for k in 0..nv {
             let mut sides = [1.0, -1.0].map(|side| {
@@ -90,41 +91,14 @@ impl<G: Space<S = f64>> System<'_, G> {
             slopes.push((std::mem::take(&mut sides[0]) - behind) * (0.5 * self.metric[k].sqrt() / STEP));
         }
         let now = value(self, q);
-        let (mut r, mut jacobian) = (Vec::new(), Vec::new());
+        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         self.hard(&mut r, &mut jacobian);
         for (i, x) in now.iter().enumerate() {
             r.push(*x);
-            jacobian.extend(slopes.iter().map(|slope| slope.as_slice()[i]));
+            jacobian.push(slopes.iter().map(|slope| slope.as_slice()[i]).enumerate());
         }
         r.iter_mut().for_each(|r| *r = -*r);
-        let step = shortest_beyond(1e-7, &jacobian, &r, &self.metric, 0.0);
+        let step = step(1e-7, &jacobian, &r, &self.metric, 0.0);
         step.iter().all(|x| x.is_finite()).then_some(step)
-    }
-}
-
-/// A bound from below of the singular values of a matrix, σ ≥ 1/‖R⁻¹‖_F with A = Q R or Aᵀ = Q R: a small part of the work that the
-/// values themselves take. 0 if R is singular.
-fn least_singular_value(a: &DMatrix<f64>) -> f64 {
-    let r = if a.nrows() < a.ncols() { a.transpose().qr().unpack_r() } else { a.clone().qr().unpack_r() };
-    let n = r.ncols();
-    if n == 0 || (0..n).any(|i| r[(i, i)] == 0.0) {
-        return 0.0;
-    }
-    r.solve_upper_triangular(&DMatrix::identity(n, n)).map_or(0.0, |inverse| inverse.norm().recip())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn singular_values_are_bounded_from_below() {
-        for (rows, columns) in [(4, 7), (7, 4), (5, 5)] {
-            let a = DMatrix::from_fn(rows, columns, |i, k| ((3 * i + 5 * k * k + i * k) as f64).sin());
-            let least = Svd::new(&a).values.into_iter().fold(f64::INFINITY, f64::min);
-            let bound = least_singular_value(&a);
-            assert!(bound <= least && bound > 0.3 * least, "{bound} {least}");
-        }
-        assert_eq!(least_singular_value(&DMatrix::zeros(2, 3)), 0.0);
     }
 }

@@ -46,19 +46,13 @@ pub(super) fn velocity<G: Space<S = f64>>(
 
 impl<G: Space<S = f64>> System<'_, G> {
     /// The row of a start value of velocity level, its scale and its value.
-    fn asked_rate(&self, start: &Start) -> Option<(Vec<f64>, f64)> {
+    fn asked_rate(&self, start: &Start) -> Option<(Vec<(usize, f64)>, f64)> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let mut row = vec![0.0; m.nv];
         match start.asked {
-            Asked::Gauge { gauge, order: 1 } => {
-                m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| row[k] = x);
-                Some((row, self.gauge_scale(gauge)))
-            }
+            Asked::Gauge { gauge, order: 1 } => Some((self.slopes(gauge, 1.0), self.gauge_scale(gauge))),
             Asked::Spin { body, axis, own } => {
-                for &k in &m.bodies[body].path {
-                    row[k] = G::spin_component(self.dynamics.in_axes(body, own, w.columns[k].w), axis);
-                }
-                Some((row, 1.0))
+                let spin = |&k: &usize| (k, G::spin_component(self.dynamics.in_axes(body, own, w.columns[k].w), axis));
+                Some((m.bodies[body].path.iter().map(spin).collect(), 1.0))
             }
             _ => None,
         }
@@ -67,9 +61,9 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// Rows of constraints and drivers, then exact values of velocity level.
     fn what_holds(&self) -> Level {
         let rows: Vec<usize> = (0..self.dynamics.mechanism.rows.len()).collect();
-        let (a, round_off) = self.scaled(&rows);
+        let (scaled, round_off) = self.scaled(&rows);
         let b = rows.iter().map(|&r| self.dynamics.work.nu[r] * self.row_scale(r)).collect();
-        let mut level = Level { a, b, round_off };
+        let mut level = Level { rows: scaled, b, round_off };
         self.rates(false, &mut level);
         level
     }
@@ -84,7 +78,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn rates(&self, guess: bool, level: &mut Level) {
         for start in self.dynamics.mechanism.starts.iter().filter(|s| s.guess == guess) {
             if let Some((row, scale)) = self.asked_rate(start) {
-                level.row(&row, start.value, scale);
+                level.row(row, start.value, scale);
             }
         }
     }
@@ -92,7 +86,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// All joints at rest.
     pub(super) fn rest(&self, q: &[f64]) -> Level {
         let (mut r, mut level) = (Vec::new(), Level::default());
-        self.joints(q, true, &mut r, &mut level.a);
+        self.joints(q, true, &mut r, &mut level.rows);
         level.b = vec![0.0; r.len()];
         level
     }
@@ -100,8 +94,8 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// What velocities leave open, if anything.
     fn contradiction(&mut self, q: &[f64], v: &[f64]) -> Option<AssemblyFault> {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let missing = |row: &[f64], b: f64| b - row.iter().zip(v).map(|(a, v)| a * v).sum::<f64>();
-        let exact: Vec<(&Start, Vec<f64>)> =
+        let missing = |row: &[(usize, f64)], b: f64| b - row.iter().map(|&(k, a)| a * v[k]).sum::<f64>();
+        let exact: Vec<(&Start, Vec<(usize, f64)>)> =
             m.starts.iter().filter(|s| !s.guess).filter_map(|s| Some((s, self.asked_rate(s)?.0))).collect();
         let of_rows = w.g.lines().zip(&w.nu).map(|(row, nu)| nu - row.dot(v));
         let off: Vec<f64> = of_rows.chain(exact.iter().map(|(s, row)| missing(row, s.value))).collect();

@@ -1,5 +1,6 @@
-//! Small least-squares solves at assembly, where rows may be redundant or contradict each other.
+//! Least squares by singular values, of full rows.
 
+use super::rows::Level;
 use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
@@ -8,10 +9,10 @@ const RANK_TOLERANCE: f64 = 1e-10;
 
 /// Rows of which no combination is shorter than this part of the longest row are independent beyond doubt: its square is still far
 /// above the rounding of products of rows. The singular values themselves, which cost some twenty times as much, decide on others.
-const CLEAR: f64 = 1e-6;
+pub(super) const CLEAR: f64 = 1e-6;
 
 /// Columns up to which singular values cost next to nothing, so that nothing else is asked.
-const FEW: usize = 64;
+pub(super) const FEW: usize = 64;
 
 /// The shortest x (in the metric, Σ dᵢ xᵢ²) that makes |A x − b|² + μ (its size)² least; A is rows × metric.len(), row-major.
 ///
@@ -29,43 +30,20 @@ pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f6
         return vec![0.0; n];
     }
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
-    let scaled = DMatrix::from_fn(b.len(), n, |i, j| a[i * n + j] / root[j]);
-    let svd = Svd::new(&scaled);
+    let svd = Svd::new(&scaled(a, metric));
     let largest = svd.largest();
     let least = f64::max(RANK_TOLERANCE * largest, round_off);
     let x = svd.solve(b, |s| if s > least { s / (s * s + damping * largest * largest) } else { 0.0 });
     x.iter().zip(&root).map(|(x, r)| x / r).collect()
 }
 
-/// Rows A and right sides b of one level of a least-squares problem; A is rows × metric.len(), row-major.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Level {
-    pub(crate) a: Vec<f64>,
-    pub(crate) b: Vec<f64>,
-    /// Singular values of A D^−½ up to this are round-off.
-    pub(crate) round_off: f64,
-}
-
-impl Level {
-    /// Adds a row times a scale.
-    pub(crate) fn row(&mut self, row: &[f64], b: f64, scale: f64) {
-        self.a.extend(row.iter().map(|x| x * scale));
-        self.b.push(b * scale);
-    }
-
-    /// b − A x.
-    pub(crate) fn missing(&self, x: &[f64]) -> Vec<f64> {
-        self.b.iter().zip(self.a.chunks_exact(x.len().max(1))).map(|(b, row)| b - dot(row, x)).collect()
-    }
-}
-
 /// x + δ with the shortest δ (in the metric) that makes |A x − b|² least for the first level, among those for the second, and so on.
 #[must_use]
-pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64> {
+pub(super) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64> {
     let n = metric.len();
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
     let mut x = x;
-    let levels: Vec<&Level> = levels.iter().filter(|level| !level.b.is_empty()).collect();
+    let levels: Vec<&Level> = levels.iter().filter(|level| !level.rows.is_empty()).collect();
     if n == 0 || levels.iter().all(|level| level.missing(&x).iter().all(|b| *b == 0.0)) {
         return x;
     }
@@ -76,7 +54,7 @@ pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64>
             break;
         }
         let last = index + 1 == levels.len();
-        let rows = DMatrix::from_fn(level.b.len(), n, |i, j| level.a[i * n + j] / root[j]);
+        let rows = scaled(&level.rows.to_dense(n), metric);
         // what is small beside the rows before they are seen along the basis is round-off
         let least = f64::max(RANK_TOLERANCE * rows.row_iter().fold(0.0, |m, row| f64::max(m, row.norm())), level.round_off);
         let rows = if index == 0 { rows } else { &rows * &basis };
@@ -100,7 +78,7 @@ pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64>
 }
 
 /// Whether all singular values of rows A are above `least`, and far above what rounding leaves: A Aᵀ − τ² is positive definite.
-pub(crate) fn are_independent(a: &DMatrix<f64>, least: f64) -> bool {
+pub(super) fn are_independent(a: &DMatrix<f64>, least: f64) -> bool {
     if a.nrows() > a.ncols() {
         return false;
     }
@@ -131,11 +109,63 @@ pub(crate) fn left_open(round_off: f64, a: &[f64], metric: &[f64]) -> DMatrix<f6
     let n = metric.len();
     let rows = a.len() / n.max(1);
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
-    let svd = padded(DMatrix::from_fn(rows, n, |i, j| a[i * n + j] / root[j]), rows);
+    let svd = padded(scaled(a, metric), rows);
     let least = f64::max(RANK_TOLERANCE * svd.largest(), round_off);
     let mut basis = left_over(&svd, least);
     basis.row_iter_mut().zip(&root).for_each(|(mut row, root)| row /= *root);
     basis
+}
+
+/// Whether all singular values are above a part of the largest: by a bound from below, σ ≥ 1/‖R⁻¹‖_F with A = Q R or Aᵀ = Q R, a small
+/// part of the work that the values themselves take.
+pub(super) fn are_above(a: &DMatrix<f64>, part: f64) -> bool {
+    least_singular_value(a) > part * a.norm()
+}
+
+/// The bound; 0 if R is singular.
+fn least_singular_value(a: &DMatrix<f64>) -> f64 {
+    let r = if a.nrows() < a.ncols() { a.transpose().qr().unpack_r() } else { a.clone().qr().unpack_r() };
+    let n = r.ncols();
+    if n == 0 || (0..n).any(|i| r[(i, i)] == 0.0) {
+        return 0.0;
+    }
+    r.solve_upper_triangular(&DMatrix::identity(n, n)).map_or(0.0, |inverse| inverse.norm().recip())
+}
+
+/// A D^−½ of row-major A.
+pub(super) fn scaled(a: &[f64], metric: &[f64]) -> DMatrix<f64> {
+    let n = metric.len();
+    let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
+    DMatrix::from_fn(a.len() / n.max(1), n, |i, j| a[i * n + j] / root[j])
+}
+
+/// Gauss-Newton's steps among the motions that rows leave, by a basis of these.
+pub(super) struct Within {
+    /// The motions (n × k, orthonormal in the metric), and the slopes along them (rows × k, row-major).
+    basis: DMatrix<f64>,
+    along: Vec<f64>,
+}
+
+impl Within {
+    pub(super) fn new(hold: &[f64], round_off: f64, slopes: &[f64], metric: &[f64]) -> Self {
+        let basis = left_open(round_off, hold, metric);
+        let along = slopes
+            .chunks_exact(metric.len().max(1))
+            .flat_map(|row| basis.column_iter().map(move |way| row.iter().zip(way.iter()).map(|(a, b)| a * b).sum::<f64>()))
+            .collect();
+        Self { basis, along }
+    }
+
+    pub(super) fn slope(&self, right: &[f64]) -> f64 {
+        let n = self.basis.ncols();
+        let along = |k: usize| right.iter().enumerate().map(|(i, r)| r * self.along[i * n + k]).sum::<f64>();
+        (0..n).map(|k| along(k).powi(2)).sum::<f64>().sqrt()
+    }
+
+    pub(super) fn step(&self, right: &[f64], damping: f64) -> Vec<f64> {
+        let way = shortest(&self.along, right, &vec![1.0; self.basis.ncols()], damping);
+        (0..self.basis.nrows()).map(|i| way.iter().enumerate().map(|(k, x)| self.basis[(i, k)] * x).sum()).collect()
+    }
 }
 
 /// The decomposition with as many rows as columns at least, so that V is whole.
@@ -148,10 +178,6 @@ fn padded(a: DMatrix<f64>, rows: usize) -> Svd {
 fn left_over(svd: &Svd, least: f64) -> DMatrix<f64> {
     let open: Vec<usize> = (0..svd.values.len()).filter(|&k| svd.values[k] <= least).collect();
     DMatrix::from_fn(svd.v.nrows(), open.len(), |i, k| svd.v[(i, open[k])])
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
@@ -177,7 +203,7 @@ mod tests {
         // x + y = 1 holds; x = 3 and x = 5 are as near as can be at 4; then z rests, and w at half its wish
         let level = |rows: &[([f64; 4], f64)]| {
             let mut level = Level::default();
-            rows.iter().for_each(|(row, b)| level.row(row, *b, 1.0));
+            rows.iter().for_each(|(row, b)| level.row(row.iter().copied().enumerate(), *b, 1.0));
             level
         };
         let levels = [
@@ -199,17 +225,17 @@ mod tests {
         let level = |rows: std::ops::Range<usize>| {
             let mut level = Level::default();
             for i in rows {
-                level.row(&(0..n).map(|j| entry(i, j)).collect::<Vec<_>>(), i as f64 - 3.0, 1.0);
+                level.row((0..n).map(|j| (j, entry(i, j))), i as f64 - 3.0, 1.0);
             }
             level
         };
         let mut levels = [level(0..30), level(30..60), level(60..80)];
         let met = in_turn(&levels, &metric, vec![0.1; n]);
         // a copy of a row changes nothing but the way of the solution
-        let scaled = |level: &Level| DMatrix::from_fn(level.b.len(), n, |i, j| level.a[n * i + j] / metric[j].sqrt());
+        let scaled = |level: &Level| scaled(&level.rows.to_dense(n), &metric);
         assert!(are_independent(&scaled(&levels[0]), 0.0));
-        let (copy, right) = (levels[0].a[..n].to_vec(), levels[0].b[0]);
-        levels[0].row(&copy, right, 1.0);
+        let (copy, right) = (levels[0].rows.line(0).to_vec(), levels[0].b[0]);
+        levels[0].row(copy, right, 1.0);
         assert!(!are_independent(&scaled(&levels[0]), 0.0));
         let decomposed = in_turn(&levels, &metric, vec![0.1; n]);
         assert!(met.iter().zip(&decomposed).all(|(x, y)| (x - y).abs() < 1e-11 * (1.0 + y.abs())), "{met:?} {decomposed:?}");
@@ -222,6 +248,17 @@ mod tests {
         assert!(are_independent(&rows(0.1), 0.0) && !are_independent(&rows(0.1), 0.01));
         assert!(!are_independent(&rows(1e-7), 0.0) && are_independent(&rows(1e-5), 0.0) && !are_independent(&rows(0.0), 0.0));
         assert!(!are_independent(&DMatrix::zeros(3, 2), 0.0) && are_independent(&DMatrix::zeros(0, 2), 0.0));
+    }
+
+    #[test]
+    fn singular_values_are_bounded_from_below() {
+        for (rows, columns) in [(4, 7), (7, 4), (5, 5)] {
+            let a = DMatrix::from_fn(rows, columns, |i, k| ((3 * i + 5 * k * k + i * k) as f64).sin());
+            let least = Svd::new(&a).values.into_iter().fold(f64::INFINITY, f64::min);
+            let bound = least_singular_value(&a);
+            assert!(bound <= least && bound > 0.3 * least, "{bound} {least}");
+        }
+        assert_eq!(least_singular_value(&DMatrix::zeros(2, 3)), 0.0);
     }
 
     #[test]
