@@ -36,7 +36,7 @@ fn terms<G: Space<S = f64>>(m: &Mechanism<G>, s: &State) {
 
 #[test]
 fn terms_residuals_reactions_and_energies_allocate_nothing() {
-    for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+    for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
         let planar = mechanism::<Planar<f64>>(include_str!("common/planar.yaml"), coordinates);
         terms(&planar, &State::random(&planar, 1));
         let spatial = mechanism::<Spatial<f64>>(include_str!("common/spatial.yaml"), coordinates);
@@ -77,7 +77,7 @@ fn samples_of_a_driven_motion_and_their_columns_allocate_nothing() {
     ] {
         let text = std::fs::read_to_string(format!("{}/models/{file}", env!("CARGO_MANIFEST_DIR"))).unwrap();
         let model = model(&text, Some(study));
-        for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+        for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
             match model.space {
                 Dimensions::Planar => sample::<Planar<f64>>(&model, coordinates),
                 Dimensions::Spatial => sample::<Spatial<f64>>(&model, coordinates),

@@ -117,13 +117,14 @@ fn loops() -> Vec<(&'static str, &'static [&'static str])> {
 }
 
 #[test]
-fn closed_loops_move_and_react_alike_in_joint_and_cartesian_coordinates() {
+fn closed_loops_move_and_react_alike_in_all_coordinates() {
     for (space, kinds) in loops() {
         let text = closed_loop(space, kinds, None);
         let names = columns(&text, "move");
         println!("{space} {kinds:?}");
         let (tree, star) = (study(&text, "move", Coordinates::Joint), study(&text, "move", Coordinates::Cartesian));
         same(&kinds.join("-"), &names, &star, &tree, |_| true, TOLERANCE);
+        same(&kinds.join("-"), &names, &study(&text, "move", Coordinates::Bounded(1)), &tree, |_| true, TOLERANCE);
         assert!(tree.certificate.constraint < 1e-12 && tree.certificate.power_balance < 1e-10, "{kinds:?}: {:?}", tree.certificate);
         assert!(star.certificate.constraint < 1e-12 && star.certificate.power_balance < 1e-10, "{kinds:?}: {:?}", star.certificate);
     }
@@ -152,8 +153,10 @@ fn shipped_planar_models_move_and_react_alike_in_cartesian_coordinates() {
     for (file, name) in [("crank_rocker.yaml", "one-turn"), ("quick_return.yaml", "one-turn"), ("scotch_yoke.yaml", "one-turn")] {
         let text = shipped(file);
         let names = columns(&text, name);
-        let (tree, star) = (study(&text, name, Coordinates::Joint), study(&text, name, Coordinates::Cartesian));
-        same(file, &names, &star, &tree, |_| true, TOLERANCE);
+        let tree = study(&text, name, Coordinates::Joint);
+        for other in [Coordinates::Bounded(1), Coordinates::Cartesian] {
+            same(file, &names, &study(&text, name, other), &tree, |_| true, TOLERANCE);
+        }
     }
 }
 
@@ -250,7 +253,7 @@ fn a_pin_in_a_slot_is_a_block_that_slides_and_turns() {
         let other = columns(&space, "turn");
         names.iter().map(|n| other.iter().position(|o| o == n).unwrap_or_else(|| panic!("{n} is no column in space"))).collect()
     };
-    for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+    for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
         let mut in_space = study(&space, "turn", coordinates);
         let mut rows = Rows::new(kept.len());
         in_space.rows.iter().for_each(|row| rows.push(kept.iter().map(|c| row[*c])));

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-const BOTH: [Coordinates; 2] = [Coordinates::Joint, Coordinates::Cartesian];
+const ALL: [Coordinates; 3] = [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian];
 
 /// A column of an outcome.
 fn column(text: &str, name: &str, study: &str, outcome: &Outcome) -> Vec<f64> {
@@ -68,7 +68,7 @@ fn a_universal_joint_turns_so_that_tan_out_is_cos_beta_tan_in() {
          studies:\n  move: {{ inverse: {{ over: 1 turn, samples: 36 }}, columns: [I.angle, O.angle, O.omega, O.alpha, drive, X.angle1, X.angle2] }}\n",
         -s
     ));
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(&text, "move", coordinates);
         // the input's cross pin, y, stands normal to both shafts at 0: tan(out) = cos β tan(in)
         follows(&text, &o, "O.angle", "I.angle", 1e-11, |t| {
@@ -94,7 +94,7 @@ fn a_screw_advances_by_its_pitch_each_turn() {
          loads:\n  push: { at: nut.origin, force: [10 N, 20 N, 20 N] }\n\
          studies:\n  move: { inverse: { over: 4 s, samples: 20 }, columns: [S.angle, nut.origin, nut.wx, drive] }\n",
     );
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(&text, "move", coordinates);
         let lead = 0.006 / TAU;
         follows(&text, &o, "nut.origin.x", "S.angle", 1e-12, |a| lead * a / 3.0);
@@ -147,7 +147,7 @@ fn gears_turn_and_racks_slide_in_their_ratio_from_the_start() {
          drivers:\n  drive: { joint: A, angle: 0.4 + (t/(1 s))^2 }\n\
          start: { B.angle: 1, C.position: 0.3 }\n\
          studies:\n  move: { inverse: { over: 2 s, samples: 20 }, columns: [A.angle, B.angle, C.position, C.acceleration, two.angle, drive, A, B, C] }\n";
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(text, "move", coordinates);
         follows(text, &o, "B.angle", "A.angle", 1e-12, |a| 1.0 - 2.5 * (a - 0.4));
         follows(text, &o, "C.position", "A.angle", 1e-12, |a| 0.3 - 0.5 * (a - 0.4));
@@ -230,7 +230,7 @@ fn check_linkage(name: &str, over: &str, samples: usize, extra: &str) -> (String
     let guessed = [guesses(&file), extra.to_string()].into_iter().filter(|x| !x.is_empty()).collect::<Vec<_>>().join(", ");
     let text = linkage(&file, &guessed, over, samples);
     let mut last = None;
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(&text, "move", coordinates);
         let turn = |x: &Value| number(x);
         agrees(&text, &o, &file, "drive.torque", |r| turn(&r["torque"]), 1e-10);
@@ -295,7 +295,7 @@ fn a_slider_crank_is_that_of_the_books() {
          joints:\n  O: { revolute: [ground, crank.start] }\n  A: { revolute: [crank.end, rod.start] }\n  B: { revolute: [rod.end, piston.origin] }\n  W: { slider: [ground, piston.origin] }\n\
          drivers: { drive: { joint: O, speed: 10 rad/s } }\nstart: { O.angle: 0, rod.angle: ~0.0, W.position: ~0.4 }\n\
          studies:\n  move: { inverse: { over: 1 turn, samples: 12 }, columns: [time, piston.x, piston.vx, piston.ax, B, W, drive] }\n";
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(text, "move", coordinates);
         for (name, key) in [
             ("piston.x", "x"),
@@ -319,7 +319,7 @@ fn whitworths_quick_return_is_that_of_the_books() {
          drivers: { drive: { joint: O, speed: 1 turn/s } }\nstart: { O.angle: 0, Q.angle: ~1.1 }\n\
          measures: { normal: A.fx*sin(lever.angle) - A.fy*cos(lever.angle) }\n\
          studies:\n  move: { inverse: { over: 1 turn, samples: 12 }, columns: [time, lever.angle, lever.omega, drive, normal] }\n";
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(text, "move", coordinates);
         agrees(text, &o, &file, "lever.angle", |r| number(&r["lever_angle"]), 1e-12);
         agrees(text, &o, &file, "lever.omega", |r| number(&r["lever_rate"]), 1e-12);
@@ -342,7 +342,7 @@ fn an_ackermann_trapezoid_steers() {
         -y,
         number(&file["parameters"]["tie_rod"])
     );
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(&text, "move", coordinates);
         let right: Vec<f64> = file["outputs"].as_array().unwrap().iter().map(|r| number(&r["outer_deg"]).to_radians()).collect();
         let found = column(&text, "R.angle", "move", &o);
@@ -381,7 +381,7 @@ fn a_scissor_lift_needs_n_w_cot_a() {
         let a = w.acos();
         close("the reference", &[3.0 * a.sin(), 3000.0 / a.tan()], &[number(&r["height"]), number(&r["actuator_force"])], 1e-13);
     }
-    for coordinates in BOTH {
+    for coordinates in ALL {
         let o = study(&text, "move", coordinates);
         follows(&text, &o, "platform.y", "way.position", 1e-12, |w| 3.0 * w.acos().sin());
         follows(&text, &o, "drive.force", "way.position", 1e-10, |w| -3000.0 / w.acos().tan());

@@ -1,10 +1,15 @@
-//! Mechanisms of many bodies, whose equations are kept sparse: a row of four-bars hangs and swings as one pendulum.
+//! Mechanisms of many bodies, whose equations are kept sparse: a row of four-bars hangs and swings as one pendulum, and chains move alike
+//! on trees of long and of short roads.
 //!
-//! N + 1 rods that turn and N that stay level, each of 1 m and 1 kg: ½ I ω² with I = (N + 1)/3 + N, and −(m g) cos θ with
+//! The row has N + 1 rods that turn and N that stay level, each of 1 m and 1 kg: ½ I ω² with I = (N + 1)/3 + N, and −(m g) cos θ with
 //! m = (N + 1)/2 + N, so that θ'' = −(m g/I) sin θ.
 
+use crate::common;
 use grashof::Model;
+use grashof::kinematics::bounded::cheapest;
+use grashof::mechanism::Coordinates;
 use grashof::results::Results;
+use grashof::studies::common::case::parameters;
 
 const GRAVITY: f64 = 9.81;
 
@@ -122,6 +127,66 @@ studies: {{ it: {{ {} }} }}
             assert!((found - expected).abs() < 1e-5, "{n} {scheme}: {found} {expected}");
             let march = results.certificate.march.unwrap();
             assert!(march.energy_drift < 1e-4 * march.energy_scale, "{n} {scheme}: {march:?}");
+        }
+    }
+}
+
+/// A chain of `n` rods with dampers in its joints and a load at its end, and one study of its motion.
+fn chain(space: &str, n: usize, settings: &str) -> String {
+    let each = |line: &dyn Fn(usize) -> String| (0..n).map(line).collect::<String>();
+    let (joint, gravity, load) = match space {
+        "planar" => ("revolute", "[0, -9.81 m/s^2]", "[3 N, 20 N]"),
+        _ => ("spherical", "[0, 0, -9.81 m/s^2]", "[3 N, 5 N, 20 N]"),
+    };
+    let spring = if space == "planar" { ", damping: 0.2 N m s/rad" } else { "" };
+    format!(
+        "
+grashof: 1
+name: chain
+space: {space}
+gravity: {gravity}
+bodies:
+{}joints:
+  J0: {{ {joint}: [ground, b0.start] }}
+{}loads: {{ pull: {{ force: {load}, at: b{}.end }} }}
+studies:
+  it:
+    dynamics: {{ until: 20 ms, every: 10 ms, tolerance: 1e-9, {settings} }}
+    columns: [b0.end, b{}.end, b{}.end, J{}.fx]
+",
+        each(&|i| {
+            let mass = 1.0 + (i % 3) as f64;
+            match space {
+                "planar" => format!("  b{i}: {{ bar: {{ length: 0.1 m, mass: {mass} kg }} }}\n"),
+                _ => format!(
+                    "  b{i}: {{ box: {{ size: [0.1 m, 2 cm, 3 cm], mass: {mass} kg }}, points: {{ start: [-5 cm, 0, 0], end: [5 cm, 0, 0] }} }}\n"
+                ),
+            }
+        }),
+        each(&|i| if i == 0 { String::new() } else { format!("  J{i}: {{ {joint}: [b{}.end, b{i}.start]{spring} }}\n", i - 1) }),
+        n - 1,
+        n / 2,
+        n - 1,
+        n / 2,
+    )
+}
+
+#[test]
+fn chains_move_and_react_alike_on_long_and_short_roads() {
+    for (space, n, schemes) in [("planar", 120, ["dop853", "radau5"]), ("spatial", 60, ["dop853", "bdf"])] {
+        let chain = |settings: &str| chain(space, n, settings);
+        let model = common::model(&chain("integrator: dop853"), Some("it"));
+        assert!(matches!(cheapest(&model, &parameters(&model)), Coordinates::Bounded(_)));
+        let run = |settings: &str| run(&Model::parse(&chain(settings)).unwrap_or_else(|e| panic!("{e}")));
+        let expected = run("integrator: dop853, coordinates: joint");
+        for settings in schemes.iter().flat_map(|s| ["auto", "cartesian"].map(|c| format!("integrator: {s}, coordinates: {c}"))) {
+            let found = run(&settings);
+            assert_eq!(found.table.columns.len(), expected.table.columns.len());
+            for (found, expected) in found.table.columns.iter().zip(&expected.table.columns) {
+                let size = expected.values.iter().fold(1.0, |m, x| f64::max(m, x.abs()));
+                let off = found.values.iter().zip(&expected.values).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+                assert!(off < 1e-6 * size, "{space} {settings}: {} off by {off:e} of {size:e}", found.name);
+            }
         }
     }
 }

@@ -19,10 +19,10 @@ const H: f64 = 4e-4;
 const DIFFERENCE: f64 = 1e-10;
 const EXACT: f64 = 1e-12;
 
-/// The planar and the spatial mechanism on their trees and on the star tree, three states each.
+/// The planar and the spatial mechanism on their trees, on trees of short roads and on the star tree, three states each.
 macro_rules! everywhere {
     ($law:ident) => {
-        for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+        for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
             let (planar, spatial) = (mechanism::<Planar<f64>>(PLANAR, coordinates), mechanism::<Spatial<f64>>(SPATIAL, coordinates));
             for seed in 1..4 {
                 $law(&planar, &State::random(&planar, seed));

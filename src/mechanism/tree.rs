@@ -61,6 +61,19 @@ pub(super) fn star(bodies: usize) -> Vec<Branch> {
     (1..bodies).map(|body| Branch { body, parent: 0, joint: None }).collect()
 }
 
+/// A tree of branches, parents first, in which no road from the ground or from a free body has more than `depth` joints: a body farther
+/// away is free, and its joint cut.
+pub(super) fn bounded(bodies: usize, branches: &[Branch], depth: usize) -> Vec<Branch> {
+    let mut joints = vec![0; bodies];
+    let bound = |branch: &Branch| {
+        let count = if branch.joint.is_some() { joints[branch.parent] + 1 } else { 0 };
+        let free = count > depth;
+        joints[branch.body] = if free { 0 } else { count };
+        if free { Branch { parent: 0, joint: None, ..*branch } } else { *branch }
+    };
+    branches.iter().map(bound).collect()
+}
+
 /// Fixed poses and steps of a branch's joint: joint frame in the parent, axes in the order of motion, child frame after them.
 pub(super) fn placed<G: Space>(shape: &Shape, reversed: bool, planar: bool) -> (Pose<G>, Vec<Axis>, Pose<G>) {
     let before = Pose::translation(G::vector(&shape.pa));

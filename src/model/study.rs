@@ -249,6 +249,8 @@ words! {
 words! {
     /// Coordinates of motion in time.
     pub enum Chart {
+        /// Joint coordinates; where roads over many joints would make that slow, free bodies in between.
+        Auto = "auto",
         /// Joint coordinates of a spanning tree, closed loops as rows.
         Joint = "joint",
         /// Every body free, every joint as rows.

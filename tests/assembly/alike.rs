@@ -128,7 +128,7 @@ fn alike<G: Space<S = f64>>(random: &Random, what: &str) {
     let (m, start) = assembled::<G>(&random.text(None), Coordinates::Joint);
     let right = state(&m, &start);
     let cuts = (0..random.joints.len()).map(Some).map(|cut| (cut, Coordinates::Joint));
-    for (cut, coordinates) in [(None, Coordinates::Cartesian)].into_iter().chain(cuts) {
+    for (cut, coordinates) in [(None, Coordinates::Cartesian), (None, Coordinates::Bounded(2))].into_iter().chain(cuts) {
         let (other, begun) = assembled::<G>(&random.text(cut), coordinates);
         let what = format!("{what} with {cut:?} cut in {coordinates:?} coordinates\n{}", random.text(cut));
         close(&what, &state(&other, &begun), &right, 1e-11);

@@ -34,14 +34,20 @@ impl<T: Number> Factor<T> {
     /// The form that is faster: dense up to [`DENSE_UP_TO`] unknowns and where elimination fills the matrix, else sparse.
     pub fn new(pattern: &Sparsity) -> Self {
         let n = pattern.columns();
-        if n <= DENSE_UP_TO {
+        if n <= DENSE_UP_TO || pattern.is_full() {
             return Self::dense(pattern);
         }
-        let ordering = Ordering::minimum_degree(pattern);
-        let sparse = SPARSE_COST * (ordering.operations + ordering.fill + pattern.entries());
-        // Σ k² for k < n
-        let dense = n * (n - 1) * (2 * n - 1) / 6;
-        if sparse < dense { Self::Sparse(Box::new(SparseLu::with_order(pattern, ordering))) } else { Self::dense(pattern) }
+        let dense = dense_cost(n);
+        match Ordering::minimum_degree(pattern) {
+            ordering if sparse_cost(&ordering, pattern) < dense => Self::Sparse(Box::new(SparseLu::with_order(pattern, ordering))),
+            _ => Self::dense(pattern),
+        }
+    }
+
+    /// Cost of a factorisation in the form that [`Factor::new`] takes, in multiplications of the dense one.
+    pub fn cost(pattern: &Sparsity) -> usize {
+        let dense = dense_cost(pattern.columns());
+        if pattern.is_full() { dense } else { dense.min(sparse_cost(&Ordering::minimum_degree(pattern), pattern)) }
     }
 
     /// The dense form.
@@ -96,4 +102,13 @@ impl<T: Number> Factor<T> {
             Self::Sparse(lu) => lu.fill(),
         }
     }
+}
+
+/// Σ k² for k < n.
+fn dense_cost(n: usize) -> usize {
+    n * n.saturating_sub(1) * (2 * n).saturating_sub(1) / 6
+}
+
+fn sparse_cost(ordering: &Ordering, pattern: &Sparsity) -> usize {
+    SPARSE_COST * (ordering.operations + ordering.fill + pattern.entries())
 }

@@ -123,6 +123,11 @@ impl Kkt {
         Self::sparse([mass, g]).unwrap_or_else(|| Self::dense([mass, g]))
     }
 
+    /// Cost of a factorisation for the patterns of M and G, in multiplications of a dense one.
+    pub fn cost(mass: &Sparsity, g: &Sparsity) -> usize {
+        Factor::<f64>::cost(&whole([mass, g]))
+    }
+
     fn dense(patterns: [&Sparsity; 2]) -> Self {
         let n = patterns[1].columns() + patterns[1].rows();
         let small = if n <= DENSE_UP_TO { n } else { 0 };
@@ -139,9 +144,7 @@ impl Kkt {
     fn sparse(patterns: [&Sparsity; 2]) -> Option<Self> {
         let [mass, g] = patterns;
         let nv = g.columns();
-        let n = nv + g.rows();
-        let rows = g.places().flat_map(|(i, j)| [(nv + i, j), (j, nv + i)]);
-        let whole = Sparsity::new(n, n, mass.places().chain(rows).chain((nv..n).map(|i| (i, i))));
+        let whole = whole(patterns);
         let factor = Factor::new(&whole);
         if matches!(factor, Factor::Dense(_)) {
             return None;
@@ -371,6 +374,16 @@ impl Kkt {
             *sigma = (size.recip() - REGULARIZATION).max(0.0).sqrt();
         }
     }
+}
+
+/// The pattern of [M Gᵀ; G −E].
+fn whole([mass, g]: [&Sparsity; 2]) -> Sparsity {
+    let (nv, n) = (g.columns(), g.columns() + g.rows());
+    if g.rows() == 0 {
+        return mass.clone();
+    }
+    let rows = g.places().flat_map(|(i, j)| [(nv + i, j), (j, nv + i)]);
+    Sparsity::new(n, n, mass.places().chain(rows).chain((nv..n).map(|i| (i, i))))
 }
 
 impl Sparse {

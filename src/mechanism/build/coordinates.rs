@@ -8,4 +8,7 @@ pub enum Coordinates {
     Joint,
     /// Every body free in the ground frame, every joint cut.
     Cartesian,
+    /// The tree of [`Coordinates::Joint`] with free bodies where a road from the ground or from a free body has this many joints: the
+    /// joints that led to them are cut.
+    Bounded(usize),
 }

@@ -29,6 +29,7 @@ impl<G: Space> Builder<'_, G> {
         let spanned = tree::span(bodies, &edges);
         let (branches, footings) = match coordinates {
             Coordinates::Cartesian => (tree::star(bodies), self.footings(&spanned)),
+            Coordinates::Bounded(depth) => (tree::bounded(bodies, &spanned, depth), self.footings(&spanned)),
             Coordinates::Joint => (spanned, vec![[0.0; 3]; bodies]),
         };
         for (index, joint) in self.model.joints.iter().enumerate() {

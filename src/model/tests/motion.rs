@@ -367,7 +367,7 @@ fn forward(keys: &str) -> Forward {
 fn the_keys_of_dynamics() {
     let f = forward("until: 1 s");
     assert!(matches!(f.control, Control::Tolerance(None)) && f.every.is_none() && f.locate);
-    assert_eq!((f.integrator, f.level, f.chart, f.order), (Integrator::Auto, None, Chart::Joint, None));
+    assert_eq!((f.integrator, f.level, f.chart, f.order), (Integrator::Auto, None, Chart::Auto, None));
     let f = forward(
         "until: 2 s, every: 10 ms, integrator: newmark, alpha: 1/6, beta: 1/2, step: 1 ms, coordinates: minimal, switches: step-over",
     );

@@ -1,5 +1,6 @@
 //! What a dynamic study asks for, as numbers and as settings of the integrators.
 
+use crate::kinematics::bounded::cheapest;
 use crate::mechanism::Coordinates;
 use crate::model::{self, Chart, Family, Forward, Integrator};
 use crate::results::Failure;
@@ -126,7 +127,11 @@ pub(super) fn plan(case: Case<'_>, forward: &Forward) -> Result<Plan, Failure> {
             longest: until / LONGEST,
             ..Settings::default()
         },
-        coordinates: if forward.chart == Chart::Cartesian { Coordinates::Cartesian } else { Coordinates::Joint },
+        coordinates: match forward.chart {
+            Chart::Auto => cheapest(case.model, case.parameters),
+            Chart::Joint | Chart::Minimal => Coordinates::Joint,
+            Chart::Cartesian => Coordinates::Cartesian,
+        },
         minimal: forward.chart == Chart::Minimal,
         family: forward.integrator.description().family,
         integrator: case.integrator.cloned(),

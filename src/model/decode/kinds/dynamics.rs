@@ -59,7 +59,7 @@ impl<'n> Decoder<'n> {
         self.both_weights(keys, at, name);
         self.step_wanted(keys, at, integrator);
         let level = keys.level.word();
-        let chart = keys.coordinates.word().unwrap_or(Chart::Joint);
+        let chart = keys.coordinates.word().unwrap_or(Chart::Auto);
         if level.is_some() {
             self.level_exists(keys.level, at, name, integrator, chart);
         }
