@@ -81,9 +81,12 @@ impl Sparsity {
     /// be other than zero that a walk from one to the next costs more than one along all.
     #[must_use]
     pub fn or_dense(self) -> Self {
-        let (rows, columns) = (self.rows, self.columns);
-        let small = rows.max(columns) <= DENSE_UP_TO;
-        if small || SPARSE_COST * self.entries() >= rows * columns { Self::dense(rows, columns) } else { self }
+        if Self::is_nearly_full(self.rows, self.columns, self.entries()) { Self::dense(self.rows, self.columns) } else { self }
+    }
+
+    /// Whether a matrix of so many entries is kept full.
+    pub fn is_nearly_full(rows: usize, columns: usize, entries: usize) -> bool {
+        rows.max(columns) <= DENSE_UP_TO || SPARSE_COST * entries >= rows * columns
     }
 
     /// Number of rows.

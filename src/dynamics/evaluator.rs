@@ -24,9 +24,19 @@ impl<'m, G: Space> Dynamics<'m, G> {
     /// An evaluator for a mechanism.
     #[must_use]
     pub fn new(mechanism: &'m Mechanism<G>) -> Self {
+        Self::over(mechanism, Workspace::new(mechanism))
+    }
+
+    /// One without a mass matrix, for all but [`Dynamics::mass`] and what follows from it: over many bodies that matrix is large.
+    #[must_use]
+    pub fn without_mass(mechanism: &'m Mechanism<G>) -> Self {
+        Self::over(mechanism, Workspace::without_mass(mechanism))
+    }
+
+    fn over(mechanism: &'m Mechanism<G>, work: Workspace<G>) -> Self {
         let active = mechanism.active_gauges;
         let needs_quaternions = mechanism.gauges[..active].iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
-        Self { mechanism, work: Workspace::new(mechanism), t: G::S::constant(0.0), active, needs_quaternions }
+        Self { mechanism, work, t: G::S::constant(0.0), active, needs_quaternions }
     }
 
     /// All stages up to M, f, Φ, G, ν and γ.

@@ -149,6 +149,7 @@ impl<G: Space> Dynamics<'_, G> {
         let nv = m.nv;
         let Workspace { composite, inertias, columns, mass, mass_places, readings, .. } = &mut self.work;
         let full = mass.pattern().is_full();
+        debug_assert!(full || !mass_places.is_empty(), "an evaluator without M");
         let mut places = mass_places.iter();
         composite.copy_from_slice(inertias);
         if !m.rotors.is_empty() {

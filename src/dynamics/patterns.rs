@@ -7,6 +7,10 @@ use grashof_solvers::Sparsity;
 /// Entries that M may have: columns i and k meet if one is behind the other on the tree, or if a rotor turns with both.
 #[must_use]
 pub fn mass_pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
+    let known: usize = m.ancestors.iter().map(|columns| 2 * columns.len() - 1).sum();
+    if Sparsity::is_nearly_full(m.nv, m.nv, known) {
+        return Sparsity::dense(m.nv, m.nv);
+    }
     let paths = (0..m.nv).flat_map(|k| m.ancestors[k].iter().flat_map(move |&j| [(j, k), (k, j)]));
     let rotors = m.rotors.iter().map(|rotor| &m.gauges[rotor.gauge].columns);
     let rotors = rotors.flat_map(|columns| columns.iter().flat_map(move |(j, _)| columns.iter().map(move |(k, _)| (*j, *k))));

@@ -93,9 +93,18 @@ impl<G: Space> Workspace<G> {
     /// Scratch for a mechanism.
     #[must_use]
     pub fn new(mechanism: &Mechanism<G>) -> Self {
+        Self::with(mechanism, &mass_pattern(mechanism))
+    }
+
+    /// Scratch of evaluators that are never asked for M.
+    #[must_use]
+    pub(super) fn without_mass(mechanism: &Mechanism<G>) -> Self {
+        Self::with(mechanism, &Sparsity::empty(mechanism.nv, mechanism.nv))
+    }
+
+    fn with(mechanism: &Mechanism<G>, of_mass: &Sparsity) -> Self {
         let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
-        let of_mass = mass_pattern(mechanism);
         let programs = mechanism.programs();
         let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
         let needs_quaternions = mechanism.gauges.iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
@@ -131,8 +140,8 @@ impl<G: Space> Workspace<G> {
             z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
             zdot: zeros(mechanism.state_starts.len()),
             force: zeros(nv),
-            mass_places: mass_places(mechanism, &of_mass),
-            mass: Block::new(&of_mass),
+            mass_places: mass_places(mechanism, of_mass),
+            mass: Block::new(of_mass),
             sums: vec![Force::default(); bodies],
             line: zeros(nv),
             inputs: zeros(most(|p| p.inputs)),

@@ -21,7 +21,7 @@ pub(super) fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): 
 
 /// G at the start and the scales of its rows, by an evaluator of its own.
 pub(super) fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> (Block, Vec<f64>) {
-    let mut dynamics = Dynamics::new(mechanism);
+    let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     let scale = dynamics.row_scale(q, modes, metric);

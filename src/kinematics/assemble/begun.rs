@@ -15,7 +15,7 @@ pub(super) struct Begun {
 
 /// Anchors of drivers, gears, racks and distances without a length, from the found position.
 pub(super) fn anchor<G: Space<S = f64>>(mechanism: &mut Mechanism<G>, q: &[f64], modes: &[i32]) {
-    let mut dynamics = Dynamics::new(mechanism);
+    let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     let offsets: Vec<f64> =

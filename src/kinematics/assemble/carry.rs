@@ -27,7 +27,7 @@ pub(super) fn carry<G: Space<S = f64>>(from: &Mechanism<G>, begun: &Begun, to: &
 
 /// Coordinates, velocities and modes of a state [q, v] of `from` in the coordinates of `to`.
 fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[i32], to: &Mechanism<G>) -> (Vec<f64>, Vec<f64>, Vec<i32>) {
-    let mut dynamics = Dynamics::new(from);
+    let mut dynamics = Dynamics::without_mass(from);
     dynamics.time(0.0, modes);
     dynamics.position(state[0], modes);
     dynamics.velocity(state[1], modes);
@@ -36,7 +36,7 @@ fn carried<G: Space<S = f64>>(from: &Mechanism<G>, state: [&[f64]; 2], modes: &[
     for (index, node) in to.nodes.iter().enumerate() {
         coordinates(&dynamics, to, index, node, &mut q, &mut v);
     }
-    let mut other = Dynamics::new(to);
+    let mut other = Dynamics::without_mass(to);
     let mut modes = to.modes();
     other.follow_time(0.0, &mut modes);
     other.position(&q, &modes);

@@ -51,7 +51,7 @@ pub(super) const CONVERGED: f64 = 1e-12;
 
 impl<'a, G: Space<S = f64>> System<'a, G> {
     pub(super) fn new(mechanism: &'a Mechanism<G>) -> Self {
-        let mut dynamics = Dynamics::new(mechanism);
+        let mut dynamics = Dynamics::without_mass(mechanism);
         let mut modes = mechanism.modes();
         dynamics.follow_time(0.0, &mut modes);
         let rows = (0..mechanism.rows.len()).filter(|r| !mechanism.rows[*r].anchored).collect();

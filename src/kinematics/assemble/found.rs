@@ -32,7 +32,7 @@ pub struct Found {
 /// If an exact value is not met.
 pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Result<Vec<Found>, AssemblyFault> {
     let Begun { q, v, modes, .. } = begun;
-    let mut dynamics = Dynamics::new(m);
+    let mut dynamics = Dynamics::without_mass(m);
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     dynamics.velocity(v, modes);

@@ -77,6 +77,9 @@ pub(crate) fn are_independent(rows: &Rows, metric: &[f64], least: f64) -> bool {
 /// Whether all singular values of A D^−½ are above a part of the largest.
 #[must_use]
 pub(crate) fn are_above(rows: &Rows, metric: &[f64], part: f64) -> bool {
+    if rows.is_empty() {
+        return true;
+    }
     if metric.len() > FEW {
         return rows.len() <= metric.len() && sparse::least_singular_value(rows, metric) > 2.0 * part * rows.most(metric);
     }

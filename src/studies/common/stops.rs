@@ -23,7 +23,7 @@ pub(crate) fn begins<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
     if mechanism.stops.is_empty() {
         return Ok(());
     }
-    let mut dynamics = crate::dynamics::Dynamics::new(mechanism);
+    let mut dynamics = crate::dynamics::Dynamics::without_mass(mechanism);
     dynamics.time(0.0, &start.modes);
     dynamics.position(&start.q, &start.modes);
     for stop in mechanism.stops.iter().filter(|stop| stop.event.is_none()) {

@@ -116,7 +116,7 @@ fn without_friction<G: Space>(mechanism: &Mechanism<G>, study: &Study) -> Result
 
 /// The drawing of a state.
 fn pose<G: Space<S = f64>>(mechanism: &Mechanism<G>, at: &Whole) -> crate::results::Scene {
-    let mut dynamics = Dynamics::new(mechanism);
+    let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, &at.modes);
     dynamics.position(&at.q, &at.modes);
     of_poses(mechanism, &[dynamics.poses()])

@@ -20,7 +20,7 @@ const HALVINGS: usize = 6;
 
 /// Outlines at rest and displaced by ± a shape x of the independent coordinates (n).
 pub(super) fn picture<G: Space<S = f64>>(mechanism: &Mechanism<G>, held: &Held, pose: Pose<'_>, x: &DVector<f64>) -> Scene {
-    let mut dynamics = Dynamics::new(mechanism);
+    let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, pose.modes);
     let delta = &held.partition.p * x;
     let mut at = |s: f64| displaced(&mut dynamics, held, pose, &(&delta * s));
