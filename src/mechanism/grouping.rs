@@ -7,25 +7,27 @@
 //! stands now, so that places near it are differences of places as early as they can be.
 
 use super::group::Group;
+use super::sets::Sets;
 use super::{Measured, Mechanism, Step};
 use crate::geometry::Space;
 
 impl<G: Space> Mechanism<G> {
     /// Finds the groups: bodies of one tree branch, and bodies between which something is measured.
     pub(super) fn group(&mut self) {
-        let mut group: Vec<usize> = (0..self.bodies.len()).collect();
+        let mut sets = Sets::new(self.bodies.len());
         let branches = self.nodes.iter().map(|n| (n.parent, n.body));
         for (a, b) in branches.chain(self.gauges.iter().map(|g| (g.a, g.b))) {
-            let (one, other) = (group[a], group[b]);
             if a != 0 && b != 0 {
-                group.iter_mut().filter(|g| **g == other).for_each(|g| *g = one);
+                sets.join(a, b);
             }
         }
-        let mut found: Vec<usize> = Vec::new();
+        // group of each set
+        let mut found: Vec<Option<usize>> = vec![None; self.bodies.len()];
         for node in &self.nodes {
             // parents come first: the first node of a group hangs on the ground
-            if !found.contains(&group[node.body]) {
-                found.push(group[node.body]);
+            let of = &mut found[sets.of(node.body)];
+            if of.is_none() {
+                *of = Some(self.groups.len());
                 let slides = slides(&self.steps[node.steps.clone()], node.before.r).iter().map(|s| (s.q, s.along)).collect();
                 self.groups.push(Group { anchor: node.before.p, slides });
             }
@@ -33,7 +35,7 @@ impl<G: Space> Mechanism<G> {
         if self.groups.is_empty() {
             self.groups.push(Group::default());
         }
-        self.group_of = group.iter().map(|g| found.iter().position(|f| f == g).unwrap_or(0)).collect();
+        self.group_of = (0..self.bodies.len()).map(|body| found[sets.of(body)].unwrap_or(0)).collect();
     }
 
     /// The group of what lies between two bodies, of which one may be the ground.

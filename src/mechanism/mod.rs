@@ -14,6 +14,7 @@ mod joint;
 mod loops;
 mod parts;
 mod row;
+mod sets;
 mod start;
 mod step;
 mod translation;

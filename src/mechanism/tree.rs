@@ -26,18 +26,20 @@ pub(super) fn span(bodies: usize, edges: &[Edge]) -> Vec<Branch> {
     let mut reached = vec![false; bodies];
     reached[0] = true;
     let mut branches: Vec<Branch> = Vec::with_capacity(bodies.saturating_sub(1));
+    // ways from each body, with their rank
+    let mut ways: Vec<Vec<(usize, Branch)>> = vec![Vec::new(); bodies];
+    for (j, edge) in edges.iter().enumerate() {
+        let Some(rank) = edge.rank else { continue };
+        for (parent, body, reversed) in [(edge.a, edge.b, false), (edge.b, edge.a, true)] {
+            ways[parent].push((rank, Branch { body, parent, joint: Some((j, reversed)) }));
+        }
+    }
     let mut front = vec![0];
+    let mut unreached = 0;
     loop {
         while !front.is_empty() {
-            let mut found: Vec<(usize, usize, Branch)> = Vec::new();
-            for (j, edge) in edges.iter().enumerate() {
-                let Some(rank) = edge.rank else { continue };
-                for (parent, body, reversed) in [(edge.a, edge.b, false), (edge.b, edge.a, true)] {
-                    if front.contains(&parent) && !reached[body] {
-                        found.push((body, rank, Branch { body, parent, joint: Some((j, reversed)) }));
-                    }
-                }
-            }
+            let ahead = front.iter().flat_map(|&parent: &usize| &ways[parent]).filter(|(_, way)| !reached[way.body]);
+            let mut found: Vec<(usize, usize, Branch)> = ahead.map(|&(rank, way)| (way.body, rank, way)).collect();
             found.sort_by_key(|&(body, rank, branch)| (body, rank, branch.joint));
             front.clear();
             for (body, _, branch) in found {
@@ -48,7 +50,9 @@ pub(super) fn span(bodies: usize, edges: &[Edge]) -> Vec<Branch> {
                 }
             }
         }
-        let Some(body) = reached.iter().position(|r| !r) else { break };
+        // bodies before it are reached
+        let Some(body) = reached[unreached..].iter().position(|r| !r).map(|k| unreached + k) else { break };
+        unreached = body;
         reached[body] = true;
         branches.push(Branch { body, parent: 0, joint: None });
         front.push(body);

@@ -2,6 +2,7 @@
 
 use super::super::gauge::Measured;
 use super::super::joint::{self, Shape};
+use super::super::sets::Sets;
 use super::super::step::Step;
 use super::super::tree::{self, Branch, Edge};
 use super::super::{Joint, Row, RowKind, RowOwner, TreeNode};
@@ -25,7 +26,8 @@ impl<G: Space> Builder<'_, G> {
         }
         let bodies = self.model.bodies.len();
         self.particles = particles(self.model, self.planar);
-        let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j)).collect();
+        let wanted = self.wanted();
+        let edges: Vec<Edge> = (0..self.shapes.len()).map(|j| self.edge(j, wanted[j])).collect();
         let spanned = tree::span(bodies, &edges);
         let (branches, footings) = match coordinates {
             Coordinates::Cartesian => (tree::star(bodies), self.footings(&spanned)),
@@ -51,8 +53,12 @@ impl<G: Space> Builder<'_, G> {
         for branch in branches {
             self.node(branch, footings[branch.body]);
         }
-        self.mechanism.joint_of_node =
-            (0..self.mechanism.nodes.len()).map(|n| self.mechanism.joints.iter().position(|j| j.tree.is_some_and(|t| t.0 == n))).collect();
+        self.mechanism.joint_of_node = vec![None; self.mechanism.nodes.len()];
+        for (index, joint) in self.mechanism.joints.iter().enumerate() {
+            if let Some((node, _)) = joint.tree {
+                self.mechanism.joint_of_node[node] = Some(index);
+            }
+        }
         for index in 0..self.shapes.len() {
             self.slots.push(vec![]);
             self.slot_measures.push(vec![]);
@@ -64,31 +70,37 @@ impl<G: Space> Builder<'_, G> {
     /// coordinates of its own are counted from there, so that they are small wherever the mechanism stands. The origin for bodies
     /// without a road.
     fn footings(&self, spanned: &[Branch]) -> Vec<[f64; 3]> {
-        let mut group: Vec<usize> = (0..self.model.bodies.len()).collect();
-        for j in self.model.joints.iter().filter(|j| j.a.body != 0 && j.b.body != 0) {
-            let (one, other) = (group[j.a.body], group[j.b.body]);
-            group.iter_mut().filter(|g| **g == other).for_each(|g| *g = one);
-        }
-        let mut footings = vec![[0.0; 3]; group.len()];
+        let bodies = self.model.bodies.len();
+        let mut sets = Sets::new(bodies);
+        self.model.joints.iter().filter(|j| j.a.body != 0 && j.b.body != 0).for_each(|j| sets.join(j.a.body, j.b.body));
         let grounded = spanned.iter().filter(|b| b.parent == 0).filter_map(|b| Some((b.body, b.joint?)));
         let mut first: Vec<(usize, (usize, bool))> = grounded.collect();
         first.sort_by_key(|(_, joint)| std::cmp::Reverse(*joint));
+        let mut places = vec![[0.0; 3]; bodies];
         for (body, (j, reversed)) in first {
-            let place = if reversed { self.shapes[j].pb } else { self.shapes[j].pa };
-            footings.iter_mut().zip(&group).filter(|(_, g)| **g == group[body]).for_each(|(p, _)| *p = place);
+            places[sets.of(body)] = if reversed { self.shapes[j].pb } else { self.shapes[j].pa };
         }
-        footings
+        (0..bodies).map(|body| places[sets.of(body)]).collect()
+    }
+
+    /// Whether each joint carries a driver, a motor or an exact start value.
+    fn wanted(&self) -> Vec<bool> {
+        let mut wanted = vec![false; self.shapes.len()];
+        let (drivers, motors) = (self.model.drivers.iter().map(|d| d.joint), self.model.motors.iter().map(|m| m.joint));
+        let starts = self.model.start.iter().filter(|s| !s.guess).filter_map(|s| match s.quantity {
+            Quantity::Joint { joint, .. } => Some(joint),
+            _ => None,
+        });
+        drivers.chain(motors).chain(starts).for_each(|joint| wanted[joint] = true);
+        wanted
     }
 
     /// A joint as an edge of the graph. Preferred on the tree: what carries drivers, motors and exact start values, for their
     /// coordinates are then unknowns of the mechanism; then hinges and sliders; last what frees most.
-    fn edge(&self, joint: usize) -> Edge {
+    fn edge(&self, joint: usize, wanted: bool) -> Edge {
         let j = &self.model.joints[joint];
-        let driven = self.model.drivers.iter().any(|d| d.joint == joint)
-            || self.model.motors.iter().any(|m| m.joint == joint)
-            || self.model.start.iter().any(|s| !s.guess && matches!(s.quantity, Quantity::Joint { joint: k, .. } if k == joint));
         let freedom = self.shapes[joint].freedom(self.planar);
-        let rank = if driven { 0 } else { 1 + freedom };
+        let rank = if wanted { 0 } else { 1 + freedom };
         let cut = self.honour_cuts && is_cut(j) || self.joins_particle(joint);
         Edge { a: j.a.body, b: j.b.body, rank: (!cut && self.shapes[joint].spans()).then_some(rank) }
     }
