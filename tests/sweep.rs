@@ -300,6 +300,66 @@ fn any_number_of_threads_gives_the_same_bytes() {
     assert_eq!(reasons, [false, false, true, false, false, false]);
 }
 
+#[test]
+fn shards_together_are_the_whole() {
+    let place = Place::new("shards", PENDULUM);
+    let set = ["--set", "until=2 s"];
+    let run = |code: i32, arguments: &[&str]| place.ends(code, &[arguments, &["model.yaml"], &set].concat());
+    run(0, &["run", "-o", "whole"]);
+    let [stdout, stderr] = run(0, &["run", "--shard", "1/3", "-o", "one"]);
+    assert_eq!(stdout, "");
+    assert!(stderr.contains("shard 1/3: 2 of 6 runs are in one/swings.1-of-3.partial; `grashof gather` writes"), "{stderr}");
+    run(0, &["run", "--shard", "3/3", "-o", "three", "-j", "1"]);
+    assert_eq!(place.names("three"), ["swings.3-of-3.partial"]);
+
+    // a shard that is not there, or not finished, is missed; its runs are named and nothing is written
+    let gather = ["gather", "--from", "one", "--from", "three", "-o", "all", "-j", "3"];
+    let [_, stderr] = run(2, &gather);
+    assert!(stderr.contains("study `swings` lacks 2 of its 6 runs: 2, 5"), "{stderr}");
+    assert!(place.names("all").is_empty());
+    run(0, &["run", "--shard", "2/3", "-o", "all", "-j", "1"]);
+    let path = place.0.join("all/swings.2-of-3.partial");
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&path, &bytes[..bytes.len() - 17]).unwrap();
+    let [_, stderr] = run(2, &gather);
+    assert!(stderr.contains("study `swings` lacks 1 of its 6 runs: 5"), "{stderr}");
+    let [_, stderr] = run(0, &["run", "--shard", "2/3", "-o", "all", "-j", "1"]);
+    assert!(stderr.contains("resumed: 1 of 2 runs were there"), "{stderr}");
+    assert_eq!(fs::read(&path).unwrap(), bytes, "a shard that went on is that of one run");
+
+    // one that never began, for its reason, is in no file; what lies in another directory stays there
+    let [_, stderr] = run(0, &gather);
+    assert!(!stderr.contains("lacks"), "{stderr}");
+    assert!(place.contents("all") == place.contents("whole"), "{:?}", place.names("all"));
+    assert_eq!(place.names("one"), ["swings.1-of-3.partial"]);
+}
+
+#[test]
+fn shards_of_the_command_line_and_of_other_models() {
+    let place = Place::new("shards-line", FOUR_BAR);
+    let sweep = ["sweep", "model.yaml", "--study", "turn", "--over", "l3=0.5..0.6:4"];
+    place.ends(0, &[&sweep[..], &["-o", "whole"]].concat());
+    for shard in ["1/2", "2/2"] {
+        place.ends(0, &[&sweep[..], &["-o", "parts", "--shard", shard]].concat());
+    }
+    place.ends(0, &[&["gather"], &sweep[1..], &["-o", "parts"]].concat());
+    assert!(place.contents("parts") == place.contents("whole"), "{:?}", place.names("parts"));
+
+    // without a study, all sweeps of the file; a file of another model is named, not used and not removed
+    place.ends(0, &["run", "model.yaml", "--shard", "1/1", "-o", "old"]);
+    assert_eq!(place.names("old"), ["lengths.1-of-1.partial", "speeds.1-of-1.partial"]);
+    fs::write(place.0.join("model.yaml"), FOUR_BAR.replace("15 cm", "16 cm")).unwrap();
+    let [_, stderr] = place.ends(2, &["gather", "model.yaml", "--study", "lengths", "-o", "old"]);
+    assert!(stderr.contains("lengths.1-of-1.partial is of another model, study or version, or broken: it is not used"), "{stderr}");
+    assert!(stderr.contains("study `lengths` lacks 3 of its 3 runs: 1, 2, 3"), "{stderr}");
+    assert!(place.names("old").contains(&"lengths.1-of-1.partial".to_owned()));
+
+    let [_, stderr] = place.ends(2, &["run", "model.yaml", "--study", "turn", "--shard", "1/2"]);
+    assert!(stderr.contains("study `turn` is no sweep, which could be cut"), "{stderr}");
+    let [_, stderr] = place.ends(2, &["run", "model.yaml", "--shard", "3/2"]);
+    assert!(stderr.contains("3/2") && stderr.contains("`2/8`"), "{stderr}");
+}
+
 #[cfg(unix)]
 mod interrupted {
     use super::*;

@@ -119,7 +119,7 @@ impl<'a> Study<'a> {
             return single(&model, study, &run).map_err(|failure| Error::failed(self.document, &self.name, failure));
         }
         let all = grid(&model, study).len();
-        let runs = sweep(&model, study, self.threads, Vec::new(), &*self.stop, &|_, _| count(all));
+        let runs = sweep(&model, study, self.threads, Vec::new(), &|_| true, &*self.stop, &|_, _| count(all));
         Ok(together(&model, study, &runs))
     }
 

@@ -1,6 +1,7 @@
 //! One study that the model file does not have: `grashof modes`, `grashof statics`.
 
 use super::interrupt::{self, interrupted, watch_interrupts};
+use super::shard::Part;
 use super::study::Job;
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_out, run};
@@ -32,7 +33,7 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Comm
     };
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let plots = !arguments.no_plots;
-    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, common };
+    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, part: &Part::Whole, common };
     let finished = job.run();
     if interrupted() {
         interrupt::print_end(&format!("interrupted: study `{name}`"));

@@ -6,6 +6,9 @@
 //! bits. A record is appended by one write. So the file can end in a torn record at any time, which is cut off when it is read; a
 //! file with another fingerprint is not used. Runs that never began are not kept: they cost nothing to try again. A file of this
 //! name that does not begin so, or that is a link, is somebody's own and is left alone; one that another run has locked is its.
+//!
+//! A shard keeps its runs for good, in a file of its own, which ends in a record of no bytes when all its runs have been tried:
+//! those that it does not hold then never began.
 
 use grashof::expression::Pool;
 use grashof::model::Model;
@@ -136,6 +139,23 @@ impl Kept {
         Some(file)
     }
 
+    /// Says behind the runs of a shard that all of them were tried; false if they could not be kept.
+    pub(super) fn end(&self) -> bool {
+        let mut place = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        *place = match std::mem::replace(&mut *place, Place::Closed) {
+            // none of them began
+            Place::New => self.created().and_then(|file| self.begun(file)).map_or(Place::Closed, Place::Open),
+            Place::Stale(file) => self.begun(file).map_or(Place::Closed, Place::Open),
+            other => other,
+        };
+        if let Place::Open(file) = &mut *place { file.write_all(&end(self.fingerprint)).is_ok() } else { false }
+    }
+
+    /// Where the runs are kept.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Removes the file: its runs stand in the results. The directory goes too if nothing else is in it.
     pub(super) fn remove(self) {
         let place = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -147,6 +167,22 @@ impl Kept {
             let _ = fs::remove_dir(directory);
         }
     }
+}
+
+/// Puts the runs that a shard has kept into `known`; whether all its runs were tried.
+///
+/// # Errors
+/// Why the file is not used.
+pub(super) fn gather(path: &Path, model: &Model, known: &mut [Option<Run>]) -> Result<bool, &'static str> {
+    let fingerprint = fingerprint(model);
+    let bytes = fs::read(path).map_err(|_| "cannot be read")?;
+    let good = read(&bytes, fingerprint, known).ok_or("is of another model, study or version, or broken")?;
+    Ok(bytes[good..] == end(fingerprint))
+}
+
+/// The record behind all runs of a shard.
+fn end(fingerprint: u64) -> Vec<u8> {
+    [0_u64.to_le_bytes(), checksum(fingerprint, &[]).to_le_bytes()].concat()
 }
 
 /// Puts the runs of a file into `known`, and gives the number of its bytes that are sound; none if it is not of this sweep.
@@ -223,8 +259,8 @@ fn fingerprint(model: &Model) -> u64 {
         }
     }
     let mut text = Text(Sha256::new());
-    let program = std::env::current_exe().and_then(fs::metadata).ok();
-    let program = program.map(|of| (of.len(), of.modified().ok()));
+    // by its bytes, so that copies on several machines are one
+    let program = std::env::current_exe().and_then(fs::read).ok().map(|bytes| shortened(Sha256::new().chain_update(bytes)));
     // the index of the pool has no order: its nodes hold all
     let rest = Model { pool: Pool::new(), ..model.clone() };
     let _ = write!(text, "{} {program:?} {:?} {:?} {rest:?}", env!("CARGO_PKG_VERSION"), model.pool.nodes(), model.pool.switches());

@@ -8,6 +8,7 @@ mod compare;
 mod completions;
 mod end;
 mod files;
+mod gather;
 mod import;
 mod interrupt;
 mod kept;
@@ -16,6 +17,7 @@ mod new;
 mod progress;
 mod run;
 mod schema;
+mod shard;
 mod statics;
 mod study;
 mod sweep;
@@ -58,6 +60,11 @@ enum Command {
         after_help = "Examples:\n  grashof sweep models/crank_rocker.yaml --study one-turn --over l3=0.3..0.8:26\n  grashof sweep models/crank_rocker.yaml --study one-turn --over \"l3=50cm..80cm:4\" --over speed=100rpm,200rpm -o out\n  grashof sweep my.yaml --over k=10..1000:5:log"
     )]
     Sweep(sweep::Arguments),
+    /// Put the shards of a sweep together: the results are those of one run, byte for byte
+    #[command(
+        after_help = "Examples:\n  grashof run my.yaml --study lengths --shard 1/2 -o one\n  grashof run my.yaml --study lengths --shard 2/2 -o two\n  grashof gather my.yaml --study lengths --from one --from two -o out"
+    )]
+    Gather(gather::Arguments),
     /// Run a motion in time by several integrators and compare error, time and work
     #[command(
         after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study squeeze --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
@@ -118,6 +125,7 @@ pub(crate) fn main() -> ExitCode {
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),
+        Command::Gather(arguments) => gather::gather(arguments, &cli.common),
         Command::Compare(arguments) => compare::compare(arguments, &cli.common),
         Command::Modes(arguments) => modes::modes(arguments, &cli.common),
         Command::Statics(arguments) => statics::statics(arguments, &cli.common),

@@ -2,6 +2,7 @@
 
 use super::end::json_list;
 use super::interrupt::{self, interrupted, watch_interrupts};
+use super::shard::{Part, Shard};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, files, print_error, print_note, print_out};
@@ -18,6 +19,9 @@ pub(super) struct Arguments {
     /// Run this study alone (repeatable)
     #[arg(long, value_name = "S")]
     study: Vec<String>,
+    /// Compute one part of a sweep alone, the K-th of N, and keep it for `grashof gather`
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
     #[command(flatten)]
     wanted: Wanted,
 }
@@ -70,7 +74,8 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     let mut seen = HashSet::new();
     studies.retain(|study| seen.insert(study.clone()));
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
-    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
+    let part = arguments.shard.map_or(Part::Whole, Part::Shard);
+    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory, part: &part };
     let mut worst = code::DONE;
     let mut loader = Loader::new(&document, common.threads());
     let mut noted = false;
@@ -111,6 +116,10 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
             }
             None => {}
         }
+        // a part of a file is that of its sweeps
+        if arguments.shard.is_some() && arguments.study.is_empty() && model.study.as_ref().is_some_and(|s| s.sweep.is_empty()) {
+            continue;
+        }
         request.drop_expectations(&mut model, common.changes(), &mut noted);
         let (code, report) = request.study(&model, study, study);
         worst = worst.max(code);
@@ -143,6 +152,7 @@ pub(super) struct Request<'a> {
     pub(super) common: &'a Common,
     pub(super) wanted: &'a Wanted,
     pub(super) directory: &'a Path,
+    pub(super) part: &'a Part,
 }
 
 impl Request<'_> {
@@ -163,8 +173,8 @@ impl Request<'_> {
     /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
     /// report. An interrupt was reported.
     pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
-        let Self { document, common, directory, .. } = *self;
-        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, common };
+        let Self { document, common, directory, part, .. } = *self;
+        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, part, common };
         let finished = job.run();
         if interrupted() {
             let what = match (&finished.output, finished.code) {

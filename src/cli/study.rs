@@ -4,8 +4,9 @@ mod sweep;
 
 use super::interrupt::{self, interrupted};
 use super::progress::Progress;
+use super::shard::Part;
 use super::terminal::{print_interrupted, print_report};
-use super::{Common, code, files, print_note};
+use super::{Common, code, files, print_error, print_note};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
 use grashof::output::{Figure, Picture, Staging, drawing, figures, summary, ten_digits, write_json};
 use grashof::par;
@@ -21,6 +22,7 @@ pub(super) struct Job<'a> {
     pub(super) study: &'a str,
     pub(super) directory: &'a Path,
     pub(super) plots: bool,
+    pub(super) part: &'a Part,
     pub(super) common: &'a Common,
 }
 
@@ -31,12 +33,14 @@ pub(super) struct Finished {
     pub(super) output: Option<Output>,
     /// Parameters of each run that has a result, in file order.
     pub(super) computed: Vec<Vec<f64>>,
+    /// Whether the runs of a sweep are of no further use: they are written, or none of them is a result.
+    ended: bool,
 }
 
 impl Finished {
     /// Nothing was computed.
     fn nothing(code: u8) -> Self {
-        Self { code, output: None, computed: Vec::new() }
+        Self { code, output: None, computed: Vec::new(), ended: false }
     }
 }
 
@@ -60,7 +64,19 @@ impl Job<'_> {
         if let Err(code) = files::prepare(self.directory, &self.names(study), self.common) {
             return Finished::nothing(code);
         }
-        if study.sweep.is_empty() { self.single(study) } else { self.sweep(study) }
+        match self.part {
+            Part::Whole if study.sweep.is_empty() => self.single(study),
+            _ if study.sweep.is_empty() => {
+                print_error(
+                    &format!("study `{}` is no sweep, which could be cut", study.name),
+                    "name a study with `sweep:`, or use `grashof sweep`",
+                );
+                Finished::nothing(code::INPUT)
+            }
+            Part::Whole => self.sweep(study),
+            Part::Shard(shard) => self.shard(study, *shard),
+            Part::Gathered(directories) => self.gathered(study, directories),
+        }
     }
 
     /// Names of files that are known before anything is computed.
@@ -161,7 +177,7 @@ impl Job<'_> {
             Ok(()) => {
                 let what = if code == code::INTERRUPTED { "is written up to there" } else { "was the last one" };
                 interrupt::begins(format!("interrupted: study `{}` {what}", self.study), code == code::INTERRUPTED);
-                Finished { code, output: Some(output), computed: Vec::new() }
+                Finished { code, output: Some(output), computed: Vec::new(), ended: false }
             }
             Err(unwritten) => Finished::nothing(code.max(unwritten)),
         }

@@ -2,6 +2,7 @@
 
 use super::interrupt::{interrupted, watch_interrupts};
 use super::run::{Request, Wanted, conflict, load, refused};
+use super::shard::{Part, Shard};
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_error, print_out};
 use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
@@ -21,18 +22,40 @@ pub(super) struct Arguments {
     /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest)
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     over: Vec<String>,
+    /// Compute one part of the sweep alone, the K-th of N, and keep it for `grashof gather`
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
     #[command(flatten)]
     wanted: Wanted,
 }
 
+/// A sweep as it is asked for.
+pub(super) struct Asked<'a> {
+    pub(super) model: &'a str,
+    pub(super) study: Option<&'a str>,
+    /// Values of parameters; none if the study has a sweep of its own.
+    pub(super) over: &'a [String],
+    pub(super) wanted: &'a Wanted,
+    pub(super) part: Part,
+}
+
 /// Sweeps a study.
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
+    let part = arguments.shard.map_or(Part::Whole, Part::Shard);
+    let (model, study) = (arguments.model.as_str(), arguments.study.as_deref());
+    computed(&Asked { model, study, over: &arguments.over, wanted: &arguments.wanted, part }, common)
+}
+
+/// Computes a sweep, or a part of it, or gathers its parts.
+pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     watch_interrupts();
-    let Some((document, selection, _)) = files::sound(&arguments.model, common) else { return code::INPUT };
+    let Some((document, selection, _)) = files::sound(asked.model, common) else { return code::INPUT };
     files::print_notes(&document, common);
     let known = document.study_names();
-    let (Some(study), Some(over)) = (chosen(arguments, &known), over(&arguments.over)) else { return code::INPUT };
-    let stem = format!("{study}-over-{}", over.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join("+"));
+    let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };
+    let names: Vec<&str> = over.iter().map(|(name, _)| name.as_str()).collect();
+    let (stem, swept) =
+        if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
     let selection = Selection { study: Some(study), over, ..selection };
     let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
@@ -42,13 +65,13 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     if let Some(parameter) = conflict(&model) {
         return refused(&parameter, study);
     }
-    if let Some(study) = &mut model.study {
+    if let (Some(study), true) = (&mut model.study, swept.is_some()) {
         let figure = figure(study);
         study.plots.extend(figure);
     }
-    let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
-    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory };
-    request.drop_expectations(&mut model, Some("--over"), &mut false);
+    let Some(directory) = files::directory(asked.model, common) else { return code::INPUT };
+    let request = Request { document: &document, common, wanted: asked.wanted, directory: &directory, part: &asked.part };
+    request.drop_expectations(&mut model, swept.or(common.changes()), &mut false);
     let (code, report) = request.study(&model, study, &stem);
     if let Some(report) = report {
         print_out(&with_errors(&report, take_errors()));
@@ -57,8 +80,8 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
 }
 
 /// The study that is named, or the only one.
-fn chosen<'a>(arguments: &'a Arguments, known: &'a [String]) -> Option<&'a str> {
-    match (&arguments.study, known) {
+fn chosen<'a>(named: Option<&'a str>, known: &'a [String]) -> Option<&'a str> {
+    match (named, known) {
         (Some(study), _) => Some(study),
         (None, [only]) => Some(only),
         (None, []) => {

@@ -70,14 +70,15 @@ pub fn at(
     Run { at: point, solved, result }
 }
 
-/// All runs of a study's sweep in the order of the grid, the same bits for any number of threads. Those that `known` has are not
-/// computed again; `done` is told each of the others with its place in the grid, from any thread. Runs that begin after `stop`
-/// says so are not computed.
+/// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
+/// those at the places that are `wanted`. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,
     study: &Study,
     threads: usize,
     known: Vec<Option<Run>>,
+    wanted: &dyn Fn(usize) -> bool,
     stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(usize, &Run) + Sync),
 ) -> Vec<Run> {
@@ -85,7 +86,7 @@ pub fn sweep(
     let mut runs = known;
     runs.resize_with(points.len(), || None);
     let missing: Vec<(usize, Vec<f64>)> =
-        (0..points.len()).filter(|i| runs[*i].is_none()).filter_map(|i| Some((i, points[i].take()?))).collect();
+        (0..points.len()).filter(|i| runs[*i].is_none() && wanted(*i)).filter_map(|i| Some((i, points[i].take()?))).collect();
     let computed = par::map(
         missing.len(),
         threads,

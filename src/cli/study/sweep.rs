@@ -1,20 +1,104 @@
 //! A study of many runs: a sweep, kept while it goes on.
 
 use super::super::interrupt::{self, interrupted};
-use super::super::kept::Kept;
+use super::super::kept::{Kept, gather};
 use super::super::progress::Progress;
+use super::super::shard::Shard;
 use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
 use grashof::model::Study;
 use grashof::output::{Staging, figures, files, summary, write_json};
 use grashof::results::Results;
 use grashof::studies::sweep::{self, Run, together};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Most missing runs that are named.
+const MOST_NAMED: usize = 12;
 
 impl Job<'_> {
     /// Runs what is not known yet, and writes all.
     pub(super) fn sweep(&self, study: &Study) -> Finished {
         let count = sweep::grid(self.model, study).len();
         let (kept, known) = Kept::open(self.directory, self.study, self.model, count, self.common.force);
+        let runs = self.computed(study, &kept, known, &|_| true);
+        if interrupted() {
+            kept.in_words(count).iter().for_each(|words| print_note(words));
+            return Finished::nothing(code::INTERRUPTED);
+        }
+        let finished = self.finish_sweep(study, &runs);
+        if finished.ended {
+            kept.remove();
+        }
+        finished
+    }
+
+    /// Runs what is not known yet of a shard, and keeps it.
+    pub(super) fn shard(&self, study: &Study, shard: Shard) -> Finished {
+        let count = sweep::grid(self.model, study).len();
+        let (kept, known) = Kept::open(self.directory, &shard.stem(self.study), self.model, count, self.common.force);
+        let own = (0..count).filter(|i| shard.has(*i)).count();
+        self.computed(study, &kept, known, &|i| shard.has(i));
+        if interrupted() {
+            kept.in_words(own).iter().for_each(|words| print_note(words));
+            return Finished::nothing(code::INTERRUPTED);
+        }
+        if !kept.end() {
+            let what = format!("the runs of shard {shard} of study `{}` cannot be kept in {}", study.name, kept.path().display());
+            print_error(&what, "give a directory that can be written, with `-o DIR`");
+            return Finished::nothing(code::INPUT);
+        }
+        if !self.common.quiet {
+            print_note(&format!(
+                "shard {shard}: {own} of {count} runs are in {}; `grashof gather` writes the results",
+                kept.path().display()
+            ));
+        }
+        Finished::nothing(code::DONE)
+    }
+
+    /// Writes the results of the runs that shards have kept in the directory of the results and in others.
+    pub(super) fn gathered(&self, study: &Study, others: &[PathBuf]) -> Finished {
+        let count = sweep::grid(self.model, study).len();
+        let mut known: Vec<Option<Run>> = Vec::new();
+        known.resize_with(count, || None);
+        let (mut whole, mut own) = (Vec::new(), Vec::new());
+        for directory in std::iter::once(self.directory).chain(others.iter().map(PathBuf::as_path)) {
+            for (path, shard) in shards(directory, self.study) {
+                match gather(&path, self.model, &mut known) {
+                    Ok(all) => {
+                        whole.extend(all.then_some(shard));
+                        own.extend((directory == self.directory).then_some(path));
+                    }
+                    Err(why) => print_note(&format!("note: {} {why}: it is not used", path.display())),
+                }
+            }
+        }
+        // what a shard tried and does not hold never began, and is tried again for its reason
+        let missing: Vec<usize> = (0..count).filter(|&i| known[i].is_none() && !whole.iter().any(|shard| shard.has(i))).collect();
+        if !missing.is_empty() {
+            let numbers: Vec<String> = missing.iter().take(MOST_NAMED).map(|i| (i + 1).to_string()).collect();
+            let more = if missing.len() > MOST_NAMED { format!(" and {} more", missing.len() - MOST_NAMED) } else { String::new() };
+            print_error(
+                &format!("study `{}` lacks {} of its {count} runs: {}{more}", study.name, missing.len(), numbers.join(", ")),
+                "run the shards that are not there or not finished, as `--shard 2/8`, and name their directories with `--from`",
+            );
+            return Finished::nothing(code::INPUT);
+        }
+        let runs = sweep::sweep(self.model, study, self.common.threads(), known, &|_| true, &interrupted, &|_, _| {});
+        if interrupted() {
+            return Finished::nothing(code::INTERRUPTED);
+        }
+        let finished = self.finish_sweep(study, &runs);
+        if finished.ended {
+            own.iter().for_each(|path| _ = fs::remove_file(path));
+        }
+        finished
+    }
+
+    /// The known runs and those that are wanted, which are kept one by one.
+    fn computed(&self, study: &Study, kept: &Kept, known: Vec<Option<Run>>, wanted: &dyn Fn(usize) -> bool) -> Vec<Run> {
+        let count = (0..known.len()).filter(|i| wanted(*i)).count();
         let there = known.iter().flatten().count();
         if !self.common.quiet {
             if let Some(note) = kept.note() {
@@ -36,17 +120,11 @@ impl Job<'_> {
             }
             progress.step();
         };
-        let runs = sweep::sweep(self.model, study, self.common.threads(), known, &interrupted, &done);
-        drop(progress);
-        if interrupted() {
-            kept.in_words(count).iter().for_each(|words| print_note(words));
-            return Finished::nothing(code::INTERRUPTED);
-        }
-        self.finish_sweep(study, &runs, kept)
+        sweep::sweep(self.model, study, self.common.threads(), known, wanted, &interrupted, &done)
     }
 
     /// Judges and writes the runs of a sweep.
-    fn finish_sweep(&self, study: &Study, runs: &[Run], kept: Kept) -> Finished {
+    fn finish_sweep(&self, study: &Study, runs: &[Run]) -> Finished {
         // rows that failed for a stated reason are results, unless there is no other
         if runs.iter().all(|r| r.result.is_err()) {
             if let Some(Err(failure)) = runs.first().map(|r| &r.result) {
@@ -58,8 +136,7 @@ impl Job<'_> {
                 _ => (format!("none of the {count} runs of study `{name}` began"), "see the first reason above"),
             };
             print_error(&what, help);
-            kept.remove();
-            return Finished::nothing(code::NUMERICAL);
+            return Finished { ended: true, ..Finished::nothing(code::NUMERICAL) };
         }
         let mut code = code::DONE;
         if runs.iter().all(|r| r.result.as_ref().map_or(true, |o| o.stopped.is_some())) {
@@ -74,10 +151,7 @@ impl Job<'_> {
         }
         let (staging, output) = self.staged(&results);
         let finished = self.write(&staging, code, output);
-        if finished.output.is_some() {
-            kept.remove();
-        }
-        Finished { computed: whole().map(values).collect(), ..finished }
+        Finished { computed: whole().map(values).collect(), ended: finished.output.is_some(), ..finished }
     }
 
     /// The files of a sweep.
@@ -90,4 +164,13 @@ impl Job<'_> {
         }
         (staging, Output { table: summary(results), report: write_json(results), columns: units(results) })
     }
+}
+
+/// Files of the shards of a study in a directory, by their names.
+fn shards(directory: &Path, stem: &str) -> Vec<(PathBuf, Shard)> {
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    let mut found: Vec<(PathBuf, Shard)> =
+        entries.filter_map(|entry| Some((entry.path(), Shard::of_file(entry.file_name().to_str()?, stem)?))).collect();
+    found.sort_by(|a, b| a.0.cmp(&b.0));
+    found
 }
