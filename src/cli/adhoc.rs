@@ -20,12 +20,12 @@ pub(super) struct Arguments {
     no_plots: bool,
 }
 
-/// Runs a study, given as the YAML that it would have in the file (`statics: { from: start }`), under a name near `name` that no
-/// study of the file has.
-pub(super) fn study(arguments: &Arguments, name: &str, yaml: &str, common: &Common) -> u8 {
+/// Runs a study, given for a number of bodies as the YAML that it would have in the file (`statics: { from: start }`), under a name near
+/// `name` that no study of the file has.
+pub(super) fn study(arguments: &Arguments, name: &str, yaml: impl Fn(usize) -> String, common: &Common) -> u8 {
     watch_interrupts();
     let Some(mut document) = files::document(&arguments.model, common) else { return code::INPUT };
-    let name = document.add_study(name, yaml);
+    let name = document.add_study(name, &yaml(document.body_count()));
     let Some(selection) = files::selection(common, Some(&name)) else { return code::INPUT };
     let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,

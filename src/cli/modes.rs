@@ -3,6 +3,9 @@
 use super::{Common, adhoc};
 use clap::ValueEnum;
 
+/// Bodies from which on methods for full matrices are not compared.
+const MANY: usize = 50;
+
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -13,6 +16,9 @@ pub(super) struct Arguments {
     /// Count damping: complex eigenvalues and damping ratios
     #[arg(long)]
     damped: bool,
+    /// Number of modes, the lowest ones; all if omitted, of 100 bodies and more 12
+    #[arg(long, value_name = "K")]
+    lowest: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -27,6 +33,11 @@ pub(super) fn modes(arguments: &Arguments, common: &Common) -> u8 {
         At::Start => "start",
         At::Statics => "statics",
     };
-    let methods = "methods: [library, jacobi, power]";
-    adhoc::study(&arguments.study, "modes", &format!("modes: {{ at: {at}, damped: {}, {methods} }}", arguments.damped), common)
+    let lowest = arguments.lowest.map_or(String::new(), |count| format!(", lowest: {count}"));
+    let study = |bodies: usize| {
+        // many bodies have sparse matrices, for which the program has one method
+        let methods = if bodies < MANY { ", methods: [library, jacobi, power]" } else { "" };
+        format!("modes: {{ at: {at}, damped: {}{lowest}{methods} }}", arguments.damped)
+    };
+    adhoc::study(&arguments.study, "modes", study, common)
 }

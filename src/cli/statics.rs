@@ -10,5 +10,5 @@ pub(super) struct Arguments {
 
 /// Finds the equilibria.
 pub(super) fn statics(arguments: &Arguments, common: &Common) -> u8 {
-    adhoc::study(&arguments.study, "statics", "statics: { from: start }", common)
+    adhoc::study(&arguments.study, "statics", |_| "statics: { from: start }".into(), common)
 }

@@ -107,7 +107,7 @@ impl Held {
         let matrix = |rows: usize, columns: usize, x: &Block| DMatrix::from_row_slice(rows, columns, &x.to_dense());
         let r = g.transpose() * &lambda - &force;
         let (mut k, c) = (matrix(nv, nv, &tangent.k), matrix(nv, nv, &tangent.c));
-        geodesic(mechanism, &r, &mut k);
+        geodesic(mechanism, r.as_slice(), |i, j, x| k[(i, j)] += x);
         let p = partition.p.clone();
         let pt = p.transpose();
         let sizes = p.abs();
@@ -137,13 +137,12 @@ impl Held {
     }
 }
 
-/// K −= ½ r× for each quaternion joint.
-fn geodesic<G: Space>(mechanism: &Mechanism<G>, r: &DVector<f64>, k: &mut DMatrix<f64>) {
+/// What is added to K, as row, column and value: −½ r× of each quaternion joint.
+pub(super) fn geodesic<G: Space>(mechanism: &Mechanism<G>, r: &[f64], mut add: impl FnMut(usize, usize, f64)) {
     for step in &mechanism.steps {
         if let Step::Ball { v, .. } = *step {
-            let half = nalgebra::Vector3::new(r[v], r[v + 1], r[v + 2]).cross_matrix() * 0.5;
-            let mut block = k.view_mut((v, v), (3, 3));
-            block -= half;
+            let half = nalgebra::Vector3::new(r[v], r[v + 1], r[v + 2]).cross_matrix() * -0.5;
+            (0..9).filter(|k| k / 3 != k % 3).for_each(|k| add(v + k / 3, v + k % 3, half[(k / 3, k % 3)]));
         }
     }
 }

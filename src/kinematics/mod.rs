@@ -12,6 +12,7 @@ pub mod mobility;
 mod node;
 pub mod partition;
 pub mod path;
+pub mod pencil;
 pub(crate) mod standing;
 pub mod survey;
 pub mod undefined;

@@ -96,6 +96,12 @@ impl Document {
         self.named("variants").into_iter().map(|(name, _)| name.to_owned()).collect()
     }
 
+    /// Number of moving bodies that the file names.
+    #[must_use]
+    pub fn body_count(&self) -> usize {
+        self.named("bodies").len()
+    }
+
     /// Entries of a section of the file.
     pub(super) fn named(&self, section: &str) -> Vec<(&str, Node<'_>)> {
         self.root.get(section).map(|value| Node::Plain(value).entries()).unwrap_or_default()

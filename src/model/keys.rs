@@ -91,6 +91,14 @@ pub(crate) trait Words: Copy + 'static {
         let index = Self::WORDS.iter().position(|known| *known == word)?;
         Self::ALL.get(index).copied()
     }
+
+    /// Its word.
+    fn word(self) -> &'static str
+    where
+        Self: PartialEq,
+    {
+        Self::ALL.iter().zip(Self::WORDS).find(|(one, _)| **one == self).map_or("", |(_, word)| word)
+    }
 }
 
 /// Declares a map: its table, and the struct of its entries.

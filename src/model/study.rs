@@ -1,7 +1,7 @@
 //! What a study asks for.
 
 use super::integrator::Integrator;
-use super::keys::words;
+use super::keys::{Words, words};
 use super::place::Place;
 use crate::expression::{Dimension, Id};
 
@@ -142,7 +142,9 @@ pub struct Modes {
     pub at_equilibrium: bool,
     /// Whether damping counts.
     pub damped: bool,
-    /// Eigensolvers, each once.
+    /// Number of modes, the lowest ones; all if none, of mechanisms of many bodies some.
+    pub lowest: Option<usize>,
+    /// Eigensolvers, each once; none if that is left to the program.
     pub methods: Vec<Eigensolver>,
 }
 
@@ -168,6 +170,16 @@ words! {
         Jacobi = "jacobi",
         /// Inverse iteration with deflation.
         Power = "power",
+        /// Lanczos' method on sparse matrices.
+        Lanczos = "lanczos",
+    }
+}
+
+impl Eigensolver {
+    /// Its name in the model file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 }
 

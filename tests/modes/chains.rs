@@ -42,7 +42,7 @@ fn a_row_of_masses_has_the_sines_of_its_closed_form() {
 }
 
 /// n links in a line that hang; all mass at their ends (points), or spread along them.
-fn chain(n: usize, length: f64, points: bool) -> String {
+pub(crate) fn chain(n: usize, length: f64, points: bool) -> String {
     let mut text = "grashof: 1\nname: chain\nspace: planar\ngravity: [0, -9.81]\nground: { O: [0, 0] }\nbodies:\n".to_string();
     for i in 1..=n {
         text += &if points {

@@ -1,8 +1,9 @@
-//! Three roads to the eigenvalues of a pair, one answer.
+//! Four roads to the eigenvalues of a pair, one answer.
 
 use crate::common::Noise;
 use grashof::studies::modes::eigen::{Eigen, library};
 use grashof::studies::modes::jacobi::jacobi;
+use grashof::studies::modes::lanczos::full;
 use grashof::studies::modes::power::power;
 use nalgebra::{DMatrix, DVector};
 
@@ -26,7 +27,7 @@ fn pair(values: &[f64], noise: &mut Noise) -> (DMatrix<f64>, DMatrix<f64>) {
 }
 
 #[test]
-fn three_methods_agree_on_negative_zero_double_and_distant_eigenvalues() {
+fn four_methods_agree_on_negative_zero_double_and_distant_eigenvalues() {
     let mut noise = Noise(11);
     let cases: [&[f64]; 6] = [
         &[-3.0, 0.0, 0.0, 1.0, 2.0, 2.0, 50.0],
@@ -40,7 +41,9 @@ fn three_methods_agree_on_negative_zero_double_and_distant_eigenvalues() {
         for _ in 0..4 {
             let (k, m) = pair(values, &mut noise);
             let size = values.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
-            for (name, found) in [("library", library(&k, &m)), ("jacobi", jacobi(&k, &m)), ("power", power(&k, &m))] {
+            let lanczos = full(&k, &m, values.len(), &|| false);
+            for (name, found) in [("library", library(&k, &m)), ("jacobi", jacobi(&k, &m)), ("power", power(&k, &m)), ("lanczos", lanczos)]
+            {
                 let Eigen { values: found, vectors, iterations } = found.unwrap_or_else(|| panic!("{name} does not converge: {values:?}"));
                 let off = found.iter().zip(values).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
                 assert!(off <= 2e-10 * size, "{name}: {found:?} for {values:?}, {iterations} iterations");

@@ -185,6 +185,11 @@ impl Kkt {
         }
     }
 
+    /// Number of velocities.
+    pub fn velocities(&self) -> usize {
+        self.nv
+    }
+
     /// Takes the scales from the matrices at assembly; see [`metric`] and [`row_scale`]. Allocates.
     pub fn scale(&mut self, mass: &[f64], g: &[f64], unit: &[u8]) {
         let metric = metric(self.diagonal.iter().map(|k| mass[*k]), unit);

@@ -14,6 +14,15 @@ pub struct Eigen {
     pub iterations: usize,
 }
 
+impl Eigen {
+    /// The lowest of them.
+    pub(super) fn lowest(mut self, count: usize) -> Self {
+        self.values.truncate(count);
+        let vectors = self.vectors.columns(0, self.values.len()).into_owned();
+        Self { vectors, ..self }
+    }
+}
+
 /// The standard form of a pair: S y = λ y with S = L⁻¹ K L⁻ᵀ, M = L Lᵀ, y = Lᵀ x (Golub & Van Loan, Matrix Computations, 4th
 /// edition, section 8.7.2).
 #[derive(Clone, Debug)]
@@ -47,7 +56,7 @@ impl Standard {
 }
 
 /// The component of largest size.
-trait Largest {
+pub(super) trait Largest {
     fn iamax_sign(&self) -> f64;
 }
 

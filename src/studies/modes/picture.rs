@@ -2,11 +2,11 @@
 
 use crate::dynamics::Dynamics;
 use crate::geometry::{self, Space};
-use crate::kinematics::held::{Held, Pose};
+use crate::kinematics::held::Pose;
 use crate::mechanism::{Mechanism, Step};
 use crate::results::Scene;
 use crate::studies::common::scene::of_poses;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Largest move of a drawn point, as part of the picture's size.
 const MOVE: f64 = 0.08;
@@ -18,12 +18,16 @@ const CLOSED: f64 = 1e-10;
 const STEPS: usize = 60;
 const HALVINGS: usize = 6;
 
-/// Outlines at rest and displaced by ± a shape x of the independent coordinates (n).
-pub(super) fn picture<G: Space<S = f64>>(mechanism: &Mechanism<G>, held: &Held, pose: Pose<'_>, x: &DVector<f64>) -> Scene {
+/// Outlines at rest and displaced by ± a shape of all velocities (nv); `close` gives the displacement (nv) that closes gaps Φ (rows).
+pub(super) fn picture<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    pose: Pose<'_>,
+    delta: &DVector<f64>,
+    mut close: impl FnMut(&[f64]) -> Vec<f64>,
+) -> Scene {
     let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, pose.modes);
-    let delta = &held.partition.p * x;
-    let mut at = |s: f64| displaced(&mut dynamics, held, pose, &(&delta * s));
+    let mut at = |s: f64| displaced(&mut dynamics, pose, &(delta * s), &mut close);
     let Some(rest) = at(0.0) else { return Scene::default() };
     let largest = mechanism.steps.iter().fold(0.0, |m: f64, step| match *step {
         Step::Axis { turns: true, v, .. } => m.max(delta[v].abs()),
@@ -51,23 +55,22 @@ pub(super) fn picture<G: Space<S = f64>>(mechanism: &Mechanism<G>, held: &Held, 
     of_poses(mechanism, &[rest])
 }
 
-/// Poses of the bodies after a displacement (nv), the constraints closed by the dependent coordinates; none if they do not close.
+/// Poses of the bodies after a displacement (nv), the constraints closed; none if they do not close.
 fn displaced<G: Space<S = f64>>(
     dynamics: &mut Dynamics<'_, G>,
-    held: &Held,
     pose: Pose<'_>,
     delta: &DVector<f64>,
+    close: &mut dyn FnMut(&[f64]) -> Vec<f64>,
 ) -> Option<Vec<geometry::Pose<G>>> {
     let mechanism = dynamics.mechanism;
     let mut q = pose.q.to_vec();
     mechanism.retract(&mut q, delta.as_slice());
     for _ in 0..STEPS {
         dynamics.position(&q, pose.modes);
-        let phi = DMatrix::from_column_slice(mechanism.rows.len(), 1, &dynamics.work.phi);
-        if phi.iter().all(|x| x.abs() <= CLOSED) {
+        if dynamics.work.phi.iter().all(|x| x.abs() <= CLOSED) {
             return Some(dynamics.poses());
         }
-        mechanism.retract(&mut q, held.partition.follow(&phi).as_slice());
+        mechanism.retract(&mut q, &close(&dynamics.work.phi));
     }
     None
 }

@@ -1,0 +1,152 @@
+//! Modes of a mechanism of few bodies: all of them, by full matrices and several methods.
+
+use super::damped::{Damped, damped, state_matrix};
+use super::eigen::{self, Eigen};
+use super::report::{BALANCED, DRAWN, POTENTIAL, ROUND_OFF, Report, Undamped};
+use super::rest::held_start;
+use super::{jacobi, lanczos, picture, power};
+use crate::dynamics::{LANES, Linearizer};
+use crate::geometry::Space;
+use crate::kinematics::coordinates::{Coordinate, coordinates};
+use crate::kinematics::held::{Held, Pose};
+use crate::kinematics::partition::{preferred, with_mass};
+use crate::kinematics::undefined::{assembled, in_state};
+use crate::mechanism::Coordinates;
+use crate::model::{Eigensolver, Modes};
+use crate::results::Failure;
+use crate::scalar::Dual;
+use crate::studies::common::case::Case;
+use crate::studies::common::outcome::Outcome;
+use crate::studies::statics::{Still, equilibrium};
+use nalgebra::{DMatrix, DVector};
+
+/// Relative difference above which methods disagree.
+const AGREE: f64 = 1e-8;
+/// Runs a study of modes by full matrices.
+///
+/// # Errors
+/// If the mechanism cannot be assembled, has no equilibrium, or moves without mass.
+pub(super) fn run<G>(case: Case<'_>, asked: &Modes, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let Case { model, study, parameters, .. } = case;
+    let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
+    let lifted = mechanism.lift();
+    let rest =
+        if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &lifted, &start, stop)? } else { held_start(&mechanism, &start) };
+    let Still { q, z, modes, findings } = rest;
+    let pose = Pose { q: &q, z: &z, modes: &modes };
+    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism)).map_err(|_| {
+        let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
+        let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
+        undefined.map_or_else(unknown, Failure::Undefined)
+    })?;
+    let all = coordinates(model, &mechanism);
+    let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();
+    let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();
+    with_mass(&held.mass, &names, &study.place)?;
+
+    let mut report = Report { study, own: &own, lists: Vec::new(), shapes: Vec::new(), findings };
+    // an equilibrium that was searched for has been judged there
+    if !asked.at_equilibrium {
+        // what a way of this part of a radian or of the size would change, and this part of what adds up, is round-off
+        let ways = DVector::from_iterator(own.len(), own.iter().map(|c| if c.turns { 1.0 } else { start.size }));
+        let noise = (&held.round_off * ways + &held.forces) * BALANCED;
+        report.balance(held.unbalanced.iter().zip(noise.iter().copied()));
+    }
+    let wanted = asked.lowest.unwrap_or(own.len()).min(own.len());
+    let potential = held.circulation() <= POTENTIAL;
+    let mut drawn: Vec<DVector<f64>> = Vec::new();
+    let mut frequencies = Vec::new();
+    if potential
+        && let Some(found) = undamped(&mut report, &held, &asked.methods, wanted, stop)
+        && !asked.damped
+    {
+        frequencies = report.frequencies(&found);
+        drawn = found.into_iter().map(|mode| mode.shape).collect();
+    }
+    if !potential || asked.damped {
+        let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
+        let mut found = damped(&a, names.len()).ok_or_else(beyond)?;
+        if asked.lowest.is_some() {
+            found.truncate(wanted);
+        }
+        if !potential {
+            report.circulates(held.circulation());
+        }
+        frequencies = report.damped(&found);
+        drawn = found.iter().map(|d: &Damped| d.shape.map(|x| x.re)).collect();
+    }
+    let close = |phi: &[f64]| held.partition.follow(&DMatrix::from_column_slice(phi.len(), 1, phi)).as_slice().to_vec();
+    let scenes = drawn.iter().take(DRAWN).map(|x| picture::picture(&mechanism, pose, &(&held.partition.p * x), close)).collect();
+    Ok(report.outcome(case, &mechanism, &frequencies, held.residual, scenes))
+}
+
+/// Modes by all methods; the first one's.
+fn undamped(
+    report: &mut Report<'_>,
+    held: &Held,
+    methods: &[Eigensolver],
+    wanted: usize,
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<Undamped>> {
+    let k = (&held.stiffness + held.stiffness.transpose()) * 0.5;
+    let mut first: Option<(Eigensolver, Eigen)> = None;
+    for &method in if methods.is_empty() { &[Eigensolver::Library] } else { methods } {
+        let found = match method {
+            Eigensolver::Library => eigen::library(&k, &held.mass),
+            Eigensolver::Jacobi => jacobi::jacobi(&k, &held.mass),
+            Eigensolver::Power => power::power(&k, &held.mass),
+            Eigensolver::Lanczos => lanczos::full(&k, &held.mass, wanted, stop),
+        };
+        let Some(found) = found.map(|found| found.lowest(wanted)) else {
+            report.finding("not-converged", format!("the method `{}` has not converged", method.name()));
+            continue;
+        };
+        if let Some((other, first)) = &first {
+            let size = first.values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let off = |(a, b): (&f64, &f64)| (a - b).abs() > AGREE * a.abs() + ROUND_OFF * size;
+            if let Some(i) = first.values.iter().zip(&found.values).position(off) {
+                let (a, b, other) = (first.values[i], found.values[i], other.name());
+                let message = format!("eigenvalue {} is {a:e} by `{other}` and {b:e} by `{}`", i + 1, method.name());
+                report.finding("methods-disagree", message);
+            }
+        } else {
+            report.list("eigenvalues", "1/s^2", found.values.clone());
+        }
+        if method != Eigensolver::Library || first.is_some() {
+            report.list(format!("eigenvalues_{}", method.name()), "1/s^2", found.values.clone());
+        }
+        match method {
+            Eigensolver::Jacobi => report.list("sweeps_jacobi", "", vec![found.iterations as f64]),
+            Eigensolver::Power => report.list("steps_power", "", vec![found.iterations as f64]),
+            Eigensolver::Lanczos => report.list("steps_lanczos", "", vec![found.iterations as f64]),
+            Eigensolver::Library => {}
+        }
+        first.get_or_insert((method, found));
+    }
+    let (_, found) = first?;
+    let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
+        let sizes = x.abs();
+        Undamped { value, noise: ROUND_OFF * sizes.dot(&(&held.round_off * &sizes)), shape: x.into_owned() }
+    };
+    Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())
+}
+
+/// Forces and masses give no eigenvalues in numbers of a computer.
+fn beyond() -> Failure {
+    Failure::numerical(
+        "the eigenvalues cannot be found: a stiffness or damping is too large for the masses that it acts on",
+        "look for a value of the wrong unit or sign among springs, dampers and masses",
+    )
+}
+
+/// The masses leave no digits for the lightest motion.
+fn too_unlike() -> Failure {
+    Failure::numerical(
+        "the masses of the independent motions differ by more than the digits of a number",
+        "give every moving body a mass and an inertia that matter",
+    )
+}

@@ -1,0 +1,136 @@
+//! The lowest modes of a mechanism of many bodies, by sparse matrices on the tree on which these are.
+
+use super::lanczos::{self, Lowest};
+use super::picture::picture;
+use super::report::{BALANCED, DRAWN, POTENTIAL, ROUND_OFF, Report, Undamped};
+use super::rest::held_start;
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::kinematics::bounded::cheapest;
+use crate::kinematics::coordinates::Coordinate;
+use crate::kinematics::held::Pose;
+use crate::kinematics::pencil::{HeldSparse, Pencil};
+use crate::kinematics::undefined::{assembled, in_state};
+use crate::mechanism::{Coordinates, Mechanism};
+use crate::model::{Eigensolver, Model, Modes};
+use crate::results::Failure;
+use crate::scalar::Dual;
+use crate::studies::common::case::Case;
+use crate::studies::common::outcome::Outcome;
+use crate::studies::statics::{Still, equilibrium};
+use nalgebra::DVector;
+
+/// Bodies from which on the lowest modes alone are found, by sparse matrices, unless the study says otherwise; and how many.
+const MANY: usize = 100;
+const LOWEST: usize = 12;
+/// Part of the metric below which a motion moves no mass.
+const MASSLESS: f64 = 1e-13;
+
+/// Whether a study wants the lowest modes by sparse matrices.
+pub(super) fn is_asked(model: &Model, asked: &Modes) -> bool {
+    match asked.methods[..] {
+        [] => model.bodies.len() > MANY && !asked.damped,
+        [Eigensolver::Lanczos] => !asked.damped,
+        _ => false,
+    }
+}
+
+/// Runs a study of modes; none if forces have no potential.
+///
+/// # Errors
+/// As those of few bodies, and if the iteration does not converge.
+pub(super) fn run<G>(case: Case<'_>, asked: &Modes, stop: &dyn Fn() -> bool) -> Result<Option<Outcome>, Failure>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    let Case { model, study, parameters, .. } = case;
+    // an equilibrium is searched in joint coordinates
+    let tree = if asked.at_equilibrium { Coordinates::Joint } else { cheapest(model, parameters) };
+    let (mut mechanism, mut start) = assembled::<G>(model, parameters, tree)?;
+    if tree != Coordinates::Joint && !is_held_by_gauges(&mechanism) {
+        (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
+    }
+    let rest = if asked.at_equilibrium {
+        equilibrium::<G>(case, &mechanism, &mechanism.lift(), &start, stop)?
+    } else {
+        held_start(&mechanism, &start)
+    };
+    let Still { q, z, modes, findings } = rest;
+    let pose = Pose { q: &q, z: &z, modes: &modes };
+    let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| {
+        let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
+        let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
+        undefined.map_or_else(unknown, Failure::Undefined)
+    })?;
+    let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();
+    let HeldSparse { pencil, independent, .. } = &held;
+    if let Some(x) = lanczos::without_mass(pencil, MASSLESS) {
+        return Err(massless(independent, &x, &study.place));
+    }
+    if pencil.circulation() > POTENTIAL {
+        return Ok(None);
+    }
+    let mut report = Report { study, own: &own, lists: Vec::new(), shapes: Vec::new(), findings };
+    // an equilibrium that was searched for has been judged there
+    if !asked.at_equilibrium {
+        let way = |c: &Coordinate| if c.turns { 1.0 } else { start.size };
+        report.balance(held.unbalanced.iter().zip(own.iter().map(|c| BALANCED * held.work / way(c))));
+    }
+    let wanted = asked.lowest.unwrap_or(LOWEST);
+    let Lowest { values, mut vectors, steps } = lanczos::lowest(pencil, wanted, stop).ok_or_else(not_converged)?;
+    report.list("eigenvalues", "1/s^2", values.clone());
+    report.list("eigenvalues_lanczos", "1/s^2", values.clone());
+    report.list("steps_lanczos", "", vec![steps as f64]);
+    let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(pencil, independent, value, x)).collect();
+    let frequencies = report.frequencies(&modes);
+    if own.len() > values.len() {
+        let message = format!("these are the {} lowest of {} modes; `lowest` asks for more", values.len(), own.len());
+        report.finding("lowest-modes", message);
+    }
+    let mut closing = pencil.closing();
+    let mut close = |phi: &[f64]| closing.as_mut().map_or_else(|| vec![0.0; mechanism.nv], |kkt| Pencil::closed(kkt, phi));
+    let scenes = vectors.into_iter().take(DRAWN).map(|x| picture(&mechanism, pose, &DVector::from_vec(x), &mut close)).collect();
+    Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
+}
+
+/// Whether all coordinates of joints off the tree are measured by gauges, along which a force can hold them.
+fn is_held_by_gauges<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> bool {
+    mechanism.joints.iter().all(|joint| joint.tree.is_some() || joint.slots.len() == joint.freedom)
+}
+
+/// A mode by its vector (nv), which is turned so that its largest coordinate is positive.
+fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value: f64, x: &mut [f64]) -> Undamped {
+    let mut shape = shape(independent, x);
+    let largest = shape.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() * (1.0 + 1e-9) { *x } else { m });
+    if largest < 0.0 {
+        shape.neg_mut();
+        x.iter_mut().for_each(|x| *x = -*x);
+    }
+    let line = |(line, xi): (grashof_solvers::Line<'_, f64>, &f64)| xi.abs() * line.entries().map(|(j, k)| (k * x[j]).abs()).sum::<f64>();
+    Undamped { value, shape, noise: ROUND_OFF * pencil.stiffness.lines().zip(x.iter()).map(line).sum::<f64>() }
+}
+
+/// The independent coordinates of a vector (nv).
+fn shape(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[f64]) -> DVector<f64> {
+    DVector::from_iterator(independent.len(), independent.iter().map(|(_, line)| line.iter().map(|(j, s)| s * x[*j]).sum()))
+}
+
+/// That a motion moves no mass.
+fn massless(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[f64], place: &str) -> Failure {
+    let name = independent.get(shape(independent, x).iamax()).map_or("", |(c, _)| &c.name);
+    Failure::Study {
+        code: "singular-mass",
+        message: format!("the motion of `{name}` moves no mass, so it has no rate"),
+        place: place.into(),
+        help: "give every moving body a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }`".into(),
+    }
+}
+
+/// The iteration for the lowest modes has not ended.
+fn not_converged() -> Failure {
+    Failure::numerical(
+        "the lowest modes cannot be found: the iteration does not converge",
+        "look for a stiffness that is too large for the masses that it acts on, ask for other numbers of modes by `lowest`, or for all by `methods: [library]`",
+    )
+}

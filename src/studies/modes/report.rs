@@ -1,0 +1,185 @@
+//! What a study of modes says, as it is found: lists, shapes, findings.
+
+use super::damped::Damped;
+use crate::geometry::Space;
+use crate::kinematics::coordinates::Coordinate;
+use crate::mechanism::Mechanism;
+use crate::model::Study;
+use crate::results::{Certificate, Finding, List, Scene};
+use crate::studies::common::case::Case;
+use crate::studies::common::numbers::Sources;
+use crate::studies::common::outcome::Outcome;
+use nalgebra::DVector;
+
+/// An eigenvalue below this part of what it is the sum of is round-off: a free motion.
+pub(super) const ROUND_OFF: f64 = 1e-12;
+/// Unbalanced forces below this part of what they are made of are round-off.
+pub(super) const BALANCED: f64 = 1e-8;
+/// Asymmetry of K, relative, above which forces have no potential.
+pub(super) const POTENTIAL: f64 = 1e-8;
+/// Modes that are drawn.
+pub(super) const DRAWN: usize = 12;
+/// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.
+const RIGID: f64 = 1e-7;
+/// Re μ above this part of |μ| is growth.
+const GROWS: f64 = 1e-8;
+/// Parts of a shape that count in words, of the largest one.
+const PART: f64 = 0.3;
+/// Most coordinates that a finding names.
+const NAMED: usize = 12;
+
+/// What a study says.
+pub(super) struct Report<'a> {
+    pub(super) study: &'a Study,
+    /// Independent coordinates.
+    pub(super) own: &'a [Coordinate],
+    pub(super) lists: Vec<List>,
+    pub(super) shapes: Vec<Vec<(String, f64)>>,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// An undamped mode.
+pub(super) struct Undamped {
+    /// λ, 1/s².
+    pub(super) value: f64,
+    /// x (n), on the independent coordinates.
+    pub(super) shape: DVector<f64>,
+    /// Size of λ that is round-off.
+    pub(super) noise: f64,
+}
+
+impl Report<'_> {
+    pub(super) fn list(&mut self, name: impl Into<String>, unit: &str, values: Vec<f64>) {
+        self.lists.push(List { name: name.into(), unit: unit.into(), values });
+    }
+
+    pub(super) fn finding(&mut self, code: &'static str, message: String) {
+        self.findings.push(Finding { code: code.into(), message, path: self.study.place.clone() });
+    }
+
+    /// Which coordinates are held by a force above its noise, and that there is nothing to move.
+    pub(super) fn balance<'f>(&mut self, forces: impl Iterator<Item = (&'f f64, f64)>) {
+        if self.own.is_empty() {
+            self.finding("no-freedom", "joints and drivers leave no motion, so there are no modes".into());
+        }
+        let unit = |c: &Coordinate| if c.turns { "N m" } else { "N" };
+        let held: Vec<(&Coordinate, &f64)> =
+            self.own.iter().zip(forces).filter(|(_, (f, noise))| f.abs() > *noise).map(|(c, (f, _))| (c, f)).collect();
+        let mut by: Vec<String> = held.iter().take(NAMED).map(|(c, f)| format!("`{}` {} {}", c.name, short(**f), unit(c))).collect();
+        if held.len() > NAMED {
+            by.push(format!("{} others", held.len() - NAMED));
+        }
+        if !by.is_empty() {
+            let message = format!(
+                "the pose is no equilibrium: it is held against {}; negative eigenvalues are rates at which motions leave it, not vibrations, and all of them depend on which coordinates are held",
+                by.join(", ")
+            );
+            self.finding("unbalanced", message);
+        }
+    }
+
+    /// Frequencies and shapes of undamped modes, with what their signs mean: √λ, NaN for λ < 0, 0 for a free motion.
+    pub(super) fn frequencies(&mut self, found: &[Undamped]) -> Vec<f64> {
+        let mut frequencies = Vec::new();
+        for (i, Undamped { value: lambda, shape, noise }) in found.iter().enumerate() {
+            let free = lambda.abs() <= *noise;
+            self.shapes.push(self.own.iter().map(|c| c.name.clone()).zip(shape.iter().copied()).collect());
+            if free {
+                self.finding(
+                    "free-motion",
+                    format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&shape.abs())),
+                );
+            } else if *lambda < 0.0 {
+                let rate = (-lambda).sqrt();
+                let message = format!(
+                    "mode {} is unstable, {}: it grows like exp({} t/s), by e in {} s",
+                    i + 1,
+                    self.parts(&shape.abs()),
+                    short(rate),
+                    short(rate.recip())
+                );
+                self.finding("unstable", message);
+            }
+            frequencies.push(if free { 0.0 } else { lambda.sqrt() });
+        }
+        self.list("frequencies", "rad/s", frequencies.clone());
+        frequencies
+    }
+
+    /// That forces have no potential: K is unsymmetric by this part of its size.
+    pub(super) fn circulates(&mut self, part: f64) {
+        let message = format!(
+            "forces in the pose have no potential (K is unsymmetric by {part:.1e} of its size, as by a load that follows its body): the modes are those of the state matrix, and methods for symmetric matrices are left out"
+        );
+        self.finding("circulatory-forces", message);
+    }
+
+    /// Lists and shapes of damped modes, with what grows; their frequencies |Im μ|.
+    pub(super) fn damped(&mut self, found: &[Damped]) -> Vec<f64> {
+        let each = |f: &dyn Fn(&Damped) -> f64| -> Vec<f64> { found.iter().map(f).collect() };
+        let size = found.iter().fold(0.0_f64, |m, d| m.max(d.value.norm()));
+        let frequencies = each(&|d| d.value.im);
+        self.list("eigenvalues_real", "1/s", each(&|d| d.value.re));
+        self.list("eigenvalues_imaginary", "1/s", each(&|d| d.value.im));
+        self.list("damping_ratios", "", each(&Damped::ratio));
+        self.list("frequencies", "rad/s", frequencies.clone());
+        for (i, mode) in found.iter().enumerate() {
+            let amplitudes = mode.shape.map(|x| x.norm());
+            let named = |c: &Coordinate, x: &nalgebra::Complex<f64>| [(c.name.clone(), x.norm()), (format!("{}.phase", c.name), x.arg())];
+            self.shapes.push(self.own.iter().zip(mode.shape.iter()).flat_map(|(n, x)| named(n, x)).collect());
+            if mode.value.norm() <= RIGID * size {
+                let message = format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&amplitudes));
+                self.finding("free-motion", message);
+            } else if mode.value.re > GROWS * mode.value.norm() {
+                let message =
+                    format!("mode {} is unstable, {}: it grows like exp({} t/s)", i + 1, self.parts(&amplitudes), short(mode.value.re));
+                self.finding("unstable", message);
+            }
+        }
+        frequencies
+    }
+
+    /// The coordinates that move most in a shape, the largest first.
+    fn parts(&self, sizes: &DVector<f64>) -> String {
+        let largest = sizes.amax();
+        let mut order: Vec<usize> = (0..sizes.len()).filter(|&i| sizes[i] >= PART * largest).collect();
+        order.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
+        let shown: Vec<String> = order.iter().take(3).map(|&i| format!("`{}`", self.own[i].name)).collect();
+        let more = if order.len() > 3 { " and others" } else { "" };
+        format!("{}{more}", shown.join(", "))
+    }
+
+    /// The whole: numbers of the study from its frequencies, with the pictures of its modes; `residual` is the largest |Φ|, m or rad.
+    pub(super) fn outcome<G: Space>(
+        mut self,
+        case: Case<'_>,
+        mechanism: &Mechanism<G>,
+        frequencies: &[f64],
+        residual: f64,
+        scenes: Vec<Scene>,
+    ) -> Outcome {
+        let results: Vec<f64> = (0..case.study.results.len()).map(|i| frequencies.get(i).copied().unwrap_or(f64::NAN)).collect();
+        let numbers = Sources { case, tables: &mechanism.tables, functionals: &[], results: &results, works: &[] }.numbers(true);
+        self.findings.extend(numbers.findings);
+        Outcome {
+            stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
+            undefined: numbers.undefined,
+            parameters: case.named(),
+            scalars: numbers.scalars,
+            expectations: numbers.expectations,
+            results,
+            lists: self.lists,
+            shapes: self.shapes,
+            findings: self.findings,
+            certificate: Certificate { evaluations: 1, constraint: residual, ..Certificate::default() },
+            scenes: scenes.into_iter().enumerate().map(|(i, scene)| (format!("mode-{}", i + 1), scene)).collect(),
+            ..Outcome::default()
+        }
+    }
+}
+
+/// Six significant digits.
+fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}
