@@ -7,6 +7,27 @@
 /// Pivots of the scaled M, whose diagonal is about one, that are smaller count as no mass: an elimination with pivots is needed.
 const MASSLESS: f64 = 1e-7;
 
+/// Scales full M (nv × nv) and G (m × nv): [M Gᵀ; G 0] into `matrix`, whose lower right block is 0, and the lower triangle of
+/// [M Gᵀ; G −E] into `l`. `products` are those of the scales of rows and columns.
+#[inline]
+pub(super) fn fill<const N: usize>([matrix, l]: [&mut [[f64; N]; N]; 2], products: &[[f64; N]; N], [mass, g, e]: [&[f64]; 3], nv: usize) {
+    let (upper, lower) = matrix.split_at_mut(nv);
+    for (((row, l), products), mass) in upper.iter_mut().zip(l.iter_mut()).zip(products).zip(mass.chunks_exact(nv)) {
+        for ((x, p), m) in row.iter_mut().zip(products).zip(mass) {
+            *x = m * p;
+        }
+        *l = *row;
+    }
+    for (i, (((row, l), products), g)) in lower.iter_mut().zip(&mut l[nv..]).zip(&products[nv..]).zip(g.chunks_exact(nv)).enumerate() {
+        for (j, ((x, p), g)) in row.iter_mut().zip(products).zip(g).enumerate() {
+            *x = g * p;
+            upper[j][nv + i] = *x;
+        }
+        *l = *row;
+        l[nv + i] = -e[i];
+    }
+}
+
 /// Factors the lower triangle of `a` in place: L below the diagonal, and 1/D. `positive` rows come first.
 ///
 /// False if M is nearly singular, or a number is not finite.
@@ -19,14 +40,14 @@ pub(super) fn factor<const N: usize>(a: &mut [[f64; N]; N], inverse: &mut [f64; 
         let inv = 1.0 / d;
         inverse[k] = inv;
         let mut column = [0.0; N];
-        for (row, x) in a.iter_mut().zip(&mut column).skip(k + 1) {
-            *x = row[k];
-            row[k] *= inv;
+        for i in k + 1..N {
+            column[i] = a[i][k];
         }
-        for (i, row) in a.iter_mut().enumerate().skip(k + 1) {
-            let l = row[k];
-            for (x, c) in row[k + 1..=i].iter_mut().zip(&column[k + 1..=i]) {
-                *x -= l * c;
+        for i in k + 1..N {
+            let l = column[i] * inv;
+            a[i][k] = l;
+            for j in k + 1..=i {
+                a[i][j] -= l * column[j];
             }
         }
     }

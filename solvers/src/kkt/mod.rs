@@ -53,6 +53,8 @@ pub struct Kkt {
     /// Patterns of M and G, and places of the diagonal of M (nv).
     patterns: [Sparsity; 2],
     diagonal: Vec<usize>,
+    /// Products of the scales of rows and columns, of small matrices (n × n).
+    products: Vec<f64>,
     /// Scaled [M Gᵀ; G 0] (n × n); not kept by the sparse form.
     matrix: Vec<f64>,
     /// L D Lᵀ of the scaled [M Gᵀ; G −E]: L (n × n), 1/D (n).
@@ -132,6 +134,7 @@ impl Kkt {
         let n = patterns[1].columns() + patterns[1].rows();
         let small = if n <= DENSE_UP_TO { n } else { 0 };
         Self {
+            products: vec![1.0; small * small],
             matrix: vec![0.0; n * n],
             l: vec![0.0; small * small],
             inverse: vec![0.0; small],
@@ -174,6 +177,7 @@ impl Kkt {
             scale: vec![1.0; n],
             e: vec![REGULARIZATION; rows],
             refinements: REFINEMENTS,
+            products: Vec::new(),
             matrix: Vec::new(),
             l: Vec::new(),
             inverse: Vec::new(),
@@ -205,6 +209,8 @@ impl Kkt {
         for ((e, x), s) in self.e.iter_mut().zip(g_scale).zip(&self.scale[self.nv..]) {
             *e = REGULARIZATION * x * s * s;
         }
+        let products = self.scale.iter().flat_map(|a| self.scale.iter().map(move |b| a * b));
+        self.products.iter_mut().zip(products).for_each(|(out, product)| *out = product);
     }
 
     /// Factors the matrix of M (nv × nv) and G (m × nv), by their patterns.
@@ -220,8 +226,7 @@ impl Kkt {
         if let Factors::Sparse(sparse) = &mut self.factors {
             return sparse.factor(mass, g, &self.scale, &self.e);
         }
-        self.fill(mass, g);
-        self.definite = self.quasi_definite();
+        self.definite = self.quasi_definite(mass, g);
         if self.definite { Ok(()) } else { self.eliminate() }
     }
 
@@ -270,20 +275,36 @@ impl Kkt {
         }
     }
 
-    /// Factors by L D Lᵀ; false if the matrix is too large for it, or M is nearly singular.
-    fn quasi_definite(&mut self) -> bool {
+    /// Scales the matrix, and factors it by L D Lᵀ; false if it is too large for that, or M is nearly singular.
+    fn quasi_definite(&mut self, mass: &[f64], g: &[f64]) -> bool {
         let (nv, n) = (self.nv, self.nv + self.rows);
+        let full = nv > 0 && self.patterns.iter().all(Sparsity::is_full);
+        if !full || n > DENSE_UP_TO {
+            self.fill(mass, g);
+        }
         if n > DENSE_UP_TO || n == 0 {
             return false;
         }
-        self.l.copy_from_slice(&self.matrix);
-        for (j, e) in self.e.iter().enumerate() {
-            self.l[(nv + j) * (n + 1)] = -e;
+        if !full {
+            self.l.copy_from_slice(&self.matrix);
+            for (j, e) in self.e.iter().enumerate() {
+                self.l[(nv + j) * (n + 1)] = -e;
+            }
         }
         macro_rules! small {
             ($k:literal) => {
-                match (square_mut::<f64, $k>(&mut self.l), self.inverse.first_chunk_mut()) {
-                    (Some(l), Some(inverse)) => definite::factor::<$k>(l, inverse, nv),
+                match (
+                    square_mut::<f64, $k>(&mut self.matrix),
+                    square_mut::<f64, $k>(&mut self.l),
+                    square::<f64, $k>(&self.products),
+                    self.inverse.first_chunk_mut(),
+                ) {
+                    (Some(matrix), Some(l), Some(products), Some(inverse)) => {
+                        if full {
+                            definite::fill::<$k>([matrix, l], products, [mass, g, &self.e], nv);
+                        }
+                        definite::factor::<$k>(l, inverse, nv)
+                    }
                     _ => false,
                 }
             };
