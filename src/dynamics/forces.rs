@@ -18,6 +18,7 @@ impl<G: Space> Dynamics<'_, G> {
             m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
         }
         self.sides(modes);
+        self.inertias();
         self.applied();
         self.efforts();
     }
@@ -96,15 +97,22 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// World inertias, and gravity and loads at points as wrenches.
+    /// Inertias in world axes; after [`Dynamics::position`].
+    pub fn inertias(&mut self) {
+        let w = &mut self.work;
+        for node in &self.mechanism.nodes {
+            w.inertias[node.body] = self.mechanism.bodies[node.body].mass.in_world(w.places[node.body]);
+        }
+    }
+
+    /// Gravity and loads at points as wrenches; after [`Dynamics::inertias`].
     fn applied(&mut self) {
         let m = self.mechanism;
         let w = &mut self.work;
         w.applied[0] = Force::default();
         for node in &m.nodes {
             let b = node.body;
-            let inertia = m.bodies[b].mass.in_world(w.places[b]);
-            w.inertias[b] = inertia;
+            let inertia = w.inertias[b];
             w.applied[b] = Force { n: G::moment(inertia.h, m.gravity), f: m.gravity * inertia.m };
         }
         for pull in &m.point_loads {
@@ -143,7 +151,7 @@ impl<G: Space> Dynamics<'_, G> {
         }
     }
 
-    /// M; after [`Dynamics::forces`].
+    /// M; after [`Dynamics::inertias`].
     pub fn mass(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;

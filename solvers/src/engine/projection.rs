@@ -49,6 +49,16 @@ impl Engine {
         if self.dims.rows() > 0 { self.project_on(system, state, Stage::Velocity).map(drop) } else { Ok(()) }
     }
 
+    /// Whether a state is on the constraints to a part of its size; evaluates it.
+    pub fn is_near(&mut self, system: &mut dyn System, state: &State, part: f64) -> bool {
+        if self.dims.rows() == 0 {
+            return true;
+        }
+        self.evaluate(system, state.at(), Stage::Velocity);
+        let speed = state.v.iter().zip(&self.size_v).fold(1.0, |m, (v, s)| f64::max(m, v.abs() / s));
+        self.position_residual() <= part && self.velocity_residual(&state.v) <= part * speed
+    }
+
     /// Moves a state to the constraints; leaves terms and factors of the state reached.
     fn project_within(&mut self, system: &mut dyn System, state: &mut State, slack: f64) -> Result<(), Why> {
         // a correction of v is to be expected unless it may be neglected

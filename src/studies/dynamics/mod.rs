@@ -145,6 +145,9 @@ pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)
     }
 }
 
+/// Part of what columns are resolved to by which a state between rows may be off the constraints: nearer ones need not be moved there.
+const NEAR: f64 = 0.01;
+
 /// A motion seen over time.
 struct Seen<'a> {
     breaks: Vec<f64>,
@@ -170,7 +173,9 @@ where
     let breaks = trajectory.breaks();
     let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(Off { at: 0.0, gap: None }) };
     let stretches = trajectory.stretches();
-    let resolved = resolve::on(trajectory, &stretches, &breaks, setup::resolution(plan.settings.control))?;
+    let resolution = setup::resolution(plan.settings.control);
+    trajectory.near_enough = NEAR * resolution;
+    let resolved = resolve::on(trajectory, &stretches, &breaks, resolution)?;
     trajectory.all_defined(&resolved)?;
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let clock = Clock::of_time(plan.until);

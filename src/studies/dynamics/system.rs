@@ -21,6 +21,7 @@ mod contact;
 mod events;
 mod power;
 mod root;
+mod seen;
 mod sticking;
 mod works;
 
@@ -33,6 +34,7 @@ use crate::studies::common::stops::PASSED;
 use ahead::Timed;
 use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 pub(crate) use root::{Met, Root, Watched};
+use seen::Seen;
 pub(super) use works::WORKS;
 
 /// A mechanism with its columns and events.
@@ -63,6 +65,8 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction holds.
     met: Vec<Met>,
     loosened: bool,
+    /// The state evaluated last.
+    seen: Seen,
     a: Vec<f64>,
     lambda: Vec<f64>,
     /// Modes while energies are asked.
@@ -199,6 +203,7 @@ where
             restless: None,
             met: Vec::with_capacity(mechanism.contacts.len()),
             loosened: false,
+            seen: Seen::default(),
             dynamics,
             observer,
             roots,
@@ -223,16 +228,38 @@ where
 
     /// Evaluates positions and velocities of a state.
     pub(crate) fn kinematics(&mut self, at: &At<'_>) {
+        self.stand(at, true);
+        self.velocities(at);
+    }
+
+    /// Evaluates positions of a state, with G if that is asked for; what stands there already is not evaluated again.
+    fn stand(&mut self, at: &At<'_>, rows: bool) {
         self.dynamics.work.z.copy_from_slice(at.z);
-        self.dynamics.work.held.copy_from_slice(at.live);
-        self.dynamics.time(at.t, at.modes);
-        self.dynamics.position(at.q, at.modes);
-        self.dynamics.velocity(at.v, at.modes);
+        if !self.seen.is_placed(at, rows) {
+            self.dynamics.work.held.copy_from_slice(at.live);
+            self.dynamics.time(at.t, at.modes);
+            self.dynamics.position(at.q, at.modes);
+            self.seen.place(at);
+        }
+    }
+
+    /// Evaluates velocities of a state whose positions are there.
+    fn velocities(&mut self, at: &At<'_>) {
+        if !self.seen.is_moving(at) {
+            self.dynamics.velocity(at.v, at.modes);
+            self.seen.moves(at);
+        }
+    }
+
+    /// [`Mechanical::kinematics`] without G.
+    fn motion(&mut self, at: &At<'_>) {
+        self.stand(at, false);
+        self.velocities(at);
     }
 
     /// Evaluates a state with its accelerations and reads the columns' quantities.
     pub(crate) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
-        self.kinematics(at);
+        self.motion(at);
         self.dynamics.loads(at.modes);
         self.dynamics.react(a, lambda, &mut self.reactions);
         let own = self.own(at.modes);
@@ -246,7 +273,7 @@ where
 
     /// Evaluates a state without accelerations and reads the columns' quantities, of which none needs them.
     pub(crate) fn glance(&mut self, at: &At<'_>) {
-        self.kinematics(at);
+        self.motion(at);
         if self.observer.needs() == Needs::Inertias {
             self.dynamics.loads(at.modes);
         }
@@ -293,9 +320,17 @@ where
     }
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        self.kinematics(&at);
-        self.dynamics.forces(at.modes);
+        self.stand(&at, true);
+        if stage >= Stage::Velocity {
+            self.velocities(&at);
+        }
+        if stage >= Stage::Dynamics {
+            self.dynamics.forces(at.modes);
+        } else {
+            self.dynamics.inertias();
+        }
         self.dynamics.mass();
+        self.seen.without_rows();
         let w = &mut self.dynamics.work;
         out.phi.copy_from_slice(&w.phi);
         // the same entries are written at every evaluation, the others are zero in both

@@ -75,6 +75,8 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     out: Vec<f64>,
     /// Whether modes are taken from each state: the integrator has marched across switches.
     follow: bool,
+    /// How far a state may be off the constraints where columns are followed between rows, as part of its size.
+    pub(crate) near_enough: f64,
     /// The step found last.
     near: usize,
     /// The present phase.
@@ -101,6 +103,7 @@ where
             columns,
             out: vec![0.0; outputs],
             follow,
+            near_enough: 0.0,
             near: 0,
             current: 0,
         }
@@ -167,7 +170,7 @@ where
         let mut out = vec![0.0; self.columns];
         let mut defined = |trajectory: &mut Self, t: f64| {
             let piece = trajectory.pieces.iter().position(|p| t <= p.to).unwrap_or(0);
-            trajectory.columns_at(t, piece, &mut out)
+            trajectory.columns_at(t, piece, 0.0, &mut out)
         };
         let (mut good, mut bad) = (from, t);
         defined(self, good).ok()?;
@@ -287,15 +290,17 @@ where
         Ok(())
     }
 
-    /// As [`Trajectory::go`], but without accelerations where no column needs them.
-    fn glance(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+    /// As [`Trajectory::go`], but without accelerations where no column needs them. A state that is on the constraints to a `part` of its
+    /// size stays where it is.
+    fn glance(&mut self, t: f64, piece: usize, part: f64) -> Result<(), Off> {
         let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
         if self.phases[phase].system.observer.needs_forces() {
             return self.go(t, piece);
         }
         let own = self.take(t, piece)?;
         let PhaseSystem { system, engine, .. } = &mut self.phases[phase];
-        if !own && engine.project(system, &mut self.node.state).is_err() {
+        let near = own || part > 0.0 && engine.is_near(system, &self.node.state, part);
+        if !near && engine.project(system, &mut self.node.state).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
         }
         system.glance(&self.node.state.at());
@@ -348,9 +353,9 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    /// Columns at `t` on a piece.
-    fn columns_at(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        self.glance(t, piece)?;
+    /// Columns at `t` on a piece, of a state that is on the constraints, or to a `part` of its size.
+    fn columns_at(&mut self, t: f64, piece: usize, part: f64, out: &mut [f64]) -> Result<(), Off> {
+        self.glance(t, piece, part)?;
         let n = self.columns;
         out.copy_from_slice(&self.outputs(piece)[..n]);
         let observer = &self.phases[self.pieces[piece].phase].system.observer;
@@ -362,14 +367,19 @@ where
 
     /// As [`Curve::eval`], but where an expression has no value by its own fault that is an error.
     pub(crate) fn row(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        let found = self.columns_at(t, piece, out);
+        self.row_near(t, piece, 0.0, out)
+    }
+
+    /// The same of a state that may be off the constraints by a part of its size.
+    fn row_near(&mut self, t: f64, piece: usize, part: f64, out: &mut [f64]) -> Result<(), Off> {
+        let found = self.columns_at(t, piece, part, out);
         if !matches!(found, Err(Off { gap: Some(_), .. })) {
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
         let length = self.pieces.last().map_or(0.0, |p| p.to);
         for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
-            if self.columns_at(t + shift * length, piece, out).is_ok() {
+            if self.columns_at(t + shift * length, piece, part, out).is_ok() {
                 return Ok(());
             }
         }
@@ -427,7 +437,7 @@ where
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        match self.row(t, piece, out) {
+        match self.row_near(t, piece, self.near_enough, out) {
             Err(Off { gap: Some(_), .. }) => {
                 out.fill(f64::NAN);
                 Ok(())

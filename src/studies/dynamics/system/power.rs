@@ -15,7 +15,7 @@ where
     /// Power of drivers and of all else that moves with time, −λᵀν for rows; of loads and motors; of dampers; of end stops beside what
     /// they store: what changes the energy, W.
     pub(super) fn powers(&mut self, at: &At<'_>, lambda: &[f64], w: &mut [f64]) {
-        self.kinematics(at);
+        self.motion(at);
         self.dynamics.loads(at.modes);
         self.dynamics.apply_friction(lambda);
         let m = self.dynamics.mechanism;

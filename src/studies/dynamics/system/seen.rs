@@ -1,0 +1,55 @@
+//! The state whose kinematics stand in the evaluator, so that nothing is evaluated there again.
+
+use grashof_solvers::At;
+
+/// What was evaluated last.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seen {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    modes: Vec<i32>,
+    live: Vec<f64>,
+    placed: bool,
+    moving: bool,
+    /// Whether G is there as well: terms take it away.
+    rows: bool,
+}
+
+impl Seen {
+    /// Whether positions are those of a state, with G if that is asked for.
+    pub(super) fn is_placed(&self, at: &At<'_>, rows: bool) -> bool {
+        self.placed && (self.rows || !rows) && self.t == at.t && self.q == at.q && self.modes == at.modes && self.live == at.live
+    }
+
+    /// Whether velocities are those of a state whose positions are there.
+    pub(super) fn is_moving(&self, at: &At<'_>) -> bool {
+        self.moving && self.v == at.v
+    }
+
+    /// Positions and G have been evaluated.
+    pub(super) fn place(&mut self, at: &At<'_>) {
+        self.t = at.t;
+        copy(&mut self.q, at.q);
+        copy(&mut self.modes, at.modes);
+        copy(&mut self.live, at.live);
+        (self.placed, self.rows, self.moving) = (true, true, false);
+    }
+
+    /// Velocities have been evaluated.
+    pub(super) fn moves(&mut self, at: &At<'_>) {
+        copy(&mut self.v, at.v);
+        self.moving = true;
+    }
+
+    /// G was taken away.
+    pub(super) fn without_rows(&mut self) {
+        self.rows = false;
+    }
+}
+
+/// Makes a list equal to another one; the first time allocates.
+fn copy<T: Copy>(out: &mut Vec<T>, from: &[T]) {
+    out.clear();
+    out.extend_from_slice(from);
+}
