@@ -22,7 +22,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("results", &["mechanism::BuildFault", "model::WORKS", "numerics::extremum", "numerics::resolve::Resolution"]),
     ("kinematics", &["numerics", "dynamics", "mechanism", "geometry", "scalar", "expression", "model", "results"]),
     ("studies", &["numerics", "kinematics", "dynamics", "mechanism", "geometry", "scalar", "expression", "model", "results", "par"]),
-    ("output", &["results"]),
+    ("output", &["results", "par"]),
     ("par.rs", &[]),
     ("api", &["studies", "results", "kinematics", "dynamics", "mechanism", "geometry", "scalar", "model", "output", "par"]),
 ];

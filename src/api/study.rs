@@ -120,7 +120,7 @@ impl<'a> Study<'a> {
         }
         let all = grid(&model, study).len();
         let runs = sweep(&model, study, self.threads, Vec::new(), &|_| true, &*self.stop, &|_, _| count(all));
-        Ok(together(&model, study, &runs))
+        Ok(together(&model, study, runs, &mut |_, _| {}))
     }
 
     /// A study of one run whose rows go to a sink.

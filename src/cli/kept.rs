@@ -103,7 +103,7 @@ impl Kept {
     /// Keeps a finished run.
     pub(super) fn add(&self, index: usize, run: &Run) {
         let result = match &run.result {
-            Ok(outcome) => Ok(outcome),
+            Ok(outcome) => Ok(&**outcome),
             Err(Failure::Unsolved(why)) => Err(why),
             Err(_) => return,
         };
@@ -191,7 +191,7 @@ fn read(bytes: &[u8], fingerprint: u64, known: &mut [Option<Run>]) -> Option<usi
     let mut rest = bytes.strip_prefix(&head[..])?;
     while let Some((record, after)) = next(rest, fingerprint) {
         let Some(slot) = known.get_mut(record.index) else { break };
-        *slot = Some(Run { at: record.at, solved: record.solved, result: record.result.map_err(Failure::Unsolved) });
+        *slot = Some(Run { at: record.at, solved: record.solved, result: record.result.map(Box::new).map_err(Failure::Unsolved) });
         rest = after;
     }
     Some(bytes.len() - rest.len())

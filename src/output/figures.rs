@@ -11,7 +11,7 @@ pub fn figures(results: &Results) -> Vec<(String, Figure)> {
     let runs: Vec<(Option<&str>, &Results)> = if results.table.reasons.is_none() {
         vec![(None, results)]
     } else {
-        results.runs.iter().filter_map(|run| Some((Some(run.label.as_str()), run.results.as_ref()?))).collect()
+        results.runs.iter().filter_map(|run| Some((Some(run.label.as_str()), run.results.as_deref()?))).collect()
     };
     let curves = results.plots.iter().filter(|plot| !plot.of_runs).map(|plot| (plot.name.clone(), of_columns(results, plot, &runs)));
     let numbers = results.plots.iter().filter(|plot| plot.of_runs && results.table.reasons.is_some());

@@ -23,14 +23,17 @@ const FORMATS: [Format; 3] = [
     |results, _| matrices(results),
 ];
 
-/// The files of a study beside its pictures: names that begin with `stem`, and what they hold; those of the runs of a sweep are
-/// numbered from 1.
+/// The files of a study beside its pictures: names that begin with `stem`, and what they hold.
 pub fn files(stem: &str, results: &Results) -> Vec<(String, Vec<u8>)> {
-    let of = |stem: &str, results: &Results, part: Part| -> Vec<(String, Vec<u8>)> {
-        let ends = FORMATS.iter().flat_map(|format| format(results, part));
-        ends.map(|(end, bytes)| (format!("{stem}{end}"), bytes)).collect()
-    };
-    let runs = results.runs.iter().enumerate().filter_map(|(i, run)| Some((i + 1, run.results.as_ref()?)));
-    let runs = runs.flat_map(|(i, run)| of(&format!("{stem}-{i:03}"), run, Part::Run));
-    of(stem, results, Part::Study).into_iter().chain(runs).collect()
+    of(stem, results, Part::Study)
+}
+
+/// The files of a run of a sweep, by its number from 1.
+pub fn run_files(stem: &str, number: usize, results: &Results) -> Vec<(String, Vec<u8>)> {
+    of(&format!("{stem}-{number:03}"), results, Part::Run)
+}
+
+fn of(stem: &str, results: &Results, part: Part) -> Vec<(String, Vec<u8>)> {
+    let ends = FORMATS.iter().flat_map(|format| format(results, part));
+    ends.map(|(end, bytes)| (format!("{stem}{end}"), bytes)).collect()
 }

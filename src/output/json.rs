@@ -78,7 +78,7 @@ fn linear(system: &LinearSystem) -> Value {
 /// Columns of the table of a sweep, and what the kind gives beside numbers: one entry of each run, `null` where there is none.
 fn of_runs(results: &Results) -> Entries {
     let mut entries: Entries = results.table.columns.iter().map(|column| (column.name.clone(), json_numbers(&column.values))).collect();
-    let all: Vec<Entries> = results.runs.iter().map(|run| run.results.as_ref().map_or_else(Vec::new, of_kind)).collect();
+    let all: Vec<Entries> = results.runs.iter().map(|run| run.results.as_deref().map_or_else(Vec::new, of_kind)).collect();
     let mut names: Vec<&str> = Vec::new();
     for (name, _) in all.iter().flatten() {
         if !names.contains(&name.as_str()) {

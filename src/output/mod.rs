@@ -41,7 +41,7 @@ pub use csv_rows::CsvRows;
 pub use drawing::render_drawing;
 pub use figure::render_figure;
 pub use figures::{drawing, figures};
-pub use formats::files;
+pub use formats::{files, run_files};
 pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
 pub use matrices::matrices;

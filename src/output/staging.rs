@@ -9,15 +9,21 @@
 
 use super::manifest::{Entry, Manifest, Mark, Writing, is_plain, put, set_of};
 use super::write_error::WriteError;
-use std::collections::BTreeMap;
+use crate::par;
+use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+
+/// Files that are written at a time.
+const WRITERS: usize = 8;
 
 /// The files of one study, not yet on the disc.
 #[derive(Clone, Debug, Default)]
 pub struct Staging {
     files: Vec<(String, Vec<u8>)>,
+    /// Names of the files.
+    names: HashSet<String>,
 }
 
 /// What has been written.
@@ -38,7 +44,9 @@ impl Staging {
     /// Adds a file; one of the same name is replaced.
     pub fn add(&mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
         let name = name.into();
-        self.files.retain(|(known, _)| *known != name);
+        if !self.names.insert(name.clone()) {
+            self.files.retain(|(known, _)| *known != name);
+        }
         self.files.push((name, bytes.into()));
     }
 
@@ -56,7 +64,13 @@ impl Staging {
     ///
     /// # Errors
     /// As there; [`ErrorKind::Interrupted`] if it was to stop.
-    pub fn commit_unless(&self, directory: &Path, study: &str, force: bool, stop: &dyn Fn() -> bool) -> Result<Written, WriteError> {
+    pub fn commit_unless(
+        &self,
+        directory: &Path,
+        study: &str,
+        force: bool,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Written, WriteError> {
         if let Some((name, _)) = self.files.iter().find(|(name, _)| !is_plain(name)) {
             return Err(failed(&directory.join(name), io::Error::new(ErrorKind::InvalidInput, "not a plain file name")));
         }
@@ -70,7 +84,7 @@ impl Staging {
         written
     }
 
-    fn write(&self, directory: &Path, study: &str, force: bool, stop: &dyn Fn() -> bool) -> Result<Written, WriteError> {
+    fn write(&self, directory: &Path, study: &str, force: bool, stop: &(dyn Fn() -> bool + Sync)) -> Result<Written, WriteError> {
         if let Some(file) = directory.ancestors().find(|path| path.is_file()) {
             return Err(failed(file, io::Error::new(ErrorKind::NotADirectory, "a file is in the way of the directory")));
         }
@@ -86,8 +100,11 @@ impl Staging {
         let writing = Writing { study: study.into(), set, suffix: free_suffix(directory, marks.keys()), files: marks };
         manifest.writing = Some(writing.clone());
         manifest.store(directory)?;
-        for (name, bytes) in &self.files {
-            if let Err(cause) = put(&writing.temporary(directory, name), bytes, stop) {
+        let written = |i: usize| put(&writing.temporary(directory, &self.files[i].0), &self.files[i].1, stop);
+        // who writes waits for the disc
+        let written = par::map(self.files.len(), WRITERS, written, || {});
+        for ((name, _), written) in self.files.iter().zip(written) {
+            if let Err(cause) = written {
                 writing.clear(directory);
                 // the first error is the one the user needs
                 before.put_back(directory);

@@ -197,11 +197,8 @@ fn a_stopped_writing_leaves_the_files_before() {
     let before = scratch.names();
     let long = "x".repeat(5 << 20);
     for after in 0..7 {
-        let asked = std::cell::Cell::new(0);
-        let stop = || {
-            asked.set(asked.get() + 1);
-            asked.get() > after
-        };
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= after;
         let error = staged(&[("a.csv", &long), ("a-new.svg", "new")]).commit_unless(&scratch.0, "a", false, &stop).err();
         if after < 6 {
             assert_eq!(error.map(|e| e.cause.kind()), Some(std::io::ErrorKind::Interrupted), "{after}");

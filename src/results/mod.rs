@@ -83,7 +83,7 @@ pub struct Run {
     /// The swept values: `l3 = 0.3 m`.
     pub label: String,
     /// What it has come to; none if it did not begin.
-    pub results: Option<Results>,
+    pub results: Option<Box<Results>>,
     /// What certifies its solution, if it solves.
     pub solution: Option<Solution>,
 }

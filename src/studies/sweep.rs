@@ -9,6 +9,7 @@ use crate::par;
 use crate::results::Failure;
 use crate::results::{self, By, Column, Finding, Results, Solution, Table, number};
 use crate::studies::common::outcome::Outcome;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One run of a study.
 #[derive(Clone, Debug)]
@@ -18,7 +19,7 @@ pub struct Run {
     /// What `solve` found, in a study that has it.
     pub solved: Option<Solved>,
     /// What came of it.
-    pub result: Result<Outcome, Failure>,
+    pub result: Result<Box<Outcome>, Failure>,
 }
 
 /// The points of a study's sweep: the grid over its parameters, the last one fastest; one empty point if it sweeps nothing.
@@ -62,16 +63,16 @@ pub fn at(
     let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(point.iter().copied()).collect();
     let (solved, result) = match &study.solve {
         Some(asked) => match solve(&Task { model, study, solve: asked, set: &set, threads, stop, done }) {
-            Ok((outcome, solved)) => (Some(solved), Ok(outcome)),
+            Ok((outcome, solved)) => (Some(solved), Ok(Box::new(outcome))),
             Err(failure) => (None, Err(failure)),
         },
-        None => (None, run(Case::new(model, study, &parameters_with(model, &set)), stop)),
+        None => (None, run(Case::new(model, study, &parameters_with(model, &set)), stop).map(Box::new)),
     };
     Run { at: point, solved, result }
 }
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
-/// those at the places that are `wanted`. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// those at the places that are `wanted`. Drawings are left of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
 /// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,
@@ -87,6 +88,8 @@ pub fn sweep(
     runs.resize_with(points.len(), || None);
     let missing: Vec<(usize, Vec<f64>)> =
         (0..points.len()).filter(|i| runs[*i].is_none() && wanted(*i)).filter_map(|i| Some((i, points[i].take()?))).collect();
+    // the first run with results is drawn, and no other one
+    let first = AtomicUsize::new(runs.iter().position(|run| run.as_ref().is_some_and(|run| run.result.is_ok())).unwrap_or(usize::MAX));
     let computed = par::map(
         missing.len(),
         threads,
@@ -95,7 +98,12 @@ pub fn sweep(
             if stop() {
                 return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
-            let run = at(model, study, point.clone(), 1, stop, &|_, _| {});
+            let mut run = at(model, study, point.clone(), 1, stop, &|_, _| {});
+            if let Ok(outcome) = &mut run.result
+                && first.fetch_min(*i, Ordering::Relaxed) < *i
+            {
+                outcome.scenes = Vec::new();
+            }
             done(*i, &run);
             run
         },
@@ -104,7 +112,9 @@ pub fn sweep(
     for ((i, _), run) in missing.into_iter().zip(computed) {
         runs[i] = Some(run);
     }
-    runs.into_iter().flatten().collect()
+    let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+    runs.iter_mut().filter_map(|run| run.result.as_mut().ok()).skip(1).for_each(|outcome| outcome.scenes = Vec::new());
+    runs
 }
 
 /// What a run, or the search of a `solve`, has come to, with names.
@@ -116,15 +126,17 @@ pub fn single(model: &Model, study: &Study, run: &Run) -> Result<Results, Failur
     Ok(Results { solution: solution(model, study, run), ..named(model, study, outcome) })
 }
 
-/// What the runs of a sweep have come to: a table with a row for each, and the results of each.
-#[must_use]
-pub fn together(model: &Model, study: &Study, runs: &[Run]) -> Results {
-    let labelled = |run: &Run| results::Run {
-        label: label(model, study, &run.at),
-        results: run.result.as_ref().ok().map(|outcome| named(model, study, outcome)),
-        solution: solution(model, study, run),
+/// What the runs of a sweep have come to: a table with a row for each, and the results of each. `each` gets the latter with their number
+/// from 0 as they are made, and may take from them what is of no further use.
+pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnMut(usize, &mut Results)) -> Results {
+    let labelled = |(i, run): (usize, Run)| {
+        let solution = solution(model, study, &run);
+        let label = label(model, study, &run.at);
+        let mut results = run.result.ok().map(|outcome| Box::new(named(model, study, &outcome)));
+        results.iter_mut().for_each(|results| each(i, results));
+        results::Run { label, results, solution }
     };
-    let table = table(model, study, runs);
+    let table = table(model, study, &runs);
     let mut findings = Vec::new();
     for (i, (run, reason)) in runs.iter().zip(table.reasons.iter().flatten()).enumerate() {
         let of = |message: &str| format!("run {} ({}): {message}", i + 1, label(model, study, &run.at));
@@ -142,7 +154,7 @@ pub fn together(model: &Model, study: &Study, runs: &[Run]) -> Results {
         table,
         findings,
         plots: named::plots(study),
-        runs: runs.iter().map(labelled).collect(),
+        runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }
 }
@@ -175,7 +187,7 @@ fn label(model: &Model, study: &Study, at: &[f64]) -> String {
 
 /// One row a run: swept parameters, the one that was solved for, results of the kind, scalars, and why a run is not whole.
 fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
-    let outcomes: Vec<Option<&Outcome>> = runs.iter().map(|run| run.result.as_ref().ok()).collect();
+    let outcomes: Vec<Option<&Outcome>> = runs.iter().map(|run| run.result.as_deref().ok()).collect();
     let of = |values: &dyn Fn(&Outcome) -> Option<f64>, none: f64| -> Vec<f64> {
         outcomes.iter().map(|o| o.map_or(none, |o| values(o).unwrap_or(f64::NAN))).collect()
     };

@@ -6,8 +6,8 @@ use super::super::progress::Progress;
 use super::super::shard::Shard;
 use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
-use grashof::model::Study;
-use grashof::output::{Staging, figures, files, summary, write_json};
+use grashof::model::{ShownWhat, Study};
+use grashof::output::{Staging, figures, files, run_files, summary, write_json};
 use grashof::results::Results;
 use grashof::studies::sweep::{self, Run, together};
 use std::fs;
@@ -26,7 +26,7 @@ impl Job<'_> {
             kept.in_words(count).iter().for_each(|words| print_note(words));
             return Finished::nothing(code::INTERRUPTED);
         }
-        let finished = self.finish_sweep(study, &runs);
+        let finished = self.finish_sweep(study, runs);
         if finished.ended {
             kept.remove();
         }
@@ -89,7 +89,7 @@ impl Job<'_> {
         if interrupted() {
             return Finished::nothing(code::INTERRUPTED);
         }
-        let finished = self.finish_sweep(study, &runs);
+        let finished = self.finish_sweep(study, runs);
         if finished.ended {
             own.iter().for_each(|path| _ = fs::remove_file(path));
         }
@@ -124,7 +124,7 @@ impl Job<'_> {
     }
 
     /// Judges and writes the runs of a sweep.
-    fn finish_sweep(&self, study: &Study, runs: &[Run]) -> Finished {
+    fn finish_sweep(&self, study: &Study, runs: Vec<Run>) -> Finished {
         // rows that failed for a stated reason are results, unless there is no other
         if runs.iter().all(|r| r.result.is_err()) {
             if let Some(Err(failure)) = runs.first().map(|r| &r.result) {
@@ -144,26 +144,34 @@ impl Job<'_> {
             print_error(&format!("no run of study `{name}` finished its range"), "see its last column for the reasons");
             code = code::NUMERICAL;
         }
-        let results = together(self.model, study, runs);
-        let whole = || results.runs.iter().filter_map(|run| run.results.as_ref());
-        for run in whole() {
-            code = code.max(self.expectations(run));
-        }
-        let (staging, output) = self.staged(&results);
-        let finished = self.write(&staging, code, output);
-        Finished { computed: whole().map(values).collect(), ended: finished.output.is_some(), ..finished }
-    }
-
-    /// The files of a sweep.
-    fn staged(&self, results: &Results) -> (Staging, Output) {
         let mut staging = Staging::new();
-        files(self.study, results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
-        let first = results.runs.iter().find_map(|run| run.results.as_ref());
-        if let (true, Some(first)) = (self.plots, first) {
-            self.draw(&mut staging, figures(results), first);
+        let mut computed = Vec::new();
+        let mut first = None;
+        let results = together(self.model, study, runs, &mut |i, run| {
+            code = code.max(self.expectations(run));
+            computed.push(values(run));
+            run_files(self.study, i + 1, run).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
+            if first.is_none() {
+                first = Some(run.clone());
+            }
+            *run = remaining(study, std::mem::take(run));
+        });
+        files(self.study, &results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
+        if let (true, Some(first)) = (self.plots, &first) {
+            self.draw(&mut staging, figures(&results), first);
         }
-        (staging, Output { table: summary(results), report: write_json(results), columns: units(results) })
+        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results) };
+        let finished = self.write(&staging, code, output);
+        Finished { computed, ended: finished.output.is_some(), ..finished }
     }
+}
+
+/// What is still asked of a run whose files are made: curves for figures, and what the kind gives beside numbers.
+fn remaining(study: &Study, run: Results) -> Results {
+    let curves = study.plots.iter().any(|plot| plot.show.iter().chain(&plot.over).any(|shown| matches!(shown.what, ShownWhat::Column(_))));
+    let Results { stopped, lists, shapes, linear, independent, table, curves: extra, .. } = run;
+    let kept = Results { stopped, lists, shapes, linear, ..Results::default() };
+    if curves { Results { independent, table, curves: extra, ..kept } } else { kept }
 }
 
 /// Files of the shards of a study in a directory, by their names.
