@@ -177,7 +177,7 @@ fn generated_files_are_refused() {
     let mut junk: Vec<u8> = (0..65536).map(|_| dice.next(256) as u8).collect();
     let base = fs::read(bad("base.yaml")).unwrap();
     let mut large = base.clone();
-    large.extend(std::iter::repeat_n(*b"# filled up\n", 1 << 17).flatten());
+    large.extend(std::iter::repeat_n(*b"# filled up\n", 1 << 20).flatten());
     let mut zero = base.clone();
     zero[30] = 0;
     let wide = format!("grashof: 1\nname: {}\nspace: plane\n", "x".repeat(500_000));

@@ -10,8 +10,8 @@ use grashof::results::Failure;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Largest file that is read at all; the reader itself refuses above 1 MiB and says so.
-const MOST: u64 = 2 << 20;
+/// Largest file that is read at all; the reader itself refuses above 8 MiB and says so.
+const MOST: u64 = 16 << 20;
 
 /// Reads a model file, or stdin for `-`; what is wrong has been printed.
 pub(super) fn document(model: &str, common: &Common) -> Option<Document> {

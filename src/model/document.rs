@@ -39,7 +39,7 @@ impl Document {
     /// Reads a model file that includes no others; `file` is its name for messages. Nothing but its YAML is judged yet.
     ///
     /// # Errors
-    /// What is not YAML, or is YAML that the format refuses (aliases, tags, two documents, more than 1 MiB, ...).
+    /// What is not YAML, or is YAML that the format refuses (aliases, tags, two documents, more than 8 MiB, ...).
     pub fn read(text: &str, file: &str) -> Result<Self, Report> {
         Self::new(text, file, &|_| Err("no files are read here".to_owned()))
     }

@@ -7,7 +7,7 @@ use saphyr_parser::{Event, Parser};
 use serde_yaml::{Mapping, Value};
 
 /// Largest file, bytes.
-pub(crate) const MOST_BYTES: usize = 1 << 20;
+pub(crate) const MOST_BYTES: usize = 8 << 20;
 /// Most digits of an integer that serde_yaml reads.
 const MOST_DIGITS: usize = 19;
 /// Deepest nesting of maps and lists.
@@ -61,7 +61,7 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
     };
     if text.len() > MOST_BYTES {
         let message = format!("the file has more than {MOST_BYTES} bytes");
-        return refuse("file-too-large", 0, 0, message, "at most 1 MiB", "");
+        return refuse("file-too-large", 0, 0, message, "at most 8 MiB", "");
     }
     if let Some(at) = text.find('\0') {
         let message = "the file holds a zero byte".to_owned();

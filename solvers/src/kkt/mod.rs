@@ -400,6 +400,35 @@ impl Kkt {
             *sigma = (size.recip() - REGULARIZATION).max(0.0).sqrt();
         }
     }
+
+    /// An estimate of the smallest singular value that is not of redundant rows, by one inverse iteration on the factorisation, in which
+    /// their combinations are taken away: with S = G M⁻¹ Gᵀ, x − (S + E)⁻¹ E x is 0 for S x = 0, and nearly x where S is large beside E.
+    ///
+    /// `vector` (m) keeps the combination of scaled rows from call to call, zeros at first.
+    pub fn smallest_singular_value_that_moves(&mut self, vector: &mut [f64]) -> f64 {
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(norm(vector) > 0.0 && norm(vector) < f64::INFINITY) {
+            dense::start(vector, 0);
+        }
+        self.without_redundant(vector);
+        let length = norm(vector);
+        self.x[..self.nv].fill(0.0);
+        self.x[self.nv..].iter_mut().zip(&*vector).for_each(|(x, y)| *x = y / length);
+        self.apply(0);
+        vector.copy_from_slice(&self.x[self.nv..]);
+        self.without_redundant(vector);
+        let size = norm(vector);
+        vector.iter_mut().for_each(|x| *x /= size);
+        (size.recip() - REGULARIZATION).max(0.0).sqrt()
+    }
+
+    /// x − (S + E)⁻¹ E x.
+    fn without_redundant(&mut self, vector: &mut [f64]) {
+        self.x[..self.nv].fill(0.0);
+        self.x[self.nv..].iter_mut().zip(&self.e).zip(&*vector).for_each(|((x, e), y)| *x = e * y);
+        self.apply(0);
+        vector.iter_mut().zip(&self.x[self.nv..]).for_each(|(y, x)| *y += x);
+    }
 }
 
 /// The pattern of [M Gᵀ; G −E].

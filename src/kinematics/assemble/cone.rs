@@ -11,12 +11,16 @@
 use super::close::System;
 use super::shake::Shake;
 use crate::geometry::Space;
-use crate::numerics::least_squares::{Rows, are_independent, left_open};
+use crate::numerics::least_squares::{Redundant, Rows, are_independent, left_open};
 use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
 /// Equations of second order below this part of a rotation's own say nothing.
 const NOTHING: f64 = 1e-7;
+
+/// What is left of a row that depends on others, and phases of the velocities that say whether it does so everywhere.
+const VANISHING: f64 = 1e-9;
+const PHASES: [f64; 3] = [0.0, 1.0, 2.0];
 
 /// Most parts that are looked for: those of a row of six four-bars.
 pub(super) const MOST: usize = 64;
@@ -59,6 +63,9 @@ impl<G: Space<S = f64>> System<'_, G> {
         if are_independent(&a, &self.metric, round_off) {
             return None;
         }
+        if self.are_redundant_everywhere(q, &rows, &a, round_off) {
+            return None;
+        }
         let a = a.to_dense(m.nv);
         let root: Vec<f64> = self.metric.iter().map(|d| d.sqrt()).collect();
         let open = left_open(round_off, &a, &self.metric);
@@ -92,6 +99,19 @@ impl<G: Space<S = f64>> System<'_, G> {
         };
         let forms: Vec<DMatrix<f64>> = (0..svd.values.len()).filter(|&s| svd.values[s] > NOTHING).map(form).collect();
         (!forms.is_empty()).then_some(Cone { open, forms })
+    }
+
+    /// Whether the rows A that depend on others say nothing to second order, of many velocities: none of lᵀγ has a value at velocities in
+    /// no special direction. False where that cannot be told so.
+    fn are_redundant_everywhere(&mut self, q: &[f64], rows: &[usize], a: &Rows, round_off: f64) -> bool {
+        let Some(redundant) = Redundant::new(a, &self.metric, VANISHING) else { return false };
+        are_independent(redundant.independent(), &self.metric, round_off)
+            && PHASES.into_iter().all(|phase| {
+                let Some(v) = redundant.motion(phase) else { return true };
+                let gamma = self.gamma(q, &v);
+                let of_rows: Vec<f64> = rows.iter().map(|&r| gamma[r]).collect();
+                redundant.largest(&of_rows) <= NOTHING
+            })
     }
 
     /// Rows that time does not move.

@@ -6,7 +6,7 @@
 use super::close::{CONVERGED, System};
 use super::metric::norm;
 use crate::geometry::Space;
-use crate::numerics::least_squares::{Rows, are_above, scaled, step};
+use crate::numerics::least_squares::{Redundant, Rows, are_above, scaled, step};
 use grashof_solvers::svd::Svd;
 use nalgebra::DMatrix;
 
@@ -52,6 +52,12 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn small(&mut self, q: &[f64]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
         let g = self.metric_rows(q);
         if are_above(&g, &self.metric, SMALL[1]) {
+            return None;
+        }
+        // redundant rows have values of round-off; the others may be large
+        let part = |of: &Rows| SMALL[1] * g.most(&self.metric) / of.most(&self.metric);
+        let large = |found: Redundant| are_above(found.independent(), &self.metric, part(found.independent()));
+        if Redundant::new(&g, &self.metric, SMALL[0]).is_some_and(large) {
             return None;
         }
         let g = scaled(&g, &self.metric);

@@ -2,10 +2,12 @@
 //! nothing, else by sparse factorisations.
 
 mod dense;
+mod redundant;
 mod rows;
 mod sparse;
 
 pub(crate) use dense::{left_open, shortest, shortest_beyond};
+pub(crate) use redundant::Redundant;
 pub(crate) use rows::{Level, Rows};
 
 use dense::FEW;
