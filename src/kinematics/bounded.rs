@@ -17,7 +17,7 @@ const FEW: usize = 16;
 const DEPTHS: [usize; 5] = [2, 4, 6, 8, 16];
 
 /// A bounded tree must be so many times cheaper: it brings rows that have to be kept closed.
-const CHEAPER: usize = 16;
+const CHEAPER: usize = 4;
 
 /// Joint coordinates, on a bounded tree where that is much cheaper.
 #[must_use]
