@@ -36,6 +36,8 @@ pub struct Pencil {
     pub metric: Vec<f64>,
     /// diag(G D⁻¹ Gᵀ) (rows).
     pub row_scale: Vec<f64>,
+    /// For each velocity the sum of the sizes of the forces on it, by a whole way (nv): what K is made of before it cancels.
+    pub grain: Vec<f64>,
     /// Number of independent motions.
     pub freedom: usize,
 }
@@ -175,6 +177,9 @@ impl HeldSparse {
         geodesic(mechanism, &r, |i, j, x| stiffness.set(i, j, stiffness.at(i, j) + x));
 
         let units = mechanism.units();
+        let mut grain: Vec<f64> = held.force.iter().map(|f| f.abs()).collect();
+        held.block.lines().zip(&lambda).for_each(|(line, l)| line.entries().for_each(|(j, g)| grain[j] += (g * l).abs()));
+        grain.iter_mut().zip(&units).for_each(|(grain, unit)| *grain /= unit);
         let stiff = stiffness.lines().zip(&units).map(|(line, u)| u * line.entries().map(|(j, k)| k.abs() * units[j]).sum::<f64>());
         let work = held.force.iter().zip(&units).map(|(f, u)| f.abs() * u).sum::<f64>() + stiff.sum::<f64>();
         let mut places = vec![0; candidates.len()];
@@ -191,6 +196,7 @@ impl HeldSparse {
                 rows: held.block.select_rows(&(0..rows).collect::<Vec<_>>()),
                 metric: metric.to_vec(),
                 row_scale: held.scale[..rows].to_vec(),
+                grain,
                 freedom: chosen.candidates.len(),
                 mass: held.mass,
             },

@@ -100,3 +100,14 @@ fn each_of_many_equal_modes_is_found() {
     close("λ", list(&outcome, "eigenvalues"), &right, 1e-10);
     assert_eq!(codes(&outcome).iter().filter(|code| **code == "unstable").count(), 6);
 }
+
+#[test]
+fn a_long_chain_that_is_held_level_has_free_motions() {
+    // gravity does not change with small turns about the level: K is round-off
+    let n = 150;
+    let text = format!("{}studies: {{ v: {{ modes: {{ lowest: 5 }} }} }}\n", chain(n, 0.1, false).replace("-90 deg", "0"));
+    let outcome = study(&text, "v", Coordinates::Joint);
+    assert_eq!(list(&outcome, "frequencies"), [0.0; 5]);
+    let found = codes(&outcome);
+    assert_eq!((found[0], &found[1..6], found[6]), ("unbalanced", &["free-motion"; 5][..], "lowest-modes"));
+}

@@ -99,7 +99,7 @@ pub fn full(k: &DMatrix<f64>, m: &DMatrix<f64>, count: usize, stop: &dyn Fn() ->
     };
     let n = k.nrows();
     let (metric, rows) = (m.diagonal().as_slice().to_vec(), Block::full(0, n));
-    let pencil = Pencil { mass: block(m), stiffness: block(k), rows, metric, row_scale: Vec::new(), freedom: n };
+    let pencil = Pencil { mass: block(m), stiffness: block(k), rows, metric, row_scale: Vec::new(), grain: vec![0.0; n], freedom: n };
     let Lowest { values, vectors, steps } = lowest(&pencil, count, stop)?;
     let mut vectors = DMatrix::from_iterator(n, vectors.len(), vectors.into_iter().flatten());
     for mut column in vectors.column_iter_mut() {
@@ -143,7 +143,7 @@ struct Pair<'a> {
     mass: Block,
     /// D^−½ and diag(G D⁻¹ Gᵀ)^−½.
     scale: Vec<f64>,
-    /// The largest entry of D^−½ K D^−½, 1/s²; 1 without any.
+    /// The largest entry of D^−½ K D^−½, or of what K is made of, 1/s²; 1 without any.
     size: f64,
 }
 
@@ -162,7 +162,7 @@ impl<'a> Pair<'a> {
         }
         let scale: Vec<f64> = pencil.metric.iter().chain(&pencil.row_scale).map(|x| x.sqrt().recip()).collect();
         let sizes = pattern.places().zip(stiffness.values()).map(|((i, j), k): (_, &f64)| (k * scale[i] * scale[j]).abs());
-        let size = sizes.fold(0.0, f64::max);
+        let size = sizes.chain(pencil.grain.iter().zip(&pencil.metric).map(|(grain, d)| grain / d)).fold(0.0, f64::max);
         Self { pencil, stiffness, mass, scale, size: if size > 0.0 { size } else { 1.0 } }
     }
 

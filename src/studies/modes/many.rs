@@ -108,7 +108,9 @@ fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value:
         x.iter_mut().for_each(|x| *x = -*x);
     }
     let line = |(line, xi): (grashof_solvers::Line<'_, f64>, &f64)| xi.abs() * line.entries().map(|(j, k)| (k * x[j]).abs()).sum::<f64>();
-    Undamped { value, shape, noise: ROUND_OFF * pencil.stiffness.lines().zip(x.iter()).map(line).sum::<f64>() }
+    let noise = pencil.stiffness.lines().zip(x.iter()).map(line).sum::<f64>();
+    let made_of: f64 = pencil.grain.iter().zip(x.iter()).map(|(grain, x)| grain * x * x).sum();
+    Undamped { value, shape, noise: ROUND_OFF * (noise + made_of) }
 }
 
 /// The independent coordinates of a vector (nv).
