@@ -213,14 +213,8 @@ fn hessian<S: Space<S = f64>>(m: &Mechanism<S>, q: &[f64], modes: &[i32], held: 
     })
 }
 
-#[test]
-fn stiffness_is_the_second_derivative_of_energy_where_the_pose_is_held() {
-    // far from balance: the multipliers of the holding forces make the curvature of the loop
-    let (m, q, modes, held1) = held::<Planar<f64>>(&four_bar(false, 4.0), Coordinates::Joint);
-    assert!(held1.unbalanced.amax() > 1.0);
-    close("one loop", held1.stiffness.as_slice(), hessian(&m, &q, &modes, &held1).as_slice(), 1e-7);
-    // turns of a ball do not commute: the second derivative along geodesics is symmetric off balance too
-    let ball = "grashof: 1
+/// Two bodies on balls and a rope, off balance.
+const TWO_BALLS: &str = "grashof: 1
 name: ball
 space: spatial
 gravity: [2, -9.81, 3]
@@ -233,8 +227,16 @@ joints:
   tip: { spherical: [top.tip, arm.origin] }
 springs: { rope: { between: [ground.P, arm.e], stiffness: 40, length: 0.2 } }
 ";
+
+#[test]
+fn stiffness_is_the_second_derivative_of_energy_where_the_pose_is_held() {
+    // far from balance: the multipliers of the holding forces make the curvature of the loop
+    let (m, q, modes, held1) = held::<Planar<f64>>(&four_bar(false, 4.0), Coordinates::Joint);
+    assert!(held1.unbalanced.amax() > 1.0);
+    close("one loop", held1.stiffness.as_slice(), hessian(&m, &q, &modes, &held1).as_slice(), 1e-7);
+    // turns of a ball do not commute: the second derivative along geodesics is symmetric off balance too
     for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
-        let (m, q, modes, held) = held::<Spatial<f64>>(ball, coordinates);
+        let (m, q, modes, held) = held::<Spatial<f64>>(TWO_BALLS, coordinates);
         assert!(held.unbalanced.amax() > 1.0, "{}", held.unbalanced);
         assert_eq!(held.circulation(), 0.0, "{coordinates:?}");
         close("two balls", held.stiffness.as_slice(), hessian(&m, &q, &modes, &held).as_slice(), 1e-6);

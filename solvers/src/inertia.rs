@@ -141,7 +141,8 @@ mod tests {
     use super::*;
     use crate::noise::Noise;
 
-    /// Number of negative eigenvalues of the sum of `vectors` times their signs, for as many independent vectors as the order.
+    /// The count for a matrix of order n with `negative` negative eigenvalues and the entries outside of the diagonal that `fill` keeps in
+    /// its factor T.
     fn counted(n: usize, negative: usize, fill: impl Fn(usize, usize, f64) -> bool) -> usize {
         let mut noise = Noise(7);
         // A = T D Tᵀ with a regular T

@@ -141,10 +141,15 @@ pub(crate) fn with_mass(mass: &DMatrix<f64>, names: &[String], place: &str) -> R
         None => worst(&mass.diagonal()),
     };
     let Some((i, _)) = massless else { return Ok(()) };
-    Err(Failure::Study {
+    Err(without_mass(&names[i], place))
+}
+
+/// That the motion of a coordinate of this name moves no mass.
+pub(crate) fn without_mass(name: &str, place: &str) -> Failure {
+    Failure::Study {
         code: "singular-mass",
-        message: format!("the motion of `{}` moves no mass, so it has no rate", names[i]),
+        message: format!("the motion of `{name}` moves no mass, so it has no rate"),
         place: place.into(),
         help: "give every moving body a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }`".into(),
-    })
+    }
 }

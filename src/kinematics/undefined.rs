@@ -1,7 +1,7 @@
 //! What has no value in a study: which law or column it is, where that stands in the file, and why.
 
 use super::assemble::{Assembled, assemble};
-use super::held::settled;
+use super::held::{Pose, settled};
 use crate::dynamics::Dynamics;
 use crate::expression::{Cause, Id};
 use crate::geometry::Space;
@@ -104,6 +104,14 @@ pub(crate) fn in_state<G: Space<S = f64>>(
     dynamics.terms(0.0, q, v, modes);
     dynamics.rates(modes);
     dynamics.undefined(modes).map(|law| of_law(model, &law, at))
+}
+
+/// That the forces of a mechanism at rest in a pose are no numbers, and why.
+pub(crate) fn not_finite<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, pose: Pose<'_>) -> Failure {
+    let rest = vec![0.0; mechanism.nv];
+    let undefined = in_state(model, mechanism, [pose.q, &rest, pose.z], pose.modes, "the pose");
+    let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
+    undefined.map_or_else(unknown, Failure::Undefined)
 }
 
 /// [`assemble`], where it fails because a law has no value told so.

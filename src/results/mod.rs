@@ -82,7 +82,7 @@ pub struct Results {
 pub struct Run {
     /// The swept values: `l3 = 0.3 m`.
     pub label: String,
-    /// What it has come to; none if it did not begin.
+    /// What it has come to; none if it did not begin. Drawings are those of the first run that has any.
     pub results: Option<Box<Results>>,
     /// What certifies its solution, if it solves.
     pub solution: Option<Solution>,

@@ -1,7 +1,7 @@
 //! The lowest modes by sparse matrices: those of full ones, in all coordinates, and those of closed forms.
 
 use super::chains::{chain, row};
-use super::{codes, four_bar, held, list};
+use super::{TWO_BALLS, codes, four_bar, held, list};
 use crate::common::{assembled, close, model, study};
 use grashof::dynamics::LANES;
 use grashof::geometry::{Planar, Space, Spatial};
@@ -52,6 +52,8 @@ fn a_pose_off_balance_has_the_eigenvalues_of_joint_coordinates_in_all() {
     // stretched out to a side: all joints are held
     let bent = chain(7, 0.4, false).replace("j3.angle: 0", "j3.angle: 70 deg").replace("j1.angle: -90 deg", "j1.angle: 20 deg");
     agree::<Planar<f64>>(&bent, &all, 1e-9);
+    // turns of balls do not commute: the curvature of their coordinates counts
+    agree::<Spatial<f64>>(TWO_BALLS, &[Joint], 1e-9);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::geometry::Space;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
 use crate::kinematics::held::{Held, Pose};
 use crate::kinematics::partition::{preferred, with_mass};
-use crate::kinematics::undefined::{assembled, in_state};
+use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::Coordinates;
 use crate::model::{Eigensolver, Modes};
 use crate::results::Failure;
@@ -22,6 +22,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Relative difference above which methods disagree.
 const AGREE: f64 = 1e-8;
+
 /// Runs a study of modes by full matrices.
 ///
 /// # Errors
@@ -38,11 +39,8 @@ where
         if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &lifted, &start, stop)? } else { held_start(&mechanism, &start) };
     let Still { q, z, modes, findings } = rest;
     let pose = Pose { q: &q, z: &z, modes: &modes };
-    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism)).map_err(|_| {
-        let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
-        let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
-        undefined.map_or_else(unknown, Failure::Undefined)
-    })?;
+    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism))
+        .map_err(|_| not_finite(model, &mechanism, pose))?;
     let all = coordinates(model, &mechanism);
     let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();
     let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();

@@ -9,8 +9,9 @@ use crate::geometry::Space;
 use crate::kinematics::bounded::cheapest;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::held::Pose;
+use crate::kinematics::partition::without_mass;
 use crate::kinematics::pencil::{HeldSparse, Pencil};
-use crate::kinematics::undefined::{assembled, in_state};
+use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::{Eigensolver, Model, Modes};
 use crate::results::Failure;
@@ -58,15 +59,13 @@ where
     };
     let Still { q, z, modes, findings } = rest;
     let pose = Pose { q: &q, z: &z, modes: &modes };
-    let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| {
-        let undefined = in_state(model, &mechanism, [pose.q, &vec![0.0; mechanism.nv], pose.z], pose.modes, "the pose");
-        let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
-        undefined.map_or_else(unknown, Failure::Undefined)
-    })?;
+    let held = HeldSparse::new(model, &mechanism, pose, &start.metric)
+        .map_err(|_| not_finite(model, &mechanism, pose))?;
     let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();
     let HeldSparse { pencil, independent, .. } = &held;
     if let Some(x) = lanczos::without_mass(pencil, MASSLESS) {
-        return Err(massless(independent, &x, &study.place));
+        let name = independent.get(shape(independent, &x).iamax()).map_or("", |(c, _)| &c.name);
+        return Err(without_mass(name, &study.place));
     }
     if pencil.circulation() > POTENTIAL {
         return Ok(None);
@@ -78,7 +77,7 @@ where
         report.balance(held.unbalanced.iter().zip(own.iter().map(|c| BALANCED * held.work / way(c))));
     }
     let wanted = asked.lowest.unwrap_or(LOWEST);
-    let Lowest { values, mut vectors, steps } = lanczos::lowest(pencil, wanted, stop).ok_or_else(not_converged)?;
+    let Lowest { values, mut vectors, steps } = lanczos::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
     report.list("steps_lanczos", "", vec![steps as f64]);
@@ -118,19 +117,11 @@ fn shape(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[f64]) -> DVector<
     DVector::from_iterator(independent.len(), independent.iter().map(|(_, line)| line.iter().map(|(j, s)| s * x[*j]).sum()))
 }
 
-/// That a motion moves no mass.
-fn massless(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[f64], place: &str) -> Failure {
-    let name = independent.get(shape(independent, x).iamax()).map_or("", |(c, _)| &c.name);
-    Failure::Study {
-        code: "singular-mass",
-        message: format!("the motion of `{name}` moves no mass, so it has no rate"),
-        place: place.into(),
-        help: "give every moving body a mass and an inertia, as `{ mass: 1 kg, inertia: 0.01 kg m^2 }`".into(),
+/// The iteration for the lowest modes has been stopped, or does not converge.
+fn not_found(stop: &dyn Fn() -> bool) -> Failure {
+    if stop() {
+        return Failure::interrupted();
     }
-}
-
-/// The iteration for the lowest modes has not ended.
-fn not_converged() -> Failure {
     Failure::numerical(
         "the lowest modes cannot be found: the iteration does not converge",
         "look for a stiffness that is too large for the masses that it acts on, ask for other numbers of modes by `lowest`, or for all by `methods: [library]`",
