@@ -1,10 +1,14 @@
 //! What other programs add to the library: force laws and integrators of their own.
 
+use crate::common::model;
 use allocation_counter::measure;
 use grashof::api::{PointMotion, Wrench};
-use grashof::output::{CsvRows, write_csv};
-use grashof::results::{Column, Sink};
+use grashof::output::{CsvRows, summary, write_csv};
+use grashof::results::{Column, Results, Sink};
 use grashof::solvers::{Control, Level, Method, Settings, Span, Stage, State, Tangent, Terms, schemes};
+use grashof::studies::common::case::{Case, Streamed, parameters};
+use grashof::studies::common::named::named;
+use grashof::studies::run::run;
 use grashof::{Mechanism, Model};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -279,6 +283,31 @@ fn rows_go_to_a_file_as_the_table_does() {
     }
     let nowhere = CsvRows::create(&directory.join("nowhere/swing.csv")).unwrap_err();
     assert!(nowhere.to_string().contains("nowhere/swing.csv"), "{nowhere}");
+}
+
+#[test]
+fn rows_that_are_streamed_leave_those_that_figures_need() {
+    let model = model(&SWING.replace("until: 1 s", "until: 1 s, every: 0.1 ms"), Some("swing"));
+    let study = model.study.as_ref().unwrap();
+    let all = named(&model, study, run(Case::new(&model, study, &parameters(&model)), &|| false).unwrap());
+    let kept = Kept::default();
+    let rows = Some(Streamed { sink: &kept, keep: 3_000 });
+    let some = named(&model, study, run(Case { rows, ..Case::new(&model, study, &parameters(&model)) }, &|| false).unwrap());
+    assert_eq!(kept.0.into_inner().unwrap().1.len(), all.table.rows());
+    assert_eq!((some.table.selected_from, all.table.selected_from), (Some(all.table.rows()), None));
+    assert!(some.table.rows() < all.table.rows() / 5, "{} of {}", some.table.rows(), all.table.rows());
+    // rows of the motion, among them those with its extremes, and the same numbers in everything else
+    let row = |r: &Results, i: usize| r.table.row(i).collect::<Vec<f64>>();
+    for i in 0..some.table.rows() {
+        let k = all.independent.values.iter().position(|t| *t == some.independent.values[i]).unwrap();
+        assert_eq!(row(&some, i), row(&all, k));
+    }
+    for (few, many) in some.table.columns.iter().zip(&all.table.columns) {
+        let ends = |values: &[f64]| [f64::min, f64::max].map(|best| values.iter().copied().reduce(best));
+        assert_eq!(ends(&few.values), ends(&many.values), "{}", few.name);
+    }
+    assert_eq!((&some.extremes, &some.scalars, some.certificate.evaluations), (&all.extremes, &all.scalars, all.certificate.evaluations));
+    assert!(summary(&some).contains(&format!("{} rows", all.table.rows())), "{}", summary(&some));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 mod references;
 
 use crate::problems::*;
-use grashof_solvers::{At, Block, Dims, Effect, Span, Stage, State, Tangent, Terms};
+use grashof_solvers::{At, Block, Control, Dims, Effect, Engine, Span, Stage, State, Tangent, Terms};
 
 /// Step of the differences, as a part of the scale: 4e-21 of the seventh derivative lost, 1e-13 of round-off.
 const H: f64 = 4e-4;
@@ -332,4 +332,21 @@ fn a_crossing_leads_to_the_mode_of_the_other_side() {
 fn crossed(problem: &mut dyn Problem, state: &mut State) -> (Effect, Vec<i32>) {
     let effect = problem.cross(0, state, &mut [0.0]);
     (effect, state.modes.clone())
+}
+
+#[test]
+fn a_state_is_near_the_constraints_if_its_position_and_velocity_are() {
+    let mut pendulum = Pendulum::new();
+    let mut engine = Engine::new(&pendulum, Control::Tolerance(1e-8));
+    let start = pendulum.start();
+    let mut is_near = |q: f64, v: f64| {
+        let mut state = start.clone();
+        state.q.iter_mut().for_each(|x| *x *= 1.0 + q);
+        // along the rod, whose length must not change
+        state.v.iter_mut().zip(&start.q).for_each(|(u, x)| *u += v * x);
+        engine.is_near(&mut pendulum, &state, 1e-6)
+    };
+    assert!(is_near(0.0, 0.0) && is_near(1e-8, 1e-8));
+    assert!(!is_near(1e-4, 0.0));
+    assert!(!is_near(0.0, 1e-4));
 }

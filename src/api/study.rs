@@ -5,7 +5,7 @@ use super::mechanism::Mechanism;
 use crate::model::{self, Document, INTEGRATORS, Integrator, Kind, Model, Selection};
 use crate::par;
 use crate::results::{Compared, Results, Sink, Unknown};
-use crate::studies::common::case::{Case, parameters};
+use crate::studies::common::case::{Case, Streamed, parameters};
 use crate::studies::common::named::named;
 use crate::studies::compare::{NoReference, Watch, compare};
 use crate::studies::integrators::{By, OwnIntegrator, Steps};
@@ -115,8 +115,8 @@ impl<'a> Study<'a> {
         let done = AtomicUsize::new(0);
         let count = |all: usize| (self.progress)(done.fetch_add(1, Ordering::Relaxed) + 1, all);
         if study.sweep.is_empty() {
-            let run = at(&model, study, Vec::new(), self.threads, &*self.stop, &|_, _| count(0));
-            return single(&model, study, &run).map_err(|failure| Error::failed(self.document, &self.name, failure));
+            let run = at(&model, study, Vec::new(), self.threads, None, &*self.stop, &|_, _| count(0));
+            return single(&model, study, run).map_err(|failure| Error::failed(self.document, &self.name, failure));
         }
         let all = grid(&model, study).len();
         let runs = sweep(&model, study, self.threads, Vec::new(), &|_| true, &*self.stop, &|_, _| count(all));
@@ -130,9 +130,9 @@ impl<'a> Study<'a> {
             return Err(Error::Refused { message, help: "take the table of each of its runs from the results".into() });
         }
         let values = parameters(model);
-        let case = Case { sink: Some(sink), ..Case::new(model, study, &values) };
+        let case = Case { rows: Some(Streamed { sink, keep: 0 }), ..Case::new(model, study, &values) };
         let outcome = run(case, &*self.stop).map_err(|failure| Error::failed(self.document, &self.name, failure))?;
-        Ok(named(model, study, &outcome))
+        Ok(named(model, study, outcome))
     }
 
     /// Computes a motion in time twice more, at a tenth of its tolerance and by a scheme of another family, and says how many digits

@@ -5,6 +5,7 @@ use super::shard::Part;
 use super::study::Job;
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_out, run};
+use grashof::output::Formats;
 use grashof::studies::loader::Loader;
 
 #[derive(clap::Args)]
@@ -33,7 +34,8 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: impl Fn(usize) -> S
     };
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let plots = !arguments.no_plots;
-    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, part: &Part::Whole, common };
+    let (formats, part) = (Formats::default(), &Part::Whole);
+    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, formats, part, common };
     let finished = job.run();
     if interrupted() {
         interrupt::print_end(&format!("interrupted: study `{name}`"));

@@ -98,7 +98,8 @@ pub(super) fn commit(staging: &Staging, directory: &Path, stem: &str, common: &C
     Ok(())
 }
 
-fn unwritable(error: &WriteError) -> u8 {
+/// Reports what could not be written.
+pub(super) fn unwritable(error: &WriteError) -> u8 {
     print_error(&error.to_string(), error.help());
     code::INPUT
 }

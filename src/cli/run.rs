@@ -7,6 +7,7 @@ use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, files, print_error, print_note, print_out};
 use grashof::model::{Document, Model, Selection};
+use grashof::output::Formats;
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::verify::verify;
 use std::collections::HashSet;
@@ -38,6 +39,9 @@ pub(super) struct Wanted {
     /// Write no figures
     #[arg(long)]
     no_plots: bool,
+    /// Formats of tables, with commas between them: csv, parquet
+    #[arg(long, value_name = "FORMATS", default_value = "csv", value_parser = formats)]
+    format: Formats,
     /// Judge expectations even if `--set`, `--variant` or `--over` change what is computed
     #[arg(long)]
     pub(super) expect: bool,
@@ -45,6 +49,22 @@ pub(super) struct Wanted {
     /// digits are certain
     #[arg(long)]
     verify: bool,
+}
+
+/// Formats by their names.
+fn formats(text: &str) -> Result<Formats, String> {
+    let mut formats = Formats { csv: false, parquet: false };
+    for name in text.split(',') {
+        match name.trim() {
+            "csv" => formats.csv = true,
+            "parquet" => formats.parquet = true,
+            other => return Err(format!("`{other}` is no format of tables: write csv, parquet, or csv,parquet")),
+        }
+    }
+    if !formats.are_built() {
+        return Err("this program was built without Parquet: build it with `cargo build --release --features parquet`".into());
+    }
+    Ok(formats)
 }
 
 /// Runs the studies of a model.
@@ -174,7 +194,7 @@ impl Request<'_> {
     /// report. An interrupt was reported.
     pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
         let Self { document, common, directory, part, .. } = *self;
-        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, part, common };
+        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, formats: self.wanted.format, part, common };
         let finished = job.run();
         if interrupted() {
             let what = match (&finished.output, finished.code) {

@@ -8,11 +8,15 @@ use super::shard::Part;
 use super::terminal::{print_interrupted, print_report};
 use super::{Common, code, files, print_error, print_note};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
-use grashof::output::{Figure, Picture, Staging, drawing, figures, summary, ten_digits, write_json};
+use grashof::output::{Figure, Formats, Picture, RowFiles, Staging, WriteError, drawing, figures, summary, tables, ten_digits, write_json};
 use grashof::par;
 use grashof::results::{Failure, Results};
+use grashof::studies::common::case::Streamed;
 use grashof::studies::sweep::{at, single};
 use std::path::Path;
+
+/// Numbers that are kept in memory of the rows of a motion, for its figures.
+const KEPT: usize = 4_000_000;
 
 /// A study to run, and where its results go.
 pub(super) struct Job<'a> {
@@ -22,6 +26,7 @@ pub(super) struct Job<'a> {
     pub(super) study: &'a str,
     pub(super) directory: &'a Path,
     pub(super) plots: bool,
+    pub(super) formats: Formats,
     pub(super) part: &'a Part,
     pub(super) common: &'a Common,
 }
@@ -84,16 +89,19 @@ impl Job<'_> {
         let column = |shown: &Shown| matches!(shown.what, ShownWhat::Column(_));
         let plots = study.plots.iter().filter(|plot| self.plots && plot.show.iter().chain(&plot.over).all(column));
         let plots = plots.flat_map(|plot| ["svg", "png"].map(|end| format!("{}-{}.{end}", self.study, plot.name)));
-        ["csv", "json"].map(|end| format!("{}.{end}", self.study)).into_iter().chain(plots).collect()
+        let ends = self.formats.ends().into_iter().chain(["json"]);
+        ends.map(|end| format!("{}.{end}", self.study)).chain(plots).collect()
     }
 
     /// A study of one run, or of those that a `solve` takes to find one.
     fn single(&self, study: &Study) -> Finished {
         let progress = Progress::open(self.study, self.common.quiet || study.solve.is_none());
         let show = |x: f64, scalar: f64| progress.show(&self.trial(study, x, scalar));
-        let run = at(self.model, study, Vec::new(), self.common.threads(), &interrupted, &show);
+        let rows = RowFiles::new(self.directory, self.formats);
+        let streamed = Some(Streamed { sink: &rows, keep: KEPT });
+        let run = at(self.model, study, Vec::new(), self.common.threads(), streamed, &interrupted, &show);
         drop(progress);
-        let results = match single(self.model, study, &run) {
+        let results = match single(self.model, study, run) {
             Ok(results) => results,
             Err(_) if interrupted() => return Finished::nothing(code::INTERRUPTED),
             Err(failure) => return Finished::nothing(self.explain(&failure)),
@@ -122,6 +130,9 @@ impl Job<'_> {
             code = code.max(self.expectations(&results));
         }
         let mut staging = Staging::new();
+        if let Err(unwritten) = self.table(&mut staging, rows, &results) {
+            return Finished::nothing(code.max(unwritten));
+        }
         grashof::output::files(self.study, &results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
         // who interrupts a motion wants its rows, and no waiting for figures
         if self.plots && !interrupted() {
@@ -129,6 +140,22 @@ impl Job<'_> {
         }
         let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results) };
         Finished { computed: vec![values(&results)], ..self.write(&staging, code, output) }
+    }
+
+    /// The files of the table: of rows that went out as they were computed, or made of the results; what is wrong was reported.
+    fn table(&self, staging: &mut Staging, rows: RowFiles, results: &Results) -> Result<(), u8> {
+        match rows.finish().map_err(|error| files::unwritable(&error))? {
+            Some(files) => files.into_iter().for_each(|(end, bytes)| staging.add_spooled(format!("{}{end}", self.study), bytes)),
+            None => self.add(staging, tables(self.study, &results.table, self.formats))?,
+        }
+        Ok(())
+    }
+
+    /// Adds files that an encoder has made; what is wrong was reported.
+    fn add(&self, staging: &mut Staging, made: Result<Vec<(String, Vec<u8>)>, WriteError>) -> Result<(), u8> {
+        let files = made.map_err(|error| files::unwritable(&error))?;
+        files.into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
+        Ok(())
     }
 
     /// A run of a `solve`, beside its progress.

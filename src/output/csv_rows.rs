@@ -1,28 +1,21 @@
 //! Rows that go to a CSV file as they are computed, so that a long run takes no memory for them.
 
-use super::csv::push_line;
+use super::csv::{push_line, quoted};
+use super::row_writer::{RowWriter, Target, Writers};
 use super::write_error::WriteError;
 use crate::results::{Column, Sink, number};
 use std::borrow::Cow;
+use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A sink that writes the columns of a run to a CSV file: the bytes of the table's.
 ///
 /// Until [`CsvRows::finish`] the rows lie beside it in a file `.NAME.new`, which is removed if it is not called.
-#[derive(Debug)]
 pub struct CsvRows {
     path: PathBuf,
-    written: Mutex<Written>,
-}
-
-#[derive(Debug)]
-struct Written {
-    file: BufWriter<File>,
-    line: String,
-    failed: Option<io::Error>,
+    lines: Option<Writers<File>>,
 }
 
 impl CsvRows {
@@ -31,27 +24,24 @@ impl CsvRows {
     /// # Errors
     /// The path and the system's reason.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
-        let failed = |cause| WriteError { path: path.to_owned(), cause };
-        let file = File::create(beside(path)).map_err(failed)?;
-        let written = Written { file: BufWriter::new(file), line: String::new(), failed: None };
-        Ok(Self { path: path.to_owned(), written: Mutex::new(written) })
+        let file = File::create(beside(path)).map_err(|cause| WriteError { path: path.to_owned(), cause })?;
+        Ok(Self { path: path.to_owned(), lines: Some(Writers::new(vec![Box::new(CsvLines::new(file))])) })
     }
 
     /// Gives the file its name, in place of one that is there.
     ///
     /// # Errors
     /// The path and the system's reason, of the first row that could not be written as well.
-    pub fn finish(self) -> Result<(), WriteError> {
-        let mut written = self.written();
-        let done = match written.failed.take() {
-            Some(cause) => Err(cause),
-            None => written.file.flush().and_then(|()| fs::rename(beside(&self.path), &self.path)),
-        };
+    pub fn finish(mut self) -> Result<(), WriteError> {
+        let written = self.lines.take().map_or(Ok(None), Writers::end);
+        let done = written.and_then(|_| fs::rename(beside(&self.path), &self.path));
         done.map_err(|cause| WriteError { path: self.path.clone(), cause })
     }
+}
 
-    fn written(&self) -> MutexGuard<'_, Written> {
-        self.written.lock().unwrap_or_else(PoisonError::into_inner)
+impl fmt::Debug for CsvRows {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("CsvRows").field("path", &self.path).finish_non_exhaustive()
     }
 }
 
@@ -62,33 +52,55 @@ impl Drop for CsvRows {
     }
 }
 
+impl Sink for CsvRows {
+    fn begin(&self, independent: &Column, columns: &[Column]) {
+        self.lines.iter().for_each(|lines| lines.begin(independent, columns));
+    }
+
+    fn row(&self, place: f64, values: &[f64]) {
+        self.lines.iter().for_each(|lines| lines.row(place, values));
+    }
+}
+
 /// Where the rows lie until the file is finished.
 fn beside(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.new"))
 }
 
-impl Written {
-    /// Writes a line, unless an earlier one could not be.
-    fn line<'a>(&mut self, fields: impl Iterator<Item = Cow<'a, str>>) {
+/// The lines of a CSV file.
+pub(super) struct CsvLines<T: Target> {
+    file: BufWriter<T>,
+    line: String,
+}
+
+impl<T: Target> CsvLines<T> {
+    pub(super) fn new(file: T) -> Self {
+        Self { file: BufWriter::new(file), line: String::new() }
+    }
+
+    fn line<'a>(&mut self, fields: impl Iterator<Item = Cow<'a, str>>) -> io::Result<()> {
         self.line.clear();
         push_line(&mut self.line, fields);
-        if self.failed.is_none() {
-            self.failed = self.file.write_all(self.line.as_bytes()).err();
-        }
+        self.file.write_all(self.line.as_bytes())
     }
 }
 
-impl Sink for CsvRows {
-    fn begin(&self, _independent: &Column, columns: &[Column]) {
-        let mut written = self.written();
-        // the rows before do not count
-        let emptied = written.file.rewind().and_then(|()| written.file.get_ref().set_len(0));
-        written.failed = written.failed.take().or(emptied.err());
-        written.line(columns.iter().map(|column| super::csv::quoted(&column.name)));
+impl<T: Target> RowWriter<T> for CsvLines<T> {
+    fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
+        self.file.flush()?;
+        self.file.get_mut().empty()?;
+        self.line(columns.iter().map(|column| quoted(&column.name)))
     }
 
-    fn row(&self, _place: f64, values: &[f64]) {
-        self.written().line(values.iter().map(|value| Cow::Owned(number(*value))));
+    fn row(&mut self, values: &[f64]) -> io::Result<()> {
+        if values.is_empty() {
+            return Ok(());
+        }
+        self.line(values.iter().map(|value| Cow::Owned(number(*value))))
+    }
+
+    fn end(self: Box<Self>) -> io::Result<T> {
+        self.file.into_inner().map_err(io::IntoInnerError::into_error)
     }
 }

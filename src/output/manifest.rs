@@ -5,6 +5,7 @@
 //! work. While a set is being written the record also holds the new sizes and checksums, so that a run that was killed leaves
 //! behind what is needed to finish its work. A record that is damaged, or is no plain file, is none.
 
+use super::content::Content;
 use super::write_error::WriteError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -75,11 +76,18 @@ impl Sum {
 }
 
 impl Mark {
-    /// That of these bytes.
-    pub(super) fn of(bytes: &[u8]) -> Self {
-        let mut sum = Sum::new();
-        sum.add(bytes);
-        Self { size: bytes.len() as u64, sum: sum.text() }
+    /// That of a content.
+    ///
+    /// # Errors
+    /// The system's reason why it cannot be read.
+    pub(super) fn of(content: &Content) -> io::Result<Self> {
+        let (mut sum, mut size) = (Sum::new(), 0);
+        content.parts(&mut |part| {
+            sum.add(part);
+            size += part.len() as u64;
+            Ok(())
+        })?;
+        Ok(Self { size, sum: sum.text() })
     }
 
     /// Whether there is a plain file at this path, no link, whose content has this mark.
@@ -147,7 +155,7 @@ impl Manifest {
             let text = serde_json::to_string_pretty(self).map_err(io::Error::other)?;
             // one that a killed run has left
             let _ = fs::remove_file(&new);
-            put(&new, text.as_bytes(), &|| false)?;
+            put(&new, &Content::Bytes(text.into_bytes()), &|| false)?;
             fs::rename(&new, &path)
         };
         write().map_err(|cause| {
@@ -171,20 +179,17 @@ impl Manifest {
     }
 }
 
-/// Bytes that are written between two questions whether to stop.
-const PART: usize = 1 << 20;
-
 /// Writes a file that must not be there yet, through to the disc; links are not followed. `stop` is asked on the way.
 ///
 /// # Errors
 /// The system's reason; [`io::ErrorKind::Interrupted`] if it was to stop.
-pub(super) fn put(path: &Path, bytes: &[u8], stop: &dyn Fn() -> bool) -> io::Result<()> {
+pub(super) fn put(path: &Path, content: &Content, stop: &dyn Fn() -> bool) -> io::Result<()> {
     let mut file = File::create_new(path)?;
-    for part in bytes.chunks(PART) {
+    content.parts(&mut |part| {
         if stop() {
             return Err(io::ErrorKind::Interrupted.into());
         }
-        file.write_all(part)?;
-    }
+        file.write_all(part)
+    })?;
     file.sync_all()
 }

@@ -1,10 +1,11 @@
 //! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
 //!
 //! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
-//! pure but [`Staging::commit`], [`prepare`] and [`CsvRows`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
+//! pure but [`Staging::commit`], [`prepare`], [`CsvRows`] and [`RowFiles`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 pub mod comparison;
+mod content;
 mod csv;
 mod csv_rows;
 mod drawing;
@@ -19,11 +20,15 @@ mod manifest;
 mod mat;
 mod matrices;
 mod panel;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod picture;
 mod plot;
 mod pose;
 mod raster;
 mod results_schema;
+mod row_files;
+mod row_writer;
 mod scalars;
 mod scene;
 mod staging;
@@ -36,20 +41,24 @@ mod units;
 mod write_error;
 
 pub use crate::results::number;
+pub use content::Spooled;
 pub use csv::write_csv;
 pub use csv_rows::CsvRows;
 pub use drawing::render_drawing;
 pub use figure::render_figure;
 pub use figures::{drawing, figures};
-pub use formats::{files, run_files};
+pub use formats::{Formats, files, run_files, tables};
 pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
 pub use matrices::matrices;
+#[cfg(feature = "parquet")]
+pub use parquet::write_parquet;
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use raster::RenderError;
 pub use results_schema::results_schema;
+pub use row_files::RowFiles;
 pub use scalars::ten_digits;
 pub use staging::{Staging, Written, prepare};
 pub use text::summary;

@@ -1,12 +1,13 @@
 //! Files of a study, written as one set.
 //!
-//! Everything is made in memory first. Then each file is written under a temporary name in the target directory, and when all of
+//! Everything is made first, in memory or, rows of a long motion, in files without names. Then each file is written under a temporary name in the target directory, and when all of
 //! them lie there, each is renamed over the one before, so that under its name stands at every instant the old file or the new
 //! one. The record of the directory ([`super::manifest`]) names the set before its first byte is written: a run that is killed on
 //! the way leaves an old set and temporary files, or all that is needed to finish the new set, and the next run in the directory
 //! clears the one or does the other. A lock on the directory lets only one run write there at a time; the system drops it when a
 //! run dies. Where a file system has no locks, runs at the same time need directories of their own.
 
+use super::content::{Content, Spooled};
 use super::manifest::{Entry, Manifest, Mark, Writing, is_plain, put, set_of};
 use super::write_error::WriteError;
 use crate::par;
@@ -21,7 +22,7 @@ const WRITERS: usize = 8;
 /// The files of one study, not yet on the disc.
 #[derive(Clone, Debug, Default)]
 pub struct Staging {
-    files: Vec<(String, Vec<u8>)>,
+    files: Vec<(String, Content)>,
     /// Names of the files.
     names: HashSet<String>,
 }
@@ -43,11 +44,19 @@ impl Staging {
 
     /// Adds a file; one of the same name is replaced.
     pub fn add(&mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
-        let name = name.into();
+        self.put(name.into(), Content::Bytes(bytes.into()));
+    }
+
+    /// Adds a file whose bytes may be many; one of the same name is replaced.
+    pub fn add_spooled(&mut self, name: impl Into<String>, bytes: Spooled) {
+        self.put(name.into(), Content::Spooled(bytes));
+    }
+
+    fn put(&mut self, name: String, content: Content) {
         if !self.names.insert(name.clone()) {
             self.files.retain(|(known, _)| *known != name);
         }
-        self.files.push((name, bytes.into()));
+        self.files.push((name, content));
     }
 
     /// Writes all files into `directory` (made if missing) and removes what an earlier run of `study` is recorded to have left and
@@ -91,7 +100,11 @@ impl Staging {
         fs::create_dir_all(directory).map_err(|cause| failed(directory, cause))?;
         let lock = lock(directory);
         let (mut manifest, notes) = recovered(directory)?;
-        let marks: BTreeMap<String, Mark> = self.files.iter().map(|(name, bytes)| (name.clone(), Mark::of(bytes))).collect();
+        let mark = |(name, content): &(String, Content)| match Mark::of(content) {
+            Ok(mark) => Ok((name.clone(), mark)),
+            Err(cause) => Err(failed(&directory.join(name), cause)),
+        };
+        let marks: BTreeMap<String, Mark> = self.files.iter().map(mark).collect::<Result<_, _>>()?;
         for (name, _) in &self.files {
             may_replace(directory, name, marks.get(name), &manifest, force)?;
         }

@@ -31,11 +31,11 @@ impl Scratch {
     /// A run of study `a` that dies when it has renamed this many of its files.
     fn killed(&self, files: &[(&str, &str)], renamed: usize) {
         let mut manifest = Manifest::read(&self.0);
-        let marks: BTreeMap<String, Mark> = files.iter().map(|(name, text)| ((*name).into(), Mark::of(text.as_bytes()))).collect();
+        let marks: BTreeMap<String, Mark> = files.iter().map(|(name, text)| ((*name).into(), Mark::of(&bytes(text)).unwrap())).collect();
         let writing = Writing { study: "a".into(), set: set_of(&marks), suffix: ".new-0.0".into(), files: marks };
         manifest.writing = Some(writing.clone());
         manifest.store(&self.0).unwrap();
-        files.iter().for_each(|(name, text)| put(&writing.temporary(&self.0, name), text.as_bytes(), &|| false).unwrap());
+        files.iter().for_each(|(name, text)| put(&writing.temporary(&self.0, name), &bytes(text), &|| false).unwrap());
         for (name, _) in &files[..renamed] {
             fs::rename(writing.temporary(&self.0, name), self.0.join(name)).unwrap();
         }
@@ -46,6 +46,10 @@ impl Drop for Scratch {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
+}
+
+fn bytes(text: &str) -> Content {
+    Content::Bytes(text.into())
 }
 
 fn staged(files: &[(&str, &str)]) -> Staging {
@@ -163,7 +167,7 @@ fn a_record_that_lies_reaches_nothing_outside_and_nobody_s_own() {
     staged(&[("a.csv", "1")]).commit(&out, "a", false).unwrap();
     fs::write(out.join("a-mine.csv"), "own").unwrap();
     let good = fs::read_to_string(out.join(NAME)).unwrap();
-    let mark = serde_json::to_value(Mark::of(b"own")).unwrap();
+    let mark = serde_json::to_value(Mark::of(&bytes("own")).unwrap()).unwrap();
     let entry = format!("{{\"study\": \"a\", \"set\": \"\", \"size\": 3, \"sum\": {}}}", mark["sum"]);
     let marks = mark.to_string();
     for text in [

@@ -62,7 +62,8 @@ fn range(results: &Results) -> String {
     let unit = results.independent.shown_in.as_ref().map_or_else(String::new, |_| format!(" {unit}"));
     let end = |x: Option<&f64>| place(x.map(|x| x / size).as_ref());
     let (from, to) = (end(places.first()), end(places.last()));
-    format!("  {} rows over {} from {from} to {to}{unit}{switches}\n", places.len(), results.independent.name)
+    let count = results.table.selected_from.unwrap_or(places.len());
+    format!("  {count} rows over {} from {from} to {to}{unit}{switches}\n", results.independent.name)
 }
 
 fn place(x: Option<&f64>) -> String {

@@ -19,6 +19,13 @@ impl Rows {
         Self { width, values: Vec::new() }
     }
 
+    /// Rows of so many numbers each, one behind the other.
+    #[must_use]
+    pub fn of(width: usize, values: Vec<f64>) -> Self {
+        debug_assert!(width == 0 || values.len().is_multiple_of(width), "a row of another width");
+        Self { width, values }
+    }
+
     /// Adds a row, of as many numbers as the others.
     pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
         self.values.extend(row);

@@ -50,6 +50,8 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Rows that stand just before a located switch; the row that follows has the bit-equal independent variable and stands after.
     pub switches: Vec<usize>,
+    /// How many rows these were selected from for figures, where all of them went elsewhere; none if these are all.
+    pub selected_from: Option<usize>,
     /// For the runs of a sweep why each has no whole result; empty where it has.
     pub reasons: Option<Vec<String>>,
 }

@@ -200,7 +200,7 @@ fn observe<G: Space<S = f64>>(
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
     let certificate = Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) };
-    let Recorded { places, switches, rows } = rows.recorded();
+    let Recorded { places, switches, rows, selected_from } = rows.recorded();
     Ok(Outcome {
         stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
         undefined,
@@ -209,6 +209,7 @@ fn observe<G: Space<S = f64>>(
         places,
         switches,
         rows,
+        selected_from,
         results,
         scalars: numbers.scalars,
         extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
@@ -300,11 +301,10 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
 /// Residuals over the rows.
 fn certificate<G: Space<S = f64>>(motion: &mut Motion<'_, G>, rows: &Recorder<'_>) -> Certificate {
     let mut certificate =
-        Certificate { evaluations: rows.progress.len(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
+        Certificate { evaluations: rows.count(), switches: motion.breaks.len().saturating_sub(2), ..Certificate::default() };
     let mut nothing = vec![0.0; Curve::columns(motion)];
-    let every = (rows.progress.len() / 64).max(1);
-    for (s, piece) in rows.progress.iter().zip(&rows.pieces).step_by(every) {
-        if motion.eval(*s, *piece, &mut nothing).is_err() {
+    for (s, piece) in rows.some_places(64) {
+        if motion.eval(s, piece, &mut nothing).is_err() {
             continue;
         }
         let d = &motion.driven;

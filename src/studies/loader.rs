@@ -60,11 +60,11 @@ impl<'d> Loader<'d> {
         let model = self.model(selection, stop)?;
         let Some(study) = &model.study else { return Ok(Vec::new()) };
         let failed = |failure: Failure| NotLoaded::Failed { study: study.name.clone(), failure };
-        let outcome = at(&model, study, Vec::new(), self.threads, stop, &|_, _| {}).result.map_err(failed)?;
+        let outcome = at(&model, study, Vec::new(), self.threads, None, stop, &|_, _| {}).result.map_err(failed)?;
         if let Some(reason) = &outcome.stopped {
             return Err(NotLoaded::Stopped { study: of.into(), of: study.name.clone(), reason: reason.clone() });
         }
-        Ok(numbers(&named(&model, study, &outcome)))
+        Ok(numbers(&named(&model, study, *outcome)))
     }
 }
 
@@ -83,11 +83,12 @@ pub fn quickly(document: &Document, selection: &Selection<'_>) -> Result<Option<
             return Ok(None);
         }
         let hindered = |why: &str| format!("study `{}` takes a scalar of `{}`: {why}", selection.study.unwrap_or_default(), take.study);
-        let outcome = at(&other, asked, Vec::new(), 1, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
+        let outcome =
+            at(&other, asked, Vec::new(), 1, None, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
         if let Some(why) = &outcome.stopped {
             return Err(hindered(why));
         }
-        taken.push(number(&numbers(&named(&other, asked, &outcome)), &take.scalar));
+        taken.push(number(&numbers(&named(&other, asked, *outcome)), &take.scalar));
     }
     if !taken.is_empty() {
         model.give(&taken);

@@ -1,6 +1,6 @@
 //! Sweeps: one study at many parameter values; failed runs are rows with a reason.
 
-use super::common::case::{Case, parameters, parameters_with};
+use super::common::case::{Case, Streamed, parameters, parameters_with};
 use super::common::named::{self, named};
 use super::run::run;
 use super::solve::{Solved, Task, solve};
@@ -50,13 +50,14 @@ pub fn grid(model: &Model, study: &Study) -> Vec<Vec<f64>> {
     points
 }
 
-/// The study at one point of its sweep (an empty one if it has none), solved if it has a `solve`; `done` is told the parameter and
-/// the scalar of each run of a `solve`.
+/// The study at one point of its sweep (an empty one if it has none), solved if it has a `solve`; `rows` takes the rows of a motion that is
+/// not solved, and `done` is told the parameter and the scalar of each run of a `solve`.
 pub fn at(
     model: &Model,
     study: &Study,
     point: Vec<f64>,
     threads: usize,
+    rows: Option<Streamed<'_>>,
     stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(f64, f64) + Sync),
 ) -> Run {
@@ -66,7 +67,10 @@ pub fn at(
             Ok((outcome, solved)) => (Some(solved), Ok(Box::new(outcome))),
             Err(failure) => (None, Err(failure)),
         },
-        None => (None, run(Case::new(model, study, &parameters_with(model, &set)), stop).map(Box::new)),
+        None => {
+            let values = parameters_with(model, &set);
+            (None, run(Case { rows, ..Case::new(model, study, &values) }, stop).map(Box::new))
+        }
     };
     Run { at: point, solved, result }
 }
@@ -98,7 +102,7 @@ pub fn sweep(
             if stop() {
                 return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
-            let mut run = at(model, study, point.clone(), 1, stop, &|_, _| {});
+            let mut run = at(model, study, point.clone(), 1, None, stop, &|_, _| {});
             if let Ok(outcome) = &mut run.result
                 && first.fetch_min(*i, Ordering::Relaxed) < *i
             {
@@ -121,9 +125,9 @@ pub fn sweep(
 ///
 /// # Errors
 /// Why there is nothing.
-pub fn single(model: &Model, study: &Study, run: &Run) -> Result<Results, Failure> {
-    let outcome = run.result.as_ref().map_err(Clone::clone)?;
-    Ok(Results { solution: solution(model, study, run), ..named(model, study, outcome) })
+pub fn single(model: &Model, study: &Study, run: Run) -> Result<Results, Failure> {
+    let solution = solution(model, study, &run);
+    Ok(Results { solution, ..named(model, study, *run.result?) })
 }
 
 /// What the runs of a sweep have come to: a table with a row for each, and the results of each. `each` gets the latter with their number
@@ -132,7 +136,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
     let labelled = |(i, run): (usize, Run)| {
         let solution = solution(model, study, &run);
         let label = label(model, study, &run.at);
-        let mut results = run.result.ok().map(|outcome| Box::new(named(model, study, &outcome)));
+        let mut results = run.result.ok().map(|outcome| Box::new(named(model, study, *outcome)));
         results.iter_mut().for_each(|results| each(i, results));
         results::Run { label, results, solution }
     };
@@ -214,5 +218,5 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
         Ok(outcome) => outcome.stopped.clone().unwrap_or_default(),
         Err(failure) => failure.reason(),
     };
-    Table { columns, switches: Vec::new(), reasons: Some(runs.iter().map(reason).collect()) }
+    Table { columns, reasons: Some(runs.iter().map(reason).collect()), ..Table::default() }
 }

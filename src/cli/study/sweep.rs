@@ -7,7 +7,7 @@ use super::super::shard::Shard;
 use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
 use grashof::model::{ShownWhat, Study};
-use grashof::output::{Staging, figures, files, run_files, summary, write_json};
+use grashof::output::{Staging, figures, files, run_files, summary, tables, write_json};
 use grashof::results::Results;
 use grashof::studies::sweep::{self, Run, together};
 use std::fs;
@@ -147,15 +147,20 @@ impl Job<'_> {
         let mut staging = Staging::new();
         let mut computed = Vec::new();
         let mut first = None;
+        let mut unwritten = None;
         let results = together(self.model, study, runs, &mut |i, run| {
             code = code.max(self.expectations(run));
             computed.push(values(run));
-            run_files(self.study, i + 1, run).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
+            unwritten = unwritten.max(self.add(&mut staging, run_files(self.study, i + 1, run, self.formats)).err());
             if first.is_none() {
                 first = Some(run.clone());
             }
             *run = remaining(study, std::mem::take(run));
         });
+        unwritten = unwritten.max(self.add(&mut staging, tables(self.study, &results.table, self.formats)).err());
+        if let Some(unwritten) = unwritten {
+            return Finished::nothing(code.max(unwritten));
+        }
         files(self.study, &results).into_iter().for_each(|(name, bytes)| staging.add(name, bytes));
         if let (true, Some(first)) = (self.plots, &first) {
             self.draw(&mut staging, figures(&results), first);

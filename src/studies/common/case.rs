@@ -16,15 +16,24 @@ pub struct Case<'a> {
     pub parameters: &'a [f64],
     /// The integrator of a motion in time, if it is not the one that the study names.
     pub integrator: Option<&'a OwnIntegrator>,
-    /// Takes the rows instead of the table.
-    pub sink: Option<&'a dyn Sink>,
+    /// Where rows go as they are computed; none: they are all kept.
+    pub rows: Option<Streamed<'a>>,
+}
+
+/// Who takes the rows of a motion as they are computed, and what is kept of them.
+#[derive(Clone, Copy)]
+pub struct Streamed<'a> {
+    /// Takes them.
+    pub sink: &'a dyn Sink,
+    /// How many numbers are to be kept, about: more rows are thinned to those that figures need. With 0 none is kept.
+    pub keep: usize,
 }
 
 impl<'a> Case<'a> {
     /// A study of a model at values of its parameters, by the integrator that it names.
     #[must_use]
     pub fn new(model: &'a Model, study: &'a Study, parameters: &'a [f64]) -> Self {
-        Case { model, study, parameters, integrator: None, sink: None }
+        Case { model, study, parameters, integrator: None, rows: None }
     }
 
     /// The value of an expression of parameters, SI.

@@ -11,6 +11,7 @@ pub mod outcome;
 pub(crate) mod pieces;
 pub(crate) mod recorder;
 pub(crate) mod scene;
+mod selection;
 pub(crate) mod stops;
 pub mod switching;
 pub mod watched;

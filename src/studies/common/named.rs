@@ -8,31 +8,32 @@ use crate::results::{By, Column, LinearSystem, Plot, Results, Scalar, ShownIn, T
 
 /// What one run of a study has come to, with names.
 #[must_use]
-pub fn named(model: &Model, study: &Study, outcome: &Outcome) -> Results {
+pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
     let columns = study.columns.iter();
-    let (table, curves) = tables(model, study, outcome);
+    let scalars = scalars(model, study, &outcome);
+    let (table, curves) = tables(model, study, &mut outcome);
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
         kind: study.kind.name().into(),
         place: study.place.clone(),
-        stopped: outcome.stopped.clone(),
-        undefined: outcome.undefined.clone(),
         parameters: parameters(model, outcome.parameters.iter().map(|(_, value)| *value)),
-        independent: column(model, &outcome.independent, study.independent.unwrap_or(Dimension::NONE), outcome.places.clone()),
+        independent: column(model, &outcome.independent, study.independent.unwrap_or(Dimension::NONE), outcome.places),
         table,
         curves,
-        scalars: scalars(model, study, outcome),
+        scalars,
         extremes: columns.zip(&outcome.extremes).map(|(c, extremes)| (c.name.clone(), *extremes)).collect(),
-        lists: outcome.lists.clone(),
-        shapes: outcome.shapes.clone(),
-        linear: outcome.linear.clone(),
-        events: outcome.events.clone(),
-        expectations: outcome.expectations.clone(),
-        findings: outcome.findings.clone(),
-        certificate: outcome.certificate.clone(),
+        stopped: outcome.stopped,
+        undefined: outcome.undefined,
+        lists: outcome.lists,
+        shapes: outcome.shapes,
+        linear: outcome.linear,
+        events: outcome.events,
+        expectations: outcome.expectations,
+        findings: outcome.findings,
+        certificate: outcome.certificate,
         solution: None,
-        scenes: outcome.scenes.clone(),
+        scenes: outcome.scenes,
         plots: plots(study),
         runs: Vec::new(),
     }
@@ -85,20 +86,23 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
 }
 
 /// The table of the kind, and the curves that only figures show.
-fn tables(model: &Model, study: &Study, outcome: &Outcome) -> (Table, Vec<Column>) {
+fn tables(model: &Model, study: &Study, outcome: &mut Outcome) -> (Table, Vec<Column>) {
     match study.kind {
         Kind::Modes(_) => return (modes(model, outcome), Vec::new()),
         Kind::Linearize(_) => return (outcome.linear.as_ref().map_or_else(Table::default, state), Vec::new()),
         _ => {}
     }
-    let values = |k: usize| if k < outcome.rows.width() { outcome.rows.column(k).collect() } else { Vec::new() };
+    // rows are not kept beside their columns
+    let rows = std::mem::take(&mut outcome.rows);
+    let values = |k: usize| if k < rows.width() { rows.column(k).collect() } else { Vec::new() };
     let columns = study.columns.iter().enumerate().map(|(k, c)| column(model, &c.name, c.dimension, values(k))).collect();
     let shown = study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
     let named = |id| shown.clone().find(|s| s.what == ShownWhat::Column(id));
     let extra = extra_curves(study).into_iter().enumerate();
     let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(model, &s.name, s.dimension, values(study.columns.len() + k))));
     let curves = curves.collect();
-    (Table { columns, switches: outcome.switches.clone(), reasons: None }, curves)
+    let (switches, selected_from) = (std::mem::take(&mut outcome.switches), outcome.selected_from);
+    (Table { columns, switches, selected_from, reasons: None }, curves)
 }
 
 /// The outputs in the state of a linearised motion, one row.

@@ -22,6 +22,9 @@ pub struct Outcome {
     pub switches: Vec<usize>,
     /// Columns of each row, in the order of `study.columns`, then the curves that only figures show.
     pub rows: Rows,
+    /// How many rows these were selected from, where more were computed and passed on.
+    #[serde(default)]
+    pub selected_from: Option<usize>,
     /// Results of the kind, in the order of `study.results`.
     pub results: Vec<f64>,
     /// Lists that the kind gives, as the eigenvalues of `modes`.

@@ -1,8 +1,9 @@
 //! The rows of a run: kept, or passed on as they are computed.
 
-use super::case::Case;
+use super::case::{Case, Streamed};
 use super::clock::Clock;
 use super::named::column;
+use super::selection::Selection;
 use super::watched::Watched;
 use crate::expression::Dimension;
 use crate::results::{Column, Finding, Rows};
@@ -15,12 +16,8 @@ pub(crate) struct Recorder<'a> {
     symbol: &'a str,
     /// Which of the watched expressions are shown: the columns, then the curves of figures.
     shown: Vec<usize>,
-    /// Progress of each row, never falling.
-    pub(crate) progress: Vec<f64>,
-    /// Piece of each row.
-    pub(crate) pieces: Vec<usize>,
-    /// What is shown in each row; nothing where a sink takes the rows.
-    rows: Rows,
+    /// What is shown in each row, of rows that are passed on as far as it is to be kept.
+    kept: Selection,
     /// Of each column the number of rows in which it is not defined, and where it was so first.
     blank: Vec<(usize, f64)>,
 }
@@ -32,19 +29,29 @@ pub(crate) struct Recorded {
     /// Rows before each switch.
     pub(crate) switches: Vec<usize>,
     pub(crate) rows: Rows,
+    /// How many rows they were selected from; none if these are all, or if none was to be kept.
+    pub(crate) selected_from: Option<usize>,
 }
 
 impl<'a> Recorder<'a> {
     /// Before the rows over the independent variable `name`, which findings call by its `symbol`.
     pub(crate) fn new(case: Case<'a>, watched: &Watched, clock: Clock, [name, symbol]: [&'a str; 2]) -> Self {
-        let shown: Vec<usize> = watched.columns.iter().chain(&watched.shown).copied().collect();
         let study = case.study;
-        if let Some(sink) = case.sink {
+        if let Some(Streamed { sink, .. }) = case.rows {
             let columns: Vec<Column> = study.columns.iter().map(|c| column(case.model, &c.name, c.dimension, Vec::new())).collect();
             sink.begin(&column(case.model, name, study.independent.unwrap_or(Dimension::NONE), Vec::new()), &columns);
         }
-        let (rows, blank) = (Rows::new(shown.len()), vec![(0, 0.0); study.columns.len()]);
-        Self { case, clock, symbol, shown, progress: Vec::new(), pieces: Vec::new(), rows, blank }
+        let shown: Vec<usize> = match case.rows {
+            Some(Streamed { keep: 0, .. }) => watched.columns.clone(),
+            _ => watched.columns.iter().chain(&watched.shown).copied().collect(),
+        };
+        let kept = match case.rows {
+            None => Selection::new(shown.len(), usize::MAX),
+            // places alone
+            Some(Streamed { keep: 0, .. }) => Selection::new(0, PLACES),
+            Some(Streamed { keep, .. }) => Selection::new(shown.len(), keep),
+        };
+        Self { case, clock, symbol, shown, kept, blank: vec![(0, 0.0); study.columns.len()] }
     }
 
     /// A row at some progress in a piece, with the values of all that is watched.
@@ -54,12 +61,23 @@ impl<'a> Recorder<'a> {
         for (blank, _) in self.blank.iter_mut().zip(shown.clone()).filter(|(_, value)| !value.is_finite()) {
             *blank = (blank.0 + 1, if blank.0 == 0 { place } else { blank.1 });
         }
-        self.progress.push(progress);
-        self.pieces.push(piece);
-        match self.case.sink {
-            Some(sink) => sink.row(place, &shown.take(self.blank.len()).collect::<Vec<_>>()),
-            None => self.rows.push(shown),
+        if let Some(Streamed { sink, .. }) = self.case.rows {
+            sink.row(place, &shown.clone().take(self.blank.len()).collect::<Vec<_>>());
         }
+        let keeps = !matches!(self.case.rows, Some(Streamed { keep: 0, .. }));
+        self.kept.push(progress, piece, shown.take(if keeps { usize::MAX } else { 0 }));
+    }
+
+    /// Number of rows.
+    pub(crate) fn count(&self) -> usize {
+        self.kept.count()
+    }
+
+    /// Progress and piece of about `count` of the kept rows, evenly chosen.
+    pub(crate) fn some_places(&self, count: usize) -> impl Iterator<Item = (f64, usize)> + '_ {
+        let places = self.kept.places();
+        let every = (places.len() / count).max(1);
+        places.step_by(every)
     }
 
     /// Columns with blank cells that the study does not name as such.
@@ -72,7 +90,7 @@ impl<'a> Recorder<'a> {
             message: format!(
                 "`{}` is not defined in {count} of {} rows, first at {} = {}: its cells are blank there",
                 column.name,
-                self.progress.len(),
+                self.count(),
                 self.symbol,
                 (first * 1e6).round() / 1e6 + 0.0
             ),
@@ -83,10 +101,18 @@ impl<'a> Recorder<'a> {
 
     /// What was kept.
     pub(crate) fn recorded(self) -> Recorded {
-        if self.case.sink.is_some() {
-            return Recorded { places: Vec::new(), switches: Vec::new(), rows: self.rows };
+        if matches!(self.case.rows, Some(Streamed { keep: 0, .. })) {
+            return Recorded { places: Vec::new(), switches: Vec::new(), rows: Rows::new(self.shown.len()), selected_from: None };
         }
-        let switches = (1..self.pieces.len()).filter(|&i| self.pieces[i - 1] != self.pieces[i]).map(|i| i - 1).collect();
-        Recorded { places: self.progress.iter().map(|s| self.clock.value(*s)).collect(), switches, rows: self.rows }
+        let (pieces, places): (Vec<usize>, Vec<f64>) = self.kept.places().map(|(s, piece)| (piece, self.clock.value(s))).unzip();
+        // of a switch that is left out of a selection no side is next to the other
+        let whole = !self.kept.is_partial();
+        let is_switch = |i: usize| pieces[i - 1] != pieces[i] && (whole || places[i - 1] == places[i]);
+        let switches = (1..pieces.len()).filter(|&i| is_switch(i)).map(|i| i - 1).collect();
+        let selected_from = self.kept.is_partial().then(|| self.kept.count());
+        Recorded { places, switches, rows: self.kept.into_rows(), selected_from }
     }
 }
+
+/// Most places that are kept where values are not.
+const PLACES: usize = 1 << 16;

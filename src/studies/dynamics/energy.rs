@@ -229,20 +229,22 @@ fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<F
     })
 }
 
-/// Largest residuals over the rows of a run.
+/// Rows at which residuals are taken, about.
+pub(crate) const SAMPLES: usize = 128;
+
+/// Largest residuals over rows of a run: how many rows it has, and time and piece of some of them.
 pub(crate) fn residuals<G, D>(
     trajectory: &mut Trajectory<'_, G, D>,
-    (times, pieces): (&[f64], &[usize]),
+    (count, rows): (usize, impl Iterator<Item = (f64, usize)>),
     mut certificate: Certificate,
 ) -> Certificate
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    certificate.evaluations = times.len();
-    let every = (times.len() / 128).max(1);
+    certificate.evaluations = count;
     let mut velocity: f64 = 0.0;
-    for (&t, &piece) in times.iter().zip(pieces).step_by(every) {
+    for (t, piece) in rows {
         if trajectory.go(t, piece).is_err() {
             continue;
         }

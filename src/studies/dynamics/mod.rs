@@ -37,6 +37,7 @@ use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, Resolution};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
+use energy::SAMPLES;
 use march::Recorded;
 use phases::Phases;
 use rows::Rows;
@@ -98,11 +99,13 @@ where
     let numbers = Sources { case, tables, functionals: &functionals, results: &[], works: &works }.numbers(stopped.is_none());
     let undefined = undefined.or(numbers.undefined);
     let stopped = stopped.or_else(|| undefined.as_ref().map(|u| u.message.clone()));
-    let certificate =
-        Certificate { resolved: Some(resolution), ..energy::residuals(&mut trajectory, (&rows.progress, &rows.pieces), certificate) };
+    let certificate = Certificate {
+        resolved: Some(resolution),
+        ..energy::residuals(&mut trajectory, (rows.count(), rows.some_places(SAMPLES)), certificate)
+    };
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
-    let Kept { places, switches, rows } = rows.recorded();
+    let Kept { places, switches, rows, selected_from } = rows.recorded();
     let scene = scene::scene(&phases.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
     Ok(Outcome {
         stopped,
@@ -111,6 +114,7 @@ where
         independent: "time".into(),
         switches,
         rows,
+        selected_from,
         places,
         results: Vec::new(),
         scalars: numbers.scalars,

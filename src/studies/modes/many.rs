@@ -59,8 +59,7 @@ where
     };
     let Still { q, z, modes, findings } = rest;
     let pose = Pose { q: &q, z: &z, modes: &modes };
-    let held = HeldSparse::new(model, &mechanism, pose, &start.metric)
-        .map_err(|_| not_finite(model, &mechanism, pose))?;
+    let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| not_finite(model, &mechanism, pose))?;
     let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();
     let HeldSparse { pencil, independent, .. } = &held;
     if let Some(x) = lanczos::without_mass(pencil, MASSLESS) {

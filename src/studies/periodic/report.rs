@@ -74,8 +74,8 @@ pub(super) struct Regime<'a> {
 struct Seen<'a> {
     clock: Clock,
     rows: Recorder<'a>,
-    /// Times of the rows in the lap.
-    times: Vec<f64>,
+    /// Times of the rows in the lap, and their pieces.
+    times: Vec<(f64, usize)>,
     extremes: Vec<Option<Extremes>>,
     functionals: Vec<f64>,
     findings: Vec<Finding>,
@@ -119,14 +119,15 @@ impl<'a> Regime<'a> {
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
         lap.findings.extend(numbers.findings);
         lap.findings.push(stability::finding(&multipliers, &study.place));
-        let pieces = rows.pieces.clone();
-        let Recorded { places, switches, rows } = rows.recorded();
+        let some = of_rows.iter().copied().step_by((of_rows.len() / energy::SAMPLES).max(1));
+        let Recorded { places, switches, rows, selected_from } = rows.recorded();
         Ok(Outcome {
             parameters: case.named(),
             independent: if asked.over.is_some() { search.over.clone() } else { "time".into() },
             places,
             switches,
             rows,
+            selected_from,
             stopped: numbers.undefined.as_ref().map(|u| u.message.clone()),
             undefined: numbers.undefined,
             scalars: numbers.scalars,
@@ -137,7 +138,7 @@ impl<'a> Regime<'a> {
             findings: lap.findings,
             certificate: Certificate {
                 resolved: Some(resolution),
-                ..energy::residuals(&mut lap.trajectory, (&of_rows, &pieces), lap.certificate)
+                ..energy::residuals(&mut lap.trajectory, (of_rows.len(), some), lap.certificate)
             },
             events: lap.events,
             scenes: vec![(scene::MECHANISM.into(), scene)],
@@ -211,8 +212,8 @@ fn clock<G: Space<S = f64>>(
     Ok((clock, Some(Advance { value, rate, from: clock.from, direction: clock.direction })))
 }
 
-/// Rows on a grid of progress with both sides of every switch; gives their times.
-fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize, recorder: &mut Recorder<'_>) -> Result<Vec<f64>, Off>
+/// Rows on a grid of progress with both sides of every switch; gives their times and pieces.
+fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize, recorder: &mut Recorder<'_>) -> Result<Vec<(f64, usize)>, Off>
 where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
@@ -224,7 +225,7 @@ where
         let grid = (0..=samples).map(|k| length * k as f64 / samples as f64).filter(|s| *s > ends[0] + near && *s < ends[1] - near);
         for s in std::iter::once(ends[0]).chain(grid).chain([ends[1]]) {
             turn.row(s, piece, &mut out)?;
-            times.push(turn.time(s, piece)?);
+            times.push((turn.time(s, piece)?, piece));
             recorder.row(s, piece, &out);
         }
     }
