@@ -3,7 +3,7 @@
 mod sweep;
 
 use super::interrupt::{self, interrupted};
-use super::progress::Progress;
+use super::progress::{Counted, Progress};
 use super::shard::Part;
 use super::terminal::{print_interrupted, print_report};
 use super::{Common, code, files, print_error, print_note};
@@ -11,7 +11,7 @@ use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
 use grashof::output::{Figure, Formats, Picture, RowFiles, Staging, WriteError, drawing, figures, summary, tables, ten_digits, write_json};
 use grashof::par;
 use grashof::results::{Failure, Results};
-use grashof::studies::common::case::Streamed;
+use grashof::studies::common::case::{Streamed, parameters};
 use grashof::studies::sweep::{at, single};
 use std::path::Path;
 
@@ -95,10 +95,17 @@ impl Job<'_> {
 
     /// A study of one run, or of those that a `solve` takes to find one.
     fn single(&self, study: &Study) -> Finished {
-        let progress = Progress::open(self.study, self.common.quiet || study.solve.is_none());
+        let solves = study.solve.is_some();
+        let quiet = self.common.quiet;
+        let progress = if solves { Progress::open(self.study, quiet) } else { Progress::of_run(self.study, quiet) };
         let show = |x: f64, scalar: f64| progress.show(&self.trial(study, x, scalar));
         let rows = RowFiles::new(self.directory, self.formats);
-        let streamed = Some(Streamed { sink: &rows, keep: KEPT });
+        let until = match &study.kind {
+            Kind::Dynamics(motion) if !solves => Some(self.model.pool.value(motion.until, &parameters(self.model))),
+            _ => None,
+        };
+        let counted = Counted { rows: &rows, progress: &progress, until };
+        let streamed = Some(Streamed { sink: &counted, keep: KEPT });
         let run = at(self.model, study, Vec::new(), self.common.threads(), streamed, &interrupted, &show);
         drop(progress);
         let results = match single(self.model, study, run) {

@@ -7,6 +7,9 @@ impl Pool {
     /// The value of a node that depends on parameters and constants only; not a number where it needs an input or a table.
     #[must_use]
     pub fn value(&self, id: Id, parameters: &[f64]) -> f64 {
+        if let Node::Const(bits) = self.node(id) {
+            return f64::from_bits(bits);
+        }
         self.values(&[id], parameters)[0]
     }
 
@@ -20,13 +23,14 @@ impl Pool {
     #[must_use]
     pub fn values_with_tables(&self, ids: &[Id], parameters: &[f64], tables: &[LookupTable]) -> Vec<f64> {
         let order = self.reach(ids);
-        let mut values = vec![f64::NAN; order.last().map_or(0, |top| top.index() + 1)];
-        for id in order {
-            let value = |id: Id| values[id.index()];
+        let place = |id: &Id| order.binary_search(id).ok();
+        let mut values = vec![f64::NAN; order.len()];
+        for (at, id) in order.iter().enumerate() {
+            let value = |id: Id| place(&id).map_or(f64::NAN, |at| values[at]);
             let mode = |switch: u32| self.switches[switch as usize].test.mode(value, tables);
-            values[id.index()] = self.node_value(self.node(id), &value, &mode, parameters, tables);
+            values[at] = self.node_value(self.node(*id), &value, &mode, parameters, tables);
         }
-        ids.iter().map(|id| values[id.index()]).collect()
+        ids.iter().map(|id| place(id).map_or(f64::NAN, |at| values[at])).collect()
     }
 
     /// The value of a node from the values of its operands and the modes of switches; undefined as its operands are.

@@ -4,7 +4,7 @@
 
 pub(super) use super::id::Id;
 use super::switch::{Compare, Switch, Test};
-use std::collections::HashMap;
+use std::collections::{BinaryHeap, HashMap};
 
 /// What a node computes. Conditions have the value 1 (true) or 0.
 ///
@@ -284,17 +284,13 @@ impl Pool {
 
     /// Everything that `ids` are computed from, themselves included, in order of evaluation.
     pub(super) fn reach(&self, ids: &[Id]) -> Vec<Id> {
-        let Some(top) = ids.iter().max() else { return Vec::new() };
-        let mut seen = vec![false; top.index() + 1];
-        for id in ids {
-            seen[id.index()] = true;
-        }
+        // operands have smaller ids: downwards from the largest, what is met more than once comes in a row
+        let mut left: BinaryHeap<Id> = ids.iter().copied().collect();
         let mut all = Vec::new();
-        // operands have smaller ids: one sweep downwards finds them all
-        for index in (0..seen.len()).rev() {
-            if seen[index] {
-                self.operands(Id::at(index), |operand| seen[operand.index()] = true);
-                all.push(Id::at(index));
+        while let Some(id) = left.pop() {
+            if all.last() != Some(&id) {
+                self.operands(id, |operand| left.push(operand));
+                all.push(id);
             }
         }
         all.reverse();

@@ -92,7 +92,8 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             let scale = rows.map(|(row, natural)| unit((row.values, natural.values))).collect();
             Solver::Square { lu: Lu::new(nv), scale }
         } else {
-            let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
+            // of a motion that is given, bodies without inertia are no exception
+            let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern()).with_pivots();
             kkt.set_scale(&start.metric, &g_scale);
             let mut metric = Box::new(Block::new(dynamics.work.mass.pattern()));
             start.metric.iter().enumerate().for_each(|(i, d)| metric.set(i, i, *d));

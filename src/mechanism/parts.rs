@@ -246,8 +246,9 @@ impl<G: Space> Mechanism<G> {
     {
         let length = |p: G::Vector| G::dot(p, p).sqrt();
         let points = self.bodies[1..].iter().flat_map(|b| &b.points).map(|(_, p)| length(*p));
-        let held = self.footings();
-        let apart = held.iter().flat_map(|(g, p)| held.iter().filter(move |(other, _)| other == g).map(move |(_, o)| length(*o - *p)));
+        let mut held = self.footings();
+        held.sort_by_key(|(group, _)| *group);
+        let apart = held.chunk_by(|a, b| a.0 == b.0).map(|held| farthest::<G>(&held.iter().map(|(_, p)| *p).collect::<Vec<_>>()));
         let reach = points.chain(apart).fold(0.0, f64::max);
         if reach > 0.0 { reach } else { 1.0 }
     }
@@ -413,4 +414,21 @@ fn retract_quaternion(q: &mut [f64], w: [f64; 3]) {
     let k = 0.5 * if half < 1e-6 { 1.0 - half * half / 6.0 } else { half.sin() / half };
     let product = multiply_quaternion([q[0], q[1], q[2], q[3]], [half.cos(), k * w[0], k * w[1], k * w[2]]);
     q.copy_from_slice(&product);
+}
+
+/// The largest distance between two of some places, m.
+///
+/// With R the largest distance from any place and D one between two of them, both of the farthest two are at least D − R from that place: of
+/// a long row only few are compared.
+fn farthest<G: Space<S = f64>>(places: &[G::Vector]) -> f64 {
+    let Some(&from) = places.first() else { return 0.0 };
+    let length = |p: G::Vector| G::dot(p, p).sqrt();
+    let count = places.len() as f64;
+    let middle = places.iter().fold(from, |sum, p| sum + (*p - from) * count.recip());
+    let end = |from: G::Vector| places.iter().copied().max_by(|p, q| length(*p - from).total_cmp(&length(*q - from))).unwrap_or(from);
+    let first = end(middle);
+    let (reach, found) = (length(first - middle), length(end(first) - first));
+    let outer: Vec<G::Vector> = places.iter().copied().filter(|p| length(*p - middle) >= (found - reach) * (1.0 - 1e-12)).collect();
+    let apart = outer.iter().enumerate().flat_map(|(i, p)| outer[i + 1..].iter().map(|q| length(*q - *p)));
+    apart.fold(found, f64::max)
 }

@@ -26,6 +26,11 @@ impl<I> Columns<I> {
         self.starts.push(self.items.len());
     }
 
+    /// Number of lists.
+    pub(crate) fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
     #[inline(always)]
     pub(crate) fn range(&self, k: usize) -> std::ops::Range<usize> {
         self.starts[k]..self.starts[k + 1]

@@ -5,8 +5,8 @@
 //! [ G  −E  ] [ λ ] = [ γ ],   E = 1e-8 · diag(G D⁻¹ Gᵀ), taken at assembly
 //! ```
 //!
-//! E makes the matrix regular when rows of G are redundant or a position is singular, so that no row is ever dropped. Two steps
-//! of iterative refinement against the matrix without E take its error away: each multiplies it by about 1e-8/σ², σ the
+//! E makes the matrix regular when rows of G are redundant or a position is singular, so that no row is ever dropped. Up to two
+//! steps of iterative refinement against the matrix without E take its error away: each multiplies it by about 1e-8/σ², σ the
 //! smallest non-zero singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½. Where rows are redundant, the multipliers are those of least
 //! λᵀEλ. An E that follows the present rows vanishes with them, and a smaller one loses energy in singular positions (measured).
 //!
@@ -16,13 +16,16 @@
 //! The matrix is scaled symmetrically by powers of two near D^−½ and diag(G D⁻¹ Gᵀ)^−½ before it is factored: pivots then do
 //! not depend on the units, and nothing is rounded.
 
+mod blocks;
 pub(crate) mod columns;
 mod definite;
 pub mod dense;
 pub mod factor;
 pub mod number;
 pub mod ordering;
+mod pivoted;
 mod pivoting;
+mod quasi;
 pub(crate) mod reach;
 mod scale;
 mod singular;
@@ -34,13 +37,16 @@ pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale}
 
 use crate::sparsity::DENSE_UP_TO;
 use crate::{Pattern, Sparsity};
-use dense::{Lu, Singular, sized, square, square_mut};
-use factor::Factor;
+use blocks::Blocks;
+use definite::Definite;
+use dense::Singular;
+use pivoted::Pivoted;
+use quasi::Quasi;
 
 /// Solver of M a + Gᵀλ = f, G a = γ; sized at construction, then free of allocation.
 ///
-/// Up to [`DENSE_UP_TO`] unknowns the matrix is factored as a quasi-definite one, and by elimination with pivots where M is
-/// singular; above, by elimination, dense or sparse.
+/// The matrix is factored as a quasi-definite one, and by elimination with pivots where M is singular; either as a full or as a sparse one,
+/// whichever is less work.
 #[derive(Clone, Debug)]
 pub struct Kkt {
     nv: usize,
@@ -50,51 +56,29 @@ pub struct Kkt {
     /// Scaled E (m).
     e: Vec<f64>,
     refinements: usize,
-    /// Patterns of M and G, and places of the diagonal of M (nv).
-    patterns: [Sparsity; 2],
+    blocks: Blocks,
+    /// Places of the diagonal of M (nv).
     diagonal: Vec<usize>,
-    /// Products of the scales of rows and columns, of small matrices (n × n).
-    products: Vec<f64>,
-    /// Scaled [M Gᵀ; G 0] (n × n); not kept by the sparse form.
-    matrix: Vec<f64>,
-    /// L D Lᵀ of the scaled [M Gᵀ; G −E]: L (n × n), 1/D (n).
-    l: Vec<f64>,
-    inverse: Vec<f64>,
-    /// Whether L D Lᵀ holds; else it is `factors` that do.
+    /// L D Lᵀ of the scaled [M Gᵀ; G −E].
+    form: Form,
+    /// Whether it holds; else it is `pivoted` that does.
     definite: bool,
-    factors: Factors,
-    /// Scaled right-hand side (nv + m).
-    rhs: Vec<f64>,
-    /// Scaled solution (nv + m).
+    /// Made when it is needed.
+    pivoted: Option<Pivoted>,
+    /// Scaled right-hand side, then solution (nv + m).
     x: Vec<f64>,
-    /// Residual and correction (nv + m).
-    r: Vec<f64>,
 }
 
-/// An elimination with pivots.
+/// How L D Lᵀ is computed.
 #[derive(Clone, Debug)]
-enum Factors {
-    Dense(Lu),
-    Sparse(Box<Sparse>),
+enum Form {
+    Full(Definite),
+    Sparse(Box<Quasi>),
 }
 
-/// A sparse matrix with its factors.
-#[derive(Clone, Debug)]
-struct Sparse {
-    factor: Factor<f64>,
-    /// Row, column and source of each entry, column after column.
-    entries: Vec<(usize, usize, Source)>,
-    /// Scaled entries with −E, and without.
-    values: Vec<f64>,
-    plain: Vec<f64>,
-}
-
-/// Where an entry comes from: place in M, place in G, number of a row's E.
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    Mass(usize),
-    Row(usize),
-    Regular(usize),
+/// Multiplications of L D Lᵀ of a full matrix of n unknowns.
+fn definite_cost(n: usize) -> usize {
+    n * (n + 1) * (n + 2) / 6
 }
 
 /// Steps of iterative refinement; and where a coordinate has no mass: E is then large beside what its rows feel.
@@ -107,7 +91,7 @@ const LIGHT: f64 = 1e-2;
 impl Kkt {
     /// One for full matrices of `nv` velocities and `rows` constraint rows, with scales of one.
     pub fn new(nv: usize, rows: usize) -> Self {
-        Self::dense([&Sparsity::dense(nv, nv), &Sparsity::dense(rows, nv)])
+        Self::of_blocks(&Sparsity::dense(nv, nv), &Sparsity::dense(rows, nv))
     }
 
     /// One for the pattern of a system, with its scales; sparse where that pays.
@@ -119,73 +103,39 @@ impl Kkt {
 
     /// One for the patterns of M and G, with scales of one; sparse where that pays.
     pub fn of_blocks(mass: &Sparsity, g: &Sparsity) -> Self {
-        if g.columns() + g.rows() <= DENSE_UP_TO {
-            return Self::dense([mass, g]);
+        let blocks = Blocks([mass.clone(), g.clone()]);
+        let n = blocks.order();
+        if n > DENSE_UP_TO {
+            let whole = blocks.whole();
+            let (cost, ordering) = quasi::ordered(blocks.velocities(), &whole);
+            if cost < definite_cost(n) {
+                let quasi = Quasi::new(&blocks, &whole, &ordering);
+                return Self::with(blocks, Form::Sparse(Box::new(quasi)));
+            }
         }
-        Self::sparse([mass, g]).unwrap_or_else(|| Self::dense([mass, g]))
+        Self::with(blocks, Form::Full(Definite::new(n)))
     }
 
     /// Cost of a factorisation for the patterns of M and G, in multiplications of a dense one.
     pub fn cost(mass: &Sparsity, g: &Sparsity) -> usize {
-        Factor::<f64>::cost(&whole([mass, g]))
+        let blocks = Blocks([mass.clone(), g.clone()]);
+        definite_cost(blocks.order()).min(quasi::ordered(blocks.velocities(), &blocks.whole()).0)
     }
 
-    fn dense(patterns: [&Sparsity; 2]) -> Self {
-        let n = patterns[1].columns() + patterns[1].rows();
-        let small = if n <= DENSE_UP_TO { n } else { 0 };
-        Self {
-            products: vec![1.0; small * small],
-            matrix: vec![0.0; n * n],
-            l: vec![0.0; small * small],
-            inverse: vec![0.0; small],
-            factors: Factors::Dense(Lu::new(n)),
-            ..Self::vectors(patterns)
-        }
-    }
-
-    /// A sparse one; none where elimination fills the matrix.
-    fn sparse(patterns: [&Sparsity; 2]) -> Option<Self> {
-        let [mass, g] = patterns;
-        let nv = g.columns();
-        let whole = whole(patterns);
-        let factor = Factor::new(&whole);
-        if matches!(factor, Factor::Dense(_)) {
-            return None;
-        }
-        let at = |block: &Sparsity, i: usize, j: usize| block.place(i, j).unwrap_or_default();
-        let source = |i: usize, j: usize| match (i < nv, j < nv) {
-            (true, true) => Source::Mass(at(mass, i, j)),
-            (true, false) => Source::Row(at(g, j - nv, i)),
-            (false, true) => Source::Row(at(g, i - nv, j)),
-            (false, false) => Source::Regular(i - nv),
-        };
-        let entries: Vec<_> = whole.transposed().places().map(|(j, i)| (i, j, source(i, j))).collect();
-        let values = vec![0.0; entries.len()];
-        let sparse = Sparse { factor, plain: values.clone(), values, entries };
-        Some(Self { factors: Factors::Sparse(Box::new(sparse)), ..Self::vectors(patterns) })
-    }
-
-    /// Vectors without matrices.
-    fn vectors(patterns: [&Sparsity; 2]) -> Self {
-        let (nv, rows) = (patterns[1].columns(), patterns[1].rows());
-        let n = nv + rows;
+    fn with(blocks: Blocks, form: Form) -> Self {
+        let (nv, n) = (blocks.velocities(), blocks.order());
         Self {
             nv,
-            rows,
-            diagonal: (0..nv).filter_map(|i| patterns[0].place(i, i)).collect(),
-            patterns: patterns.map(Clone::clone),
+            rows: n - nv,
+            diagonal: (0..nv).filter_map(|i| blocks.0[0].place(i, i)).collect(),
+            blocks,
             scale: vec![1.0; n],
-            e: vec![REGULARIZATION; rows],
+            e: vec![REGULARIZATION; n - nv],
             refinements: REFINEMENTS,
-            products: Vec::new(),
-            matrix: Vec::new(),
-            l: Vec::new(),
-            inverse: Vec::new(),
+            form,
             definite: false,
-            factors: Factors::Dense(Lu::new(0)),
-            rhs: vec![0.0; n],
+            pivoted: None,
             x: vec![0.0; n],
-            r: vec![0.0; n],
         }
     }
 
@@ -197,7 +147,7 @@ impl Kkt {
     /// Takes the scales from the matrices at assembly; see [`metric`] and [`row_scale`]. Allocates.
     pub fn scale(&mut self, mass: &[f64], g: &[f64], unit: &[u8]) {
         let metric = metric(self.diagonal.iter().map(|k| mass[*k]), unit);
-        let g_scale = row_scale(&self.patterns[1], g, &metric);
+        let g_scale = row_scale(&self.blocks.0[1], g, &metric);
         self.set_scale(&metric, &g_scale);
     }
 
@@ -209,8 +159,10 @@ impl Kkt {
         for ((e, x), s) in self.e.iter_mut().zip(g_scale).zip(&self.scale[self.nv..]) {
             *e = REGULARIZATION * x * s * s;
         }
-        let products = self.scale.iter().flat_map(|a| self.scale.iter().map(move |b| a * b));
-        self.products.iter_mut().zip(products).for_each(|(out, product)| *out = product);
+        match &mut self.form {
+            Form::Full(full) => full.set_scale(&self.scale),
+            Form::Sparse(quasi) => quasi.set_scale(&self.blocks, &self.scale),
+        }
     }
 
     /// Factors the matrix of M (nv × nv) and G (m × nv), by their patterns.
@@ -223,129 +175,34 @@ impl Kkt {
         }
         let light = self.diagonal.iter().zip(&self.scale).any(|(k, s)| mass[*k] * s * s < LIGHT);
         self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
-        if let Factors::Sparse(sparse) = &mut self.factors {
-            return sparse.factor(mass, g, &self.scale, &self.e);
-        }
-        self.definite = self.quasi_definite(mass, g);
-        if self.definite { Ok(()) } else { self.eliminate() }
+        self.definite = match &mut self.form {
+            Form::Full(full) => full.factor(&self.blocks, [mass, g], &self.e),
+            Form::Sparse(quasi) => quasi.factor([mass, g], &self.e),
+        };
+        if self.definite { Ok(()) } else { self.eliminate(mass, g) }
     }
 
-    /// Factors the dense matrix by elimination with pivots.
-    fn eliminate(&mut self) -> Result<(), Singular> {
+    /// Factors by elimination with pivots.
+    fn eliminate(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
         self.definite = false;
-        let Factors::Dense(lu) = &mut self.factors else { return Ok(()) };
-        let (nv, n) = (self.nv, self.nv + self.rows);
-        let work = lu.matrix_mut();
-        work.copy_from_slice(&self.matrix);
-        for (j, e) in self.e.iter().enumerate() {
-            work[(nv + j) * (n + 1)] = -e;
-        }
-        lu.factor_in_place()
+        let pivoted = self.pivoted.get_or_insert_with(|| Pivoted::new(&self.blocks));
+        pivoted.factor(&self.blocks, [mass, g], &self.scale, &self.e)
     }
 
-    /// The scaled matrix without E.
-    fn fill(&mut self, mass: &[f64], g: &[f64]) {
-        let (nv, n) = (self.nv, self.nv + self.rows);
-        if nv == 0 {
-            return;
-        }
-        let (d, s) = self.scale.split_at(nv);
-        if self.patterns.iter().any(|pattern| !pattern.is_full()) {
-            // entries outside of the patterns stay 0
-            let [of_mass, of_g] = &self.patterns;
-            of_mass.places().zip(mass).for_each(|((i, j), m)| self.matrix[i * n + j] = m * d[i] * d[j]);
-            for ((i, j), g) in of_g.places().zip(g) {
-                let x = g * s[i] * d[j];
-                self.matrix[(nv + i) * n + j] = x;
-                self.matrix[j * n + nv + i] = x;
-            }
-            return;
-        }
-        let (upper, lower) = self.matrix.split_at_mut(nv * n);
-        for ((out, row), di) in upper.chunks_exact_mut(n).zip(mass.chunks_exact(nv)).zip(d) {
-            for ((x, m), dj) in out.iter_mut().zip(row).zip(d) {
-                *x = m * di * dj;
-            }
-        }
-        for (i, ((out, row), si)) in lower.chunks_exact_mut(n).zip(g.chunks_exact(nv)).zip(s).enumerate() {
-            for (j, ((x, g), dj)) in out.iter_mut().zip(row).zip(d).enumerate() {
-                *x = g * si * dj;
-                upper[j * n + nv + i] = *x;
-            }
-        }
-    }
-
-    /// Scales the matrix, and factors it by L D Lᵀ; false if it is too large for that, or M is nearly singular.
-    fn quasi_definite(&mut self, mass: &[f64], g: &[f64]) -> bool {
-        let (nv, n) = (self.nv, self.nv + self.rows);
-        let full = nv > 0 && self.patterns.iter().all(Sparsity::is_full);
-        if !full || n > DENSE_UP_TO {
-            self.fill(mass, g);
-        }
-        if n > DENSE_UP_TO || n == 0 {
-            return false;
-        }
-        if !full {
-            self.l.copy_from_slice(&self.matrix);
-            for (j, e) in self.e.iter().enumerate() {
-                self.l[(nv + j) * (n + 1)] = -e;
-            }
-        }
-        macro_rules! small {
-            ($k:literal) => {
-                match (
-                    square_mut::<f64, $k>(&mut self.matrix),
-                    square_mut::<f64, $k>(&mut self.l),
-                    square::<f64, $k>(&self.products),
-                    self.inverse.first_chunk_mut(),
-                ) {
-                    (Some(matrix), Some(l), Some(products), Some(inverse)) => {
-                        if full {
-                            definite::fill::<$k>([matrix, l], products, [mass, g, &self.e], nv);
-                        }
-                        definite::factor::<$k>(l, inverse, nv)
-                    }
-                    _ => false,
-                }
-            };
-        }
-        sized!(n, small, false)
+    /// Makes room for an elimination with pivots now, not when the first matrix asks for it.
+    #[must_use]
+    pub fn with_pivots(mut self) -> Self {
+        self.pivoted.get_or_insert_with(|| Pivoted::new(&self.blocks));
+        self
     }
 
     /// x := the solution with the right-hand side x, by the factors at hand, with `refinements` against the matrix without E.
     fn apply(&mut self, refinements: usize) {
-        if self.definite {
-            macro_rules! small {
-                ($k:literal) => {
-                    if let (Some(matrix), Some(l), Some(inverse), Some(x)) =
-                        (square::<f64, $k>(&self.matrix), square::<f64, $k>(&self.l), self.inverse.first_chunk(), self.x.first_chunk_mut())
-                    {
-                        definite::refined::<$k>(matrix, l, inverse, x, refinements);
-                    }
-                };
-            }
-            sized!(self.nv + self.rows, small, ());
-            return;
-        }
-        self.rhs.copy_from_slice(&self.x);
-        match &mut self.factors {
-            Factors::Dense(lu) => lu.solve(&mut self.x),
-            Factors::Sparse(sparse) => sparse.factor.solve(&mut self.x),
-        }
-        // x += [M Gᵀ; G −E]⁻¹ (b − [M Gᵀ; G 0] x)
-        for _ in 0..refinements {
-            self.r.copy_from_slice(&self.rhs);
-            match &mut self.factors {
-                Factors::Dense(lu) => {
-                    subtract_product(&self.matrix, &self.x, &mut self.r);
-                    lu.solve(&mut self.r);
-                }
-                Factors::Sparse(sparse) => {
-                    sparse.subtract_product(&self.x, &mut self.r);
-                    sparse.factor.solve(&mut self.r);
-                }
-            }
-            self.x.iter_mut().zip(&self.r).for_each(|(x, r)| *x += r);
+        match (&mut self.form, &mut self.pivoted) {
+            (Form::Full(full), _) if self.definite => full.solve(&self.e, &mut self.x, refinements),
+            (Form::Sparse(quasi), _) if self.definite => quasi.solve(&self.e, &mut self.x, refinements),
+            (_, Some(pivoted)) => pivoted.solve(&mut self.x, refinements),
+            _ => {}
         }
     }
 
@@ -428,43 +285,6 @@ impl Kkt {
         self.x[self.nv..].iter_mut().zip(&self.e).zip(&*vector).for_each(|((x, e), y)| *x = e * y);
         self.apply(0);
         vector.iter_mut().zip(&self.x[self.nv..]).for_each(|(y, x)| *y += x);
-    }
-}
-
-/// The pattern of [M Gᵀ; G −E].
-fn whole([mass, g]: [&Sparsity; 2]) -> Sparsity {
-    let (nv, n) = (g.columns(), g.columns() + g.rows());
-    if g.rows() == 0 {
-        return mass.clone();
-    }
-    let rows = g.places().flat_map(|(i, j)| [(nv + i, j), (j, nv + i)]);
-    Sparsity::new(n, n, mass.places().chain(rows).chain((nv..n).map(|i| (i, i))))
-}
-
-impl Sparse {
-    fn factor(&mut self, mass: &[f64], g: &[f64], scale: &[f64], e: &[f64]) -> Result<(), Singular> {
-        for ((value, plain), &(i, j, source)) in self.values.iter_mut().zip(&mut self.plain).zip(&self.entries) {
-            (*plain, *value) = match source {
-                Source::Mass(at) => [mass[at] * scale[i] * scale[j]; 2].into(),
-                Source::Row(at) => [g[at] * scale[i] * scale[j]; 2].into(),
-                Source::Regular(row) => (0.0, -e[row]),
-            };
-        }
-        self.factor.factor(&self.values)
-    }
-
-    /// r −= matrix · x, without E.
-    fn subtract_product(&self, x: &[f64], r: &mut [f64]) {
-        for (&(i, j, _), value) in self.entries.iter().zip(&self.plain) {
-            r[i] -= value * x[j];
-        }
-    }
-}
-
-/// r −= matrix · x, row-major and square.
-fn subtract_product(matrix: &[f64], x: &[f64], r: &mut [f64]) {
-    for (r, row) in r.iter_mut().zip(matrix.chunks_exact(x.len().max(1))) {
-        *r -= dense::dot(row, x);
     }
 }
 

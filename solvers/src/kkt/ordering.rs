@@ -21,9 +21,14 @@ impl Ordering {
     /// aggressive kind (section 3.5 there), mass elimination, indistinguishable variables and the approximate external
     /// degree of equation (4.1). Of equal degrees the smaller index goes first, so the order is the same in every run.
     pub fn minimum_degree(pattern: &Sparsity) -> Self {
-        let mut graph = Quotient::new(pattern);
+        Self::first_below(pattern.columns(), pattern)
+    }
+
+    /// The same with all unknowns below `first` before the others.
+    pub(super) fn first_below(first: usize, pattern: &Sparsity) -> Self {
+        let mut graph = Quotient::new(pattern, first);
         let mut result = Self { order: Vec::with_capacity(graph.n), fill: 0, operations: 0 };
-        while let Some((_, pivot)) = graph.queue.pop_first() {
+        while let Some((.., pivot)) = graph.queue.pop_first() {
             graph.eliminate(pivot);
             let (width, degree) = (graph.members[pivot].len(), graph.boundary_size[pivot]);
             for left in (0..width).rev().map(|k| k + degree) {
@@ -53,8 +58,10 @@ struct Quotient {
     members: Vec<Vec<usize>>,
     /// Approximate external degree of each variable, in unknowns.
     degree: Vec<usize>,
-    /// Variables by degree, then index.
-    queue: BTreeSet<(usize, usize)>,
+    /// Variables by whether they are eliminated after the first ones, by degree, then index.
+    queue: BTreeSet<(bool, usize, usize)>,
+    /// Unknowns below it are eliminated first.
+    first: usize,
     /// Whether an element is still there.
     alive: Vec<bool>,
     /// |L_e \ L_p| of the elements next to the boundary L_p of pivot p, valid where `seen` is p.
@@ -65,7 +72,7 @@ struct Quotient {
 }
 
 impl Quotient {
-    fn new(pattern: &Sparsity) -> Self {
+    fn new(pattern: &Sparsity, first: usize) -> Self {
         let n = pattern.columns();
         let other = pattern.transposed();
         let variables: Vec<Vec<usize>> = (0..n)
@@ -80,7 +87,8 @@ impl Quotient {
         Self {
             n,
             left: n,
-            queue: degree.iter().copied().zip(0..n).collect(),
+            queue: degree.iter().zip(0..n).map(|(degree, i)| (i >= first, *degree, i)).collect(),
+            first,
             elements: vec![Vec::new(); n],
             boundary: vec![Vec::new(); n],
             boundary_size: vec![0; n],
@@ -102,7 +110,7 @@ impl Quotient {
         self.boundary_size[p] = self.size(&boundary);
         self.count_outside(p, &boundary);
         for &i in &boundary {
-            self.queue.remove(&(self.degree[i], i));
+            self.queue.remove(&self.queued(i));
             self.prune(p, i);
         }
         let boundary = self.eliminate_with(p, boundary);
@@ -115,9 +123,19 @@ impl Quotient {
         for &i in &boundary {
             // what a variable has taken in is no neighbour any more
             self.degree[i] = self.degree[i].min(self.left - self.members[i].len());
-            self.queue.insert((self.degree[i], i));
+            self.queue.insert(self.queued(i));
         }
         self.boundary[p] = boundary;
+    }
+
+    /// The place of a variable in the queue.
+    fn queued(&self, i: usize) -> (bool, usize, usize) {
+        (i >= self.first, self.degree[i], i)
+    }
+
+    /// Whether two unknowns may be eliminated together: both are of the first ones, or neither is.
+    fn alike(&self, i: usize, j: usize) -> bool {
+        (i < self.first) == (j < self.first)
     }
 
     fn size(&self, variables: &[usize]) -> usize {
@@ -170,7 +188,7 @@ impl Quotient {
     /// Variables that touch nothing but p are eliminated with it, without fill; the rest of the boundary.
     fn eliminate_with(&mut self, p: usize, mut boundary: Vec<usize>) -> Vec<usize> {
         boundary.retain(|&i| {
-            let stays = !self.variables[i].is_empty() || self.elements[i].len() > 1;
+            let stays = !self.variables[i].is_empty() || self.elements[i].len() > 1 || !self.alike(i, p);
             if !stays {
                 let mut taken = std::mem::take(&mut self.members[i]);
                 self.left -= taken.len();
@@ -202,7 +220,7 @@ impl Quotient {
                 }
                 for &(_, j) in &group[k + 1..] {
                     let equal = self.variables[i] == self.variables[j] && self.elements[i] == self.elements[j];
-                    if equal && !self.members[j].is_empty() {
+                    if equal && self.alike(i, j) && !self.members[j].is_empty() {
                         let mut taken = std::mem::take(&mut self.members[j]);
                         self.degree[i] = self.degree[i].saturating_sub(taken.len());
                         self.members[i].append(&mut taken);
@@ -267,6 +285,19 @@ mod tests {
             assert_permutation(&found.order);
             assert_eq!(found.fill, fill_of(&pattern, &found.order), "{n} unknowns, density {density}");
             assert_eq!(found, Ordering::minimum_degree(&pattern));
+        }
+    }
+
+    #[test]
+    fn the_first_unknowns_come_first() {
+        let mut noise = Noise(4);
+        for (n, first) in [(40, 25), (60, 1), (60, 59), (30, 0)] {
+            let entries: Vec<_> = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).filter(|_| noise.next().abs() < 0.08).collect();
+            let pattern = Sparsity::new(n, n, entries);
+            let found = Ordering::first_below(first, &pattern);
+            assert_permutation(&found.order);
+            assert!(found.order[..first].iter().all(|i| *i < first));
+            assert_eq!(found.fill, fill_of(&pattern, &found.order));
         }
     }
 

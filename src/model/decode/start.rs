@@ -13,6 +13,7 @@ use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
 use crate::model::suggest;
 use crate::model::vocabulary::Quantity;
+use std::collections::HashMap;
 
 /// What the value of a start is written as.
 #[derive(Clone, Copy)]
@@ -46,11 +47,12 @@ keys! {
 impl<'n> Decoder<'n> {
     pub(super) fn start(&mut self) {
         let section = At::ROOT.key("start");
+        let mut given = HashMap::new();
         for (path, node) in self.section("start") {
             let at = section.key(path);
             let Some((quantity, form)) = self.start_quantity(path, &at) else { continue };
-            if let Some(other) = self.name_space.model.start.iter().find(|s| s.quantity == quantity) {
-                let message = format!("this quantity is given already, in `{}`", other.place);
+            if let Some(other) = given.get(&quantity) {
+                let message = format!("this quantity is given already, in `{other}`");
                 let fault = self.fault("duplicate-start", &at, message, "one value for a quantity");
                 fault.spot = Spot::Key;
                 fault.help = Some("remove one of the two".to_owned());
@@ -85,6 +87,7 @@ impl<'n> Decoder<'n> {
             };
             if let Some((value, guess)) = value {
                 let place = self.place(&at);
+                given.insert(quantity, place.clone());
                 self.name_space.model.start.push(Start { name: path.to_owned(), quantity, value, guess, place });
             }
         }
