@@ -1,4 +1,4 @@
-//! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
+//! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, a report, and the table on the terminal.
 //!
 //! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
 //! pure but [`Staging::commit`], [`prepare`], [`CsvRows`] and [`RowFiles`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
@@ -26,6 +26,7 @@ mod picture;
 mod plot;
 mod pose;
 mod raster;
+mod report;
 mod results_schema;
 mod row_files;
 mod row_writer;
@@ -57,6 +58,7 @@ pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use raster::RenderError;
+pub use report::{Report, ReportModel, ReportRuns, ReportStudy};
 pub use results_schema::results_schema;
 pub use row_files::RowFiles;
 pub use scalars::ten_digits;
