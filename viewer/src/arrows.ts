@@ -18,9 +18,17 @@ const LOOKS = 90;
 export class Arrows {
   private readonly largest = new Map<Kind, number>();
   private readonly moving: Place[];
+  /** Those of the scene, and of joints whose reactions are columns of the table. */
+  private readonly forces: Scene['arrows'];
 
   constructor(private readonly motion: Motion, private readonly results: Results, private readonly pace: Pace) {
-    const { joints, traces } = motion.scene;
+    const { joints, traces, arrows, dimensions } = motion.scene;
+    const told = ({ name, b }: Scene['joints'][number]): Scene['arrows'] => {
+      const columns = ['fx', 'fy', 'fz'].slice(0, dimensions).map((axis) => `${name}.${axis}`);
+      if (!columns.every((own) => column(results, own)) || arrows.some((arrow) => arrow.name === name)) return [];
+      return [{ name, kind: 'reaction', body: b.body, at: b.at, columns, values: null }];
+    };
+    this.forces = [...arrows, ...joints.flatMap(told)];
     const seen = new Set<string>();
     const fresh = ({ body, at }: Place) => {
       const point = this.motion.world({ body, at }, this.motion.from).map((x) => x.toFixed(6)).join();
@@ -39,7 +47,7 @@ export class Arrows {
   /** Arrows of a kind at a place, in their own unit. */
   at(kind: Kind, place: number): Arrow[] {
     if (kind === 'velocities' || kind === 'accelerations') return this.moving.map((point) => ({ kind, from: this.motion.world(point, place), along: this.rate(point, place, kind) }));
-    return this.motion.scene.arrows.flatMap((arrow) => {
+    return this.forces.flatMap((arrow) => {
       if (arrow.kind === 'torque' || (arrow.kind === 'load') !== (kind === 'loads')) return [];
       const along = this.force(arrow, place);
       return along ? [{ kind, from: this.motion.world(arrow, place), along }] : [];

@@ -90,7 +90,7 @@ function certificate(c: Certificate, results: Results): HTMLElement | null {
 function lists(results: Results): Child[] {
   const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), values.map((v) => digits(v, 8)).join(',  ')]);
   const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
-  return all.length + shapes.length > 0 ? [plain(['', 'values'], [...all, ...shapes])] : [];
+  return all.length + shapes.length > 0 ? [plain(['', 'values'], [...all, ...shapes], true)] : [];
 }
 
 function matrices(results: Results): Child[] {

@@ -56,6 +56,10 @@ class Page {
     this.view = new StudyView(study, this.clock, (place) => this.file.show(place));
     this.main.replaceChildren(this.view.element);
     this.links.forEach((link, k) => (k === index ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current')));
+    const link = this.links[index]!;
+    const nav = link.closest('nav');
+    const seen = nav && link.offsetTop >= nav.scrollTop && link.offsetTop + link.offsetHeight <= nav.scrollTop + nav.clientHeight;
+    if (nav && !seen) nav.scrollTop = link.offsetTop - nav.clientHeight / 2;
     document.title = `${study.study} – ${this.data.model.name}`;
     if (focus) {
       scrollTo(0, 0);
@@ -82,12 +86,13 @@ class Page {
     }, { class: 'line theme', 'aria-pressed': String(isDark()) });
     begin(() => this.view?.stage.redraw());
     const about = model.about?.trimEnd() ?? '';
-    const [first = '', ...rest] = about.split('\n');
+    const first = /^.*?\.(?=\s|$)|^.*/.exec((about.split(/\n\s*\n/)[0] ?? '').replace(/\s+/g, ' ').trim())![0];
+    const rest = about.replace(/\s+/g, ' ') !== first;
     return h('header', { class: 'page' },
       h('div', { class: 'top' }, h('h1', {}, model.name), h('span', { class: 'soft version' }, `Grashof ${version}`), theme),
       first !== '' && h('p', { class: 'lead' }, first),
       overview.length > 0 && h('dl', { class: 'overview' }, ...overview.map(({ label, value }) => h('div', {}, h('dt', {}, label), h('dd', {}, value)))),
-      rest.length > 0 && h('details', { class: 'about-model' }, h('summary', {}, 'more about the model'), h('pre', {}, about)));
+      rest && h('details', { class: 'about-model' }, h('summary', {}, 'more about the model'), h('pre', {}, about)));
   }
 
   private contents(): HTMLElement {
@@ -103,17 +108,21 @@ class Page {
       const pressed = event.key === ' ' && target.closest('button, summary, a');
       if (!busy && !pressed && this.view?.stage.key(event)) event.preventDefault();
     });
-    // pictures on paper are light
+    // pictures on paper are light, and all parts are open
     const repaint = () => this.view?.stage.paint();
     let before: string | undefined;
+    let closed: HTMLDetailsElement[] = [];
     addEventListener('beforeprint', () => {
       before = document.documentElement.dataset.theme;
       document.documentElement.dataset.theme = 'light';
+      closed = [...document.querySelectorAll<HTMLDetailsElement>('.part:not([open])')];
+      closed.forEach((part) => (part.open = true));
       repaint();
     });
     addEventListener('afterprint', () => {
       if (before) document.documentElement.dataset.theme = before;
       else delete document.documentElement.dataset.theme;
+      closed.forEach((part) => (part.open = false));
       repaint();
     });
   }

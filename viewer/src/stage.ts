@@ -124,7 +124,7 @@ export class Stage {
     };
     const runs = study.runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
     if (study.table.reasons) {
-      const select = h('select', { 'aria-label': 'run', change: () => choose(select.selectedIndex) }, ...runs.map(({ run }) => h('option', {}, run.label)));
+      const select = h('select', { 'aria-label': 'run', change: () => choose(select.selectedIndex) }, ...runs.map(({ run }) => h('option', {}, pretty(run.label))));
       const choose = (k: number) => {
         const found = runs[k];
         if (!found) return;
@@ -147,8 +147,9 @@ export class Stage {
     }, { 'aria-pressed': String(this.clock.loop), class: 'line' });
     this.slider.addEventListener('input', () => {
       const { from, to } = this.clock;
+      const part = Number(this.slider.value) / 10_000;
       this.clock.play(false);
-      this.clock.seek(from + ((to - from) * Number(this.slider.value)) / 10_000);
+      this.clock.seek(from + (to - from) * part);
     });
     return h('div', { class: 'transport' }, this.playing, this.slider, this.time, speed, loop,
       button(icon('M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4'), 'whole mechanism', () => {

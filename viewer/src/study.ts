@@ -4,7 +4,7 @@ import type { Clock } from './clock';
 import { column } from './curves';
 import { h } from './dom';
 import { type ShowPlace, facts, rowsInWords } from './facts';
-import { heading, shownIn } from './numbers';
+import { heading, pretty, shownIn } from './numbers';
 import { drawable } from './plot/curves';
 import { PlotView } from './plot/plot';
 import { Stage } from './stage';
@@ -61,6 +61,8 @@ export class StudyView {
     if (of.length + runs.length === 0 || (runs.length === 0 && results.independent.values.length < 2)) return null;
     const options = (columns: Column[], kind: string) => columns.map((c) => h('option', { value: `${kind}${c.name}` }, heading(c.name, shownIn(c).unit)));
     const show = h('select', { 'aria-label': 'column to draw' }, ...options(of, 'c:'), ...(runs.length > 1 ? [h('optgroup', { label: 'of each run' }, ...options(runs, 'r:'))] : []));
+    // the variable itself over itself is no figure
+    if (of.length > 1 && of[0]!.name === results.independent.name) show.selectedIndex = 1;
     const over = h('select', { 'aria-label': 'drawn over' }, h('option', { value: '' }, results.independent.name || runs[0]?.name || ''), ...options(of, ''));
     const draw = () => {
       const [kind, name] = [show.value.slice(0, 2), show.value.slice(2)];
@@ -85,7 +87,7 @@ export class StudyView {
     if (results && results.independent.values.length > 0) {
       const { independent } = results;
       const columns = results.table.columns.some((c) => c.name === independent.name) ? results.table.columns : [independent, ...results.table.columns];
-      const rows = table(label ? `Rows, ${label}` : 'Rows', `${study.study}-rows`, columns);
+      const rows = table(label ? `Rows, ${pretty(label)}` : 'Rows', `${study.study}-rows`, columns);
       const note = rowsInWords(results);
       if (note) rows.append(h('p', { class: 'note' }, note));
       parts.push(rows);

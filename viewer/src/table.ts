@@ -65,9 +65,9 @@ export function table(title: string, file: string, columns: Column[], extra: Ext
   return h('div', { class: 'table' }, h('div', { class: 'head' }, h('h3', {}, title), tools), box);
 }
 
-/** A small table as it is: heads and rows of texts. */
-export function plain(heads: string[], rows: (string | Node)[][]): HTMLElement {
-  return h('div', { class: 'rows short' }, h('table', {},
+/** A small table as it is: heads and rows of texts; of lists lines may be broken. */
+export function plain(heads: string[], rows: (string | Node)[][], wrap = false): HTMLElement {
+  return h('div', { class: wrap ? 'rows short wrap' : 'rows short' }, h('table', {},
     h('thead', {}, h('tr', {}, ...heads.map((text) => h('th', { scope: 'col' }, text)))),
     h('tbody', {}, ...rows.map((row) => h('tr', {}, ...row.map((cell, k) => (k === 0 ? h('th', { scope: 'row' }, cell) : h('td', {}, cell))))))));
 }

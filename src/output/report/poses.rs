@@ -3,7 +3,8 @@
 //! Poses of neighbouring frames differ little, and so do their differences. Differences of that order which takes the fewest digits
 //! are a few digits long, where the poses themselves need ten.
 
-use crate::results::{Arrow, Frames, Scene};
+use crate::results::Scene;
+use crate::results::scene::{Arrow, Frames};
 use serde::Serialize;
 
 /// Part of the size of a mechanism to which poses are rounded; angles and quaternions in absolute terms.

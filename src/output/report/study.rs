@@ -1,7 +1,7 @@
 //! A study as a page has it: its results without the rows and frames that no curve and no picture needs.
 
 use super::poses::{self, Coded};
-use super::tables::{RowsShown, Thinned};
+use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
 use crate::output::json_number;
 use crate::results::{Plot, Results, Scene};
 use serde_json::{Value, json};
@@ -33,7 +33,7 @@ impl ReportStudy {
     /// Of a study of one run; `about` says what it is for.
     #[must_use]
     pub fn of(results: &Results, about: &str) -> Self {
-        let thin = Thinned::of(results, &|_| true);
+        let thin = Thinned::of(results, OF_STUDY, &|_| true);
         let scenes = scenes(results, POSES);
         let spatial = is_spatial(&scenes);
         Self { text: with_about(value(results, thin, &scenes), about), spatial }
@@ -74,9 +74,9 @@ impl ReportRuns {
         let first = self.runs.is_empty();
         let most = |all: usize| if first { usize::MAX } else { all / self.count };
         let plotted = |name: &str| results.plots.iter().filter(|plot| !plot.of_runs).any(|plot| shows(plot, name));
-        let mut thin = Thinned::of(results, &|_| true);
+        let mut thin = Thinned::of(results, OF_RUN, &|_| true);
         if thin.count() > most(NUMBERS) {
-            thin = Thinned::of(results, &plotted);
+            thin = Thinned::of(results, OF_RUN, &plotted);
         }
         if thin.count() > most(NUMBERS) {
             thin = Thinned::default();

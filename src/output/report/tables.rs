@@ -11,8 +11,10 @@ pub(super) const WITHIN: f64 = 1e-4;
 const MOST_ROWS: usize = 4000;
 /// Part of the largest number of a unit below which a column is round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Parts of a column's range, and of that of the independent variable, to which numbers are rounded.
-const ROUNDED: f64 = 1e-6;
+/// Parts of a column's range to which numbers are rounded: of a study, and of a run of a sweep.
+pub(super) const OF_STUDY: f64 = 1e-6;
+pub(super) const OF_RUN: f64 = 1e-5;
+/// The same of the independent variable.
 const PLACES: f64 = 1e-11;
 
 /// What was left out of a table.
@@ -40,8 +42,8 @@ pub(super) struct Thinned {
 }
 
 impl Thinned {
-    /// Of the columns that are `wanted`.
-    pub(super) fn of(results: &Results, wanted: &dyn Fn(&str) -> bool) -> Self {
+    /// Of the columns that are `wanted`, with numbers rounded to a part of their column's range.
+    pub(super) fn of(results: &Results, part: f64, wanted: &dyn Fn(&str) -> bool) -> Self {
         let x = &results.independent.values;
         let chosen = |columns: &'_ [Column]| -> Vec<usize> {
             (0..columns.len()).filter(|&i| wanted(&columns[i].name) && columns[i].values.len() == x.len()).collect()
@@ -56,7 +58,7 @@ impl Thinned {
             switches: &results.table.switches,
         };
         let kept = all.kept(MOST_ROWS);
-        let mut thin = columns.iter().map(|column| with_rows(column, &kept.rows, ROUNDED));
+        let mut thin = columns.iter().map(|column| with_rows(column, &kept.rows, part));
         let mut switches: Vec<usize> = results.table.switches.iter().filter_map(|row| kept.rows.binary_search(row).ok()).collect();
         switches.sort_unstable();
         Self {
@@ -144,9 +146,9 @@ mod tests {
         assert_eq!(rounded(1234.56789, 2), 1200.0);
         assert!(rounded(-1e-9, -2).is_sign_positive() && rounded(f64::NAN, 3).is_nan());
         let column = Column { values: vec![0.1 + 0.2, 1.0, 1.0 / 3.0], ..Column::default() };
-        assert_eq!(with_rows(&column, &[0, 2], ROUNDED).values, [0.3, 0.333_333_3]);
+        assert_eq!(with_rows(&column, &[0, 2], OF_STUDY).values, [0.3, 0.333_333_3]);
         let constant = Column { values: vec![1.0 / 3.0, 1.0 / 3.0 + 1e-16], ..Column::default() };
-        assert_eq!(with_rows(&constant, &[0, 1], ROUNDED).values, [0.333_333_333_333_3; 2]);
+        assert_eq!(with_rows(&constant, &[0, 1], OF_STUDY).values, [0.333_333_333_333_3; 2]);
     }
 
     #[test]
@@ -159,7 +161,7 @@ mod tests {
             table: Table { columns: vec![column("f", x), column("residual", noise)], ..Table::default() },
             ..Results::default()
         };
-        let thin = Thinned::of(&results, &|_| true);
+        let thin = Thinned::of(&results, OF_STUDY, &|_| true);
         assert_eq!(thin.independent.values.len(), 17);
         assert_eq!((thin.shown.of, thin.count()), (1000, 17 * 3));
     }

@@ -38,13 +38,17 @@ export interface Layout { left: number; right: number; width: number; height: nu
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#6b6b6b'];
 export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'];
+/** For many curves: dark blue to amber, rising in lightness. */
+const SCALE = [[0, 32, 96], [66, 78, 107], [124, 123, 120], [188, 160, 90], [235, 190, 30]] as const;
 const LETTER = 6.7;
 
-/** The colour of a curve; of many curves a scale from blue to amber. */
+/** The colour of a curve; many curves take a scale. */
 export function color(index: number, count: number): string {
   if (count <= COLORS.length) return `var(--curve-${index % COLORS.length})`;
-  const part = index / Math.max(count - 1, 1);
-  return `hsl(${Math.round(215 - 175 * part)} ${Math.round(60 + 20 * part)}% ${Math.round(36 + 22 * part)}%)`;
+  const place = (index / (count - 1)) * (SCALE.length - 1);
+  const low = Math.min(Math.floor(place), SCALE.length - 2);
+  const channels = SCALE[low]!.map((x, k) => Math.round(x + (SCALE[low + 1]![k]! - x) * (place - low)));
+  return `color-mix(in srgb, rgb(${channels.join(', ')}), white var(--lift))`;
 }
 
 /** Where everything stands. */

@@ -1,7 +1,7 @@
 // Which curves a figure has, from the results of a study.
 
 import { type Fine, column, drawn, fine, places, valueAt } from '../curves';
-import { shownIn } from '../numbers';
+import { pretty, shownIn } from '../numbers';
 import type { Column, Plot, Results, Study } from '../types';
 import type { Curve, Figure } from './chart';
 
@@ -57,7 +57,7 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
       if (!vertical) continue;
       const { unit, size: high } = shownIn(vertical);
       const y = drawn(vertical.values, grid).map((v) => v / high);
-      const text = !several ? name : plot.show.length > 1 ? `${name}, ${label}` : label;
+      const text = !several ? name : plot.show.length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
       curves.push({ label: text, unit, x, y, color: curves.length, dash: curves.length, shown: true });
       points.push((at) => [(plot.over ? valueAt(results, horizontal.values, at) : at) / size, valueAt(results, vertical.values, at) / high]);
       numbers.push(index);

@@ -9,6 +9,7 @@ const LIGHT: Record<string, string> = { grid: '#e8e8e8', line: '#555', soft: '#3
 /** Colours instead of the variables of the page. */
 function plain(text: string): string {
   return text
+    .replace(/color-mix\(in srgb, (rgb\([^)]*\)), white var\(--lift\)\)/g, '$1')
     .replace(/var\(--curve-(\d)\)/g, (_, index: string) => COLORS[Number(index)]!)
     .replace(/var\(--(\w+)\)/g, (_, name: string) => LIGHT[name] ?? '#333');
 }

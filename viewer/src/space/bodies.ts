@@ -2,7 +2,7 @@
 
 import type { Vector } from '../motion';
 import type { Scene, Shape } from '../types';
-import { type Face, add, ball, box, scaled, sheet, tube, unit } from './vectors';
+import { type Face, add, ball, box, hull, scaled, sheet, tube, unit } from './vectors';
 
 /** Sides of round bars and discs. */
 const SIDES = 14;
@@ -27,8 +27,10 @@ function faces(shape: Shape, thin: number, color: string): Face[] {
       const points = shape.points.map(vector);
       if (points.length === 1) return ball(points[0]!, 1.8 * thin, color);
       if (points.length === 2) return tube(points[0]!, points[1]!, thin, thin, 10, color);
+      const solid = hull(points, 0.02 * thin, color);
+      if (solid) return solid;
       const middle = scaled(points.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vector), 1 / points.length);
-      return points.flatMap((point) => tube(middle, point, thin, thin, 8, color));
+      return points.flatMap((point) => tube(middle, point, 0.7 * thin, 0.7 * thin, 8, color));
     }
   }
 }

@@ -17,12 +17,15 @@ interface Item { depth: number; draw(): void }
 
 class Space implements Renderer {
   private readonly pen: Pen;
-  private readonly middle: Vector;
+  private middle: Vector;
   private readonly size: number;
   private readonly floor: number;
   private readonly up: Vector;
   private readonly level: [Vector, Vector];
   private readonly paths: { at: number[]; points: Vector[] }[];
+  /** Places over the motion, and the width and height that they take in the first view. */
+  private readonly seen: Vector[] = [];
+  private extent: Point = [1, 1];
   private faces: { of: Inks | null; all: Face[][]; pins: Face[][] } = { of: null, all: [], pins: [] };
   private turn = 0.75;
   private tilt = 0.5;
@@ -44,6 +47,7 @@ class Space implements Renderer {
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ at, points: at.map((place) => motion.world(trace, place)) }));
     ({ middle: this.middle, size: this.size, floor: this.floor } = this.measure());
+    this.centre();
   }
 
   fit(): void {
@@ -94,7 +98,7 @@ class Space implements Renderer {
     this.right = across;
     this.toEye = unit(add(scaled(level, Math.cos(this.tilt)), this.up, Math.sin(this.tilt)));
     this.above = cross(this.toEye, this.right);
-    this.scale = ((Math.min(width, height) - 40) / this.size) * this.zoomed;
+    this.scale = Math.min((width - 90) / this.extent[0], (height - 90) / this.extent[1]) * this.zoomed;
     this.center = [width / 2, height / 2];
   }
 
@@ -119,12 +123,25 @@ class Space implements Renderer {
       for (const point of places) {
         const at = this.motion.world(point, place);
         if (!at.every(Number.isFinite)) continue;
+        this.seen.push(at);
         for (const i of [0, 1, 2] as const) [low[i], high[i]] = [Math.min(low[i], at[i]), Math.max(high[i], at[i])];
         floor = Math.min(floor, dot(at, this.up));
       }
     }
     if (low[0] > high[0]) return { middle: [0, 0, 0], size: 1, floor: -0.5 };
     return { middle: scaled(add(low, high), 0.5), size: Math.max(Math.hypot(...add(high, low, -1)), 1e-9), floor };
+  }
+
+  /** The middle and the size of the first view. */
+  private centre(): void {
+    this.look(100, 100);
+    const range = (along: Vector): Point => this.seen.reduce<Point>(([low, high], at) => [Math.min(low, dot(at, along)), Math.max(high, dot(at, along))], [Infinity, -Infinity]);
+    const [across, upwards] = [range(this.right), range(this.above)];
+    if (this.seen.length === 0) return;
+    const least = 0.05 * this.size;
+    this.extent = [Math.max(across[1] - across[0], least), Math.max(upwards[1] - upwards[0], least)];
+    const from = (along: Vector, [low, high]: Point) => (low + high) / 2 - dot(this.middle, along);
+    this.middle = add(add(this.middle, this.right, from(this.right, across)), this.above, from(this.above, upwards));
   }
 
   /** Faces of bodies and joints in the colours of the page; made once for each. */
