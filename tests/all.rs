@@ -35,6 +35,7 @@ mod reference;
 mod regimes;
 mod resolution;
 mod rheonomic;
+mod scenes;
 mod singular;
 mod solve;
 mod statics;
