@@ -33,6 +33,7 @@ mod quaternions;
 mod quick_return;
 mod reference;
 mod regimes;
+mod report;
 mod resolution;
 mod rheonomic;
 mod scenes;

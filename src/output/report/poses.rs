@@ -76,7 +76,10 @@ impl Coded {
     pub(super) fn of(scene: &Scene) -> Self {
         let Frames { at, poses, .. } = &scene.frames;
         let range = at.last().zip(at.first()).map_or(0.0, |(to, from)| (to - from).abs());
-        let arrow = |arrow: &Arrow| (!arrow.values.is_empty()).then(|| Differences::of(&arrow.values, vec![ten(ARROW * largest(&arrow.values)); arrow.values.len() / at.len().max(1)]));
+        let arrow = |arrow: &Arrow| {
+            (!arrow.values.is_empty())
+                .then(|| Differences::of(&arrow.values, vec![ten(ARROW * largest(&arrow.values)); arrow.values.len() / at.len().max(1)]))
+        };
         Self {
             at: Differences::of(at, vec![ten(AT * range)]),
             poses: Differences::of(poses, units(scene)),

@@ -50,7 +50,8 @@ impl ReportStudy {
             shown: RowsShown::default(),
         };
         let mut study = value(results, thin, &[]);
-        let mut all: Vec<Value> = results.runs.iter().map(|run| json!({ "label": run.label, "results": null, "solution": run.solution })).collect();
+        let mut all: Vec<Value> =
+            results.runs.iter().map(|run| json!({ "label": run.label, "results": null, "solution": run.solution })).collect();
         for (i, results) in taken {
             if let Some(run) = all.get_mut(i) {
                 run["results"] = results;
