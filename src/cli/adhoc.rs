@@ -35,7 +35,7 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: impl Fn(usize) -> S
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let plots = !arguments.no_plots;
     let (formats, part) = (Formats::default(), &Part::Whole);
-    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, formats, part, common };
+    let job = Job { document: &document, model: &model, study: &name, directory: &directory, plots, report: false, formats, part, common };
     let finished = job.run();
     if interrupted() {
         interrupt::print_end(&format!("interrupted: study `{name}`"));

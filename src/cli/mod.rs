@@ -15,6 +15,7 @@ mod kept;
 mod modes;
 mod new;
 mod progress;
+mod report;
 mod run;
 mod schema;
 mod shard;

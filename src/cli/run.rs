@@ -5,9 +5,9 @@ use super::interrupt::{self, interrupted, watch_interrupts};
 use super::shard::{Part, Shard};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
-use super::{Common, code, files, print_error, print_note, print_out};
+use super::{Common, code, files, print_error, print_note, print_out, report};
 use grashof::model::{Document, Model, Selection};
-use grashof::output::Formats;
+use grashof::output::{Formats, ReportStudy};
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::verify::verify;
 use std::collections::HashSet;
@@ -23,6 +23,9 @@ pub(super) struct Arguments {
     /// Compute one part of a sweep alone, the K-th of N, and keep it for `grashof gather`
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Write no report
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     wanted: Wanted,
 }
@@ -95,7 +98,12 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     studies.retain(|study| seen.insert(study.clone()));
     let Some(directory) = files::directory(&arguments.model, common) else { return code::INPUT };
     let part = arguments.shard.map_or(Part::Whole, Part::Shard);
-    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory, part: &part };
+    let paged = !arguments.no_report && arguments.shard.is_none();
+    let request = Request { document: &document, common, wanted: &arguments.wanted, directory: &directory, part: &part, report: paged };
+    if paged && let Err(code) = files::prepare(&directory, &[report::FILE.into()], common) {
+        return code;
+    }
+    let mut page = paged.then(|| report::begun(&document, common));
     let mut worst = code::DONE;
     let mut loader = Loader::new(&document, common.threads());
     let mut noted = false;
@@ -141,12 +149,18 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
             continue;
         }
         request.drop_expectations(&mut model, common.changes(), &mut noted);
-        let (code, report) = request.study(&model, study, study);
-        worst = worst.max(code);
-        reported(report);
+        let told = request.study(&model, study, study);
+        worst = worst.max(told.code);
+        reported(told.json);
         if interrupted() {
             return code::INTERRUPTED;
         }
+        if let (Some(page), Some(study)) = (&mut page, &told.page) {
+            page.add(study);
+        }
+    }
+    if arguments.shard.is_none() {
+        worst = worst.max(report::written(page, &directory, common));
     }
     worst
 }
@@ -173,6 +187,17 @@ pub(super) struct Request<'a> {
     pub(super) wanted: &'a Wanted,
     pub(super) directory: &'a Path,
     pub(super) part: &'a Part,
+    /// Whether a report takes the studies.
+    pub(super) report: bool,
+}
+
+/// What became of a study.
+pub(super) struct Told {
+    pub(super) code: u8,
+    /// Its results, if they are wanted as JSON.
+    pub(super) json: Option<String>,
+    /// What the report has of it, if there is one.
+    pub(super) page: Option<ReportStudy>,
 }
 
 impl Request<'_> {
@@ -190,11 +215,12 @@ impl Request<'_> {
         }
     }
 
-    /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and gives the code and, for JSON, the
-    /// report. An interrupt was reported.
-    pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> (u8, Option<String>) {
-        let Self { document, common, directory, part, .. } = *self;
-        let job = Job { document, model, study: stem, directory, plots: !self.wanted.no_plots, formats: self.wanted.format, part, common };
+    /// Runs a study into files whose names begin with `stem`, prints what is wanted of it, and says what became of it. An
+    /// interrupt was reported.
+    pub(super) fn study(&self, model: &Model, study: &str, stem: &str) -> Told {
+        let Self { document, common, directory, part, report, .. } = *self;
+        let (plots, formats) = (!self.wanted.no_plots, self.wanted.format);
+        let job = Job { document, model, study: stem, directory, plots, report, formats, part, common };
         let finished = job.run();
         if interrupted() {
             let what = match (&finished.output, finished.code) {
@@ -202,8 +228,8 @@ impl Request<'_> {
                 (Some(_), code::INTERRUPTED) => "is written up to there",
                 _ => "was the last one",
             };
-            let report = finished.output.map(|output| output.report).filter(|_| self.wanted.json);
-            return (print_interrupt(study, what), report);
+            let json = finished.output.map(|output| output.report).filter(|_| self.wanted.json);
+            return Told { code: print_interrupt(study, what), json, page: None };
         }
         let mut code = finished.code;
         self.show(&finished, stem, model.study.as_ref().map_or("", |s| s.about.as_str()));
@@ -214,7 +240,8 @@ impl Request<'_> {
                 code = print_interrupt(study, "is written, and not verified");
             }
         }
-        (code, finished.output.map(|output| output.report).filter(|_| self.wanted.json))
+        let (json, page) = finished.output.map_or((None, None), |output| (Some(output.report), output.page));
+        Told { code, json: json.filter(|_| self.wanted.json), page }
     }
 
     /// Prints what a study is for, and its tables.

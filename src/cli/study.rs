@@ -8,7 +8,9 @@ use super::shard::Part;
 use super::terminal::{print_interrupted, print_report};
 use super::{Common, code, files, print_error, print_note};
 use grashof::model::{Document, Kind, Model, Report, Shown, ShownWhat, Study};
-use grashof::output::{Figure, Formats, Picture, RowFiles, Staging, WriteError, drawing, figures, summary, tables, ten_digits, write_json};
+use grashof::output::{
+    Figure, Formats, Picture, ReportStudy, RowFiles, Staging, WriteError, drawing, figures, summary, tables, ten_digits, write_json,
+};
 use grashof::par;
 use grashof::results::{Failure, Results};
 use grashof::studies::common::case::{Streamed, parameters};
@@ -26,6 +28,8 @@ pub(super) struct Job<'a> {
     pub(super) study: &'a str,
     pub(super) directory: &'a Path,
     pub(super) plots: bool,
+    /// Whether the report takes it.
+    pub(super) report: bool,
     pub(super) formats: Formats,
     pub(super) part: &'a Part,
     pub(super) common: &'a Common,
@@ -57,6 +61,8 @@ pub(super) struct Output {
     pub(super) report: String,
     /// Columns with their units.
     pub(super) columns: Vec<(String, String)>,
+    /// What the report has of it, if it is wanted.
+    pub(super) page: Option<ReportStudy>,
 }
 
 impl Job<'_> {
@@ -145,7 +151,8 @@ impl Job<'_> {
         if self.plots && !interrupted() {
             self.draw(&mut staging, figures(&results), &results);
         }
-        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results) };
+        let page = self.report.then(|| ReportStudy::of(&results, &study.about));
+        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results), page };
         Finished { computed: vec![values(&results)], ..self.write(&staging, code, output) }
     }
 

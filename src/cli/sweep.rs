@@ -70,13 +70,13 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
         study.plots.extend(figure);
     }
     let Some(directory) = files::directory(asked.model, common) else { return code::INPUT };
-    let request = Request { document: &document, common, wanted: asked.wanted, directory: &directory, part: &asked.part };
+    let request = Request { document: &document, common, wanted: asked.wanted, directory: &directory, part: &asked.part, report: false };
     request.drop_expectations(&mut model, swept.or(common.changes()), &mut false);
-    let (code, report) = request.study(&model, study, &stem);
-    if let Some(report) = report {
+    let told = request.study(&model, study, &stem);
+    if let Some(report) = told.json {
         print_out(&with_errors(&report, take_errors()));
     }
-    code
+    told.code
 }
 
 /// The study that is named, or the only one.

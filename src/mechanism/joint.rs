@@ -24,6 +24,8 @@ pub struct Joint<G: Space> {
     pub b: (usize, G::Vector),
     /// Unit axis in the first body, for drawings.
     pub axis: [f64; 3],
+    /// What its first coordinate is as drawn, rad or m.
+    pub zero: f64,
     /// The tree node that it carries, and whether its first body is the child.
     pub tree: Option<(usize, bool)>,
     /// Gauges of its coordinates, in the order of its slots.
@@ -46,6 +48,7 @@ impl<G: Space> Joint<G> {
             a: (self.a.0, G::lift_vector::<D>(self.a.1)),
             b: (self.b.0, G::lift_vector::<D>(self.b.1)),
             axis: self.axis,
+            zero: self.zero,
             tree: self.tree,
             slots: self.slots.clone(),
             rows: self.rows.clone(),

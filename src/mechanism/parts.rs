@@ -2,8 +2,8 @@
 
 use super::step::multiply_quaternion;
 use super::{
-    Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, PointLoad, Pressing, Rotor, Row, RowKind,
-    RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
+    Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, Outline, PointLoad, Pressing, Rotor, Row,
+    RowKind, RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
 };
 use crate::expression::LookupTable;
 use crate::geometry::{MassProperties, Pose, Space};
@@ -26,6 +26,8 @@ pub struct Body<G: Space> {
     pub points: Vec<(String, G::Vector)>,
     /// Points that outline it in drawings beside its joints and points, body frame, m.
     pub drawn: Vec<G::Vector>,
+    /// Its shape, if the model gives one.
+    pub outline: Option<Outline>,
     /// Velocity columns that move it, from the root.
     pub path: Vec<usize>,
 }
@@ -402,6 +404,7 @@ impl<G: Space> Body<G> {
             attached: self.attached.iter().map(|a| Attached { name: a.name.clone(), mass: a.mass.lift() }).collect(),
             points: self.points.iter().map(|(n, p)| (n.clone(), G::lift_vector::<D>(*p))).collect(),
             drawn: self.drawn.iter().map(|p| G::lift_vector::<D>(*p)).collect(),
+            outline: self.outline,
             path: self.path.clone(),
         }
     }

@@ -1,7 +1,7 @@
-//! Figures that a study asks for, and drawings of its mechanism, laid out from its results.
+//! Figures that a study asks for, laid out from its results.
 
-use super::{Axis, Curve, Drawing, Figure, Link, LinkKind, Outline, Placement, Scale, Symbol, SymbolKind, Trace};
-use crate::results::{Column, Plot, Results, Scene};
+use super::{Axis, Curve, Figure, Scale};
+use crate::results::{Column, Plot, Results};
 
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;
@@ -119,30 +119,6 @@ fn unit(column: &Column) -> (String, f64) {
 fn scale_x(curves: &mut [Curve], factor: f64) {
     for point in curves.iter_mut().flat_map(|c| &mut c.points) {
         point.0 /= factor;
-    }
-}
-
-/// The drawing of a scene of a study; that of the mechanism itself is titled by the model alone.
-pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
-    let kind = |word: &str| match word {
-        "slider" | "cylindrical" | "planar" | "screw" => Some(SymbolKind::Slide),
-        "pin-in-slot" => Some(SymbolKind::Slot),
-        "spherical" | "universal" => Some(SymbolKind::Ball),
-        "fixed" => Some(SymbolKind::Weld),
-        "free" | "distance" => None,
-        _ => Some(SymbolKind::Hinge),
-    };
-    let joints = scene.joints.iter().filter_map(|j| {
-        let poses = j.at.iter().zip(&j.along).map(|(at, along)| Placement { at: *at, along: *along, way: None }).collect();
-        Some(Symbol { name: j.name.clone(), kind: kind(&j.kind)?, grounded: j.grounded, poses })
-    });
-    let spring = |(name, poses): &(String, Vec<[[f64; 2]; 2]>)| Link { name: name.clone(), kind: LinkKind::Spring, poses: poses.clone() };
-    Drawing {
-        title: if name == "mechanism" { model.to_string() } else { format!("{model}, {study}: {}", name.replace('-', " ")) },
-        bodies: scene.bodies.iter().map(|(name, poses)| Outline { name: name.clone(), poses: poses.clone() }).collect(),
-        joints: joints.collect(),
-        links: scene.springs.iter().map(spring).collect(),
-        traces: scene.traces.iter().map(|(name, points)| Trace { name: name.clone(), points: points.clone() }).collect(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, and the table on the terminal.
+//! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, a report, and the table on the terminal.
 //!
 //! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
 //! pure but [`Staging::commit`], [`prepare`], [`CsvRows`] and [`RowFiles`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
@@ -25,7 +25,9 @@ mod parquet;
 mod picture;
 mod plot;
 mod pose;
+mod posed;
 mod raster;
+mod report;
 mod results_schema;
 mod row_files;
 mod row_writer;
@@ -38,6 +40,7 @@ mod text;
 mod thin;
 mod ticks;
 mod units;
+mod view;
 mod write_error;
 
 pub use crate::results::number;
@@ -46,7 +49,7 @@ pub use csv::write_csv;
 pub use csv_rows::CsvRows;
 pub use drawing::render_drawing;
 pub use figure::render_figure;
-pub use figures::{drawing, figures};
+pub use figures::figures;
 pub use formats::{Formats, files, run_files, tables};
 pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
@@ -56,7 +59,9 @@ pub use parquet::write_parquet;
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
+pub use posed::drawing;
 pub use raster::RenderError;
+pub use report::{Report, ReportModel, ReportRuns, ReportStudy};
 pub use results_schema::results_schema;
 pub use row_files::RowFiles;
 pub use scalars::ten_digits;

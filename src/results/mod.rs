@@ -7,8 +7,9 @@ mod compared;
 mod failure;
 mod finding;
 mod number;
+mod plot;
 mod rows;
-mod scene;
+pub mod scene;
 mod table;
 mod unknown;
 
@@ -19,8 +20,9 @@ pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};
 pub use finding::{Checked, Finding, Happened};
 pub use number::number;
+pub use plot::Plot;
 pub use rows::{Rows, Sink};
-pub use scene::{Plot, Scene, SceneJoint};
+pub use scene::Scene;
 pub use table::{Column, ShownIn, Table};
 pub use unknown::Unknown;
 
@@ -82,7 +84,7 @@ pub struct Results {
 pub struct Run {
     /// The swept values: `l3 = 0.3 m`.
     pub label: String,
-    /// What it has come to; none if it did not begin. Drawings are those of the first run that has any.
+    /// What it has come to; none if it did not begin. If drawings of all runs are too large, those of the first run are kept.
     pub results: Option<Box<Results>>,
     /// What certifies its solution, if it solves.
     pub solution: Option<Solution>,

@@ -11,6 +11,9 @@ use crate::results::{self, By, Column, Finding, Results, Solution, Table, number
 use crate::studies::common::outcome::Outcome;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Numbers of the drawings of all runs together, so that they are all kept.
+const DRAWN: usize = 2_000_000;
+
 /// One run of a study.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -76,7 +79,7 @@ pub fn at(
 }
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
-/// those at the places that are `wanted`. Drawings are left of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// those at the places that are `wanted`. Drawings are left of all of them where these have no more than [`DRAWN`] numbers together, else of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
 /// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,
@@ -92,8 +95,10 @@ pub fn sweep(
     runs.resize_with(points.len(), || None);
     let missing: Vec<(usize, Vec<f64>)> =
         (0..points.len()).filter(|i| runs[*i].is_none() && wanted(*i)).filter_map(|i| Some((i, points[i].take()?))).collect();
-    // the first run with results is drawn, and no other one
+    // the first run with results is drawn in any case
     let first = AtomicUsize::new(runs.iter().position(|run| run.as_ref().is_some_and(|run| run.result.is_ok())).unwrap_or(usize::MAX));
+    let known = runs.iter().flatten().filter_map(|run| run.result.as_ref().ok());
+    let drawn = AtomicUsize::new(known.map(|outcome| numbers(outcome)).sum());
     let computed = par::map(
         missing.len(),
         threads,
@@ -103,10 +108,11 @@ pub fn sweep(
                 return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
             let mut run = at(model, study, point.clone(), 1, None, stop, &|_, _| {});
-            if let Ok(outcome) = &mut run.result
-                && first.fetch_min(*i, Ordering::Relaxed) < *i
-            {
-                outcome.scenes = Vec::new();
+            if let Ok(outcome) = &mut run.result {
+                let all = drawn.fetch_add(numbers(outcome), Ordering::Relaxed) + numbers(outcome);
+                if first.fetch_min(*i, Ordering::Relaxed) < *i && all > DRAWN {
+                    outcome.scenes = Vec::new();
+                }
             }
             done(*i, &run);
             run
@@ -117,8 +123,15 @@ pub fn sweep(
         runs[i] = Some(run);
     }
     let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
-    runs.iter_mut().filter_map(|run| run.result.as_mut().ok()).skip(1).for_each(|outcome| outcome.scenes = Vec::new());
+    if drawn.load(Ordering::Relaxed) > DRAWN {
+        runs.iter_mut().filter_map(|run| run.result.as_mut().ok()).skip(1).for_each(|outcome| outcome.scenes = Vec::new());
+    }
     runs
+}
+
+/// Numbers of the frames of a run.
+fn numbers(outcome: &Outcome) -> usize {
+    outcome.scenes.iter().map(|(_, scene)| scene.frames.poses.len()).sum()
 }
 
 /// What a run, or the search of a `solve`, has come to, with names.

@@ -7,7 +7,7 @@ use super::super::shard::Shard;
 use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
 use grashof::model::{ShownWhat, Study};
-use grashof::output::{Staging, figures, files, run_files, summary, tables, write_json};
+use grashof::output::{ReportRuns, ReportStudy, Staging, figures, files, run_files, summary, tables, write_json};
 use grashof::results::Results;
 use grashof::studies::sweep::{self, Run, together};
 use std::fs;
@@ -148,10 +148,14 @@ impl Job<'_> {
         let mut computed = Vec::new();
         let mut first = None;
         let mut unwritten = None;
+        let mut pages = self.report.then(|| ReportRuns::new(runs.len()));
         let results = together(self.model, study, runs, &mut |i, run| {
             code = code.max(self.expectations(run));
             computed.push(values(run));
             unwritten = unwritten.max(self.add(&mut staging, run_files(self.study, i + 1, run, self.formats)).err());
+            if let Some(pages) = &mut pages {
+                pages.add(i, run);
+            }
             if first.is_none() {
                 first = Some(run.clone());
             }
@@ -165,7 +169,8 @@ impl Job<'_> {
         if let (true, Some(first)) = (self.plots, &first) {
             self.draw(&mut staging, figures(&results), first);
         }
-        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results) };
+        let page = pages.map(|pages| ReportStudy::of_runs(&results, &study.about, pages));
+        let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results), page };
         let finished = self.write(&staging, code, output);
         Finished { computed, ended: finished.output.is_some(), ..finished }
     }

@@ -1,13 +1,26 @@
 //! Tables, masses and points.
 
 use super::super::inertia;
-use super::super::{Attached, Body};
+use super::super::{Attached, Body, Outline};
 use super::builder::Builder;
 use crate::expression::{Id, LookupTable, TableError};
 use crate::geometry::{MassProperties, Space};
 use crate::model::{PointAt, PointRef, Shape, roll_pitch_yaw};
 use crate::scalar::Scalar;
 use std::sync::Arc;
+
+/// What a shape gives: mass properties, the ends of a bar (else twice the origin), the outline.
+struct Shaped<G: Space> {
+    mass: MassProperties<G>,
+    ends: [G::Vector; 2],
+    outline: Option<Outline>,
+}
+
+impl<G: Space> Default for Shaped<G> {
+    fn default() -> Self {
+        Self { mass: MassProperties::default(), ends: [G::Vector::default(); 2], outline: None }
+    }
+}
 
 impl<G: Space> Builder<'_, G> {
     /// Tables as numbers.
@@ -31,7 +44,7 @@ impl<G: Space> Builder<'_, G> {
     /// Bodies with their masses and points.
     pub(super) fn bodies(&mut self) {
         for (index, body) in self.model.bodies.iter().enumerate() {
-            let (mut bare, bar) = self.shape(index);
+            let Shaped { mass: mut bare, ends: bar, outline } = self.shape(index);
             let place = body.place.as_str();
             if let Some(id) = body.mass {
                 bare.mass = G::S::constant(self.number(id, place));
@@ -48,8 +61,8 @@ impl<G: Space> Builder<'_, G> {
                 let at = match &point.at {
                     PointAt::Origin => G::Vector::default(),
                     PointAt::Com => bare.com,
-                    PointAt::Start => bar.0,
-                    PointAt::End => bar.1,
+                    PointAt::Start => bar[0],
+                    PointAt::End => bar[1],
                     PointAt::Given(ids) => G::vector(&self.triple(ids, place)),
                 };
                 points.push((point.name.clone(), at));
@@ -70,7 +83,7 @@ impl<G: Space> Builder<'_, G> {
                 }
             }
             let drawn = body.drawn.iter().map(|at| G::vector(&self.triple(at, place))).collect();
-            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, path: vec![] });
+            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, outline, path: vec![] });
         }
     }
 
@@ -85,40 +98,45 @@ impl<G: Space> Builder<'_, G> {
         }
     }
 
-    /// Mass properties of the shape, and the ends of its bar.
-    fn shape(&mut self, body: usize) -> (MassProperties<G>, (G::Vector, G::Vector)) {
+    /// What the shape of a body gives.
+    fn shape(&mut self, body: usize) -> Shaped<G> {
         let model = self.model;
         let body = &model.bodies[body];
         let place = body.place.as_str();
+        let Some(shape) = &body.shape else { return Shaped::default() };
         let origin = G::Vector::default();
-        let Some(shape) = &body.shape else { return (MassProperties::default(), (origin, origin)) };
         match shape {
             Shape::Bar { length, mass, width, height } => {
                 let l = self.length(*length, place, "the length is");
                 let [m, b, h] = [*mass, *width, *height].map(|x| self.optional(x, place));
-                (inertia::bar(m, l, b, h), (origin, G::vector(&[l])))
+                let outline = Outline::Bar { from: [0.0; 3], to: [l, 0.0, 0.0], width: b };
+                Shaped { mass: inertia::bar(m, l, b, h), ends: [origin, G::vector(&[l])], outline: Some(outline) }
             }
             Shape::BarBetween { from, to, mass, width, height } => {
                 let (from, to) = (self.triple(from, place), self.triple(to, place));
                 let [m, b, h] = [*mass, *width, *height].map(|x| self.optional(x, place));
                 if from == to {
                     self.fault("no-length", place, "the bar begins and ends at one point".into(), "two points", Some("move `to`".into()));
-                    return (MassProperties::default(), (origin, origin));
+                    return Shaped::default();
                 }
-                (inertia::bar_between(m, from, to, b, h), (G::vector(&from), G::vector(&to)))
+                let outline = Some(Outline::Bar { from, to, width: b });
+                Shaped { mass: inertia::bar_between(m, from, to, b, h), ends: [G::vector(&from), G::vector(&to)], outline }
             }
             Shape::Disc { radius, mass, thickness } => {
                 let r = self.length(*radius, place, "the radius is");
                 let [m, t] = [*mass, *thickness].map(|x| self.optional(x, place));
-                (inertia::disc(m, r, t), (origin, origin))
+                let outline = Some(Outline::Disc { radius: r, thickness: t });
+                Shaped { mass: inertia::disc(m, r, t), ends: [origin; 2], outline }
             }
             Shape::Plate { size, mass } => {
                 let size = self.triple(size, place);
-                (inertia::block(self.optional(*mass, place), size), (origin, origin))
+                let mass = inertia::block(self.optional(*mass, place), size);
+                Shaped { mass, ends: [origin; 2], outline: Some(Outline::Block { size }) }
             }
             Shape::Ball { radius, mass } => {
                 let r = self.length(*radius, place, "the radius is");
-                (inertia::ball(self.optional(*mass, place), r), (origin, origin))
+                let mass = inertia::ball(self.optional(*mass, place), r);
+                Shaped { mass, ends: [origin; 2], outline: Some(Outline::Ball { radius: r }) }
             }
         }
     }

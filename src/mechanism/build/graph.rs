@@ -42,6 +42,7 @@ impl<G: Space> Builder<'_, G> {
                 a: self.at(joint.a),
                 b: self.at(joint.b),
                 axis: shape.triad[if self.planar { 0 } else { 2 }],
+                zero: shape.zero,
                 tree: None,
                 slots: vec![],
                 rows: 0..0,

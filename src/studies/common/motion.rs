@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::observe::Observer;
 use super::switching::{Distance, Switching};
-use crate::geometry::Space;
+use crate::geometry::{Pose, Space};
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::driven::Driven;
 use crate::kinematics::path::{NoPath, Path, SINGULAR};
@@ -121,8 +121,15 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.clock.time(&mut self.driven.dynamics, &mut self.modes, s)
     }
 
-    /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
-    pub(crate) fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
+    /// Poses of all bodies at progress `s`; none where it cannot be reached.
+    pub(crate) fn poses(&mut self, s: f64) -> Option<Vec<Pose<G>>> {
+        let piece = self.breaks.partition_point(|b| *b <= s).clamp(1, self.breaks.len() - 1) - 1;
+        self.reach(s, Some(piece)).ok()?;
+        Some(self.driven.dynamics.poses())
+    }
+
+    /// Places the mechanism at progress `s` with the modes of a piece, or with modes from the state itself; whether rates are open.
+    fn reach(&mut self, s: f64, piece: Option<usize>) -> Result<bool, Lost> {
         let mut lost = Lost { at: self.clock.value(s), gap: None };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
@@ -130,7 +137,10 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.modes[..m.switches].copy_from_slice(&self.pieces[piece]);
         }
         match self.dead_at(s) {
-            Some(q) => self.singular(t, &q),
+            Some(q) => {
+                self.singular(t, &q);
+                Ok(false)
+            }
             None => {
                 let mut q = std::mem::take(&mut self.driven.q);
                 let near = self.path.guess(&self.driven, t, &mut q);
@@ -148,11 +158,19 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     }
                     let Some(q) = standing.or_else(|| self.smooth(t)) else { return Err(lost) };
                     self.singular(t, &q);
-                } else {
-                    self.driven.rates(&self.modes);
+                    return Ok(false);
                 }
+                Ok(true)
             }
         }
+    }
+
+    /// Evaluates the mechanism at progress `s`: with the modes of a piece, or with modes from the state itself.
+    pub(crate) fn solve(&mut self, s: f64, piece: Option<usize>) -> Result<(), Lost> {
+        if self.reach(s, piece)? {
+            self.driven.rates(&self.modes);
+        }
+        let m = self.driven.dynamics.mechanism;
         if piece.is_none() {
             let d = &mut self.driven.dynamics;
             for program in [&m.position_program, &m.velocity_program, &m.force_program, &m.state_program] {

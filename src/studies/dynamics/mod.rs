@@ -26,7 +26,7 @@ use super::common::clock::Clock;
 use super::common::functional::Functionals;
 use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
-use super::common::scene;
+use super::common::scene::{MECHANISM, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
@@ -106,7 +106,9 @@ where
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
     let Kept { places, switches, rows, selected_from } = rows.recorded();
-    let scene = scene::scene(&phases.first().mechanism, [from, to], false, &mut |t| pose(&mut trajectory, &breaks, t));
+    let span = Span { ends: [from, to], ..Span::default() };
+    let subject = Subject { case, mechanism: &phases.first().mechanism };
+    let scene = subject.over(span, &mut |t| Some((t, pose(&mut trajectory, &breaks, t)?)));
     Ok(Outcome {
         stopped,
         undefined,
@@ -123,7 +125,7 @@ where
         findings: phases.start.findings().chain(findings).collect(),
         certificate,
         events,
-        scenes: vec![(scene::MECHANISM.into(), scene)],
+        scenes: vec![(MECHANISM.into(), scene)],
         ..Outcome::default()
     })
 }

@@ -15,7 +15,7 @@ mod probe;
 use super::common::case::Case;
 use super::common::case::parameters_with;
 use super::common::numbers::Sources;
-use super::common::scene::{MECHANISM, of_poses};
+use super::common::scene::{MECHANISM, Subject};
 use super::dynamics::explain::massless;
 use super::statics::equilibrium;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
@@ -30,7 +30,7 @@ use crate::kinematics::undefined::assembled;
 use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
-use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows};
+use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
@@ -63,7 +63,7 @@ where
         Whole { q: start.q.clone(), v: start.v.clone(), z, modes }
     };
     let ids: Vec<Id> = study.columns.iter().map(|c| c.value).collect();
-    let scene = pose(&mechanism, &at);
+    let scene = pose(case, &mechanism, &at);
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };
     let names = Names::new(&bench);
     let (base, reduced) = bench.linear(&lifted, &mut at, &names)?;
@@ -115,11 +115,11 @@ fn without_friction<G: Space>(mechanism: &Mechanism<G>, study: &Study) -> Result
 }
 
 /// The drawing of a state.
-fn pose<G: Space<S = f64>>(mechanism: &Mechanism<G>, at: &Whole) -> crate::results::Scene {
+fn pose<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, at: &Whole) -> Scene {
     let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, &at.modes);
     dynamics.position(&at.q, &at.modes);
-    of_poses(mechanism, &[dynamics.poses()])
+    Subject { case, mechanism }.of_poses(&[dynamics.poses()])
 }
 
 /// Names of the coordinates behind all velocities (nv), of their rates, and whether they turn.

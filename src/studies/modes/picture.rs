@@ -5,8 +5,10 @@ use crate::geometry::{self, Space};
 use crate::kinematics::held::Pose;
 use crate::mechanism::{Mechanism, Step};
 use crate::results::Scene;
-use crate::studies::common::scene::of_poses;
+use crate::studies::common::case::Case;
+use crate::studies::common::scene::{Span, Subject, extent};
 use nalgebra::DVector;
+use std::f64::consts::TAU;
 
 /// Largest move of a drawn point, as part of the picture's size.
 const MOVE: f64 = 0.08;
@@ -14,12 +16,19 @@ const MOVE: f64 = 0.08;
 const TURN: f64 = 0.5;
 /// Closed so far, m or rad.
 const CLOSED: f64 = 1e-10;
+/// Cells of the frames of a swing: at least, so that both sides are there, and at most.
+const QUARTERS: usize = 4;
+const CELLS: usize = 128;
+/// A mechanism of more velocities has the fewest frames: closing it takes time.
+const LARGE: usize = 200;
 /// Steps of closing, and halvings of a displacement that does not close.
 const STEPS: usize = 60;
 const HALVINGS: usize = 6;
 
-/// Outlines at rest and displaced by ± a shape of all velocities (nv); `close` gives the displacement (nv) that closes gaps Φ (rows).
+/// One swing of a shape of all velocities (nv), from rest over both sides back to rest, over its phase, rad; `close` gives the
+/// displacement (nv) that closes gaps Φ (rows).
 pub(super) fn picture<G: Space<S = f64>>(
+    case: Case<'_>,
     mechanism: &Mechanism<G>,
     pose: Pose<'_>,
     delta: &DVector<f64>,
@@ -28,6 +37,7 @@ pub(super) fn picture<G: Space<S = f64>>(
     let mut dynamics = Dynamics::without_mass(mechanism);
     dynamics.time(0.0, pose.modes);
     let mut at = |s: f64| displaced(&mut dynamics, pose, &(delta * s), &mut close);
+    let subject = Subject { case, mechanism };
     let Some(rest) = at(0.0) else { return Scene::default() };
     let largest = mechanism.steps.iter().fold(0.0, |m: f64, step| match *step {
         Step::Axis { turns: true, v, .. } => m.max(delta[v].abs()),
@@ -36,7 +46,7 @@ pub(super) fn picture<G: Space<S = f64>>(
     });
     let probe = 1e-6 / delta.amax().max(f64::MIN_POSITIVE);
     let (size, moved) = match at(probe) {
-        Some(near) => extent(&of_poses(mechanism, &[rest.clone(), near])),
+        Some(near) => extent(mechanism, &rest, &near),
         None => (1.0, 0.0),
     };
     // limits of points and of turns; a shape that moves nothing seen keeps the latter
@@ -47,12 +57,17 @@ pub(super) fn picture<G: Space<S = f64>>(
         s = 0.0;
     }
     for _ in 0..HALVINGS {
-        if let (Some(ahead), Some(back)) = (at(s), at(-s)) {
-            return of_poses(mechanism, &[rest, ahead, back]);
+        if at(s).is_some() && at(-s).is_some() {
+            let most = if mechanism.nv > LARGE { QUARTERS } else { CELLS };
+            let span = Span { ends: [0.0, TAU], turns: true, first: QUARTERS, most };
+            let mut scene = subject.over(span, &mut |phase| Some((phase, at(s * phase.sin())?)));
+            let last = scene.frames.count() - 1;
+            scene.frames.shown = vec![0, last / 4, last - last / 4];
+            return scene;
         }
         s *= 0.5;
     }
-    of_poses(mechanism, &[rest])
+    subject.of_poses(&[rest])
 }
 
 /// Poses of the bodies after a displacement (nv), the constraints closed; none if they do not close.
@@ -73,22 +88,4 @@ fn displaced<G: Space<S = f64>>(
         mechanism.retract(&mut q, &close(&dynamics.work.phi));
     }
     None
-}
-
-/// Size of a picture, and the largest move of its points from its first pose to its second.
-fn extent(scene: &Scene) -> (f64, f64) {
-    let (mut low, mut high, mut moved) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0_f64);
-    let bodies = scene.bodies.iter().filter_map(|(_, poses)| Some((poses.first()?.clone(), poses.get(1)?.clone())));
-    let joints = scene.joints.iter().map(|j| (j.at[..1].to_vec(), j.at[1..2].to_vec()));
-    for (first, second) in bodies.chain(joints) {
-        for (p, q) in first.iter().zip(&second) {
-            moved = moved.max((p[0] - q[0]).hypot(p[1] - q[1]));
-            for axis in 0..2 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-            }
-        }
-    }
-    let size = (high[0] - low[0]).hypot(high[1] - low[1]);
-    (if size > 0.0 && size.is_finite() { size } else { 1.0 }, moved)
 }

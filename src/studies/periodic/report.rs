@@ -21,7 +21,7 @@ use crate::studies::common::functional::Functionals;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::recorder::{Recorded, Recorder};
-use crate::studies::common::scene;
+use crate::studies::common::scene::{MECHANISM, Span, Subject};
 use crate::studies::common::watched::{Watched, in_variable, unresolved};
 use crate::studies::dynamics::phases::Phases;
 use crate::studies::dynamics::setup::resolution;
@@ -113,7 +113,15 @@ impl<'a> Regime<'a> {
         let numbers =
             Sources { case: Case { model, study, ..case }, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         let trajectory = &mut lap.trajectory;
-        let scene = scene::scene(&phases.mechanism, [times[0], times[times.len() - 1]], true, &mut |t| pose(trajectory, &times, t));
+        let span = Span { ends: [times[0], times[times.len() - 1]], turns: true, ..Span::default() };
+        let over = asked.over.is_some().then_some(columns.over).flatten();
+        let mut out = vec![0.0; trajectory.columns()];
+        let scene = Subject { case, mechanism: &phases.mechanism }.over(span, &mut |t| {
+            let Some([value, _]) = over else { return Some((t, pose(trajectory, &times, t)?)) };
+            let piece = times.partition_point(|b| *b <= t).clamp(1, times.len() - 1) - 1;
+            trajectory.row(t, piece, &mut out).ok()?;
+            Some((out[value], trajectory.system(piece).dynamics.poses()))
+        });
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
@@ -141,7 +149,7 @@ impl<'a> Regime<'a> {
                 ..energy::residuals(&mut lap.trajectory, (of_rows.len(), some), lap.certificate)
             },
             events: lap.events,
-            scenes: vec![(scene::MECHANISM.into(), scene)],
+            scenes: vec![(MECHANISM.into(), scene)],
             ..Outcome::default()
         })
     }

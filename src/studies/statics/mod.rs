@@ -22,7 +22,7 @@ mod stability;
 use super::common::case::Case;
 use super::common::numbers::Sources;
 use super::common::observe::Observer;
-use super::common::scene;
+use super::common::scene::{MECHANISM, Subject};
 use super::common::watched::Watched;
 use super::dynamics::system::Mechanical;
 use crate::dynamics::LANES;
@@ -34,7 +34,7 @@ use crate::kinematics::undefined::{assembled, in_state};
 use crate::mechanism::{Coordinates, Mechanism};
 use crate::model::FunctionalKind;
 use crate::numerics::extremum::{Extremes, Extremum};
-use crate::results::{Certificate, Failure, Finding, List, Rows};
+use crate::results::{Certificate, Failure, Finding, List, Rows, Scene};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use explain::{Names, six};
@@ -412,7 +412,7 @@ where
     }
 
     /// The equilibrium with the start behind it, and all equilibria if there are several.
-    fn scenes(&mut self, begin: &Pose, all: &[Found]) -> Vec<(String, crate::results::Scene)> {
+    fn scenes(&mut self, begin: &Pose, all: &[Found]) -> Vec<(String, Scene)> {
         /// Poses in one drawing.
         const DRAWN: usize = 6;
         let mut bodies = |pose: &Pose| {
@@ -421,10 +421,10 @@ where
         };
         let from_start = [bodies(&all[0].pose), bodies(begin)];
         let several: Vec<_> = all.iter().take(DRAWN).map(|f| bodies(&f.pose)).collect();
-        let mechanism = self.rest.system.dynamics.mechanism;
-        let mut scenes = vec![(scene::MECHANISM.to_string(), scene::of_poses(mechanism, &from_start))];
+        let subject = Subject { case: self.case, mechanism: self.rest.system.dynamics.mechanism };
+        let mut scenes = vec![(MECHANISM.to_string(), subject.of_poses(&from_start))];
         if several.len() > 1 {
-            scenes.push(("equilibria".into(), scene::of_poses(mechanism, &several)));
+            scenes.push(("equilibria".into(), subject.of_poses(&several)));
         }
         scenes
     }

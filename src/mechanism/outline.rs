@@ -1,0 +1,32 @@
+//! The true shape of a body, as the model gives it: for drawings, no mechanics depends on it.
+
+/// A shape in the frame of its body, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outline {
+    /// A straight bar; thin if its width is 0.
+    Bar {
+        /// One end.
+        from: [f64; 3],
+        /// The other end.
+        to: [f64; 3],
+        /// Width across.
+        width: f64,
+    },
+    /// A disc about z through the origin.
+    Disc {
+        /// Radius.
+        radius: f64,
+        /// Thickness; thin if 0.
+        thickness: f64,
+    },
+    /// A plate (planar: two sizes) or box, centred at the origin.
+    Block {
+        /// Sizes along the axes of the body.
+        size: [f64; 3],
+    },
+    /// A ball centred at the origin.
+    Ball {
+        /// Radius.
+        radius: f64,
+    },
+}

@@ -1,0 +1,124 @@
+//! The report: one page with all studies of a run, which asks for nothing outside of itself.
+//!
+//! The page is the bundle of `viewer/`, and data behind it: one object of JSON, compressed (gzip) and written as base64. It has
+//!
+//!     { "version", "model": { "name", "path", "source", "about" }, "overview": [{ "label", "value" }], "studies": [...] }
+//!
+//! where each study is [`Results`](crate::results::Results) as serde writes it, with `about`, with `rows`, which says what was left out
+//! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
+
+mod base64;
+mod poses;
+mod rows;
+mod study;
+mod tables;
+
+pub use study::{ReportRuns, ReportStudy};
+
+use base64::base64;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use serde_json::json;
+use std::io::Write;
+
+const STYLE: &str = include_str!("../../../viewer/dist/page.css");
+const PAGE: &str = include_str!("../../../viewer/dist/page.js");
+const SPACE: &str = include_str!("../../../viewer/dist/space.js");
+/// What the page may load and run: itself, by the checksums of its parts.
+const POLICY: &str = include_str!("../../../viewer/dist/policy.txt");
+
+/// What a report says of the model.
+#[derive(Clone, Debug, Default)]
+pub struct ReportModel<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The name of its file.
+    pub path: &'a str,
+    /// The text of the file.
+    pub source: &'a str,
+    /// What it is about; may be empty.
+    pub about: &'a str,
+    /// What is worth knowing at a glance: labels and values.
+    pub overview: &'a [(String, String)],
+}
+
+/// A report to which studies are added as they are finished; it keeps them compressed.
+#[derive(Debug)]
+pub struct Report {
+    title: String,
+    data: GzEncoder<Vec<u8>>,
+    studies: usize,
+    spatial: bool,
+}
+
+impl Report {
+    /// A report without studies.
+    #[must_use]
+    pub fn new(model: &ReportModel<'_>) -> Self {
+        let overview: Vec<_> = model.overview.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
+        let about = (!model.about.trim().is_empty()).then_some(model.about);
+        let head = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "model": { "name": model.name, "path": model.path, "source": model.source, "about": about },
+            "made": null,
+            "overview": overview,
+        });
+        let head = head.to_string();
+        let mut report =
+            Self { title: model.name.into(), data: GzEncoder::new(Vec::new(), Compression::default()), studies: 0, spatial: false };
+        report.put(head.strip_suffix('}').unwrap_or(&head));
+        report.put(",\"studies\":[");
+        report
+    }
+
+    /// Adds a study.
+    pub fn add(&mut self, study: &ReportStudy) {
+        if self.studies > 0 {
+            self.put(",");
+        }
+        self.put(&study.text);
+        self.studies += 1;
+        self.spatial |= study.spatial;
+    }
+
+    /// Whether there is no study.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.studies == 0
+    }
+
+    /// The page.
+    #[must_use]
+    pub fn html(mut self) -> Vec<u8> {
+        self.put("]}");
+        let data = base64(&self.data.finish().unwrap_or_default());
+        let title = escaped(&self.title);
+        let space = if self.spatial { format!("<script>{SPACE}</script>\n") } else { String::new() };
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
+             <link rel=\"icon\" href=\"data:,\">\n<style>{STYLE}</style>\n</head>\n<body>\n\
+             <noscript>This report needs JavaScript; it asks for nothing outside of this file.</noscript>\n\
+             <div id=\"page\"></div>\n<script type=\"text/plain\" id=\"data\">{data}</script>\n{space}<script>{PAGE}</script>\n\
+             </body>\n</html>\n",
+            POLICY.trim()
+        )
+        .into_bytes()
+    }
+
+    /// Adds text of the data; memory takes it all.
+    fn put(&mut self, text: &str) {
+        let _ = self.data.write_all(text.as_bytes());
+    }
+}
+
+/// Text as it stands in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

@@ -1,0 +1,180 @@
+//! A study as a page has it: its results without the rows and frames that no curve and no picture needs.
+
+use super::poses::{self, Coded};
+use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
+use crate::output::json_number;
+use crate::results::{Plot, Results, Scene};
+use serde_json::{Value, json};
+
+/// Numbers of tables, and of poses, that the page has of a study, about.
+const NUMBERS: usize = 60_000;
+const POSES: usize = 60_000;
+
+/// A study as a page has it.
+#[derive(Clone, Debug, Default)]
+pub struct ReportStudy {
+    /// An object of JSON.
+    pub(super) text: String,
+    /// Whether a mechanism in space is to be drawn.
+    pub(super) spatial: bool,
+}
+
+/// The runs of a sweep as a page has them, taken one by one so that their rows need not stay in memory.
+#[derive(Debug)]
+pub struct ReportRuns {
+    /// Runs that there will be.
+    count: usize,
+    /// For each run its label's place, and what the page has of it.
+    runs: Vec<(usize, Value)>,
+    spatial: bool,
+}
+
+impl ReportStudy {
+    /// Of a study of one run; `about` says what it is for.
+    #[must_use]
+    pub fn of(results: &Results, about: &str) -> Self {
+        let thin = Thinned::of(results, OF_STUDY, &|_| true);
+        let scenes = scenes(results, POSES);
+        let spatial = is_spatial(&scenes);
+        Self { text: with_about(value(results, thin, &scenes), about), spatial }
+    }
+
+    /// Of a sweep, with its runs; `about` says what it is for.
+    #[must_use]
+    pub fn of_runs(results: &Results, about: &str, runs: ReportRuns) -> Self {
+        let ReportRuns { runs: taken, spatial, .. } = runs;
+        let thin = Thinned {
+            table: results.table.clone(),
+            independent: results.independent.clone(),
+            curves: results.curves.clone(),
+            shown: RowsShown::default(),
+        };
+        let mut study = value(results, thin, &[]);
+        let mut all: Vec<Value> =
+            results.runs.iter().map(|run| json!({ "label": run.label, "results": null, "solution": run.solution })).collect();
+        for (i, results) in taken {
+            if let Some(run) = all.get_mut(i) {
+                run["results"] = results;
+            }
+        }
+        study["runs"] = all.into();
+        Self { text: with_about(study, about), spatial }
+    }
+}
+
+impl ReportRuns {
+    /// Of so many runs.
+    #[must_use]
+    pub fn new(count: usize) -> Self {
+        Self { count: count.max(1), runs: Vec::new(), spatial: false }
+    }
+
+    /// Takes a run by its number from 0. The first one is taken whole, of the others all columns if there is room, else those that
+    /// figures of the study show, else none.
+    pub fn add(&mut self, number: usize, results: &Results) {
+        let first = self.runs.is_empty();
+        let most = |all: usize| if first { usize::MAX } else { all / self.count };
+        let plotted = |name: &str| results.plots.iter().filter(|plot| !plot.of_runs).any(|plot| shows(plot, name));
+        let mut thin = Thinned::of(results, OF_RUN, &|_| true);
+        if thin.count() > most(NUMBERS) {
+            thin = Thinned::of(results, OF_RUN, &plotted);
+        }
+        if thin.count() > most(NUMBERS) {
+            thin = Thinned::default();
+        }
+        let poses = if first { POSES / 4 } else { most(POSES) };
+        let mut scenes = scenes(results, poses);
+        if !first {
+            scenes.retain(|(_, scene)| scene.frames.poses.len() <= poses);
+        }
+        self.spatial |= is_spatial(&scenes);
+        self.runs.push((number, value(results, thin, &scenes)));
+    }
+}
+
+fn shows(plot: &Plot, name: &str) -> bool {
+    plot.show.iter().chain(&plot.over).any(|shown| shown == name)
+}
+
+fn is_spatial(scenes: &[(String, Scene)]) -> bool {
+    scenes.iter().any(|(_, scene)| scene.dimensions == 3)
+}
+
+/// Drawings with about so many numbers of poses together.
+fn scenes(results: &Results, most: usize) -> Vec<(String, Scene)> {
+    let mut scenes = results.scenes.clone();
+    let share = most / scenes.len().max(1);
+    scenes.iter_mut().for_each(|(_, scene)| poses::thinned(scene, share));
+    scenes
+}
+
+/// Results as JSON.
+fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value {
+    let Thinned { independent, table, curves, shown } = thin;
+    let page = Results {
+        model: results.model.clone(),
+        study: results.study.clone(),
+        kind: results.kind.clone(),
+        place: results.place.clone(),
+        stopped: results.stopped.clone(),
+        undefined: results.undefined.clone(),
+        parameters: results.parameters.clone(),
+        independent,
+        table,
+        curves,
+        scalars: results.scalars.clone(),
+        extremes: results.extremes.clone(),
+        lists: results.lists.clone(),
+        shapes: results.shapes.clone(),
+        linear: results.linear.clone(),
+        events: results.events.clone(),
+        expectations: results.expectations.clone(),
+        findings: results.findings.clone(),
+        certificate: results.certificate.clone(),
+        solution: results.solution.clone(),
+        scenes: Vec::new(),
+        plots: results.plots.clone(),
+        runs: Vec::new(),
+    };
+    // names and numbers alone cannot fail
+    let mut value = json(&page);
+    value["scenes"] = scenes.iter().map(|(name, scene)| json!([name, drawing(scene)])).collect();
+    value["rows"] = json(&shown);
+    whole(&mut value);
+    value
+}
+
+/// A scene with its frames as differences.
+fn drawing(scene: &Scene) -> Value {
+    let Coded { at, poses, arrows } = Coded::of(scene);
+    let mut value = json(scene);
+    value["frames"]["at"] = json(&at);
+    value["frames"]["poses"] = json(&poses);
+    for (arrow, values) in value["arrows"].as_array_mut().into_iter().flatten().zip(arrows) {
+        arrow["values"] = json(&values);
+    }
+    value
+}
+
+/// Whole numbers without `.0`.
+fn whole(value: &mut Value) {
+    match value {
+        Value::Number(number) => {
+            if let Some(x) = number.as_f64().filter(|_| number.is_f64()) {
+                *value = json_number(x);
+            }
+        }
+        Value::Array(values) => values.iter_mut().for_each(whole),
+        Value::Object(entries) => entries.values_mut().for_each(whole),
+        _ => {}
+    }
+}
+
+fn json(value: &impl serde::Serialize) -> Value {
+    serde_json::to_value(value).unwrap_or_default()
+}
+
+fn with_about(mut value: Value, about: &str) -> String {
+    value["about"] = about.split_whitespace().collect::<Vec<_>>().join(" ").into();
+    value.to_string()
+}

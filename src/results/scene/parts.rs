@@ -1,0 +1,144 @@
+//! The parts of a scene: bodies, joints, links, gears, arrows, traces.
+
+use super::shape::Shape;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// A place on a body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// The body; 0 is the ground.
+    pub body: usize,
+    /// In its frame, 2 or 3 numbers, m.
+    pub at: Vec<f64>,
+}
+
+/// A body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Its name; `ground` for the first.
+    pub name: String,
+    /// What it looks like, in its own frame.
+    #[serde(with = "super::named")]
+    pub shapes: Vec<Shape>,
+}
+
+/// A joint.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Its kind as in the model file: `revolute`.
+    pub kind: Cow<'static, str>,
+    /// Its point in the first body.
+    pub a: Place,
+    /// Its point in the second body.
+    pub b: Place,
+    /// Unit direction of its axis or slide in the first body.
+    pub axis: Vec<f64>,
+    /// Of a slide: its positions along the axis over the whole motion, widened to its stops, m.
+    pub stroke: Option<[f64; 2]>,
+    /// Ends of its coordinate where it has stops, measured as the place of b from a along the axis, m, or as drawn, rad.
+    pub stops: [Option<f64>; 2],
+    /// Whether it is kept off the tree.
+    pub cut: bool,
+    /// Whether a driver or motor moves it.
+    pub driven: bool,
+}
+
+/// A massless element between two places.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: LinkKind,
+    /// Its first end.
+    pub a: Place,
+    /// Its second end.
+    pub b: Place,
+    /// Free length of a spring, m, or rest angle of a torsion spring, rad, if it does not change; length of a rod.
+    pub rest: Option<f64>,
+}
+
+/// What a massless element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LinkKind {
+    /// A spring.
+    Spring,
+    /// A damper.
+    Damper,
+    /// Both in one.
+    SpringDamper,
+    /// A distance that is held.
+    Rod,
+    /// A spring or damper that turns about a hinge.
+    Torsion,
+}
+
+/// Two bodies that roll on each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gear {
+    /// Name of the coupling.
+    pub name: String,
+    /// The first gear; of a rack its pinion.
+    pub a: Wheel,
+    /// The second gear, or a rack.
+    pub b: Wheel,
+    /// Whether the second one is a rack.
+    pub rack: bool,
+}
+
+/// A pitch circle, or the pitch line of a rack.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Wheel {
+    /// Its body.
+    pub body: usize,
+    /// Its centre in the body, m; of a rack the point of the pitch line that touches the pinion in the first frame.
+    pub at: Vec<f64>,
+    /// Radius, m; negative for a gear with inner teeth; 0 for a rack.
+    pub radius: f64,
+    /// Unit axis in the body, 3 numbers in space and none in the plane; of a rack the direction of its pitch line.
+    pub axis: Vec<f64>,
+}
+
+/// A force or torque.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Arrow {
+    /// Name of the load or joint.
+    pub name: String,
+    /// What it is.
+    pub kind: ArrowKind,
+    /// The body on which it acts.
+    pub body: usize,
+    /// Where it acts, m.
+    pub at: Vec<f64>,
+    /// Names of the columns with its world components, if the table has them.
+    pub columns: Vec<String>,
+    /// World components for each frame, flat, N or N m; may be empty.
+    pub values: Vec<f64>,
+}
+
+/// What an arrow means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ArrowKind {
+    /// A load.
+    Load,
+    /// The force in a joint.
+    Reaction,
+    /// A torque.
+    Torque,
+}
+
+/// A point whose path is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trace {
+    /// Its name: `coupler.P`.
+    pub name: String,
+    /// Its body.
+    pub body: usize,
+    /// Where in the body, m.
+    pub at: Vec<f64>,
+}

@@ -1,0 +1,221 @@
+//! Frames of a motion: as many as make up for what interpolation between them leaves out.
+//!
+//! A uniform grid is doubled; the poses in the middle of its cells, which the next grid needs anyway, tell how far interpolation is off.
+//! Some irrational places beside them keep a motion that repeats itself in the grid from being taken for one that rests.
+
+use super::places::reaches;
+use crate::geometry::{Pose, Quaternion, Space};
+use crate::mechanism::Mechanism;
+use crate::results::scene::{Frames, interpolate};
+
+/// Cells of the first grid of a motion: six positions of a turn fall on frames.
+const CELLS: usize = 6;
+/// Error that is small enough, as part of the size.
+const ENOUGH: f64 = 1e-6;
+/// Error that is not seen, as part of the size: a motion with blows, whose error falls with the cells only, is taken no further.
+const UNSEEN: f64 = 1e-3;
+/// The middle of a cell is not quite the worst place in it.
+const BESIDE_MIDDLE: f64 = 1.5;
+/// Irrational places that are looked at.
+const PROBES: usize = 7;
+/// Numbers of all frames at most.
+const NUMBERS: usize = 600_000;
+/// Positions that a still picture shows.
+const SHOWN: usize = 6;
+
+/// A part of a motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// Progress at its ends.
+    pub(crate) ends: [f64; 2],
+    /// Whether it may come back to where it began.
+    pub(crate) turns: bool,
+    /// Cells of the first grid.
+    pub(crate) first: usize,
+    /// Cells at most.
+    pub(crate) most: usize,
+}
+
+impl Default for Span {
+    fn default() -> Self {
+        Self { ends: [0.0; 2], turns: false, first: CELLS, most: 4095 }
+    }
+}
+
+/// The independent variable and the poses of all bodies at a progress; none where it cannot be reached.
+pub(super) type At<'a, G> = dyn FnMut(f64) -> Option<(f64, Vec<Pose<G>>)> + 'a;
+
+/// A place of the motion: the independent variable, and the poses as they stand in [`Frames`].
+type Frame = (f64, Vec<f64>);
+
+/// Frames of given poses, counted from 0.
+pub(super) fn of_poses<G: Space<S = f64>>(poses: &[Vec<Pose<G>>]) -> Frames {
+    Frames {
+        at: (0..poses.len()).map(|i| i as f64).collect(),
+        poses: poses.iter().flat_map(|poses| flat(poses)).collect(),
+        shown: (0..poses.len()).collect(),
+        error: 0.0,
+        closed: false,
+    }
+}
+
+/// Frames over a span of a motion.
+pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: &mut At<'_, G>) -> Frames {
+    let [low, high] = span.ends;
+    let sampler = Sampler { reaches: reaches(mechanism), stride: if G::VECTOR == 2 { 3 } else { 7 }, size: mechanism.size() };
+    let mut look = |part: f64| {
+        // the ends as they are given, not as they are rounded
+        let s = if part == 1.0 { high } else { low + (high - low) * part };
+        let (x, poses) = at(s)?;
+        Some((x, flat(&poses)))
+    };
+    let width = (mechanism.bodies.len() - 1) * sampler.stride;
+    let most = span.most.min(NUMBERS / width.max(1)).max(span.first);
+    let mut grid: Vec<Option<Frame>> = (0..=span.first).map(|i| look(i as f64 / span.first as f64)).collect();
+    let mut before = f64::INFINITY;
+    let error = loop {
+        let cells = grid.len() - 1;
+        let middles: Vec<Option<Frame>> = (0..cells).map(|i| look((i as f64 + 0.5) / cells as f64)).collect();
+        let curve = sampler.curve(&grid);
+        let mut error = middles.iter().flatten().map(|frame| sampler.error(&curve, frame)).fold(0.0, f64::max);
+        if error <= ENOUGH * sampler.size / BESIDE_MIDDLE {
+            let probes = (1..=PROBES).filter_map(|k| look((k as f64 * 0.618_033_988_749_895).fract()));
+            error = probes.map(|frame| sampler.error(&curve, &frame)).fold(error, f64::max);
+        }
+        let blows = error < UNSEEN * sampler.size && error > 0.25 * before && cells >= 200;
+        let error = BESIDE_MIDDLE * error;
+        if error <= ENOUGH * sampler.size || 2 * cells > most || blows {
+            break error;
+        }
+        before = error / BESIDE_MIDDLE;
+        grid = interleaved(grid, middles);
+    };
+    sampler.frames(span, &grid, error)
+}
+
+/// A grid of twice as many cells.
+fn interleaved(grid: Vec<Option<Frame>>, middles: Vec<Option<Frame>>) -> Vec<Option<Frame>> {
+    let mut finer = Vec::with_capacity(2 * grid.len());
+    let mut middles = middles.into_iter();
+    for frame in grid {
+        finer.push(frame);
+        finer.extend(middles.next());
+    }
+    finer
+}
+
+/// Poses of the moving bodies as numbers.
+fn flat<G: Space<S = f64>>(poses: &[Pose<G>]) -> Vec<f64> {
+    let mut numbers = Vec::with_capacity(7 * poses.len());
+    for pose in poses.iter().skip(1) {
+        numbers.extend((0..G::VECTOR).map(|i| G::component(pose.p, i)));
+        if G::VECTOR == 2 {
+            numbers.push(G::angle(pose.r));
+        } else {
+            numbers.extend(Quaternion::of_rotation::<G>(pose.r).0);
+        }
+    }
+    numbers
+}
+
+/// What the errors of frames are measured by.
+struct Sampler {
+    /// Of each body, m; that of the ground is not used.
+    reaches: Vec<f64>,
+    /// Numbers of a pose.
+    stride: usize,
+    /// Size of the mechanism, m.
+    size: f64,
+}
+
+/// Frames with signs of quaternions that do not jump, at rising places.
+struct Continuous {
+    at: Vec<f64>,
+    poses: Vec<f64>,
+    /// −1 if the independent variable falls.
+    sign: f64,
+}
+
+impl Sampler {
+    /// What is there of a grid, as a curve.
+    fn curve(&self, grid: &[Option<Frame>]) -> Continuous {
+        let ends = [grid.iter().flatten().next(), grid.iter().flatten().next_back()].map(|frame| frame.map_or(0.0, |f| f.0));
+        let sign = if ends[1] < ends[0] { -1.0 } else { 1.0 };
+        let mut curve = Continuous { at: Vec::new(), poses: Vec::new(), sign };
+        for (x, row) in grid.iter().flatten() {
+            if curve.at.last().is_some_and(|last| sign * x <= *last) {
+                continue;
+            }
+            let from = curve.poses.len().saturating_sub(row.len());
+            let mut row = row.clone();
+            if !curve.at.is_empty() {
+                self.same_signs(&mut row, &curve.poses[from..]);
+            }
+            curve.at.push(sign * x);
+            curve.poses.extend(row);
+        }
+        curve
+    }
+
+    /// Takes of the two quaternions of each rotation the one nearer to that of a neighbour.
+    fn same_signs(&self, row: &mut [f64], neighbour: &[f64]) {
+        if self.stride == 7 {
+            for (pose, other) in row.chunks_exact_mut(7).zip(neighbour.chunks_exact(7)) {
+                if pose[3..].iter().zip(&other[3..]).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+                    pose[3..].iter_mut().for_each(|x| *x = -*x);
+                }
+            }
+        }
+    }
+
+    /// How far any place of any body is from where interpolation has it, at most, m.
+    fn error(&self, curve: &Continuous, (x, exact): &Frame) -> f64 {
+        let mut found = vec![0.0; exact.len()];
+        interpolate(&curve.at, &curve.poses, self.stride, curve.sign * x, &mut found);
+        let mut exact = exact.clone();
+        self.same_signs(&mut exact, &found);
+        let poses = found.chunks_exact(self.stride).zip(exact.chunks_exact(self.stride));
+        let off = |(reach, (a, b)): (&f64, (&[f64], &[f64]))| {
+            let (k, turn) = if self.stride == 3 { (2, 1.0) } else { (3, 2.0) };
+            let gap =
+                |range: std::ops::Range<usize>| a[range.clone()].iter().zip(&b[range]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            gap(0..k) + reach * turn * gap(k..self.stride)
+        };
+        self.reaches[1..].iter().zip(poses).map(off).fold(0.0, f64::max)
+    }
+
+    /// The frames of a grid.
+    fn frames(&self, span: Span, grid: &[Option<Frame>], error: f64) -> Frames {
+        let Continuous { mut at, mut poses, sign } = self.curve(grid);
+        let width = if at.is_empty() { 0 } else { poses.len() / at.len() };
+        let closed = span.turns && at.len() > 2 && self.returns(&poses[..width], &poses[poses.len() - width..]);
+        let last = at.len().saturating_sub(1);
+        let steps = if closed { SHOWN } else { SHOWN - 1 };
+        let mut shown: Vec<usize> = (0..SHOWN).map(|i| (2 * i * last + steps) / (2 * steps)).collect();
+        shown.dedup();
+        shown.retain(|i| *i < at.len());
+        if sign < 0.0 {
+            at.reverse();
+            at.iter_mut().for_each(|x| *x = 0.0 - *x);
+            poses = poses.chunks_exact(width.max(1)).rev().flatten().copied().collect();
+            shown.iter_mut().for_each(|i| *i = last - *i);
+        }
+        Frames { at, poses, shown, error, closed }
+    }
+
+    /// Whether two frames are one, whole turns aside.
+    fn returns(&self, first: &[f64], last: &[f64]) -> bool {
+        let near = 1e-7 * self.size;
+        let pairs = first.chunks_exact(self.stride).zip(last.chunks_exact(self.stride));
+        pairs.zip(&self.reaches[1..]).all(|((a, b), reach)| {
+            let turned = if self.stride == 3 {
+                (0.5 * (b[2] - a[2])).sin().abs() * 2.0
+            } else {
+                let dot: f64 = a[3..].iter().zip(&b[3..]).map(|(a, b)| a * b).sum();
+                2.0 * (1.0 - dot * dot).max(0.0).sqrt()
+            };
+            let (k, turned) = if self.stride == 3 { (2, turned) } else { (3, if turned < 1e-7 { 0.0 } else { turned }) };
+            a[..k].iter().zip(&b[..k]).all(|(a, b)| (a - b).abs() <= near) && turned * reach.max(self.size * 1e-3) <= near
+        })
+    }
+}

@@ -1,0 +1,62 @@
+//! Joints as they are drawn, with the strokes of slides.
+
+use super::places::place;
+use crate::geometry::Space;
+use crate::mechanism::Mechanism;
+use crate::model;
+use crate::results::Scene;
+use crate::results::scene::Joint;
+use crate::studies::common::case::Case;
+
+/// Kinds of joints that slide along their axis.
+const SLIDING: [&str; 4] = ["slider", "cylindrical", "screw", "pin-in-slot"];
+
+/// The joints of a mechanism; of those of the kind `distance` links are made. The frames of the scene are there.
+pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Joint> {
+    let all = mechanism.joints.iter().zip(&case.model.joints).enumerate();
+    all.filter(|(_, (joint, _))| joint.kind != "distance")
+        .map(|(index, (joint, said))| {
+            let stops = stops(case, said).map(|end| Some(end? - joint.zero));
+            let drivers = case.model.drivers.iter().map(|d| d.joint);
+            let mut drawn = Joint {
+                name: joint.name.clone(),
+                kind: joint.kind.into(),
+                a: place::<G>(joint.a),
+                b: place::<G>(joint.b),
+                axis: joint.axis[..G::VECTOR].to_vec(),
+                stroke: None,
+                stops,
+                cut: joint.tree.is_none(),
+                driven: drivers.chain(case.model.motors.iter().map(|m| m.joint)).any(|driven| driven == index),
+            };
+            drawn.stroke = stroke(scene, &drawn);
+            drawn
+        })
+        .collect()
+}
+
+/// The ends of the coordinate of a joint, if it has stops.
+fn stops(case: Case<'_>, joint: &model::Joint) -> [Option<f64>; 2] {
+    let soft = joint.limit.map(|limit| [limit.from, limit.to]);
+    let ends = joint.stops.map(|stops| [stops.from, stops.to]).or(soft);
+    ends.unwrap_or_default().map(|end| Some(case.value(end?)))
+}
+
+/// Positions along the axis over all frames, widened to the stops.
+fn stroke(scene: &Scene, joint: &Joint) -> Option<[f64; 2]> {
+    if !SLIDING.contains(&&*joint.kind) {
+        return None;
+    }
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+    for index in 0..scene.frames.count() {
+        let poses = scene.frame(index);
+        let (a, b) = (scene.world(poses, &joint.a), scene.world(poses, &joint.b));
+        let axis = scene.direction(poses, joint.a.body, &joint.axis);
+        let along: f64 = (0..3).map(|i| axis[i] * (b[i] - a[i])).sum();
+        ends = [ends[0].min(along), ends[1].max(along)];
+    }
+    if joint.kind == "slider" {
+        ends = [joint.stops[0].map_or(ends[0], |stop| ends[0].min(stop)), joint.stops[1].map_or(ends[1], |stop| ends[1].max(stop))];
+    }
+    ends.iter().all(|end| end.is_finite()).then_some(ends)
+}

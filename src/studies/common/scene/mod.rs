@@ -1,0 +1,80 @@
+//! The scene of a study: what is drawn of its mechanism, and the poses of its motion.
+
+mod frames;
+mod gears;
+mod joints;
+mod links;
+mod places;
+mod shapes;
+mod traces;
+
+pub(crate) use frames::Span;
+pub(crate) use places::extent;
+
+use super::case::Case;
+use super::motion::Motion;
+use crate::geometry::{Pose, Space};
+use crate::mechanism::Mechanism;
+use crate::results::Scene;
+use crate::results::scene::Frames;
+
+/// Name of the drawing of a motion.
+pub(crate) const MECHANISM: &str = "mechanism";
+
+/// What is drawn: the mechanism of a run.
+#[derive(Clone, Copy)]
+pub(crate) struct Subject<'a, G: Space<S = f64>> {
+    /// The run.
+    pub(crate) case: Case<'a>,
+    /// Its mechanism.
+    pub(crate) mechanism: &'a Mechanism<G>,
+}
+
+impl<G: Space<S = f64>> Subject<'_, G> {
+    /// The scene of a motion, which tells at any progress the independent variable and the poses of the bodies there.
+    #[must_use]
+    pub(crate) fn over(&self, span: Span, at: &mut frames::At<'_, G>) -> Scene {
+        self.with(frames::over(self.mechanism, span, at))
+    }
+
+    /// The scene of given poses, the first one drawn strongly.
+    #[must_use]
+    pub(crate) fn of_poses(&self, poses: &[Vec<Pose<G>>]) -> Scene {
+        self.with(frames::of_poses(poses))
+    }
+
+    /// All but the frames follows from the mechanism, and from them.
+    fn with(&self, frames: Frames) -> Scene {
+        let Self { case, mechanism } = *self;
+        let mut scene = Scene {
+            dimensions: G::VECTOR,
+            up: up(mechanism),
+            bodies: shapes::bodies(case.model, mechanism),
+            links: links::links(case.model, mechanism),
+            frames,
+            ..Scene::default()
+        };
+        scene.joints = joints::joints(case, mechanism, &scene);
+        scene.gears = gears::gears(mechanism, &scene);
+        scene.traces = traces::traces(case, mechanism, &scene);
+        scene
+    }
+}
+
+/// The scene of a whole driven motion.
+#[must_use]
+pub(crate) fn of_motion<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>) -> Scene {
+    let subject = Subject { case, mechanism: motion.driven.dynamics.mechanism };
+    let (ends, length) = (motion.ends, motion.clock.length);
+    let span = Span { ends, turns: (length - std::f64::consts::TAU).abs() < 1e-9, ..Span::default() };
+    subject.over(span, &mut |s| Some((motion.clock.value(s), motion.poses(s)?)))
+}
+
+/// The direction that is upwards in a picture.
+fn up<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> [f64; 3] {
+    if G::VECTOR == 2 {
+        return [0.0, 1.0, 0.0];
+    }
+    let length = G::dot(mechanism.gravity, mechanism.gravity).sqrt();
+    if length > 0.0 { std::array::from_fn(|i| 0.0 - G::component(mechanism.gravity, i) / length) } else { [0.0, 0.0, 1.0] }
+}

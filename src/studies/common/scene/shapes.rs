@@ -1,0 +1,149 @@
+//! Bodies and what they look like.
+
+use super::places::{numbers, of_body};
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, Outline};
+use crate::model::Model;
+use crate::results::scene::{Body, Shape};
+
+/// Radius of the largest point mass, as part of the size of the mechanism.
+const LARGEST: f64 = 0.05;
+
+/// The bodies of a mechanism with their shapes.
+pub(super) fn bodies<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<Body> {
+    let masses: Vec<Vec<(G::Vector, f64)>> = (0..mechanism.bodies.len()).map(|body| masses(model, mechanism, body)).collect();
+    let heaviest = masses.iter().flatten().fold(0.0_f64, |most, (_, mass)| most.max(*mass));
+    let largest = LARGEST * mechanism.size();
+    let bodies = mechanism.bodies.iter().zip(masses).enumerate();
+    bodies
+        .map(|(index, (body, masses))| {
+            let mut shapes = if index == 0 { Vec::new() } else { shapes(mechanism, index) };
+            shapes.extend(masses.into_iter().map(|(at, mass)| Shape::Mass {
+                at: numbers::<G>(at),
+                mass,
+                radius: largest * (mass / heaviest).sqrt(),
+            }));
+            Body { name: body.name.clone(), shapes }
+        })
+        .collect()
+}
+
+/// Point masses: those that are attached, and a body that is one itself.
+fn masses<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, index: usize) -> Vec<(G::Vector, f64)> {
+    let (body, said) = (&mechanism.bodies[index], &model.bodies[index]);
+    let itself = (index > 0 && said.shape.is_none() && said.inertia.is_empty()).then_some((body.bare.com, body.bare.mass));
+    let attached = body.attached.iter().map(|a| (a.mass.com, a.mass.mass));
+    itself.into_iter().chain(attached).filter(|(_, mass)| *mass > 0.0).collect()
+}
+
+/// The shapes of a moving body: its outline, and what reaches from there to joints and points outside of it.
+fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shape> {
+    let (body, mut places) = (&mechanism.bodies[index], of_body(mechanism, index));
+    let all = |places: &[G::Vector]| places.iter().map(|p| numbers::<G>(*p)).collect::<Vec<_>>();
+    let drawn = all(&body.drawn);
+    let outlined = G::VECTOR == 2 && is_simple(&drawn);
+    if !outlined {
+        places.extend(&body.drawn);
+    }
+    let outline = body.outline.map(|outline| outline_shape(outline, G::VECTOR));
+    let own = if outlined { Some(Shape::Polygon { points: drawn }) } else { outline };
+    let Some(own) = own else {
+        return if places.is_empty() { Vec::new() } else { vec![Shape::Hull { points: all(&places) }] };
+    };
+    let outside: Vec<G::Vector> = places.into_iter().filter(|p| !holds(&own, &numbers::<G>(*p))).collect();
+    match own {
+        _ if outside.is_empty() => vec![own],
+        // a bar with something beside it is a plate
+        Shape::Bar { from, to, .. } => vec![Shape::Hull { points: [vec![from, to], all(&outside)].concat() }],
+        own => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
+    }
+}
+
+/// The shape of an outline.
+fn outline_shape(outline: Outline, dimensions: usize) -> Shape {
+    let cut = |p: [f64; 3]| p[..dimensions].to_vec();
+    let origin = vec![0.0; dimensions];
+    let given = |x: f64| (x > 0.0).then_some(x);
+    match outline {
+        Outline::Bar { from, to, width } => Shape::Bar { from: cut(from), to: cut(to), width: given(width) },
+        Outline::Disc { radius, thickness } => {
+            let axis = (dimensions == 3).then(|| vec![0.0, 0.0, 1.0]);
+            Shape::Disc { center: origin, radius, axis, thickness: given(thickness) }
+        }
+        Outline::Block { size: [a, b, _] } if dimensions == 2 => {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            Shape::Polygon { points: corners.map(|[x, y]| vec![0.5 * x * a, 0.5 * y * b]).to_vec() }
+        }
+        Outline::Block { size } => Shape::Box { center: origin, size: size.to_vec() },
+        Outline::Ball { radius } if dimensions == 2 => Shape::Disc { center: origin, radius, axis: None, thickness: None },
+        Outline::Ball { radius } => Shape::Sphere { center: origin, radius },
+    }
+}
+
+/// Whether a place is within a shape, to a millionth of its size.
+fn holds(shape: &Shape, p: &[f64]) -> bool {
+    let length = |p: &[f64]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match shape {
+        Shape::Bar { from, to, width } => {
+            let d: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
+            let r: Vec<f64> = p.iter().zip(from).map(|(a, b)| a - b).collect();
+            let size = length(&d);
+            let along = d.iter().zip(&r).map(|(d, r)| d * r).sum::<f64>() / (size * size);
+            let across: Vec<f64> = r.iter().zip(&d).map(|(r, d)| r - along * d).collect();
+            (-1e-6..=1.0 + 1e-6).contains(&along) && length(&across) <= width.unwrap_or(0.0) * 0.5 + 1e-6 * size
+        }
+        Shape::Disc { radius, .. } | Shape::Sphere { radius, .. } => length(p) <= radius * (1.0 + 1e-6),
+        Shape::Box { size, .. } => size.iter().zip(p).all(|(size, x)| x.abs() <= 0.5 * size * (1.0 + 1e-6)),
+        Shape::Polygon { points } => is_inside(points, p),
+        Shape::Hull { .. } | Shape::Cylinder { .. } | Shape::Mass { .. } => false,
+    }
+}
+
+/// Whether a point in the plane is in a polygon or on its edge: edges above it are crossed an odd number of times.
+fn is_inside(points: &[Vec<f64>], p: &[f64]) -> bool {
+    let mut inside = false;
+    for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
+        let turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+        let length2 = (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2);
+        let along = (b[0] - a[0]) * (p[0] - a[0]) + (b[1] - a[1]) * (p[1] - a[1]);
+        if turn.abs() <= 1e-6 * length2 && (0.0..=length2).contains(&along) {
+            return true;
+        }
+        if (a[1] > p[1]) != (b[1] > p[1]) && (turn > 0.0) == (b[1] > a[1]) {
+            inside = !inside;
+        }
+    }
+    inside
+}
+
+/// Whether points in the plane, joined in their order, are an outline that does not cross itself.
+fn is_simple(points: &[Vec<f64>]) -> bool {
+    let n = points.len();
+    let side = |a: &[f64], b: &[f64], p: &[f64]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0.0;
+    let crosses = |i: usize, k: usize| {
+        let [a, b, c, d] = [i, (i + 1) % n, k, (k + 1) % n].map(|i| points[i].as_slice());
+        side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
+    };
+    n >= 3 && (0..n).all(|i| (i + 2..n).filter(|k| (k + 1) % n != i).all(|k| !crosses(i, k)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outline_that_crosses_itself_is_none() {
+        let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(|p| p.to_vec());
+        assert!(is_simple(&[a.clone(), b.clone(), c.clone(), d.clone()]));
+        assert!(!is_simple(&[a.clone(), c, b, d]) && !is_simple(&[a]));
+    }
+
+    #[test]
+    fn places_within_a_polygon_and_on_its_edge_belong_to_it() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(|p| p.to_vec());
+        for p in [[1.0, 1.0], [2.0, 1.0], [0.0, 0.0]] {
+            assert!(is_inside(&square, &p), "{p:?}");
+        }
+        assert!(!is_inside(&square, &[3.0, 1.0]) && !is_inside(&square, &[-1.0, 0.5]));
+    }
+}

@@ -1,0 +1,141 @@
+// The mechanism in motion: places against the tables, play, keys, scrubbing, runs, drawings.
+
+import { assert, csv, near, seek, time } from './read.mjs';
+
+/** Largest length of models/crank_rocker.yaml, m. */
+const SIZE = 1.2;
+
+export async function joints_are_where_the_tables_say(open) {
+  const { tab, directory } = await open('crank_rocker', { study: 'one-turn' });
+  const { theta, phi2, phi3 } = csv(`${directory}/one-turn.csv`);
+  const rows = theta.map((_, i) => i).filter((i) => i % 7 === 0);
+  const places = await tab.evaluate((at) => at.map((x) => {
+    grashof.seek(x);
+    return ['A', 'B', 'C'].map((joint) => grashof.place(joint));
+  }), rows.map((i) => theta[i]));
+  rows.forEach((i, k) => {
+    const [a, b, c] = places[k];
+    const A = [0.15 * Math.cos(theta[i]), 0.15 * Math.sin(theta[i])];
+    const B = [A[0] + Math.cos(phi2[i]), A[1] + Math.sin(phi2[i])];
+    const again = [1 + 0.55 * Math.sin(phi3[i]), 0.55 * Math.cos(phi3[i])];
+    for (const axis of [0, 1]) {
+      near(a[axis], A[axis], 1e-6 * SIZE, `A in row ${i}`);
+      near(b[axis], B[axis], 1e-6 * SIZE, `B in row ${i}`);
+      near(b[axis], again[axis], 1e-6 * SIZE, `B from C in row ${i}`);
+      near(c[axis], [1, 0][axis], 1e-6 * SIZE, `C in row ${i}`);
+    }
+  });
+}
+
+export async function joints_in_space_keep_their_distances(open) {
+  const { tab, directory } = await open('four_bar_spatial', { study: 'one-turn' });
+  const { theta } = csv(`${directory}/one-turn.csv`);
+  const places = await tab.evaluate((at) => at.map((x) => {
+    grashof.seek(x);
+    return ['O', 'A', 'B', 'C'].map((joint) => grashof.place(joint));
+  }), theta.filter((_, i) => i % 41 === 0));
+  const distance = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
+  for (const [o, a, b, c] of places) {
+    near(distance(o, a), 0.15, 1e-6 * SIZE, 'O A');
+    near(distance(a, b), 1, 1e-6 * SIZE, 'A B');
+    near(distance(c, b), 0.55, 1e-6 * SIZE, 'C B');
+  }
+  assert.equal(places[0][0].length, 3);
+}
+
+export async function it_plays_in_time_and_stops(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await tab.locator('[aria-label=speed]').selectOption('0.1×');
+  await tab.locator('.play').click();
+  await tab.waitForTimeout(600);
+  await tab.locator('.play').click();
+  const at = await time(tab);
+  // 240 rpm at a tenth: about 2.5 rad/s
+  assert.ok(at > 0.3 && at < 4, `at ${at}`);
+  await tab.waitForTimeout(150);
+  assert.equal(await time(tab), at);
+  assert.match(await tab.locator('.time').innerText(), /theta [\d.]+ deg, [\d.]+ s/);
+}
+
+export async function keys_move_it(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await tab.locator('#study-title').focus();
+  await tab.keyboard.press('End');
+  near(await time(tab), 2 * Math.PI, 1e-9, 'end');
+  await tab.keyboard.press('Home');
+  assert.equal(await time(tab), 0);
+  for (const _ of [1, 2]) await tab.keyboard.press('ArrowRight');
+  near(await time(tab), (2 * Math.PI) / 100, 1e-9, 'two steps');
+  await tab.keyboard.press('ArrowLeft');
+  near(await time(tab), (2 * Math.PI) / 200, 1e-9, 'one step back');
+  await tab.keyboard.press(' ');
+  assert.equal(await tab.locator('.play').getAttribute('aria-label'), 'pause');
+  await tab.waitForTimeout(100);
+  await tab.keyboard.press(' ');
+  assert.ok((await time(tab)) > 0.04);
+}
+
+export async function the_slider_scrubs(open) {
+  const { tab } = await open('crank_rocker', { study: 'start-up-exact' });
+  await tab.locator('.scrub').click();
+  near(await time(tab), 1, 0.03, 'middle of 2 s');
+}
+
+/** The pixels of the drawing. */
+const picture = (tab) => tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(document.querySelector('.canvas canvas').toDataURL())))));
+
+export async function runs_of_a_sweep_are_chosen(open) {
+  const { tab } = await open('crank_rocker', { study: 'lengths' });
+  const before = await tab.locator('.table', { hasText: 'Rows' }).locator('h3').innerText();
+  const runs = tab.locator('[aria-label=run]');
+  const labels = await runs.locator('option').allInnerTexts();
+  assert.ok(labels.length > 3, labels.join());
+  const drawn = await picture(tab);
+  await runs.selectOption({ index: labels.length - 1 });
+  assert.notEqual(await tab.locator('.table', { hasText: 'Rows' }).locator('h3').innerText(), before);
+  assert.notEqual(await picture(tab), drawn);
+}
+
+export async function modes_swing(open) {
+  const { tab } = await open('crank_rocker', { study: 'modes' });
+  await seek(tab, 0);
+  const still = await picture(tab);
+  await tab.locator('.play').click();
+  await tab.waitForTimeout(300);
+  await tab.locator('.play').click();
+  assert.notEqual(await picture(tab), still);
+}
+
+export async function space_is_turned_moved_and_enlarged(open) {
+  for (const model of ['four_bar_spatial', 'crank_rocker']) {
+    const { tab } = await open(model, { study: 'one-turn' });
+    const box = await tab.locator('.canvas').boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    const pictures = [await picture(tab)];
+    await tab.mouse.move(x, y);
+    await tab.mouse.down();
+    await tab.mouse.move(x + 60, y + 25, { steps: 4 });
+    await tab.mouse.up();
+    pictures.push(await picture(tab));
+    await tab.keyboard.down('Control');
+    await tab.mouse.wheel(0, -300);
+    await tab.keyboard.up('Control');
+    pictures.push(await picture(tab));
+    assert.equal(new Set(pictures).size, 3, model);
+    await tab.locator('[aria-label="whole mechanism"]').click();
+    assert.equal(await picture(tab), pictures[0], model);
+  }
+}
+
+export async function arrows_are_drawn_on_demand(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await seek(tab, 2);
+  const pictures = [await picture(tab)];
+  for (const kind of ['velocities', 'accelerations', 'reactions']) {
+    await tab.getByRole('checkbox', { name: kind }).check();
+    pictures.push(await picture(tab));
+  }
+  await tab.getByLabel('length of the arrows').fill('60');
+  pictures.push(await picture(tab));
+  assert.equal(new Set(pictures).size, 5);
+}

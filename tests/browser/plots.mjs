@@ -1,0 +1,109 @@
+// Figures: what they show, the cursor, zoom, the logarithmic axis, files.
+
+import { readFileSync } from 'node:fs';
+import { assert, csv, near, seek, time } from './read.mjs';
+
+const plot = (tab, name) => tab.locator(`[data-plot="${name}"]`);
+const value = async (tab, name, k = 0) => Number((await plot(tab, name).locator('.value').nth(k).innerText()).split(' ')[0].replace('−', '-'));
+
+export async function the_figures_of_the_file_are_there(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const names = await tab.locator('[data-plot]').evaluateAll((all) => all.map((one) => one.dataset.plot));
+  assert.deepEqual(names, ['angles', 'det_J', 'rates', 'accelerations', 'tip', 'centre', 'centre_motion', 'inertia', 'reactions', 'load', 'torque', 'power', 'shaking']);
+  assert.equal(await plot(tab, 'centre_motion').locator('clipPath').count(), 2, 'a panel for each unit');
+}
+
+export async function all_figures_show_the_time(open) {
+  const { tab, directory } = await open('crank_rocker', { study: 'one-turn' });
+  const { theta, phi2 } = csv(`${directory}/one-turn.csv`);
+  for (const i of [100, 1003, 2222]) {
+    await seek(tab, theta[i]);
+    near(await value(tab, 'angles'), (phi2[i] * 180) / Math.PI, 2e-3, 'phi2');
+    const marks = await tab.locator('.now').evaluateAll((all) => all.map((line) => Number(line.dataset.at)));
+    assert.equal(marks.length, 12, 'all but the path of the centre of mass');
+    marks.forEach((at) => near(at, (theta[i] * 180) / Math.PI, 1e-9, 'mark'));
+  }
+}
+
+export async function a_click_in_a_figure_sets_the_time(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await plot(tab, 'torque').scrollIntoViewIfNeeded();
+  const box = await plot(tab, 'torque').locator('.plot-stage').boundingBox();
+  await tab.mouse.move(box.x + box.width * 0.6, box.y + 80);
+  const under = await value(tab, 'torque');
+  await tab.mouse.down();
+  await tab.mouse.up();
+  const at = await time(tab);
+  assert.ok(at > 2.5 && at < 4.5, `at ${at}`);
+  await tab.mouse.move(5, 5);
+  near(await value(tab, 'torque'), under, 1e-6, 'value at the cursor and at the time');
+}
+
+export async function dragging_zooms_and_a_double_click_ends_it(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const stage = plot(tab, 'rates').locator('.plot-stage');
+  const labels = () => stage.locator('text').allInnerTexts();
+  const before = await labels();
+  await stage.scrollIntoViewIfNeeded();
+  const box = await stage.boundingBox();
+  await tab.mouse.move(box.x + box.width * 0.4, box.y + 60);
+  await tab.mouse.down();
+  await tab.mouse.move(box.x + box.width * 0.5, box.y + 60, { steps: 4 });
+  await tab.mouse.up();
+  const near = await labels();
+  assert.notDeepEqual(near, before);
+  await tab.mouse.dblclick(box.x + box.width * 0.5, box.y + 60);
+  assert.deepEqual(await labels(), before);
+}
+
+export async function keys_move_the_cursor_of_a_figure(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await seek(tab, 1);
+  await plot(tab, 'angles').locator('.plot-stage').focus();
+  const before = await value(tab, 'angles', 1);
+  for (let k = 0; k < 5; k++) await tab.keyboard.press('ArrowRight');
+  assert.notEqual(await value(tab, 'angles', 1), before);
+  assert.equal(await time(tab), 1, 'the motion stays');
+  await tab.keyboard.press('Enter');
+  assert.ok((await time(tab)) > 1.2);
+}
+
+export async function a_logarithmic_axis_and_a_column_of_ones_own(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const log = plot(tab, 'reactions').getByText('log', { exact: true });
+  await log.click();
+  assert.equal(await log.getAttribute('aria-pressed'), 'true');
+  assert.ok((await plot(tab, 'reactions').locator('path').count()) > 0);
+  await tab.getByLabel('column to draw').selectOption('c:tip_acc');
+  await tab.getByLabel('drawn over').selectOption('phi3');
+  await tab.getByText('Add figure').click();
+  const own = plot(tab, 'tip_acc over phi3');
+  assert.equal(await own.locator('.legend button').count(), 1);
+  await own.getByLabel(/remove/).click();
+  assert.equal(await own.count(), 0);
+}
+
+export async function numbers_of_runs_are_drawn(open) {
+  const { tab, directory } = await open('crank_rocker', { study: 'fluctuation' });
+  const { delta } = csv(`${directory}/fluctuation.csv`);
+  await plot(tab, 'delta').locator('.plot-stage').focus();
+  const cells = await tab.locator('.table', { hasText: 'Runs' }).locator('tbody tr:not([aria-hidden])').count();
+  assert.equal(cells, delta.length);
+  assert.equal(await plot(tab, 'speed').locator('.legend button').count(), 14);
+}
+
+export async function files_of_a_figure_have_its_curves(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const saved = async (kind) => {
+    const [download] = await Promise.all([tab.waitForEvent('download'), plot(tab, 'angles').getByText(kind, { exact: true }).click()]);
+    assert.equal(download.suggestedFilename(), `one-turn-angles.${kind.toLowerCase()}`);
+    return readFileSync(await download.path(), 'utf8');
+  };
+  const svg = await saved('SVG');
+  assert.match(svg, /^<svg xmlns="http:\/\/www.w3.org\/2000\/svg"/);
+  assert.ok(!svg.includes('var(') && svg.includes('>phi3<') && svg.includes('stroke="#0072b2"'));
+  const lines = (await saved('CSV')).trim().split('\n');
+  assert.equal(lines[0], 'theta [deg],phi2 [deg],phi3 [deg]');
+  assert.ok(lines.length > 1000, `${lines.length} lines`);
+  assert.match(lines[1], /^0,33\.35352/);
+}

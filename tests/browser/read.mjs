@@ -1,0 +1,20 @@
+// What tests share.
+
+import { readFileSync } from 'node:fs';
+import assert from 'node:assert/strict';
+
+export { assert };
+
+/** The columns of a CSV file by name. */
+export function csv(file) {
+  const [head, ...rows] = readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
+  return Object.fromEntries(head.map((name, k) => [name, rows.map((row) => Number(row[k]))]));
+}
+
+/** Whether two numbers are one to a tolerance. */
+export function near(found, wanted, tolerance, what = '') {
+  assert.ok(Math.abs(found - wanted) <= tolerance, `${what}: ${found}, not ${wanted} within ${tolerance}`);
+}
+
+export const time = (tab) => tab.evaluate(() => grashof.time());
+export const seek = (tab, at) => tab.evaluate((to) => grashof.seek(to), at);

@@ -1,0 +1,204 @@
+//! What is drawn moves as the mechanism does: between its frames too, and with its joints closed.
+
+use crate::common::{columns, model, study};
+use grashof::mechanism::Coordinates;
+use grashof::results::Scene;
+use grashof::results::scene::{LinkKind, Place, Shape, Trace};
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::run::run;
+
+/// A slider-crank over a turn, at rows that are no frames.
+const SLIDER_CRANK: &str = "grashof: 1
+name: slider-crank
+space: planar
+gravity: none
+ground: { O: [0, 0], W: [0, 0.1 m] }
+bodies:
+  crank: { bar: { length: 0.3 m } }
+  rod: { bar: { length: 1 m }, points: { P: [0.4 m, 0.2 m] } }
+  block: {}
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, rod.start] }
+  B: { revolute: [rod.end, block.origin] }
+  W: { slider: [ground.W, block.origin], axis: [1, 0] }
+drivers: { drive: { joint: O, speed: -1 rad/s } }
+start: { O.angle: 20 deg, rod.angle: ~0 deg }
+studies:
+  turn: { kinematics: { over: 1 turn, samples: 97 }, columns: [rod.P.x, rod.P.y, crank.end.x, crank.end.y, block.x, block.y] }
+";
+
+/// A chain of two bars that swings freely and turns over.
+const PENDULUM: &str = "grashof: 1
+name: double-pendulum
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: { u: { bar: { length: 1 m, mass: 1 kg } }, l: { bar: { length: 0.7 m, mass: 1 kg } } }
+joints: { P: { revolute: [ground, u.start] }, Q: { revolute: [u.end, l.start] } }
+start: { P.angle: 100 deg, l.angle: 140 deg }
+studies: { fall: { dynamics: { until: 2 s, every: 17 ms }, columns: [l.end.x, l.end.y, u.end.x, u.end.y] } }
+";
+
+/// A spinning body on a ball, whose quaternion goes round.
+const TOP: &str = "grashof: 1
+name: top
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+bodies: { top: { disc: { radius: 0.3 m, mass: 1 kg }, points: { foot: [0, 0, -0.5 m], rim: [0.3 m, 0, 0] } } }
+joints: { P: { spherical: [ground, top.foot] } }
+start: { top.rotation: { axis: [1, 0, 0], angle: 40 deg }, top.wz: 30 rad/s }
+studies: { spin: { dynamics: { until: 1 s, every: 13 ms }, columns: [top.rim.x, top.rim.y, top.rim.z, top.x, top.y, top.z] } }
+";
+
+/// Size of what is seen, m.
+fn size(scene: &Scene) -> f64 {
+    let places = scene.joints.iter().flat_map(|joint| [&joint.a, &joint.b]).flat_map(|place| &place.at);
+    places.fold(0.1, |size: f64, x| size.max(x.abs()))
+}
+
+/// Interpolates the frames at the rows of a study, and compares the points that its columns name.
+fn interpolates(text: &str, name: &str) -> Scene {
+    let outcome = study(text, name, Coordinates::Joint);
+    let (names, (_, scene)) = (columns(text, name), &outcome.scenes[0]);
+    let traced = |trace: &Trace| Place { body: trace.body, at: trace.at.clone() };
+    let mut compared = 0;
+    for (column, of) in names.iter().enumerate() {
+        let Some((point, axis)) = of.rsplit_once('.') else { continue };
+        let Some(trace) = scene.traces.iter().find(|trace| trace.name == point) else { continue };
+        let axis = ["x", "y", "z"].iter().position(|a| *a == axis).expect("an axis");
+        for (x, exact) in outcome.places.iter().zip(outcome.rows.column(column)) {
+            let found = scene.world(&scene.frames.at(*x, scene.dimensions), &traced(trace))[axis];
+            let allowed = scene.frames.error + 1e-9 * size(scene);
+            assert!((found - exact).abs() <= allowed, "{name}, {of} at {x}: {found} and {exact}, {allowed:e} allowed");
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "{names:?} {:?}", scene.traces);
+    assert!(scene.frames.at.is_sorted_by(|a, b| a < b) && scene.frames.error <= 1e-6 * 2.0, "{}", scene.frames.error);
+    joints_are_closed(scene, name);
+    scene.clone()
+}
+
+/// Points of hinges coincide in every frame, and those of slides lie along the axis.
+fn joints_are_closed(scene: &Scene, name: &str) {
+    for index in 0..scene.frames.count() {
+        let poses = scene.frame(index);
+        for joint in &scene.joints {
+            let (a, b) = (scene.world(poses, &joint.a), scene.world(poses, &joint.b));
+            let mut gap: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+            if let Some([low, high]) = joint.stroke {
+                let axis = scene.direction(poses, joint.a.body, &joint.axis);
+                let along: f64 = (0..3).map(|i| gap[i] * axis[i]).sum();
+                assert!((low - 1e-9..=high + 1e-9).contains(&along), "{name}: {} at {along}, {low} to {high}", joint.name);
+                gap = std::array::from_fn(|i| gap[i] - along * axis[i]);
+            }
+            let gap = gap.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let held = !matches!(&*joint.kind, "free" | "point" | "planar");
+            assert!(!held || gap <= 1e-8 * size(scene), "{name}, frame {index}: joint {} is open by {gap:e}", joint.name);
+        }
+    }
+}
+
+#[test]
+fn frames_of_a_driven_motion_give_the_motion_between_them() {
+    let scene = interpolates(SLIDER_CRANK, "turn");
+    // the crank turns backwards, and the independent variable rises all the same
+    assert!(scene.frames.closed && scene.frames.shown.len() == 6 && scene.frames.shown[0] == scene.frames.count() - 1);
+    let slide = scene.joints.iter().find(|joint| joint.name == "W").and_then(|joint| joint.stroke).expect("a stroke");
+    assert!(slide[1] - slide[0] > 0.59 && slide[1] - slide[0] < 0.62, "{slide:?}");
+    assert!(matches!(&scene.bodies[2].shapes[..], [Shape::Hull { points }] if points.len() == 3));
+    assert!(matches!(&scene.bodies[1].shapes[..], [Shape::Bar { .. }]));
+}
+
+#[test]
+fn frames_of_a_motion_in_time_give_the_motion_between_them() {
+    let scene = interpolates(PENDULUM, "fall");
+    assert!(!scene.frames.closed && scene.up == [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn quaternions_go_round_without_a_jump() {
+    let scene = interpolates(TOP, "spin");
+    let signs = scene.frames.poses.chunks_exact(7).map(|pose| pose[3]);
+    assert!(signs.clone().any(|w| w < 0.0) && signs.clone().any(|w| w > 0.0));
+    assert_eq!(scene.up, [0.0, 0.0, 1.0]);
+}
+
+/// Of a study of a model of the repository.
+fn scenes(file: &str, name: &str) -> Vec<(String, Scene)> {
+    let text = std::fs::read_to_string(format!("models/{file}.yaml")).expect("the model");
+    let model = model(&text, Some(name));
+    let study = model.study.clone().expect("the study");
+    run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason())).scenes
+}
+
+#[test]
+fn joints_of_the_models_stay_closed() {
+    let all = [
+        ("crank_rocker", "one-turn"),
+        ("crank_rocker", "modes"),
+        ("quick_return", "one-turn"),
+        ("andrews", "squeeze"),
+        ("heavy_top", "precession"),
+    ];
+    for (file, name) in all {
+        for (_, scene) in scenes(file, name) {
+            joints_are_closed(&scene, name);
+            assert_eq!(scene.frames.poses.len(), scene.frames.count() * scene.width());
+        }
+    }
+}
+
+#[test]
+fn a_motion_that_repeats_itself_in_the_grid_is_not_taken_for_rest() {
+    let text = SLIDER_CRANK
+        .replace("speed: -1 rad/s", "angle: 20 deg + 10 deg*sin(48*t/(1 s))")
+        .replace("over: 1 turn, samples: 97", "over: 6.283185307179586 s, samples: 997");
+    let scene = interpolates(&text, "turn");
+    assert!(scene.frames.count() > 384, "{}", scene.frames.count());
+}
+
+const GEARS: &str = "grashof: 1
+name: gears
+space: planar
+gravity: none
+ground: { O: [0, 0], P: [0.3 m, 0] , W: [0, -0.1 m] }
+bodies:
+  sun: { disc: { radius: 0.1 m } }
+  wheel: { disc: { radius: 0.2 m } }
+  arm: { bar: { length: 0.3 m } }
+  bar: { plate: { size: [1 m, 0.02 m] } }
+joints:
+  S: { revolute: [ground.O, sun] }
+  Q: { revolute: [ground.P, wheel] }
+  W: { slider: [ground.W, bar], axis: [1, 0] }
+couplings:
+  mesh: { gear: [S, Q], ratio: -0.5 }
+  rack: { rack: [S, W], radius: -0.1 m }
+drivers: { drive: { joint: S, speed: 1 rad/s } }
+studies: { turn: { kinematics: { over: 1 turn, samples: 10 } } }
+";
+
+#[test]
+fn pitch_circles_follow_from_the_ratio() {
+    let text = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
+    let outcome = study(&text, "turn", Coordinates::Joint);
+    let scene = &outcome.scenes[0].1;
+    let [mesh, rack] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
+    assert!((mesh.a.radius - 0.1).abs() < 1e-12 && (mesh.b.radius - 0.2).abs() < 1e-12, "{mesh:?}");
+    let touched = scene.world(scene.frame(0), &Place { body: rack.b.body, at: rack.b.at.clone() });
+    assert!(rack.rack && (rack.a.radius - 0.1).abs() < 1e-12, "{rack:?}");
+    // the lowest point of a wheel that turns counter-clockwise moves to the right: with a radius below 0 the rack moves to the left
+    assert!((touched[0]).abs() < 1e-12 && (touched[1] - 0.1).abs() < 1e-12, "{touched:?}");
+}
+
+#[test]
+fn links_say_what_they_are() {
+    let text = PENDULUM.replace(
+        "start:",
+        "springs: { s: { between: [ground.origin, l.end], stiffness: 5 N/m, length: 1 m }, d: { joint: Q, damping: 0.1 N m s/rad } }\nstart:",
+    );
+    let scene = &study(&text, "fall", Coordinates::Joint).scenes[0].1;
+    let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind, link.rest)).collect();
+    assert_eq!(kinds, [("s", LinkKind::Spring, Some(1.0)), ("d", LinkKind::Torsion, None)]);
+}

@@ -1,0 +1,139 @@
+// What a study has come to beside its rows: scalars, extremes, findings, the certificate, events, lists, matrices.
+
+import { type Child, h } from './dom';
+import { digits, heading, shownIn, valued } from './numbers';
+import { plain } from './table';
+import type { Certificate, Column, Results, Scalar, Solution, Study } from './types';
+
+export type ShowPlace = (place: string) => void;
+
+/** A part of a study with its heading; none without content. */
+function part(title: string, open: boolean, ...content: Child[]): HTMLElement | null {
+  if (content.every((child) => !child)) return null;
+  return h('details', { class: 'part', ...(open ? { open: true } : {}) }, h('summary', {}, title), ...content);
+}
+
+/** Names and values, one below the other. */
+function list(entries: [string, string][]): HTMLElement {
+  return h('dl', { class: 'values' }, ...entries.map(([name, value]) => h('div', {}, h('dt', {}, name), h('dd', {}, value))));
+}
+
+function scalars(all: Scalar[]): HTMLElement | null {
+  if (all.length === 0) return null;
+  return list(all.map((scalar) => {
+    const { text, unit } = valued(scalar, scalar.value);
+    return [scalar.name, `${text} ${unit}`.trim()];
+  }));
+}
+
+function solution(solved: Solution | null): HTMLElement | null {
+  if (!solved) return null;
+  const { text, unit } = valued(solved.parameter, solved.parameter.value);
+  return h('p', { class: 'lead' }, 'solved: ', h('strong', {}, `${solved.parameter.name} = ${text} ${unit}`.trim()),
+    `, with which ${solved.of} is ${digits(solved.found, 8)} (${solved.runs} runs)`);
+}
+
+/** A button that leads to a place of the model file. */
+function link(place: string, show: ShowPlace): HTMLElement | null {
+  return place === '' ? null : h('button', { type: 'button', class: 'place', title: 'show in the model file', click: () => show(place) }, place);
+}
+
+/** Why it stopped, what was found, and which expectations are not met. */
+function findings(results: Results, show: ShowPlace): HTMLElement | null {
+  const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, h('span', {}, message), ' ', link(place, show));
+  const all = [
+    ...(results.stopped ? [entry('bad', results.stopped, results.undefined?.place || results.place)] : []),
+    ...results.expectations.filter((e) => !e.met).map((e) => entry('bad', `${e.text} is ${digits(e.found, 10)}, not ${digits(e.wanted, 10)} within ${digits(e.tolerance, 3)}`, e.place)),
+    ...[...results.findings, ...(results.solution?.findings ?? [])].map((f) => entry('', f.message, f.path)),
+  ];
+  return all.length === 0 ? null : h('ul', { class: 'findings' }, ...all);
+}
+
+function extremes(results: Results): HTMLElement | null {
+  const columns = new Map(results.table.columns.map((c) => [c.name, c]));
+  const place = shownIn(results.independent);
+  const rows = results.extremes.flatMap(([name, both]) => {
+    const column: Column | undefined = columns.get(name);
+    if (!both || !column) return [];
+    const { unit, size } = shownIn(column);
+    const value = (x: number | null, by: number, count: number) => digits(x === null ? null : x / by, count);
+    return [[heading(name, unit), value(both.min.value, size, 8), value(both.min.at, place.size, 6), value(both.max.value, size, 8), value(both.max.at, place.size, 6)]];
+  });
+  if (rows.length === 0) return null;
+  const at = heading('at', place.unit);
+  return plain(['', 'least', at, 'greatest', at], rows);
+}
+
+function certificate(c: Certificate, results: Results): HTMLElement | null {
+  const { march, resolved } = c;
+  const entries: [string, string][] = [];
+  if (c.evaluations > 0) entries.push(['constraints off by', digits(c.constraint, 2)]);
+  if (march) {
+    entries.push(
+      ['energy balanced to', `${digits(march.energy_drift, 2)} of ${digits(march.energy_scale, 4)} J`],
+      ['velocity constraints off by', digits(march.velocity, 2)],
+      ['integrator', march.tolerance === null ? march.schemes : `${march.schemes}, tolerance ${digits(march.tolerance, 2)}`],
+      ['steps', `${march.counts.steps} (${march.counts.rejected} rejected), ${march.counts.evaluations} evaluations`],
+    );
+    for (const name of ['drivers', 'loads', 'dampers', 'stops', 'impacts'] as const) {
+      if (Math.abs(march[name] ?? 0) > 1e-12 * (march.energy_scale ?? 0)) entries.push([`work of ${name}`, `${digits(march[name], 7)} J`]);
+    }
+    if (march.counts.events) entries.push(['events located', String(march.counts.events)]);
+  } else if (c.evaluations > 0 && ['inverse', 'kinematics', 'balance'].includes(results.kind)) entries.push(['power balanced to', digits(c.power_balance, 2)]);
+  if (resolved) entries.push(['columns resolved to', digits(resolved.width, 2) + (resolved.open > 0 ? `, but for ${resolved.open}` : '')]);
+  if (c.switches > 0) entries.push(['switches located', String(c.switches)]);
+  const expected = results.expectations.length;
+  if (expected > 0) entries.push(['expectations met', `${results.expectations.filter((e) => e.met).length} of ${expected}`]);
+  return entries.length === 0 ? null : list(entries);
+}
+
+function lists(results: Results): Child[] {
+  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), values.map((v) => digits(v, 8)).join(',  ')]);
+  const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
+  return all.length + shapes.length > 0 ? [plain(['', 'values'], [...all, ...shapes], true)] : [];
+}
+
+function matrices(results: Results): Child[] {
+  const { linear } = results;
+  if (!linear) return [];
+  const heads: Record<string, string[]> = { A: linear.states, C: linear.states, B: linear.inputs, D: linear.inputs };
+  const rows: Record<string, string[]> = { A: linear.states, B: linear.states, C: linear.outputs, D: linear.outputs };
+  return linear.matrices.filter(([, m]) => m.length > 0 && (m[0]?.length ?? 0) > 0).flatMap(([name, matrix]) => [
+    h('h4', {}, name),
+    plain(['', ...(heads[name] ?? linear.coordinates)], matrix.map((row, i) => [(rows[name] ?? linear.coordinates)[i] ?? '', ...row.map((x) => digits(x, 6))])),
+  ]);
+}
+
+function events(results: Results): HTMLElement | null {
+  const { independent } = results;
+  const { unit, size } = shownIn(independent);
+  return results.events.length === 0 ? null : plain(['event', heading('at', unit)], results.events.map((e) => [e.name, digits(e.at === null ? null : e.at / size, 8)]));
+}
+
+/** All of it. */
+export function facts(study: Study, show: ShowPlace): HTMLElement {
+  const found = findings(study, show);
+  const own = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by !== 'kind') : study.scalars;
+  const rest = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by === 'kind') : [];
+  return h('div', { class: 'facts card' },
+    solution(study.solution),
+    scalars(own),
+    found && h('div', {}, h('h3', {}, 'Findings'), found),
+    part('Modes', true, ...lists(study)),
+    part('Results of the kind', false, scalars(rest)),
+    part('Matrices', true, ...matrices(study)),
+    part('Extremes', false, extremes(study)),
+    part('Events', false, events(study)),
+    part('Certificate', false, certificate(study.certificate, study)),
+    part('Parameters', false, scalars(study.parameters)));
+}
+
+/** How much of the rows is there, in words. */
+export function rowsInWords(results: Results): string {
+  const { rows, independent } = results;
+  const there = independent.values.length;
+  if (!rows || there === 0 || there >= rows.of) return '';
+  const within = digits(rows.within, 2);
+  return `rows shown: ${there} of ${rows.of}, curves within ${within} of their range`;
+}
+

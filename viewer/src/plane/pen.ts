@@ -1,0 +1,86 @@
+// Drawing on a canvas in pixels of the page.
+
+export type Point = [number, number];
+
+export class Pen {
+  constructor(readonly on: CanvasRenderingContext2D) {}
+
+  /** A line through points, closed if it is to be. */
+  path(points: Point[], closed = false): this {
+    this.on.beginPath();
+    points.forEach(([x, y], i) => (i === 0 ? this.on.moveTo(x, y) : this.on.lineTo(x, y)));
+    if (closed) this.on.closePath();
+    return this;
+  }
+
+  circle([x, y]: Point, radius: number): this {
+    this.on.beginPath();
+    this.on.arc(x, y, Math.max(radius, 0), 0, 2 * Math.PI);
+    return this;
+  }
+
+  fill(color: string): this {
+    this.on.fillStyle = color;
+    this.on.fill();
+    return this;
+  }
+
+  stroke(color: string, width: number, dash: number[] = []): this {
+    Object.assign(this.on, { strokeStyle: color, lineWidth: width, lineJoin: 'round', lineCap: 'round' });
+    this.on.setLineDash(dash);
+    this.on.stroke();
+    return this;
+  }
+
+  /** Text with room around its letters. */
+  text(text: string, [x, y]: Point, color: string, halo: string, size = 12): void {
+    const { on } = this;
+    on.font = `${size}px system-ui, sans-serif`;
+    on.setLineDash([]);
+    Object.assign(on, { strokeStyle: halo, lineWidth: 4, lineJoin: 'round', fillStyle: color });
+    on.strokeText(text, x, y);
+    on.fillText(text, x, y);
+  }
+
+  /** An arrow with a slender head. */
+  arrow(from: Point, to: Point, color: string, width = 2): void {
+    const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    if (!(length > 1)) return;
+    const [ux, uy] = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
+    const head = Math.min(10, length * 0.6);
+    const base: Point = [to[0] - ux * head, to[1] - uy * head];
+    this.path([from, base]).stroke(color, width);
+    this.path([to, [base[0] - uy * head * 0.36, base[1] + ux * head * 0.36], [base[0] + uy * head * 0.36, base[1] - ux * head * 0.36]], true).fill(color);
+  }
+}
+
+/** The point at some pixels along and across from another. */
+export function off([x, y]: Point, [ux, uy]: Point, along: number, across: number): Point {
+  return [x + ux * along - uy * across, y + uy * along + ux * across];
+}
+
+/** Unit direction from one point to another, and the distance. */
+export function toward(a: Point, b: Point): { along: Point; length: number } {
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  return { along: length > 1e-9 ? [(b[0] - a[0]) / length, (b[1] - a[1]) / length] : [1, 0], length };
+}
+
+/** The convex hull of points, around in one sense (Andrew 1979). */
+export function hull(points: Point[]): Point[] {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  if (sorted.length < 3) return sorted;
+  const half = (all: Point[]) => {
+    const out: Point[] = [];
+    for (const p of all) {
+      while (out.length > 1) {
+        const [a, b] = [out[out.length - 2]!, out[out.length - 1]!];
+        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 1e-9) break;
+        out.pop();
+      }
+      out.push(p);
+    }
+    out.pop();
+    return out;
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}

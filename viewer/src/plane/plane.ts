@@ -1,0 +1,229 @@
+// A mechanism in the plane on a canvas.
+
+import { type Arrows, COLOR } from '../arrows';
+import type { Motion } from '../motion';
+import type { Options, Renderer } from '../renderer';
+import { type Inks, mixed } from '../theme';
+import type { Joint, Place, Shape, Trace } from '../types';
+import { Pen, type Point, hull, off } from './pen';
+import * as signs from './signs';
+
+/** Width of a bar whose true one the model does not give, in pixels. */
+const BAR = 15;
+/** Frames of which the bounds are taken, and points of a path. */
+const LOOKS = 72;
+const PATH = 400;
+
+export class Plane implements Renderer {
+  private readonly pen: Pen;
+  private readonly bounds: { low: Point; high: Point };
+  private readonly paths: { trace: Trace; at: number[]; points: Point[] }[];
+  private scale = 0;
+  private zoomed = 1;
+  private shift: Point = [0, 0];
+  private middle: Point = [0, 0];
+  private place = 0;
+  private inks!: Inks;
+
+  constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
+    this.pen = new Pen(context);
+    this.bounds = this.measure();
+    const at = motion.sampled(PATH);
+    this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
+  }
+
+  fit(): void {
+    [this.zoomed, this.shift] = [1, [0, 0]];
+  }
+
+  zoom(factor: number, x: number, y: number): void {
+    const before = this.zoomed;
+    this.zoomed = Math.min(Math.max(this.zoomed * factor, 0.2), 200);
+    const k = this.zoomed / before;
+    this.shift = [x - this.middle[0] - k * (x - this.middle[0] - this.shift[0]), y - this.middle[1] - k * (y - this.middle[1] - this.shift[1])];
+  }
+
+  drag(dx: number, dy: number): void {
+    this.shift = [this.shift[0] + dx, this.shift[1] + dy];
+  }
+
+  draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
+    this.place = place;
+    this.inks = inks;
+    const { low, high } = this.bounds;
+    const room = 34;
+    this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (height - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
+    this.middle = [width / 2, height / 2];
+    const { pen } = this;
+    pen.on.clearRect(0, 0, width, height);
+    const { scene } = this.motion;
+    if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
+    scene.joints.forEach((joint) => this.way(joint));
+    scene.gears.forEach(({ a, b, rack }, k) => {
+      const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
+      for (const wheel of rack ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, place), wheel.radius < 0, color(wheel.body), inks);
+      if (rack) signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), 0.1 * width * (k + 1), inks);
+    });
+    scene.bodies.forEach((body, index) => body.shapes.forEach((shape) => this.shape(index, shape)));
+    scene.joints.forEach((joint) => this.sliding(joint));
+    scene.links.forEach(({ kind, a, b }) => signs.link(pen, kind, this.point(a), this.point(b), inks));
+    scene.joints.forEach((joint) => this.sign(joint));
+    if (options.names) scene.joints.forEach((joint) => joint.kind !== 'distance' && pen.text(joint.name, off(this.point(joint.b), [1, 0], 9, -8), inks.soft, inks.paper));
+    for (const kind of options.arrows) this.drawArrows(kind, options.scale * Math.min(width, height));
+    this.bar(height);
+  }
+
+  private pixel(x: number, y: number): Point {
+    const { low, high } = this.bounds;
+    return [
+      this.middle[0] + this.shift[0] + (x - (low[0] + high[0]) / 2) * this.scale,
+      this.middle[1] + this.shift[1] - (y - (low[1] + high[1]) / 2) * this.scale,
+    ];
+  }
+
+  private point(at: Place): Point {
+    const [x, y] = this.motion.world(at, this.place);
+    return this.pixel(x, y);
+  }
+
+  private along(body: number, direction: number[]): Point {
+    const [x, y] = this.motion.direction(body, direction, this.place);
+    return [x, -y];
+  }
+
+  /** Bounds of all that is drawn over the whole motion; of the ground the joints alone. */
+  private measure(): { low: Point; high: Point } {
+    const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    const places = [...this.motion.places()];
+    for (const place of this.motion.sampled(LOOKS)) {
+      for (const point of places) {
+        const at = this.motion.world(point, place);
+        for (const i of [0, 1] as const) {
+          if (!Number.isFinite(at[i])) continue;
+          low[i] = Math.min(low[i], at[i]);
+          high[i] = Math.max(high[i], at[i]);
+        }
+      }
+    }
+    if (low[0] > high[0]) return { low: [-1, -1], high: [1, 1] };
+    const size = Math.max(high[0] - low[0], high[1] - low[1], 1e-9);
+    for (const i of [0, 1] as const) {
+      const lacking = 0.3 * size - (high[i] - low[i]);
+      if (lacking > 0) [low[i], high[i]] = [low[i] - lacking / 2, high[i] + lacking / 2];
+    }
+    return { low, high };
+  }
+
+  private drawPaths(growing: boolean): void {
+    const { pen, inks } = this;
+    this.paths.forEach(({ trace, at, points }, k) => {
+      const color = inks.curves[(k + 1) % 6]!;
+      const all = points.map(([x, y]) => this.pixel(x, y));
+      pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.3) : color, growing ? 1.2 : 1.8);
+      if (!growing) return;
+      const until = at.findIndex((place) => place > this.place);
+      pen.path([...all.slice(0, until < 0 ? all.length : until), this.point(trace)]).stroke(color, 2);
+    });
+  }
+
+  private colors(body: number): { fill: string; edge: string } {
+    if (body === 0) return { fill: mixed(this.inks.paper, this.inks.faint, 0.25), edge: this.inks.faint };
+    const edge = this.inks.curves[(body - 1) % 6]!;
+    return { fill: mixed(this.inks.paper, edge, this.inks.light ? 0.24 : 0.3), edge };
+  }
+
+  private shape(body: number, shape: Shape): void {
+    const { pen } = this;
+    const { fill, edge } = this.colors(body);
+    const points = (list: number[][]) => list.map((at) => this.point({ body, at }));
+    switch (shape.kind) {
+      case 'bar':
+      case 'cylinder': {
+        const width = shape.kind === 'bar' ? (shape.width ?? 0) : 2 * shape.radius;
+        this.rounded(points([shape.from, shape.to]), Math.max(width * this.scale, BAR), fill, edge);
+        break;
+      }
+      case 'hull': {
+        const outline = hull(points(shape.points));
+        if (outline.length > 0) this.rounded(outline, BAR, outline.length > 2 ? mixed(this.inks.paper, fill, 0.75) : fill, edge);
+        break;
+      }
+      case 'polygon':
+        pen.path(points(shape.points), true).fill(fill).stroke(edge, 1.5);
+        break;
+      case 'box': {
+        const [w, h] = [(shape.size[0] ?? 0) / 2, (shape.size[1] ?? 0) / 2];
+        const [x, y] = [shape.center[0] ?? 0, shape.center[1] ?? 0];
+        pen.path(points([[x - w, y - h], [x + w, y - h], [x + w, y + h], [x - w, y + h]]), true).fill(fill).stroke(edge, 1.5);
+        break;
+      }
+      case 'mass':
+        pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, 5)).fill(mixed(fill, edge, 0.45)).stroke(edge, 1.5);
+        break;
+      default: {
+        const center = this.point({ body, at: shape.center });
+        const radius = Math.max(shape.radius * this.scale, 3);
+        pen.circle(center, radius).fill(fill).stroke(edge, 1.5);
+        // a disc that turns is seen to turn
+        pen.path([center, off(center, this.along(body, [1, 0]), radius, 0)]).stroke(edge, 1);
+      }
+    }
+  }
+
+  /** A body with round corners about its points: a thick line in the colour of the edge, and a thinner one over it. */
+  private rounded(points: Point[], width: number, fill: string, edge: string): void {
+    this.pen.path(points, true).stroke(edge, width);
+    const inner = this.pen.path(points, true);
+    if (points.length > 2) inner.fill(fill);
+    inner.stroke(fill, width - 3);
+  }
+
+  private slides({ kind }: Joint): boolean {
+    return ['slider', 'prismatic', 'pin-in-slot'].includes(kind);
+  }
+
+  /** The ends of the way of a slide. */
+  private ends({ a, axis, stroke }: Joint): [Point, Point] {
+    const at = this.point(a);
+    const along = this.along(a.body, axis);
+    const [low, high] = stroke ?? [0, 0];
+    return [off(at, along, low * this.scale - 24, 0), off(at, along, high * this.scale + 24, 0)];
+  }
+
+  private way(joint: Joint): void {
+    const { a, b, kind } = joint;
+    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 || b.body === 0, this.inks);
+    else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
+  }
+
+  private sliding(joint: Joint): void {
+    if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), this.colors(joint.a.body).edge, this.inks);
+    else if (this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
+  }
+
+  private sign({ kind, a, b, driven }: Joint): void {
+    if (kind === 'distance' || kind === 'free') return;
+    signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
+  }
+
+  private drawArrows(kind: keyof typeof COLOR, longest: number): void {
+    const most = this.arrows.most(kind);
+    if (!(most > 0)) return;
+    for (const { from, along } of this.arrows.at(kind, this.place)) {
+      const at = this.pixel(from[0], from[1]);
+      this.pen.arrow(at, [at[0] + (along[0] / most) * longest, at[1] - (along[1] / most) * longest], this.inks.curves[COLOR[kind]]!, 2.2);
+    }
+  }
+
+  /** A bar of round length at the lower left. */
+  private bar(height: number): void {
+    const longest = 110 / this.scale;
+    const power = 10 ** Math.floor(Math.log10(longest));
+    const length = [5, 2, 1].map((m) => m * power).find((l) => l <= longest * (1 + 1e-9)) ?? power;
+    const [x, y] = [16, height - 14];
+    const end = x + length * this.scale;
+    this.pen.path([[x, y - 4], [x, y], [end, y], [end, y - 4]]).stroke(this.inks.faint, 1.4);
+    const text = length < 0.0099 ? `${Number((length * 1e3).toPrecision(3))} mm` : `${Number(length.toPrecision(3))} m`;
+    this.pen.text(text, [end + 8, y + 2], this.inks.soft, this.inks.paper, 11);
+  }
+}

@@ -1,0 +1,122 @@
+// Signs of the field: bearings, slides, slots, springs, dampers, gears.
+
+import type { Inks } from '../theme';
+import { mixed } from '../theme';
+import type { LinkKind } from '../types';
+import { type Pen, type Point, off, toward } from './pen';
+
+/** Half the length and half the width of the box of a slide. */
+const BOX: Point = [13, 8];
+
+/** A line with the hatch of solid ground on its right side, seen from a to b. */
+export function hatched(pen: Pen, a: Point, b: Point, inks: Inks): void {
+  const { along, length } = toward(a, b);
+  const count = Math.max(1, Math.round(length / 8));
+  for (let k = 1; k <= count; k++) {
+    const s = (length * k) / count;
+    pen.path([off(a, along, s, 0), off(a, along, s - 7, 7)]).stroke(inks.faint, 1);
+  }
+  pen.path([a, b]).stroke(inks.soft, 1.6);
+}
+
+/** The bearing of the frame below a hinge. */
+export function bearing(pen: Pen, at: Point, inks: Inks): void {
+  const foot = at[1] + 20;
+  pen.path([at, [at[0] - 12, foot], [at[0] + 12, foot]], true).fill(mixed(inks.paper, inks.faint, 0.25)).stroke(inks.soft, 1.4);
+  hatched(pen, [at[0] - 17, foot], [at[0] + 17, foot], inks);
+}
+
+/** What a slide slides on, from one end to the other: hatched ground on its lower side, or a line on another body. */
+export function slideway(pen: Pen, a: Point, b: Point, grounded: boolean, inks: Inks): void {
+  if (!grounded) {
+    pen.path([a, b]).stroke(inks.soft, 1.8);
+    return;
+  }
+  const backwards = b[0] - a[0] < -1e-6 || (Math.abs(b[0] - a[0]) <= 1e-6 && b[1] > a[1]);
+  const [from, to] = backwards ? [b, a] : [a, b];
+  const { along } = toward(from, to);
+  hatched(pen, off(from, along, 0, BOX[1] + 1), off(to, along, 0, BOX[1] + 1), inks);
+}
+
+/** The box of a slide. */
+export function box(pen: Pen, at: Point, along: Point, inks: Inks): void {
+  const corner = (s: number, t: number) => off(at, along, s * BOX[0], t * BOX[1]);
+  pen.path([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)], true).fill(mixed(inks.paper, inks.faint, 0.3)).stroke(inks.ink, 1.6);
+}
+
+/** A slot between two points. */
+export function slot(pen: Pen, a: Point, b: Point, edge: string, inks: Inks): void {
+  pen.path([a, b]).stroke(edge, 12).stroke(inks.paper, 8.5);
+}
+
+/** The sign at the point of a joint. */
+export function pin(pen: Pen, kind: string, at: Point, driven: boolean, inks: Inks): void {
+  const edge = driven ? inks.accent : inks.ink;
+  if (kind === 'fixed') pen.path([[at[0] - 5, at[1] - 5], [at[0] + 5, at[1] - 5], [at[0] + 5, at[1] + 5], [at[0] - 5, at[1] + 5]], true).fill(inks.ink);
+  else if (kind === 'pin-in-slot') pen.circle(at, 4).fill(inks.ink);
+  else if (kind === 'slider' || kind === 'prismatic') pen.circle(at, 2.4).fill(inks.ink);
+  else pen.circle(at, 4.8).fill(inks.paper).stroke(edge, driven ? 2.4 : 1.8);
+}
+
+/** The points of a coil between two points of the line from a along `along`. */
+function coil(a: Point, along: Point, from: number, to: number, across: number): Point[] {
+  const coils = Math.min(Math.max(Math.round((to - from) / 10), 4), 14);
+  const step = (to - from) / (2 * coils);
+  const zigzag = Array.from({ length: 2 * coils }, (_, k) => off(a, along, from + (k + 0.5) * step, across + (k % 2 === 0 ? 6 : -6)));
+  return [off(a, along, from, across), ...zigzag, off(a, along, to, across)];
+}
+
+function damper(pen: Pen, a: Point, along: Point, from: number, to: number, across: number, color: string): void {
+  const [low, high] = [from + 0.3 * (to - from), from + 0.7 * (to - from)];
+  const p = (s: number, t: number) => off(a, along, s, across + t);
+  pen.path([p(from, 0), p(low, 0)]).stroke(color, 1.8);
+  pen.path([p(high, -6), p(low, -6), p(low, 6), p(high, 6)]).stroke(color, 1.8);
+  pen.path([p((low + high) / 2, 0), p(to, 0)]).stroke(color, 1.8);
+  pen.path([p((low + high) / 2, -4), p((low + high) / 2, 4)]).stroke(color, 2.6);
+}
+
+/** A spring, a damper, both, or a rod between two points. */
+export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): void {
+  const color = kind === 'rod' ? inks.ink : inks.curves[2]!;
+  const { along, length } = toward(a, b);
+  if (kind === 'torsion') {
+    const spiral = Array.from({ length: 60 }, (_, k): Point => [a[0] + (7 + k / 6) * Math.cos(k / 4), a[1] + (7 + k / 6) * Math.sin(k / 4)]);
+    pen.path(spiral).stroke(color, 1.6);
+    return;
+  }
+  const end = Math.min(0.2 * length, 16);
+  [a, b].forEach((point) => pen.circle(point, 2.6).fill(color));
+  if (kind === 'rod') pen.path([a, b]).stroke(color, 1.8);
+  if (kind === 'spring') pen.path([a, ...coil(a, along, end, length - end, 0), b]).stroke(color, 1.7);
+  if (kind === 'damper') damper(pen, a, along, 0, length, 0, color);
+  if (kind === 'spring-damper') {
+    for (const s of [end, length - end]) pen.path([off(a, along, s, -9), off(a, along, s, 9)]).stroke(color, 1.8);
+    pen.path([a, off(a, along, end, 0)]).stroke(color, 1.8);
+    pen.path([b, off(a, along, length - end, 0)]).stroke(color, 1.8);
+    pen.path(coil(a, along, end, length - end, -9)).stroke(color, 1.6);
+    damper(pen, a, along, end, length - end, 9, color);
+  }
+}
+
+/** A pitch circle with teeth, turned by an angle; of an inner gear the teeth point inwards. */
+export function gear(pen: Pen, center: Point, radius: number, angle: number, inner: boolean, color: string, inks: Inks): void {
+  const teeth = Math.min(Math.max(Math.round(radius / 3.4), 10), 90);
+  const depth = Math.min(5, radius / 6);
+  const points = Array.from({ length: teeth * 4 }, (_, k): Point => {
+    const turn = angle + (2 * Math.PI * k) / (teeth * 4);
+    const r = radius + (k % 4 < 2 ? depth : -depth) * 0.8;
+    return [center[0] + r * Math.cos(turn), center[1] - r * Math.sin(turn)];
+  });
+  pen.path(points, true);
+  if (!inner) pen.fill(mixed(inks.paper, color, 0.14));
+  pen.stroke(color, 1.4);
+  pen.circle(center, radius).stroke(color, 0.8, [4, 4]);
+  pen.path([center, [center[0] + radius * 0.86 * Math.cos(angle), center[1] - radius * 0.86 * Math.sin(angle)]]).stroke(color, 1);
+}
+
+/** The toothed line of a rack. */
+export function rack(pen: Pen, at: Point, along: Point, reach: number, inks: Inks): void {
+  const points: Point[] = [];
+  for (let s = -reach, k = 0; s < reach; s += 4, k++) points.push(off(at, along, s, k % 4 < 2 ? 3 : -3));
+  pen.path(points).stroke(inks.soft, 1.5);
+}

@@ -1,0 +1,175 @@
+// A figure as SVG: panels of curves, one above the other, over one horizontal axis. The screen, the printer and a file get the same.
+
+import { s } from '../dom';
+import { heading } from '../numbers';
+import { type Axis, axis, over, scaled } from './axis';
+
+export interface Curve {
+  label: string;
+  /** Unit of y as shown. */
+  unit: string;
+  x: number[];
+  y: number[];
+  color: number;
+  dash: number;
+  shown: boolean;
+}
+
+export interface Figure {
+  x: { label: string; unit: string };
+  /** What the vertical axis of a figure with one curve name says. */
+  y: string;
+  curves: Curve[];
+  breaks: number[];
+  equal: boolean;
+  ordered: boolean;
+}
+
+export interface View {
+  width: number;
+  log: boolean;
+  /** Chosen ranges; the vertical one of figures of one panel alone. */
+  x: [number, number] | null;
+  y: [number, number] | null;
+}
+
+export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; factor: number; unit: string }
+export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
+
+export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#6b6b6b'];
+export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'];
+/** For many curves: dark blue to amber, rising in lightness. */
+const SCALE = [[0, 32, 96], [66, 78, 107], [124, 123, 120], [188, 160, 90], [235, 190, 30]] as const;
+const LETTER = 6.7;
+
+/** The colour of a curve; many curves take a scale. */
+export function color(index: number, count: number): string {
+  if (count <= COLORS.length) return `var(--curve-${index % COLORS.length})`;
+  const place = (index / (count - 1)) * (SCALE.length - 1);
+  const low = Math.min(Math.floor(place), SCALE.length - 2);
+  const channels = SCALE[low]!.map((x, k) => Math.round(x + (SCALE[low + 1]![k]! - x) * (place - low)));
+  return `color-mix(in srgb, rgb(${channels.join(', ')}), white var(--lift))`;
+}
+
+/** Where everything stands. */
+export function layout(figure: Figure, view: View): Layout {
+  const shown = figure.curves.filter((curve) => curve.shown);
+  const units = [...new Set(figure.curves.map((curve) => curve.unit))];
+  const largest = (values: Iterable<number>) => {
+    let most = 0;
+    for (const x of values) if (Math.abs(x) > most && Number.isFinite(x)) most = Math.abs(x);
+    return most;
+  };
+  const horizontal = scaled(figure.x.unit, largest(all(figure.curves, 'x')));
+  const x = view.x ? over(...view.x, figure.x.unit, false, 80) : axis(all(figure.curves, 'x'), figure.x.unit, false, figure.ordered, 80);
+  const height = units.length > 1 ? 170 : 250;
+  const panels = units.map((unit, k): Panel => {
+    const curves = shown.filter((curve) => curve.unit === unit);
+    const { unit: name, factor } = scaled(unit, largest(all(curves, 'y')));
+    const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : axis(within(curves, view.x), unit, view.log, false, 44);
+    return { curves, top: 12 + k * (height + 18), height, y: own, factor, unit: name };
+  });
+  const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
+  const left = Math.min(34 + LETTER * Math.max(1, ...labels), view.width / 3);
+  const bottom = panels[panels.length - 1];
+  const out: Layout = { left, right: view.width - 14, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, xFactor: horizontal.factor, panels };
+  if (figure.equal && panels.length === 1) equalise(out, panels[0]!, figure, view);
+  return out;
+}
+
+/** Ticks in the unit that is shown. */
+function scaledTicks(of: Axis, factor: number, unit: string, room: number, gap = 44): { at: number; text: string }[] {
+  if (factor === 1) return of.ticks(room);
+  return over(of.low * factor, of.high * factor, unit, of.log, gap).ticks(room).map(({ at, text }) => ({ at: at / factor, text }));
+}
+
+function* all(curves: Curve[], of: 'x' | 'y'): Iterable<number> {
+  for (const curve of curves) yield* curve[of];
+}
+
+function* within(curves: Curve[], range: [number, number] | null): Iterable<number> {
+  for (const { x, y } of curves) for (let i = 0; i < y.length; i++) if (!range || (x[i]! >= range[0] && x[i]! <= range[1])) yield y[i]!;
+}
+
+/** The same scale along both axes. */
+function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
+  const room = out.right - out.left;
+  const [w, h] = [out.x.high - out.x.low, panel.y.high - panel.y.low];
+  panel.height = Math.min(Math.max((room * h) / w, 180), 380);
+  const scale = Math.min(room / w, panel.height / h);
+  const wider = (a: Axis, size: number, unit: string) => {
+    const middle = (a.low + a.high) / 2;
+    return over(middle - size / 2, middle + size / 2, unit, false, 60);
+  };
+  if (!view.log) {
+    out.x = wider(out.x, room / scale, figure.x.unit);
+    panel.y = wider(panel.y, panel.height / scale, panel.unit);
+  }
+  out.height = panel.top + panel.height + 46;
+}
+
+/** The line of a curve; points that cannot be told apart are left out. */
+function path({ x, y }: Curve, { left, right, x: across }: Layout, { top, height, y: up }: Panel): string {
+  let [out, pen, px, py] = ['', false, NaN, NaN];
+  const n = x.length;
+  for (let i = 0; i < n; i++) {
+    const u = left + across.part(x[i]!) * (right - left);
+    const v = top + (1 - up.part(y[i]!)) * height;
+    if (!Number.isFinite(u + v)) {
+      pen = false;
+      continue;
+    }
+    if (pen && Math.abs(u - px) + Math.abs(v - py) < 0.4 && i + 1 < n && Number.isFinite(y[i + 1]!)) continue;
+    // far out of the picture numbers are too long for some renderers
+    out += `${pen ? 'L' : 'M'}${clamp(u)} ${clamp(v)}`;
+    [pen, px, py] = [true, u, v];
+  }
+  return out;
+}
+
+function clamp(x: number): string {
+  return Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
+}
+
+let count = 0;
+
+/** The figure. */
+export function draw(figure: Figure, view: View, out: Layout, title: string): SVGSVGElement {
+  const svg = s('svg', { viewBox: `0 0 ${view.width} ${out.height}`, width: view.width, height: out.height, role: 'img', 'aria-label': title, class: 'chart' });
+  const { left, right } = out;
+  const last = out.panels[out.panels.length - 1]!;
+  for (const panel of out.panels) {
+    const id = `clip-${count++}`;
+    const { top, height } = panel;
+    svg.append(s('clipPath', { id }, s('rect', { x: left, y: top - 2, width: Math.max(right - left, 0), height: height + 4 })));
+    for (const { at, text } of scaledTicks(panel.y, panel.factor, panel.unit, height)) {
+      const y = top + (1 - panel.y.part(at)) * height;
+      svg.append(s('line', { x1: left, x2: right, y1: y, y2: y, stroke: 'var(--grid)' }), label(text, left - 7, y + 4, 'end'));
+    }
+    for (const { at, text } of scaledTicks(out.x, out.xFactor, figure.x.unit, right - left, 80)) {
+      const x = left + out.x.part(at) * (right - left);
+      svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--grid)' }));
+      if (panel === last) svg.append(label(text, x, top + height + 17, 'middle'));
+    }
+    for (const at of figure.breaks) {
+      const x = left + out.x.part(at) * (right - left);
+      if (x > left && x < right) svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--faint)', 'stroke-dasharray': '2 3' }));
+    }
+    svg.append(s('path', { d: `M${left} ${top}V${top + height}H${right}`, fill: 'none', stroke: 'var(--line)' }));
+    const lines = panel.curves.map((curve) =>
+      s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': 1.8, 'stroke-linejoin': 'round', 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
+    svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
+    const name = figure.y || (panel.curves.length === 1 ? panel.curves[0]!.label : '');
+    const text = heading(name, panel.unit) || '';
+    const upright = label(text, 0, 0, 'middle');
+    upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);
+    svg.append(upright);
+  }
+  const unit = scaled(figure.x.unit, figure.x.unit === '' ? 1 : 1 / out.xFactor).unit;
+  svg.append(label(heading(figure.x.label, unit), (left + right) / 2, out.height - 8, 'middle'));
+  return svg;
+}
+
+function label(text: string, x: number, y: number, anchor: string): SVGTextElement {
+  return s('text', { x, y, 'text-anchor': anchor, fill: 'var(--soft)', 'font-size': 12 }, text);
+}

@@ -1,0 +1,33 @@
+// What draws a mechanism on a canvas.
+
+import type { Arrows, Kind } from './arrows';
+import type { Motion } from './motion';
+import type { Inks } from './theme';
+
+export interface Options {
+  paths: 'none' | 'growing' | 'whole';
+  names: boolean;
+  arrows: Set<Kind>;
+  /** Length of the largest arrow as a part of the picture. */
+  scale: number;
+}
+
+export interface Renderer {
+  /** Draws a place of the motion, in pixels of the page. */
+  draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
+  /** The whole mechanism in view again. */
+  fit(): void;
+  /** Larger or smaller about a point of the canvas. */
+  zoom(factor: number, x: number, y: number): void;
+  /** Moved by pixels; of a view in space turned, if so asked. */
+  drag(dx: number, dy: number, turn: boolean): void;
+}
+
+export type Maker = (context: CanvasRenderingContext2D, motion: Motion, arrows: Arrows) => Renderer;
+
+declare global {
+  interface Window {
+    /** Draws mechanisms in space; there on pages that have one. */
+    grashofSpace?: Maker;
+  }
+}

@@ -1,0 +1,55 @@
+// Faces of the bodies of a mechanism, each in the frame of its body.
+
+import type { Vector } from '../motion';
+import type { Scene, Shape } from '../types';
+import { type Face, add, ball, box, hull, scaled, sheet, tube, unit } from './vectors';
+
+/** Sides of round bars and discs. */
+const SIDES = 14;
+
+const vector = (at: number[]): Vector => [at[0] ?? 0, at[1] ?? 0, at[2] ?? 0];
+
+/** Faces of a shape; `thin` is the radius of a bar whose true one the model does not give. */
+function faces(shape: Shape, thin: number, color: string): Face[] {
+  switch (shape.kind) {
+    case 'bar': return tube(vector(shape.from), vector(shape.to), Math.max((shape.width ?? 0) / 2, thin), Math.max((shape.width ?? 0) / 2, thin), 10, color);
+    case 'cylinder': return tube(vector(shape.from), vector(shape.to), shape.radius, shape.radius, SIDES, color);
+    case 'sphere': return ball(vector(shape.center), shape.radius, color);
+    case 'mass': return ball(vector(shape.at), Math.max(shape.radius, 1.6 * thin), color);
+    case 'box': return box(vector(shape.center), vector(shape.size), color);
+    case 'polygon': return shape.points.length > 2 ? sheet(shape.points.map(vector), color) : [];
+    case 'disc': {
+      const half = scaled(unit(vector(shape.axis ?? [0, 0, 1])), Math.max((shape.thickness ?? 0) / 2, 0.4 * thin));
+      const center = vector(shape.center);
+      return tube(add(center, half, -1), add(center, half), shape.radius, shape.radius, 28, color);
+    }
+    case 'hull': {
+      const points = shape.points.map(vector);
+      if (points.length === 1) return ball(points[0]!, 1.8 * thin, color);
+      if (points.length === 2) return tube(points[0]!, points[1]!, thin, thin, 10, color);
+      const solid = hull(points, 0.02 * thin, color);
+      if (solid) return solid;
+      const middle = scaled(points.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vector), 1 / points.length);
+      return points.flatMap((point) => tube(middle, point, 0.7 * thin, 0.7 * thin, 8, color));
+    }
+  }
+}
+
+/** Cut across, so that long faces are sorted well by their middles. */
+function pieces(all: Face[], longest: number): Face[] {
+  return all.flatMap((one) => {
+    const [a, b, c, d] = one.points;
+    if (one.points.length !== 4 || one.edged) return [one];
+    const along = add(d!, a!, -1);
+    const count = Math.min(8, Math.ceil(Math.hypot(...along) / longest));
+    if (count < 2) return [one];
+    const between = (p: Vector, q: Vector, k: number) => add(p, add(q, p, -1), k / count);
+    return Array.from({ length: count }, (_, k) => ({ ...one, points: [between(a!, d!, k), between(b!, c!, k), between(b!, c!, k + 1), between(a!, d!, k + 1)] }));
+  });
+}
+
+/** Faces of all bodies, body by body. */
+export function bodies(scene: Scene, size: number, color: (body: number) => string): Face[][] {
+  const thin = 0.013 * size;
+  return scene.bodies.map((body, index) => pieces(body.shapes.flatMap((shape) => faces(shape, thin, color(index))), 0.12 * size));
+}

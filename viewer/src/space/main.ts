@@ -1,0 +1,234 @@
+// A mechanism in space on a canvas: faces from the back to the front, seen from any side.
+
+import { type Arrows, COLOR, type Kind } from '../arrows';
+import { type Motion, type Vector, cross } from '../motion';
+import { Pen, type Point, off, toward } from '../plane/pen';
+import { link } from '../plane/signs';
+import type { Options, Renderer } from '../renderer';
+import { type Inks, mixed } from '../theme';
+import type { Joint } from '../types';
+import { bodies } from './bodies';
+import { type Face, add, dot, scaled, tube, unit } from './vectors';
+
+const LOOKS = 48;
+const PATH = 400;
+/** What is drawn of a picture in space, with its distance from the eye. */
+interface Item { depth: number; draw(): void }
+
+class Space implements Renderer {
+  private readonly pen: Pen;
+  private middle: Vector;
+  private readonly size: number;
+  private readonly floor: number;
+  private readonly up: Vector;
+  private readonly level: [Vector, Vector];
+  private readonly paths: { at: number[]; points: Vector[] }[];
+  /** Places over the motion, and the width and height that they take in the first view. */
+  private readonly seen: Vector[] = [];
+  private extent: Point = [1, 1];
+  private faces: { of: Inks | null; all: Face[][]; pins: Face[][] } = { of: null, all: [], pins: [] };
+  private turn = 0.75;
+  private tilt = 0.5;
+  private zoomed = 1;
+  private shift: Point = [0, 0];
+  private place = 0;
+  private right!: Vector;
+  private above!: Vector;
+  private toEye!: Vector;
+  private scale = 1;
+  private center: Point = [0, 0];
+
+  constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
+    this.pen = new Pen(context);
+    this.up = unit(motion.scene.up);
+    const first: Vector = Math.abs(this.up[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0];
+    const x = unit(add(first, this.up, -dot(first, this.up)));
+    this.level = [x, cross(this.up, x)];
+    const at = motion.sampled(PATH);
+    this.paths = motion.scene.traces.map((trace) => ({ at, points: at.map((place) => motion.world(trace, place)) }));
+    ({ middle: this.middle, size: this.size, floor: this.floor } = this.measure());
+    this.centre();
+  }
+
+  fit(): void {
+    [this.turn, this.tilt, this.zoomed, this.shift] = [0.75, 0.5, 1, [0, 0]];
+  }
+
+  zoom(factor: number, x: number, y: number): void {
+    const before = this.zoomed;
+    this.zoomed = Math.min(Math.max(this.zoomed * factor, 0.2), 100);
+    const k = this.zoomed / before;
+    const [cx, cy] = this.center;
+    this.shift = [x - cx - k * (x - cx - this.shift[0]), y - cy - k * (y - cy - this.shift[1])];
+  }
+
+  drag(dx: number, dy: number, turn: boolean): void {
+    if (turn) {
+      this.turn -= dx * 0.008;
+      this.tilt = Math.min(Math.max(this.tilt + dy * 0.008, -1.5), 1.5);
+    } else this.shift = [this.shift[0] + dx, this.shift[1] + dy];
+  }
+
+  draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
+    this.place = place;
+    this.look(width, height);
+    const { pen, motion } = this;
+    pen.on.clearRect(0, 0, width, height);
+    this.ground(inks);
+    const items: Item[] = [];
+    const { all, pins } = this.shapes(inks);
+    all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body, inks)));
+    motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body, inks)));
+    for (const { kind, a, b } of motion.scene.links) {
+      const [p, q] = [motion.world(a, place), motion.world(b, place)];
+      items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw: () => link(pen, kind, this.pixel(p), this.pixel(q), inks) });
+    }
+    if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
+    items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
+    for (const kind of options.arrows) this.drawArrows(kind, options.scale * Math.min(width, height), inks);
+    if (options.names) for (const { name, b, kind } of motion.scene.joints) if (kind !== 'distance') pen.text(name, off(this.pixel(motion.world(b, place)), [1, 0], 9, -8), inks.soft, inks.paper);
+    this.axes(height, inks);
+  }
+
+  /** Directions of the picture from those of the eye. */
+  private look(width: number, height: number): void {
+    const [x, y] = this.level;
+    const across = add(scaled(x, Math.cos(this.turn)), y, Math.sin(this.turn));
+    const level = add(scaled(x, Math.sin(this.turn)), y, -Math.cos(this.turn));
+    this.right = across;
+    this.toEye = unit(add(scaled(level, Math.cos(this.tilt)), this.up, Math.sin(this.tilt)));
+    this.above = cross(this.toEye, this.right);
+    this.scale = Math.min((width - 90) / this.extent[0], (height - 90) / this.extent[1]) * this.zoomed;
+    this.center = [width / 2, height / 2];
+  }
+
+  private pixel(at: Vector): Point {
+    const from = add(at, this.middle, -1);
+    return [
+      this.center[0] + this.shift[0] + dot(from, this.right) * this.scale,
+      this.center[1] + this.shift[1] - dot(from, this.above) * this.scale,
+    ];
+  }
+
+  private depth(at: Vector): number {
+    return dot(add(at, this.middle, -1), this.toEye);
+  }
+
+  /** The middle of all that is drawn over the motion, how large that is, and where it ends below. */
+  private measure(): { middle: Vector; size: number; floor: number } {
+    const [low, high]: [Vector, Vector] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    let floor = Infinity;
+    const places = [...this.motion.places()];
+    for (const place of this.motion.sampled(LOOKS)) {
+      for (const point of places) {
+        const at = this.motion.world(point, place);
+        if (!at.every(Number.isFinite)) continue;
+        this.seen.push(at);
+        for (const i of [0, 1, 2] as const) [low[i], high[i]] = [Math.min(low[i], at[i]), Math.max(high[i], at[i])];
+        floor = Math.min(floor, dot(at, this.up));
+      }
+    }
+    if (low[0] > high[0]) return { middle: [0, 0, 0], size: 1, floor: -0.5 };
+    return { middle: scaled(add(low, high), 0.5), size: Math.max(Math.hypot(...add(high, low, -1)), 1e-9), floor };
+  }
+
+  /** The middle and the size of the first view. */
+  private centre(): void {
+    this.look(100, 100);
+    const range = (along: Vector): Point => this.seen.reduce<Point>(([low, high], at) => [Math.min(low, dot(at, along)), Math.max(high, dot(at, along))], [Infinity, -Infinity]);
+    const [across, upwards] = [range(this.right), range(this.above)];
+    if (this.seen.length === 0) return;
+    const least = 0.05 * this.size;
+    this.extent = [Math.max(across[1] - across[0], least), Math.max(upwards[1] - upwards[0], least)];
+    const from = (along: Vector, [low, high]: Point) => (low + high) / 2 - dot(this.middle, along);
+    this.middle = add(add(this.middle, this.right, from(this.right, across)), this.above, from(this.above, upwards));
+  }
+
+  /** Faces of bodies and joints in the colours of the page; made once for each. */
+  private shapes(inks: Inks): { all: Face[][]; pins: Face[][] } {
+    if (this.faces.of?.paper !== inks.paper) {
+      const { scene } = this.motion;
+      const color = (body: number) => (body === 0 ? mixed(inks.paper, inks.faint, 0.6) : mixed(inks.curves[(body - 1) % 6]!, inks.light ? '#ffffff' : '#000000', inks.light ? 0.3 : 0.2));
+      this.faces = { of: inks, all: bodies(scene, this.size, color), pins: scene.joints.map((joint) => this.pin(joint, inks)) };
+    }
+    return this.faces;
+  }
+
+  /** What shows a joint: a short round pin along its axis, a knob without one. */
+  private pin({ kind, a, axis, stroke, driven }: Joint, inks: Inks): Face[] {
+    if (kind === 'distance' || kind === 'free' || kind === 'fixed') return [];
+    const at: Vector = [a.at[0] ?? 0, a.at[1] ?? 0, a.at[2] ?? 0];
+    const color = driven ? inks.accent : mixed(inks.ink, inks.paper, 0.35);
+    const r = 0.017 * this.size;
+    if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return tube(add(at, [0, 0, -r]), add(at, [0, 0, r]), 1.15 * r, 1.15 * r, 10, color);
+    const along = unit([axis[0]!, axis[1]!, axis[2]!]);
+    const slides = ['slider', 'prismatic', 'cylindrical'].includes(kind);
+    const [low, high] = slides && stroke ? [stroke[0] - r, stroke[1] + r] : [-1.9 * r, 1.9 * r];
+    return tube(add(at, along, low), add(at, along, high), slides ? 0.4 * r : r, slides ? 0.4 * r : r, 12, color);
+  }
+
+  /** A face that is seen, in the light from above the eye's left shoulder. */
+  private face(items: Item[], { points, normal, color, edged }: Face, body: number, inks: Inks): void {
+    const out = this.motion.direction(body, normal, this.place);
+    if (dot(out, this.toEye) <= 0) return;
+    const world = points.map((at) => this.motion.world({ body, at }, this.place));
+    const middle = scaled(world.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vector), 1 / world.length);
+    const light = unit(add(add(this.toEye, this.above, 0.9), this.right, -0.5));
+    const bright = Math.max(0, dot(out, light));
+    const lit = mixed(mixed(color, '#000000', inks.light ? 0.42 : 0.5), mixed(color, '#ffffff', 0.18), bright);
+    items.push({
+      depth: this.depth(middle),
+      // a hair's breadth of the face's own colour closes the gap between neighbours
+      draw: () => this.pen.path(world.map((p) => this.pixel(p)), true).fill(lit).stroke(edged ? mixed(lit, '#000000', 0.18) : lit, edged ? 0.8 : 0.6),
+    });
+  }
+
+  /** A grid below the mechanism. */
+  private ground(inks: Inks): void {
+    const [x, y] = this.level;
+    const reach = 0.75 * this.size;
+    const power = 10 ** Math.floor(Math.log10(reach / 3));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= reach / 6) ?? power;
+    const [cx, cy] = [dot(this.middle, x), dot(this.middle, y)];
+    const at = (u: number, v: number) => this.pixel(add(add(scaled(x, u), y, v), this.up, this.floor - 0.02 * this.size));
+    for (let k = Math.ceil((cx - reach) / step); k * step <= cx + reach; k++) this.pen.path([at(k * step, cy - reach), at(k * step, cy + reach)]).stroke(inks.grid, 1);
+    for (let k = Math.ceil((cy - reach) / step); k * step <= cy + reach; k++) this.pen.path([at(cx - reach, k * step), at(cx + reach, k * step)]).stroke(inks.grid, 1);
+  }
+
+  private drawPaths(items: Item[], growing: boolean, inks: Inks): void {
+    this.paths.forEach(({ at, points }, k) => {
+      const color = inks.curves[(k + 1) % 6]!;
+      points.slice(1).forEach((point, i) => {
+        const done = !growing || at[i + 1]! <= this.place;
+        const ink = done ? color : mixed(inks.paper, color, 0.3);
+        items.push({ depth: this.depth(point), draw: () => this.pen.path([this.pixel(points[i]!), this.pixel(point)]).stroke(ink, done ? 2 : 1.2) });
+      });
+    });
+  }
+
+  private drawArrows(kind: Kind, longest: number, inks: Inks): void {
+    const most = this.arrows.most(kind);
+    if (!(most > 0)) return;
+    for (const { from, along } of this.arrows.at(kind, this.place)) {
+      const to = add(from, along, longest / this.scale / most);
+      this.pen.arrow(this.pixel(from), this.pixel(to), inks.curves[COLOR[kind]]!, 2.2);
+    }
+  }
+
+  /** The axes of the world at the lower left. */
+  private axes(height: number, inks: Inks): void {
+    const origin: Point = [38, height - 34];
+    const names = ['x', 'y', 'z'];
+    const ends = names.map((name, i) => {
+      const e: Vector = [Number(i === 0), Number(i === 1), Number(i === 2)];
+      return { name, depth: dot(e, this.toEye), to: [origin[0] + 24 * dot(e, this.right), origin[1] - 24 * dot(e, this.above)] as Point };
+    });
+    for (const { name, to } of ends.sort((a, b) => a.depth - b.depth)) {
+      const { along } = toward(origin, to);
+      this.pen.arrow(origin, to, inks.soft, 1.4);
+      this.pen.text(name, [to[0] + along[0] * 8 - 3, to[1] + along[1] * 8 + 4], inks.soft, inks.paper, 11);
+    }
+  }
+}
+
+window.grashofSpace = (context, motion, arrows) => new Space(context, motion, arrows);

@@ -1,0 +1,97 @@
+// Vectors and faces in space.
+
+import { type Vector, cross } from '../motion';
+
+export const add = (a: Vector, b: Vector, by = 1): Vector => [a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]];
+export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const scaled = (a: Vector, by: number): Vector => [a[0] * by, a[1] * by, a[2] * by];
+
+export function unit(a: Vector): Vector {
+  const length = Math.hypot(...a);
+  return length > 1e-12 ? scaled(a, 1 / length) : [0, 0, 1];
+}
+
+/** Two unit directions across a unit one. */
+export function across(axis: Vector): [Vector, Vector] {
+  const other: Vector = Math.abs(axis[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0];
+  const u = unit(cross(axis, other));
+  return [u, cross(axis, u)];
+}
+
+/** A plane face of a body, in the frame of the body, around its outward normal. */
+export interface Face { points: Vector[]; normal: Vector; color: string; edged: boolean }
+
+function face(points: Vector[], color: string, edged: boolean): Face {
+  const normal = unit(cross(add(points[1]!, points[0]!, -1), add(points[2]!, points[1]!, -1)));
+  return { points, normal, color, edged };
+}
+
+/** A prism or frustum around an axis, with closed ends. */
+export function tube(from: Vector, to: Vector, radius: number, end: number, sides: number, color: string): Face[] {
+  const axis = unit(add(to, from, -1));
+  const [u, v] = across(axis);
+  const ring = (center: Vector, r: number) => Array.from({ length: sides }, (_, k): Vector => {
+    const turn = (2 * Math.PI * k) / sides;
+    return add(add(center, u, r * Math.cos(turn)), v, r * Math.sin(turn));
+  });
+  const [a, b] = [ring(from, radius), ring(to, end)];
+  const walls = a.map((_, k) => face([a[k]!, a[(k + 1) % sides]!, b[(k + 1) % sides]!, b[k]!], color, false));
+  return [...walls, face([...a].reverse(), color, true), face(b, color, true)];
+}
+
+/** A box along the axes. */
+export function box(center: Vector, size: Vector, color: string): Face[] {
+  const at = (i: number, j: number, k: number): Vector => add(center, [(i * size[0]) / 2, (j * size[1]) / 2, (k * size[2]) / 2]);
+  const sides: [number, number, number][][] = [
+    [[1, -1, -1], [1, 1, -1], [1, 1, 1], [1, -1, 1]], [[-1, -1, -1], [-1, -1, 1], [-1, 1, 1], [-1, 1, -1]],
+    [[-1, 1, -1], [-1, 1, 1], [1, 1, 1], [1, 1, -1]], [[-1, -1, -1], [1, -1, -1], [1, -1, 1], [-1, -1, 1]],
+    [[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], [[-1, -1, -1], [-1, 1, -1], [1, 1, -1], [1, -1, -1]],
+  ];
+  return sides.map((corners) => face(corners.map(([i, j, k]) => at(i, j, k)), color, true));
+}
+
+/** A flat sheet that is seen from both sides. */
+export function sheet(points: Vector[], color: string): Face[] {
+  return [face(points, color, true), face([...points].reverse(), color, true)];
+}
+
+/** A ball of flat faces. */
+export function ball(center: Vector, radius: number, color: string): Face[] {
+  const [rings, sides] = [7, 12];
+  const at = (i: number, k: number): Vector => {
+    const [theta, phi] = [(Math.PI * i) / rings, (2 * Math.PI * k) / sides];
+    return add(center, [radius * Math.sin(theta) * Math.cos(phi), radius * Math.sin(theta) * Math.sin(phi), radius * Math.cos(theta)]);
+  };
+  const out: Face[] = [];
+  for (let i = 0; i < rings; i++) {
+    for (let k = 0; k < sides; k++) {
+      const corners = i === 0 ? [at(0, 0), at(1, k), at(1, k + 1)] : i === rings - 1 ? [at(i, k), at(rings, 0), at(i, k + 1)] : [at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)];
+      out.push(face(corners, color, false));
+    }
+  }
+  return out;
+}
+
+/** The convex hull of points that lie in no plane, in triangles; none for points of one plane, to `thin`, and for very many. */
+export function hull(points: Vector[], thin: number, color: string): Face[] | null {
+  const n = points.length;
+  const faces: Face[] = [];
+  if (n < 4 || n > 40) return null;
+  let deepest = 0;
+  for (let i = 0; i < n; i++) {
+    for (let j = i + 1; j < n; j++) {
+      for (let k = j + 1; k < n; k++) {
+        const [a, b, c] = [points[i]!, points[j]!, points[k]!];
+        const normal = cross(add(b, a, -1), add(c, a, -1));
+        const size = Math.hypot(...normal);
+        if (size < thin * thin) continue;
+        const heights = points.map((p) => dot(add(p, a, -1), normal) / size);
+        const [low, high] = [Math.min(...heights), Math.max(...heights)];
+        if (high <= thin) faces.push(face([a, b, c], color, false));
+        if (low >= -thin) faces.push(face([a, c, b], color, false));
+        if (high <= thin || low >= -thin) deepest = Math.max(deepest, high - low);
+      }
+    }
+  }
+  return deepest > 4 * thin ? faces : null;
+}

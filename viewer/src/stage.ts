@@ -1,0 +1,258 @@
+// The mechanism in motion, with all that moves it.
+
+import { Arrows, COLOR, type Kind } from './arrows';
+import type { Clock } from './clock';
+import { scene as decoded } from './data';
+import { button, h, icon } from './dom';
+import { Motion } from './motion';
+import { digits, heading, pretty, shownIn } from './numbers';
+import { type Pace, pace } from './pace';
+import { Plane } from './plane/plane';
+import type { Options, Renderer } from './renderer';
+import { inks } from './theme';
+import type { CodedScene, Results, Scene, Study } from './types';
+
+const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
+/** A motion that takes less is slowed down to what can be followed, s. */
+const BLINK = 0.15;
+const SEEN = 2;
+const NAMES: Record<Kind, string> = { velocities: 'velocities', accelerations: 'accelerations', loads: 'loads', reactions: 'reactions' };
+const PLAY = 'M4 2.5v11l9-5.5z';
+const PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
+
+const scenes = new WeakMap<CodedScene, Scene>();
+
+function sceneOf(coded: CodedScene): Scene {
+  let known = scenes.get(coded);
+  if (!known) scenes.set(coded, (known = decoded(coded)));
+  return known;
+}
+
+/** The stage of a study. */
+export class Stage {
+  readonly element: HTMLElement;
+  motion: Motion | null = null;
+  private readonly canvas = h('canvas', { tabindex: 0, role: 'img' });
+  private readonly context = this.canvas.getContext('2d')!;
+  private readonly slider = h('input', { type: 'range', min: 0, max: 10_000, step: 1, value: 0, 'aria-label': 'place of the motion', class: 'scrub' });
+  private readonly time = h('output', { class: 'time', 'aria-live': 'polite' });
+  private readonly playing = button(icon(PLAY), 'play', () => this.clock.play(), { class: 'play' });
+  private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = SPEEDS[this.speed.selectedIndex] ?? 1) }, ...SPEEDS.map((s) => h('option', {}, `${s}×`)));
+  private readonly shown = h('div', { class: 'shown', role: 'group', 'aria-label': 'what is shown' });
+  private readonly note = h('p', { class: 'note' });
+  private renderer: Renderer | null = null;
+  private pace: Pace | null = null;
+  private results: Results;
+  private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: 0.25 };
+  private size: [number, number] = [0, 0];
+  private waiting = false;
+
+  constructor(private readonly study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void) {
+    this.results = study;
+    this.element = h('section', { class: 'stage card', 'aria-label': 'the mechanism in motion' },
+      this.choices(), h('div', { class: 'canvas' }, this.canvas), this.transport(), this.shown, this.note);
+    this.listen();
+    new ResizeObserver(() => this.fit()).observe(this.canvas.parentElement!);
+  }
+
+  /** Draws when the browser next does. */
+  redraw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.paint();
+    });
+  }
+
+  /** Draws now. */
+  paint(): void {
+    const [width, height] = this.size;
+    if (!this.renderer || width === 0) return;
+    const ratio = window.devicePixelRatio || 1;
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.renderer.draw(this.clock.at, this.options, inks(), width, height);
+  }
+
+  /** Follows the clock. */
+  tick(): void {
+    const { at, from, to, playing } = this.clock;
+    this.slider.value = String(Math.round(((at - from) / (to - from || 1)) * 10_000));
+    const text = this.place(at);
+    this.slider.setAttribute('aria-valuetext', text);
+    // spoken when it stands, or a reader of the screen would never be silent
+    this.time.setAttribute('aria-live', playing ? 'off' : 'polite');
+    this.time.textContent = text;
+    this.redraw();
+  }
+
+  state(): void {
+    this.playing.replaceChildren(icon(this.clock.playing ? PAUSE : PLAY));
+    for (const name of ['aria-label', 'title']) this.playing.setAttribute(name, this.clock.playing ? 'pause' : 'play');
+    this.tick();
+  }
+
+  /** Keys of the whole page. */
+  key(event: KeyboardEvent): boolean {
+    const steps: Record<string, () => void> = {
+      ' ': () => this.clock.play(),
+      ArrowRight: () => this.clock.step(event.shiftKey ? 20 : 200),
+      ArrowLeft: () => this.clock.step(event.shiftKey ? -20 : -200),
+      Home: () => this.clock.seek(this.clock.from),
+      End: () => this.clock.seek(this.clock.to),
+    };
+    const step = this.motion && steps[event.key];
+    step?.call(null);
+    return Boolean(step);
+  }
+
+  /** The place as text: `theta 90°, 0.0625 s`. */
+  private place(at: number): string {
+    const { independent } = this.results;
+    const { unit, size } = shownIn(independent);
+    const own = `${independent.name || 'swing'} ${digits(at / size, 5)} ${pretty(unit)}`.trim();
+    return this.pace?.real && independent.unit !== 's' ? `${own}, ${digits(this.pace.seconds(at), 4)} s` : own;
+  }
+
+  /** Runs of a sweep, drawings of a study. */
+  private choices(): HTMLElement {
+    const { study } = this;
+    const box = h('div', { class: 'choices' });
+    const drawings = h('select', { 'aria-label': 'drawing', change: () => this.load(results, drawings.selectedIndex) });
+    let results: Results = study;
+    const fill = (next: Results) => {
+      results = next;
+      drawings.replaceChildren(...next.scenes.map(([name]) => h('option', {}, name.replace(/-/g, ' '))));
+      drawings.hidden = next.scenes.length < 2;
+      this.load(next, 0);
+    };
+    const runs = study.runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
+    if (study.table.reasons) {
+      const select = h('select', { 'aria-label': 'run', change: () => choose(select.selectedIndex) }, ...runs.map(({ run }) => h('option', {}, pretty(run.label))));
+      const choose = (k: number) => {
+        const found = runs[k];
+        if (!found) return;
+        fill(found.run.results!);
+        this.chosen(found.index);
+      };
+      box.append(h('label', {}, 'run ', select));
+      queueMicrotask(() => choose(0));
+    } else queueMicrotask(() => fill(study));
+    box.append(drawings);
+    return box;
+  }
+
+  private transport(): HTMLElement {
+    const loop = button(icon('M3 8a5 5 0 0 1 8.5-3.5L13 6M13 2.5V6H9.5M13 8a5 5 0 0 1-8.5 3.5L3 10M3 13.5V10h3.5'), 'again and again', () => {
+      this.clock.loop = !this.clock.loop;
+      loop.setAttribute('aria-pressed', String(this.clock.loop));
+    }, { 'aria-pressed': String(this.clock.loop), class: 'line' });
+    this.slider.addEventListener('input', () => {
+      const { from, to } = this.clock;
+      const part = Number(this.slider.value) / 10_000;
+      this.clock.play(false);
+      this.clock.seek(from + (to - from) * part);
+    });
+    return h('div', { class: 'transport' }, this.playing, this.slider, this.time, this.speed, loop,
+      button(icon('M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4'), 'whole mechanism', () => {
+        this.renderer?.fit();
+        this.redraw();
+      }, { class: 'line' }));
+  }
+
+  /** Takes a drawing of results. */
+  private load(results: Results, index: number): void {
+    const coded = results.scenes[index]?.[1];
+    this.results = results;
+    this.clock.play(false);
+    this.element.hidden = !coded;
+    if (!coded) return;
+    const motion = new Motion(sceneOf(coded));
+    this.motion = motion;
+    this.pace = pace(results, motion.from, motion.to);
+    const arrows = new Arrows(motion, results, this.pace);
+    const space = motion.scene.dimensions === 3;
+    this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
+    this.element.classList.toggle('still', motion.to <= motion.from);
+    this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
+    const kinds = arrows.kinds();
+    this.options.arrows = new Set([...this.options.arrows].filter((kind) => kinds.includes(kind)));
+    this.showOptions(kinds);
+    const { error } = motion.scene.frames;
+    this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
+    const { seconds, place } = this.pace;
+    this.pick(seconds(motion.to) - seconds(motion.from));
+    this.clock.range(motion.from, motion.to, seconds, place);
+    this.state();
+  }
+
+  /** The speed at first: that of the motion, unless it is over at once. */
+  private pick(duration: number): void {
+    const fit = duration < BLINK ? SPEEDS.findLastIndex((s) => duration / s >= SEEN) : SPEEDS.indexOf(1);
+    this.speed.selectedIndex = Math.max(fit, 0);
+    this.clock.speed = SPEEDS[this.speed.selectedIndex]!;
+  }
+
+  private showOptions(kinds: Kind[]): void {
+    const { options } = this;
+    const check = (name: string, on: boolean, change: (on: boolean) => void, color?: number) => {
+      const box = h('input', { type: 'checkbox', ...(on ? { checked: true } : {}), change: () => {
+        change(box.checked);
+        this.redraw();
+      } });
+      return h('label', {}, box, color !== undefined && h('span', { class: `dot curve-${color}` }), name);
+    };
+    const paths = h('select', { 'aria-label': 'paths', change: () => {
+      options.paths = (['growing', 'whole', 'none'] as const)[paths.selectedIndex] ?? 'none';
+      this.redraw();
+    } }, ...['paths grow', 'whole paths', 'no paths'].map((name) => h('option', {}, name)));
+    paths.selectedIndex = ['growing', 'whole', 'none'].indexOf(options.paths);
+    const scale = h('input', { type: 'range', min: 2, max: 100, value: options.scale * 100, 'aria-label': 'length of the arrows', class: 'scale', input: () => {
+      options.scale = Number(scale.value) / 100;
+      this.redraw();
+    } });
+    this.shown.replaceChildren(
+      ...(this.motion!.scene.traces.length > 0 ? [paths] : []),
+      check('names', options.names, (on) => (options.names = on)),
+      ...kinds.map((kind) => check(NAMES[kind], options.arrows.has(kind), (on) => (on ? options.arrows.add(kind) : options.arrows.delete(kind)), COLOR[kind])),
+      ...(kinds.length > 0 ? [h('label', {}, heading('length', ''), scale)] : []));
+  }
+
+  private fit(): void {
+    const box = this.canvas.parentElement!;
+    const [width, height] = [box.clientWidth, box.clientHeight];
+    if (width === this.size[0] && height === this.size[1]) return;
+    this.size = [width, height];
+    const ratio = window.devicePixelRatio || 1;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.paint();
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    canvas.addEventListener('wheel', (event) => {
+      // without the key the page scrolls
+      if (!event.ctrlKey && document.activeElement !== canvas) return;
+      event.preventDefault();
+      const box = canvas.getBoundingClientRect();
+      this.renderer?.zoom(Math.exp(-event.deltaY * 0.0015), event.clientX - box.left, event.clientY - box.top);
+      this.redraw();
+    }, { passive: false });
+    canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener('pointermove', (event) => {
+      if (!canvas.hasPointerCapture(event.pointerId)) return;
+      this.renderer?.drag(event.movementX, event.movementY, !event.shiftKey && event.buttons === 1);
+      this.redraw();
+    });
+    canvas.addEventListener('dblclick', () => {
+      this.renderer?.fit();
+      this.redraw();
+    });
+    canvas.addEventListener('keydown', (event) => {
+      if (event.key !== '+' && event.key !== '-') return;
+      this.renderer?.zoom(event.key === '+' ? 1.2 : 1 / 1.2, this.size[0] / 2, this.size[1] / 2);
+      this.redraw();
+    });
+  }
+}

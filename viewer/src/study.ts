@@ -1,0 +1,98 @@
+// A study in view: its stage, what it has come to, its figures and tables.
+
+import type { Clock } from './clock';
+import { column } from './curves';
+import { h } from './dom';
+import { type ShowPlace, facts, rowsInWords } from './facts';
+import { heading, pretty, shownIn } from './numbers';
+import { drawable } from './plot/curves';
+import { PlotView } from './plot/plot';
+import { Stage } from './stage';
+import { table } from './table';
+import type { Column, Plot, Results, Study } from './types';
+
+export class StudyView {
+  readonly element: HTMLElement;
+  readonly stage: Stage;
+  private readonly plots: PlotView[] = [];
+  private readonly figures = h('div', { class: 'plots' });
+  private readonly rows = h('div', { class: 'tables card' });
+  private count = 0;
+
+  constructor(private readonly study: Study, private readonly clock: Clock, show: ShowPlace) {
+    this.stage = new Stage(study, clock, (run) => this.choose(run));
+    study.plots.forEach((plot) => this.add(plot));
+    this.element = h('article', { class: 'study', 'aria-labelledby': 'study-title' },
+      h('header', { class: 'title' },
+        h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
+        h('h2', { id: 'study-title', tabindex: -1 }, study.study),
+        study.about !== '' && h('p', { class: 'about' }, study.about)),
+      h('div', { class: 'left' }, this.stage.element, facts(study, show)),
+      h('div', { class: 'right' }, this.figures, this.chooser(), this.rows));
+    this.tables(study.table.reasons ? null : study);
+  }
+
+  tick(): void {
+    this.stage.tick();
+    this.plots.forEach((plot) => plot.tick());
+  }
+
+  private add(plot: Plot, own = false): void {
+    const drawn = drawable(this.study, plot);
+    if (!drawn) return;
+    const view: PlotView = new PlotView(drawn, this.study.study, this.clock, own ? () => {
+      this.plots.splice(this.plots.indexOf(view), 1);
+      view.element.remove();
+    } : undefined);
+    this.plots.push(view);
+    this.figures.append(view.element);
+  }
+
+  /** Results whose columns can be drawn. */
+  private source(): Results {
+    return this.study.table.reasons ? (this.study.runs.find((run) => run.results?.independent.values.length)?.results ?? this.study) : this.study;
+  }
+
+  /** A figure of columns that the reader chooses. */
+  private chooser(): HTMLElement | null {
+    const results = this.source();
+    const of = [...results.table.columns, ...results.curves];
+    const runs = this.study.table.reasons ? this.study.table.columns : [];
+    if (of.length + runs.length === 0 || (runs.length === 0 && results.independent.values.length < 2)) return null;
+    const options = (columns: Column[], kind: string) => columns.map((c) => h('option', { value: `${kind}${c.name}` }, heading(c.name, shownIn(c).unit)));
+    const show = h('select', { 'aria-label': 'column to draw' }, ...options(of, 'c:'), ...(runs.length > 1 ? [h('optgroup', { label: 'of each run' }, ...options(runs, 'r:'))] : []));
+    // the variable itself over itself is no figure
+    if (of.length > 1 && of[0]!.name === results.independent.name) show.selectedIndex = 1;
+    const over = h('select', { 'aria-label': 'drawn over' }, h('option', { value: '' }, results.independent.name || runs[0]?.name || ''), ...options(of, ''));
+    const draw = () => {
+      const [kind, name] = [show.value.slice(0, 2), show.value.slice(2)];
+      const horizontal = kind === 'r:' || over.value === '' || !column(results, over.value) ? null : over.value;
+      this.add({ name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:' }, true);
+    };
+    return h('div', { class: 'chooser card' }, h('label', {}, 'Draw ', show), h('label', {}, ' over ', over), h('button', { type: 'button', class: 'primary', click: draw }, 'Add figure'));
+  }
+
+  private choose(run: number): void {
+    this.tables(this.study.runs[run]?.results ?? null, this.study.runs[run]?.label);
+  }
+
+  /** The table of the runs of a sweep, and the rows of one study or run. */
+  private tables(results: Results | null, label = ''): void {
+    const { study } = this;
+    const parts: HTMLElement[] = [];
+    if (study.table.reasons) {
+      const reasons = study.table.reasons;
+      parts.push(table('Runs', study.study, study.table.columns, reasons.some((r) => r !== '') ? [{ name: 'remark', values: reasons }] : []));
+    }
+    if (results && results.independent.values.length > 0) {
+      const { independent } = results;
+      const columns = results.table.columns.some((c) => c.name === independent.name) ? results.table.columns : [independent, ...results.table.columns];
+      const rows = table(label ? `Rows, ${pretty(label)}` : 'Rows', `${study.study}-rows`, columns);
+      const note = rowsInWords(results);
+      if (note) rows.append(h('p', { class: 'note' }, note));
+      parts.push(rows);
+    }
+    this.rows.replaceChildren(...parts);
+    this.rows.hidden = parts.length === 0;
+  }
+}

@@ -1,0 +1,61 @@
+// Light and dark, and the colours of pictures in either.
+
+export interface Inks { paper: string; ink: string; soft: string; faint: string; grid: string; accent: string; curves: string[]; light: boolean }
+
+type Rgb = [number, number, number];
+const KEY = 'grashof-theme';
+
+function rgb(hex: string): Rgb {
+  const value = parseInt(hex.slice(1), 16);
+  return [value >> 16, (value >> 8) & 255, value & 255];
+}
+
+/** A colour between two: 0 is the first. */
+export function mixed(a: string, b: string, part: number): string {
+  const [from, to] = [rgb(a), rgb(b)];
+  return `#${from.map((x, i) => Math.round(x + (to[i]! - x) * part).toString(16).padStart(2, '0')).join('')}`;
+}
+
+/** The colours that hold now. */
+export function inks(): Inks {
+  const style = getComputedStyle(document.documentElement);
+  const read = (name: string) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    paper: read('paper'), ink: read('ink'), soft: read('soft'), faint: read('faint'), grid: read('grid'), accent: read('accent'),
+    curves: [0, 1, 2, 3, 4, 5, 6].map((k) => read(`curve-${k}`)),
+    light: read('scheme') !== 'dark',
+  };
+}
+
+/** What the reader has chosen, if anything. */
+function chosen(): string | null {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null;
+  }
+}
+
+/** Whether the page is dark. */
+export function isDark(): boolean {
+  const root = document.documentElement.dataset.theme;
+  return root ? root === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+/** Takes over what was chosen before, and tells of changes. */
+export function begin(changed: () => void): void {
+  const before = chosen();
+  if (before) document.documentElement.dataset.theme = before;
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);
+}
+
+/** Changes between light and dark. */
+export function toggle(): void {
+  const next = isDark() ? 'light' : 'dark';
+  document.documentElement.dataset.theme = next;
+  try {
+    localStorage.setItem(KEY, next);
+  } catch {
+    // a page from a file may keep nothing
+  }
+}

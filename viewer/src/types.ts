@@ -1,0 +1,158 @@
+// The data of a page: results of studies as the program writes them. All numbers are SI; null where there is none.
+
+export type Num = number | null;
+
+export interface Data {
+  version: string;
+  model: { name: string; path: string; source: string; about: string | null };
+  overview: { label: string; value: string }[];
+  studies: Study[];
+}
+
+export interface Column {
+  name: string;
+  quantity: string;
+  unit: string;
+  shown_in: { unit: string; size: number } | null;
+  values: Num[];
+}
+
+export interface Scalar {
+  name: string;
+  quantity: string;
+  unit: string;
+  shown_in: { unit: string; size: number } | null;
+  value: Num;
+  by: 'file' | 'kind' | 'study';
+}
+
+export interface Extremum { value: Num; at: Num; piece: number }
+export interface Finding { code: string; message: string; path: string }
+export interface Plot { name: string; show: string[]; over: string | null; unit: [string, number] | null; of_runs: boolean }
+
+/** What was left out of a table: numbers of the rows that are there, and behind which of them a smooth piece ends. */
+export interface RowsShown { kept: number[]; of: number; selected: number | null; within: number; breaks: number[] }
+
+export interface Solution {
+  parameter: Scalar;
+  of: string;
+  found: Num;
+  target: Num;
+  bracket: [Num, Num];
+  runs: number;
+  findings: Finding[];
+}
+
+export interface LinearSystem {
+  coordinates: string[];
+  states: string[];
+  inputs: string[];
+  outputs: string[];
+  values: Num[][];
+  matrices: [string, Num[][]][];
+}
+
+export interface March {
+  schemes: string;
+  tolerance: Num;
+  energy_drift: Num;
+  energy_scale: Num;
+  drivers: Num;
+  loads: Num;
+  dampers: Num;
+  stops: Num;
+  impacts: Num;
+  widest_gap: Num;
+  velocity: Num;
+  counts: Record<string, number>;
+}
+
+export interface Certificate {
+  evaluations: number;
+  switches: number;
+  constraint: Num;
+  power_balance: Num;
+  resolved: { width: number; open: number; evaluations: number } | null;
+  march: March | null;
+}
+
+export interface Results {
+  model: string;
+  study: string;
+  kind: string;
+  place: string;
+  stopped: string | null;
+  undefined: { message: string; place: string; help: string } | null;
+  parameters: Scalar[];
+  independent: Column;
+  table: { columns: Column[]; switches: number[]; selected_from: number | null; reasons: string[] | null };
+  curves: Column[];
+  scalars: Scalar[];
+  extremes: [string, { min: Extremum; max: Extremum } | null][];
+  lists: { name: string; unit: string; values: Num[] }[];
+  shapes: [string, Num][][];
+  linear: LinearSystem | null;
+  events: { name: string; at: Num }[];
+  expectations: { text: string; found: Num; wanted: Num; tolerance: Num; met: boolean; place: string }[];
+  findings: Finding[];
+  certificate: Certificate;
+  solution: Solution | null;
+  scenes: [string, CodedScene][];
+  plots: Plot[];
+  rows: RowsShown;
+}
+
+export interface Run { label: string; results: Results | null; solution: Solution | null }
+export interface Study extends Results { about: string; runs: Run[] }
+
+/** Numbers of equal frames as differences of some order, rounded to units. */
+export interface Differences { unit: number[]; order: number; values: number[] }
+
+export interface Place { body: number; at: number[] }
+
+export type Shape =
+  | { kind: 'bar'; from: number[]; to: number[]; width: Num }
+  | { kind: 'hull'; points: number[][] }
+  | { kind: 'polygon'; points: number[][] }
+  | { kind: 'disc'; center: number[]; radius: number; axis: number[] | null; thickness: Num }
+  | { kind: 'box'; center: number[]; size: number[] }
+  | { kind: 'cylinder'; from: number[]; to: number[]; radius: number }
+  | { kind: 'sphere'; center: number[]; radius: number }
+  | { kind: 'mass'; at: number[]; mass: number; radius: number };
+
+export interface Joint {
+  name: string;
+  kind: string;
+  a: Place;
+  b: Place;
+  axis: number[];
+  stroke: [number, number] | null;
+  cut: boolean;
+  driven: boolean;
+}
+
+export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';
+export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
+export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
+export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean }
+export interface Trace { name: string; body: number; at: number[] }
+export type ArrowKind = 'load' | 'reaction' | 'torque';
+
+interface Parts<A> {
+  dimensions: 2 | 3;
+  up: [number, number, number];
+  bodies: { name: string; shapes: Shape[] }[];
+  joints: Joint[];
+  links: Link[];
+  gears: Gear[];
+  arrows: { name: string; kind: ArrowKind; body: number; at: number[]; columns: string[]; values: A }[];
+  traces: Trace[];
+}
+
+export interface CodedScene extends Parts<Differences | null> {
+  frames: { at: Differences; poses: Differences; shown: number[]; error: number; closed: boolean };
+}
+
+export interface Scene extends Parts<Float64Array | null> {
+  frames: { at: Float64Array; poses: Float64Array; shown: number[]; error: number; closed: boolean };
+}
