@@ -60,18 +60,28 @@ fn blocks(page: &str) -> Vec<(usize, String)> {
     blocks
 }
 
-#[test]
-fn every_model_on_the_page_of_the_format_runs() {
-    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/format.md")).expect("the page is there");
-    let out = scratch("format");
+/// Runs the models on a page, of which there are at least so many.
+fn models_on_page_run(name: &str, least: usize) {
+    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(name)).expect("the page is there");
+    let out = scratch(name);
     let blocks = blocks(&page);
-    assert!(blocks.len() >= 25, "{} blocks", blocks.len());
+    assert!(blocks.len() >= least, "{} blocks", blocks.len());
     for (line, block) in blocks {
         let file = out.join(format!("line-{line}.yaml"));
         std::fs::write(&file, &block).expect("the block can be written");
         let path = file.to_string_lossy();
         let output = grashof(&["run", &path, "--no-plots", "-o", &out.to_string_lossy()]);
-        assert!(output.status.success(), "docs/format.md, line {line}: {:?}\n{}\n{block}", output.status.code(), text(&output));
+        assert!(output.status.success(), "docs/{name}, line {line}: {:?}\n{}\n{block}", output.status.code(), text(&output));
     }
     let _ = std::fs::remove_dir_all(out);
+}
+
+#[test]
+fn every_model_on_the_page_of_the_format_runs() {
+    models_on_page_run("format.md", 25);
+}
+
+#[test]
+fn the_model_of_the_tutorial_runs() {
+    models_on_page_run("tutorial.md", 1);
 }
