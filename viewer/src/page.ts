@@ -124,7 +124,9 @@ export class Page {
     this.data.studies = this.data.studies.filter((study) => entries.some((entry) => entry.name === study.study));
     this.contents();
     this.mark();
-    if (!entries.some((entry) => entry.name === this.name)) this.show(entries[0]?.name ?? '');
+    const entry = entries.find((known) => known.name === this.name);
+    if (!entry) this.show(entries[0]?.name ?? '');
+    else if (!this.view) this.main.replaceChildren(this.waiting(entry));
   }
 
   /** Takes what is known of a model whose file has changed. */

@@ -53,7 +53,7 @@ fn all(board: &Board, of: u64, document: &Document) {
     while let Some(name) = board.next(of) {
         let stop = || board.is_stale(of) || interrupted();
         let computed = Bench { board, document, stop: &stop }.study(&mut loader, &name);
-        board.put(of, &name, computed.filter(|_| !stop()));
+        board.put(of, &name, (!stop()).then(|| computed.unwrap_or_default()));
         if !std::mem::replace(&mut checked, true)
             && let Some(selection) = files::selection(&board.common, None)
         {
@@ -73,7 +73,7 @@ impl Bench<'_> {
         &self.board.common
     }
 
-    /// What came of a study; none if it was given up.
+    /// What came of a study; none if the file has it no more.
     fn study(&self, loader: &mut Loader<'_>, name: &str) -> Option<Computed> {
         let selection = files::selection(self.common(), Some(name))?;
         let mut model = match loader.model(&selection, self.stop) {

@@ -4,6 +4,7 @@ use super::super::{Common, report};
 use super::lookout::Look;
 use super::values::Values;
 use grashof::model::{Diagnostic, Document, Report, Severity};
+use grashof::output::ReportModel;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -35,7 +36,7 @@ pub(super) struct State {
     pub(super) bytes: Arc<Vec<u8>>,
     pub(super) values: Values,
     /// What the page has of the model, and its number.
-    head: (u64, Arc<String>),
+    head: (u64, Arc<Value>),
     /// What is wrong with the file as it is now.
     broken: Vec<Value>,
     /// Findings in the file that was last sound.
@@ -123,13 +124,21 @@ impl Board {
         let document = match look.read {
             Ok(document) => document,
             Err(report) => {
+                // places lead into the text as it is, beside what was known of the model
+                let source = String::from_utf8_lossy(&look.bytes).into_owned();
                 return self.change(|state| {
                     (state.bytes, state.away, state.broken) = (look.bytes, None, shown(&report));
+                    let mut head = (*state.head.1).clone();
+                    if head.is_null() {
+                        head = unknown(&self.model);
+                    }
+                    head["model"]["source"] = source.into();
+                    state.head = (state.version, Arc::new(head));
                 });
             }
         };
         let literals = document.literals();
-        let head = report::model_json(&document, &self.common).to_string();
+        let head = report::model_json(&document, &self.common);
         self.change(|state| {
             (state.bytes, state.away) = (look.bytes, None);
             state.broken.clear();
@@ -241,7 +250,7 @@ impl Board {
     }
 
     /// What a page has of the model.
-    pub(super) fn head(&self) -> Arc<String> {
+    pub(super) fn head(&self) -> Arc<Value> {
         Arc::clone(&self.lock().head.1)
     }
 
@@ -280,16 +289,14 @@ impl Entry {
 fn entry(name: String, known: &mut Vec<Entry>) -> Entry {
     match known.iter().position(|entry| entry.name == name) {
         Some(i) => known.swap_remove(i),
-        None => Entry {
-            name,
-            result: (0, Arc::default()),
-            of: 0,
-            busy: false,
-            bad: false,
-            about: String::new(),
-            findings: Vec::new(),
-        },
+        None => Entry { name, result: (0, Arc::default()), of: 0, busy: false, bad: false, about: String::new(), findings: Vec::new() },
     }
+}
+
+/// What a page has of a model that was never sound.
+fn unknown(path: &str) -> Value {
+    let model = ReportModel { name: path, path, source: "", about: "", overview: &[] };
+    model.json()
 }
 
 /// Findings as a page has them.

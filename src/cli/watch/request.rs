@@ -29,9 +29,8 @@ pub(super) type Refusal = (u16, &'static str);
 
 /// What a request asks for, if it comes from a page of ours.
 pub(super) fn asked(request: &Request, port: u16, token: &str) -> Result<Asked, Refusal> {
-    let header = |name: &'static str| -> Vec<&str> {
-        request.headers().iter().filter(|h| h.field.equiv(name)).map(|h| h.value.as_str()).collect()
-    };
+    let header =
+        |name: &'static str| -> Vec<&str> { request.headers().iter().filter(|h| h.field.equiv(name)).map(|h| h.value.as_str()).collect() };
     let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
     let host = header("Host");
     if host.len() != 1 || !own.iter().any(|own| host[0].eq_ignore_ascii_case(own)) {
@@ -114,7 +113,8 @@ mod tests {
         assert_eq!(get("/state?after=7&token=abc"), Ok(Asked::State(7)));
         assert_eq!(get("/study?name=a%20b%C3%BC&token=abc"), Ok(Asked::Study("a bü".into())));
         assert_eq!([get("/"), get("/?token=abd"), get("/model?token=abcd"), get("/?token=")].map(Result::err), [Some(403); 4]);
-        let missing = ["/../etc/passwd?token=abc", "/model/..?token=abc", "/%2e%2e/x?token=abc", "//?token=abc", "/study?name=%zz&token=abc"];
+        let missing =
+            ["/../etc/passwd?token=abc", "/model/..?token=abc", "/%2e%2e/x?token=abc", "//?token=abc", "/study?name=%zz&token=abc"];
         missing.iter().for_each(|url| assert_eq!(get(url), Err(404), "{url}"));
         assert_eq!(get("/move?token=abc"), Err(405));
         assert_eq!(route(&Method::Post, "/move?token=abc", "abc"), Ok(Asked::Move));

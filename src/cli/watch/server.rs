@@ -102,7 +102,9 @@ impl Desk {
                 if known { Ok(done) } else { Err((404, "there is no such study")) }
             }
             Asked::Move => {
-                let (Some(place), Some(to)) = (place, number(message, "value")) else { return Err((400, "a place and a number are needed")) };
+                let (Some(place), Some(to)) = (place, number(message, "value")) else {
+                    return Err((400, "a place and a number are needed"));
+                };
                 let known = self.board.move_values(|values| values.place(place, to));
                 if known { Ok(done) } else { Err((404, "there is no number at this place")) }
             }

@@ -13,8 +13,8 @@ pub(super) struct Values {
     literals: Vec<Literal>,
     /// Where values were moved to, by their places.
     moved: BTreeMap<String, f64>,
-    /// Ranges that sweeps and searches of the file have, by places, in the units of the file.
-    ranges: BTreeMap<String, (f64, f64)>,
+    /// Ranges that sweeps and searches have, by places and studies, in the units of the file.
+    ranges: BTreeMap<String, BTreeMap<String, (f64, f64)>>,
     /// Names of parameters that the command line sets.
     set: Vec<String>,
 }
@@ -33,8 +33,9 @@ impl Values {
             let now = number(&literals, place);
             now.is_some() && now == number(&self.literals, place) && now != Some(*to)
         });
+        let unit = |of: &[Literal], place: &str| of.iter().find(|literal| literal.place == place).map(|literal| literal.unit.clone());
+        self.ranges.retain(|place, _| unit(&literals, place) == unit(&self.literals, place));
         self.literals = literals;
-        self.ranges.clear();
     }
 
     /// Moves a value; false if there is none of this place.
@@ -77,39 +78,27 @@ impl Values {
         of(model, replaced(text, &numbers).into_bytes())
     }
 
-    /// Notes over which values of parameters a study goes; whether a range is new.
-    pub(super) fn note(&mut self, model: &Model, study: &Study) -> bool {
+    /// Notes over which values of parameters a study goes.
+    pub(super) fn note(&mut self, model: &Model, study: &Study) {
+        self.ranges.values_mut().for_each(|of| _ = of.remove(&study.name));
         let base = parameters(model);
-        let mut found: Vec<(usize, f64, f64)> = Vec::new();
-        if !study.sweep.is_empty() {
-            let points = grid(model, study);
-            for (k, sweep) in study.sweep.iter().enumerate() {
-                let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
-                found.push((sweep.parameter, low, high));
-            }
-        }
-        found.extend(study.solve.iter().map(|solve| {
-            let [a, b] = solve.between.map(|id| model.pool.value(id, &base));
-            (solve.parameter, a.min(b), a.max(b))
-        }));
-        found.into_iter().fold(false, |new, (parameter, low, high)| {
+        for (parameter, low, high) in spans(model, study, &base) {
             let place = format!("parameters.{}", model.parameters[parameter].name);
             let now = self.moved(&place).or(self.literal(&place).map(|literal| literal.number));
             // the size of the unit as written, where the number tells it
             let size = now.map_or(f64::NAN, |now| base[parameter] / now);
-            let range = (low / size, high / size);
-            if !(range.0.is_finite() && range.1.is_finite() && range.0 < range.1 && size > 0.0) {
-                return new;
+            let (low, high) = (low / size, high / size);
+            if size > 0.0 && low.is_finite() && high.is_finite() && low < high {
+                self.ranges.entry(place).or_default().insert(study.name.clone(), (low, high));
             }
-            let wide = self.ranges.get(&place).map_or(range, |known| (known.0.min(range.0), known.1.max(range.1)));
-            self.ranges.insert(place, wide) != Some(wide) || new
-        })
+        }
     }
 
     /// What the page has of them.
     pub(super) fn json(&self) -> Value {
         let one = |literal: &Literal| {
-            let (low, high) = self.ranges.get(&literal.place).copied().unwrap_or_else(|| range(literal));
+            let known = self.ranges.get(&literal.place).and_then(|of| of.values().copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))));
+            let (low, high) = known.unwrap_or_else(|| range(literal));
             json!({
                 "place": literal.place, "name": literal.name, "start": literal.start, "unit": literal.unit,
                 "number": literal.number, "value": self.moved(&literal.place).unwrap_or(literal.number), "low": low, "high": high,
@@ -117,6 +106,20 @@ impl Values {
         };
         self.literals.iter().map(one).collect()
     }
+}
+
+/// Parameters that a study varies, by their numbers, with the least and the greatest value, SI.
+fn spans(model: &Model, study: &Study, base: &[f64]) -> Vec<(usize, f64, f64)> {
+    let points = if study.sweep.is_empty() { Vec::new() } else { grid(model, study) };
+    let swept = study.sweep.iter().enumerate().map(|(k, sweep)| {
+        let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
+        (sweep.parameter, low, high)
+    });
+    let solved = study.solve.iter().map(|solve| {
+        let [a, b] = solve.between.map(|id| model.pool.value(id, base));
+        (solve.parameter, a.min(b), a.max(b))
+    });
+    swept.chain(solved).collect()
 }
 
 /// From half a value to twice of it; about zero, and for angles of a start, to both sides.

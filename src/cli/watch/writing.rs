@@ -4,10 +4,10 @@ use super::super::interrupt::uncut;
 use super::board::Board;
 use super::lookout;
 use grashof::model::{Document, replaced};
-use std::sync::Arc;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Writes where a value was moved to into the file.
 ///

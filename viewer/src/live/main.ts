@@ -38,15 +38,12 @@ class Live {
     this.known = next;
     if (next.model !== this.model && next.model > 0) {
       const data = { ...await model(), studies: [] };
+      this.notices.file = data.model.path;
       if (this.page) this.page.setModel(data);
       else this.begin(next, data);
       this.model = next.model;
     }
-    if (!this.page) {
-      this.root.replaceChildren(h('div', { class: 'content alone' }, this.notices.element));
-      this.notices.tell(next, undefined);
-      return;
-    }
+    if (!this.page) return;
     this.page.setEntries(next.studies.map((s) => ({ name: s.name, about: s.about, bad: s.bad, state: s.busy ? 'busy' : s.stale ? 'stale' : '' })));
     await this.refresh();
   }

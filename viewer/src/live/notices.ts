@@ -9,6 +9,8 @@ const PLACE = /^(\s*--> )(.*:\d+:\d+)$/m;
 export class Notices {
   readonly element = h('div', { class: 'notices', 'aria-live': 'polite' });
   private shown = '';
+  /** The file that is shown. */
+  file = '';
 
   /** `show` brings a line of the file into view. */
   constructor(private readonly show: (line: number) => void) {}
@@ -26,15 +28,16 @@ export class Notices {
     const errors = away !== null || all.some((finding) => finding.error);
     this.element.className = `notices card ${errors ? 'bad' : 'warned'}`;
     this.element.hidden = lead === '' && all.length === 0;
-    this.element.replaceChildren(...(lead === '' ? [] : [h('p', { class: 'lead' }, lead)]), ...all.map((finding) => this.finding(finding, broken.length > 0)));
+    this.element.replaceChildren(...(lead === '' ? [] : [h('p', { class: 'lead' }, lead)]), ...all.map((finding) => this.finding(finding)));
   }
 
-  /** The text of a finding; a click on its place leads to the line, of the file that is shown. */
-  private finding(finding: Finding, broken: boolean): HTMLElement {
+  /** The text of a finding; a click on its place leads to the line. */
+  private finding(finding: Finding): HTMLElement {
     const match = PLACE.exec(finding.text);
-    if (!match || finding.line === 0) return h('pre', {}, finding.text);
+    // what the command line or another file says has no line here
+    if (!match || finding.line === 0 || finding.file !== this.file) return h('pre', {}, finding.text);
     const [before, place] = [finding.text.slice(0, match.index) + match[1]!, match[2]!];
-    const link = h('button', { type: 'button', class: 'place', title: broken ? 'show this line of the file before' : 'show in the model file', click: () => this.show(finding.line) }, place);
+    const link = h('button', { type: 'button', class: 'place', title: 'show in the model file', click: () => this.show(finding.line) }, place);
     return h('pre', {}, before, link, finding.text.slice(match.index + match[0].length));
   }
 }

@@ -8,7 +8,6 @@ import { type Movable, tell } from './link';
 const STEPS = 200;
 /** Milliseconds after which a value is sent although the study in view is not done yet. */
 const PATIENCE = 300;
-const DISC = 'M3 3h8l2 2v8H3zM5.5 3v3.5h4V3M5.5 13V9.5h5V13';
 const BACK = 'M3.5 6.5h6a3.5 3.5 0 0 1 0 7H6M3.5 6.5l3-3M3.5 6.5l3 3';
 
 /** A number with the digits that its range is worth. */
@@ -36,9 +35,9 @@ class Row {
       if (this.field.value.trim() !== '' && Number.isFinite(value)) this.choose(value);
       else this.field.value = String(this.of.value);
     } });
-    const write = button(icon(DISC), `write ${of.name} to the file`, () => {
+    const write = button('write', `write ${of.name} to the file`, () => {
       void tell('/write', { place: of.place, value: this.sent ?? this.of.value }).then((why) => told(why === null ? '' : `${of.name} is not written: ${why}.`));
-    }, { class: 'line' });
+    }, { class: 'write' });
     const back = button(icon(BACK), `take ${of.name} back`, () => {
       this.sent = null;
       void tell('/back', { place: of.place });
