@@ -15,9 +15,10 @@ pub(super) fn begun(document: &Document, common: &Common) -> Report {
     with_model(document, common, |model| Report::new(model))
 }
 
-/// What a page has of a model, without studies.
-pub(super) fn model_json(document: &Document, common: &Common) -> serde_json::Value {
-    with_model(document, common, |model| model.json())
+/// What a page has of a model, without studies; none if it has errors.
+pub(super) fn model_json(document: &Document, common: &Common) -> Option<serde_json::Value> {
+    let sound = files::selection(common, None).is_some_and(|selection| document.model(&selection).is_ok());
+    sound.then(|| with_model(document, common, |model| model.json()))
 }
 
 /// Makes something of what a report says of a model.

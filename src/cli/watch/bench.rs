@@ -1,7 +1,7 @@
 //! The bench: studies that are out of date are computed, the one in view first, and given up when they are out of date again.
 
 use super::super::interrupt::interrupted;
-use super::super::{Common, files, run::conflict};
+use super::super::{Common, files, report, run::conflict};
 use super::board::{Board, Computed};
 use grashof::api::explained;
 use grashof::model::{Document, Model, Report, Study};
@@ -29,8 +29,8 @@ impl Sink for Nowhere {
 pub(super) fn begin(board: Arc<Board>) -> bool {
     par::background("bench", move || {
         while !interrupted() {
-            let (of, look) = board.wait_for_work();
-            match &look.read {
+            let (of, document) = board.wait_for_work();
+            match &document {
                 Ok(document) => all(&board, of, document),
                 // the file was sound without the values that were moved: numbers alone do not change that
                 Err(report) => nothing(&board, of, report),
@@ -58,6 +58,10 @@ fn all(board: &Board, of: u64, document: &Document) {
             && let Some(selection) = files::selection(&board.common, None)
         {
             board.put_findings(of, &document.check_all(&selection));
+            // of a model with errors there is nothing to know
+            if let Some(head) = report::model_json(document, &board.common) {
+                board.put_head(of, head);
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The board: what the threads of a watch share.
 
-use super::super::{Common, report};
+use super::super::Common;
 use super::lookout::Look;
 use super::values::Values;
 use grashof::model::{Diagnostic, Document, Report, Severity};
@@ -121,34 +121,34 @@ impl Board {
 
     /// Takes what was read of the file.
     pub(super) fn read(&self, look: Look) {
-        let document = match look.read {
-            Ok(document) => document,
-            Err(report) => {
-                // places lead into the text as it is, beside what was known of the model
-                let source = String::from_utf8_lossy(&look.bytes).into_owned();
-                return self.change(|state| {
-                    (state.bytes, state.away, state.broken) = (look.bytes, None, shown(&report));
-                    let mut head = (*state.head.1).clone();
-                    if head.is_null() {
-                        head = unknown(&self.model);
-                    }
-                    head["model"]["source"] = source.into();
-                    state.head = (state.version, Arc::new(head));
-                });
-            }
-        };
-        let literals = document.literals();
-        let head = report::model_json(&document, &self.common);
+        // places lead into the text as it is; the rest of the head follows once the study in view is computed
+        let source = String::from_utf8_lossy(&look.bytes).into_owned();
+        let literals = look.read.as_ref().map(|document| document.literals()).unwrap_or_default();
         self.change(|state| {
             (state.bytes, state.away) = (look.bytes, None);
+            let mut head = if state.head.1.is_null() { unknown(&self.model) } else { (*state.head.1).clone() };
+            head["model"]["source"] = source.into();
+            state.head = (state.version, Arc::new(head));
+            let document = match look.read {
+                Ok(document) => document,
+                Err(report) => return state.broken = shown(&report),
+            };
             state.broken.clear();
             state.values.renew(literals);
-            state.head = (state.version, Arc::new(head));
             let mut known = std::mem::take(&mut state.studies);
             state.studies = document.study_names().into_iter().map(|name| entry(name, &mut known)).collect();
             state.document = Some(document);
             self.wanted.fetch_add(1, Ordering::SeqCst);
         });
+    }
+
+    /// Takes what there is to know of the model of number `of`, but for its text.
+    pub(super) fn put_head(&self, of: u64, mut head: Value) {
+        let source = self.lock().head.1["model"]["source"].clone();
+        head["model"]["source"] = source;
+        if self.wanted.load(Ordering::SeqCst) == of && *self.lock().head.1 != head {
+            self.change(|state| state.head = (state.version, Arc::new(head)));
+        }
     }
 
     /// The file cannot be read.
@@ -188,12 +188,13 @@ impl Board {
     }
 
     /// Waits until something is to be computed: its number, and the file with the values that were moved.
-    pub(super) fn wait_for_work(&self) -> (u64, Look) {
+    pub(super) fn wait_for_work(&self) -> (u64, Result<Arc<Document>, Report>) {
         let mut state = self.lock();
         loop {
             let wanted = self.wanted.load(Ordering::SeqCst);
             if let Some(document) = state.document.as_ref().filter(|_| state.studies.iter().any(|entry| entry.of != wanted)) {
-                return (wanted, state.values.apply(&self.model, document.text()));
+                let moved = state.values.are_moved();
+                return (wanted, if moved { state.values.apply(&self.model, document.text()).read } else { Ok(Arc::clone(document)) });
             }
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }

@@ -3,7 +3,7 @@
 import { h } from '../dom';
 import { Page } from '../page';
 import { type State, type StudyState, model, state, study, tell } from './link';
-import { Notices } from './notices';
+import { Notices, isOld } from './notices';
 import { Values } from './values';
 
 /** Milliseconds until a program that does not answer is asked again. */
@@ -83,11 +83,11 @@ class Live {
   }
 
   private tellStatus(known: State, inView: StudyState | undefined): void {
-    document.documentElement.classList.toggle('old', known.away !== null || known.broken.length > 0);
+    document.documentElement.classList.toggle('old', isOld(known, inView));
     if (known.away !== null) this.say('bad', 'the file is away');
     else if (known.broken.length > 0) this.say('bad', 'the file has errors');
     else if (inView?.stale) this.say('busy', 'computing');
-    else if (inView?.bad && inView.findings.length > 0) this.say('bad', 'not computed');
+    else if (isOld(known, inView)) this.say('bad', 'the file has errors');
     else if (known.studies.some((s) => s.stale)) this.say('busy', 'up to date, others follow');
     else this.say('good', known.moved ? 'live, with moved values' : 'live');
   }

@@ -6,6 +6,11 @@ import type { Finding, State, StudyState } from './link';
 /** The place in a finding's text, which leads to the line. */
 const PLACE = /^(\s*--> )(.*:\d+:\d+)$/m;
 
+/** Whether what is shown is of an earlier file. */
+export function isOld({ away, broken }: State, inView: StudyState | undefined): boolean {
+  return away !== null || broken.length > 0 || Boolean(inView?.bad && inView.findings.some((finding) => finding.error));
+}
+
 export class Notices {
   readonly element = h('div', { class: 'notices', 'aria-live': 'polite' });
   private shown = '';
@@ -20,11 +25,11 @@ export class Notices {
     const { away, broken, findings } = state;
     const of = broken.length > 0 ? broken : [...(inView?.findings ?? []), ...findings];
     const all = of.filter((finding, i) => of.findIndex((other) => other.text === finding.text) === i);
-    const key = JSON.stringify([away, all, broken.length]);
+    const key = JSON.stringify([away, all, isOld(state, inView)]);
     if (key === this.shown) return;
     this.shown = key;
     const lead = away !== null ? `The file cannot be read: ${away}. What it was is shown until it is back.`
-      : broken.length > 0 ? 'The file has errors. What is shown is of the file before.' : '';
+      : isOld(state, inView) ? 'The file has errors. What is shown is of an earlier one.' : '';
     const errors = away !== null || all.some((finding) => finding.error);
     this.element.className = `notices card ${errors ? 'bad' : 'warned'}`;
     this.element.hidden = lead === '' && all.length === 0;
