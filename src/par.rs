@@ -29,6 +29,11 @@ pub fn map<T: Send>(n: usize, threads: usize, f: impl Fn(usize) -> T + Sync, don
     results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).into_iter().flatten().collect()
 }
 
+/// Work beside everything else, which ends with the program at the latest; false if there is no room for one more thread.
+pub fn background(name: &str, work: impl FnOnce() + Send + 'static) -> bool {
+    std::thread::Builder::new().name(name.into()).spawn(work).is_ok()
+}
+
 /// Number of processors that are there for the taking; 1 if that is not known.
 #[must_use]
 pub fn processors() -> usize {

@@ -43,3 +43,4 @@ mod statics;
 mod sweep;
 mod undefined;
 mod urdf;
+mod watch;

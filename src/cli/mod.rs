@@ -23,6 +23,7 @@ mod statics;
 mod study;
 mod sweep;
 mod terminal;
+mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
 pub(crate) use common::Common;
@@ -56,6 +57,11 @@ enum Command {
         after_help = "Examples:\n  grashof run models/crank_rocker.yaml\n  grashof run models/crank_rocker.yaml --study one-turn --set \"l3=60 cm\" -o out"
     )]
     Run(run::Arguments),
+    /// Show the report of a model in a browser while it is edited, with sliders for its values
+    #[command(
+        after_help = "Examples:\n  grashof watch models/crank_rocker.yaml\n  grashof watch my.yaml --study swing --port 9000\n\nOpen the address that is printed. Ctrl-C ends it."
+    )]
+    Watch(watch::Arguments),
     /// Run a study for many values of parameters: one row for each
     #[command(
         after_help = "Examples:\n  grashof sweep models/crank_rocker.yaml --study one-turn --over l3=0.3..0.8:26\n  grashof sweep models/crank_rocker.yaml --study one-turn --over \"l3=50cm..80cm:4\" --over speed=100rpm,200rpm -o out\n  grashof sweep my.yaml --over k=10..1000:5:log"
@@ -125,6 +131,7 @@ pub(crate) fn main() -> ExitCode {
     }
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
+        Command::Watch(arguments) => watch::watch(arguments, &cli.common),
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),
         Command::Gather(arguments) => gather::gather(arguments, &cli.common),
         Command::Compare(arguments) => compare::compare(arguments, &cli.common),

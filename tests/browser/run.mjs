@@ -14,6 +14,7 @@ import * as motion from './motion.mjs';
 import * as page from './page.mjs';
 import * as paper from './paper.mjs';
 import * as plots from './plots.mjs';
+import * as watch from './watch.mjs';
 
 const [, , program, executablePath = '/usr/bin/chromium'] = process.argv;
 if (!program) {
@@ -71,6 +72,16 @@ for (const tests of [page, motion, plots, paper]) {
       console.log(`FAILED  ${name}: ${error.message}`);
     }
     for (const one of opened) await one.close();
+  }
+}
+for (const [name, test] of Object.entries(watch)) {
+  try {
+    await test(browser, program);
+    passed++;
+    console.log(`ok      ${name}`);
+  } catch (error) {
+    failed++;
+    console.log(`FAILED  ${name}: ${error.message}`);
   }
 }
 await browser.close();

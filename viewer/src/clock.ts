@@ -21,6 +21,7 @@ export class Clock {
   range(from: number, to: number, seconds: (at: number) => number, place: (seconds: number) => number): void {
     [this.from, this.to, this.seconds, this.place] = [from, to, seconds, place];
     this.seek(Math.min(Math.max(this.at, from), to));
+    if (this.playing && to <= from) this.play(false);
   }
 
   seek(at: number): void {

@@ -21,6 +21,8 @@ export interface Renderer {
   zoom(factor: number, x: number, y: number): void;
   /** Moved by pixels; of a view in space turned, if so asked. */
   drag(dx: number, dy: number, turn: boolean): void;
+  /** From where it is looked at, in numbers of its own; with them, from there. */
+  outlook(from?: number[]): number[];
 }
 
 export type Maker = (context: CanvasRenderingContext2D, motion: Motion, arrows: Arrows) => Renderer;

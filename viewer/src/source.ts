@@ -67,25 +67,39 @@ function child(lines: string[], text: boolean[], row: number, indent: number, ke
   return flow.test(line) ? { row, indent: indent } : null;
 }
 
-/** The text of the file; `show` brings the line of a path into view and tells whether there is one. */
-export function source(text: string, path: string): { element: HTMLElement; show(place: string): boolean; line(place: string): number | null } {
+export interface Source {
+  element: HTMLDetailsElement;
+  /** Brings the line of a path into view, and tells whether there is one. */
+  show(place: string): boolean;
+  /** Brings a line, from 0, into view. */
+  showLine(row: number): boolean;
+  line(place: string): number | null;
+}
+
+/** The text of the file. */
+export function source(text: string, path: string): Source {
   const lines = text.replace(/\n$/, '').split('\n');
   const plain = blocks(lines);
   const rows = lines.map((line, i) => h('li', {}, h('code', {}, ...(plain[i] ? [h('span', { class: 'y-text' }, line)] : colored(line)))));
   const list = h('ol', { class: 'yaml' }, ...rows);
   const details = h('details', { class: 'card source' }, h('summary', {}, 'Model file ', h('span', { class: 'soft' }, path)), list);
+  const showLine = (row: number) => {
+    const line = rows[row];
+    if (!line) return false;
+    details.open = true;
+    rows.forEach((r, i) => r.classList.toggle('here', i === row));
+    line.scrollIntoView({ block: 'center' });
+    line.setAttribute('tabindex', '-1');
+    line.focus({ preventScroll: true });
+    return true;
+  };
   return {
     element: details,
     line: (place) => lineOf(lines, place),
+    showLine,
     show(place) {
       const row = lineOf(lines, place);
-      if (row === null) return false;
-      details.open = true;
-      rows.forEach((r, i) => r.classList.toggle('here', i === row));
-      rows[row]!.scrollIntoView({ block: 'center' });
-      rows[row]!.setAttribute('tabindex', '-1');
-      rows[row]!.focus({ preventScroll: true });
-      return true;
+      return row !== null && showLine(row);
     },
   };
 }

@@ -28,6 +28,9 @@ function sceneOf(coded: CodedScene): Scene {
   return known;
 }
 
+/** What a reader has chosen on a stage. */
+export interface StageKept { options: Options; run: string; drawing: string; dimensions: number; look: number[] }
+
 /** The stage of a study. */
 export class Stage {
   readonly element: HTMLElement;
@@ -46,13 +49,23 @@ export class Stage {
   private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: 0.25 };
   private size: [number, number] = [0, 0];
   private waiting = false;
+  private run = '';
+  private drawing = '';
 
-  constructor(private readonly study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void) {
+  /** With what a reader has chosen on an earlier stage of the study, whose clock then goes on. */
+  constructor(private readonly study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void, private kept?: StageKept) {
     this.results = study;
+    if (kept) this.options = kept.options;
     this.element = h('section', { class: 'stage card', 'aria-label': 'the mechanism in motion' },
       this.choices(), h('div', { class: 'canvas' }, this.canvas), this.transport(), this.shown, this.note);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.canvas.parentElement!);
+  }
+
+  /** What a reader has chosen; none if nothing is drawn. */
+  keep(): StageKept | undefined {
+    const { options, run, drawing, motion, renderer } = this;
+    return motion && renderer ? { options, run, drawing, dimensions: motion.scene.dimensions, look: renderer.outlook() } : this.kept;
   }
 
   /** Draws when the browser next does. */
@@ -124,7 +137,8 @@ export class Stage {
       results = next;
       drawings.replaceChildren(...next.scenes.map(([name]) => h('option', {}, name.replace(/-/g, ' '))));
       drawings.hidden = next.scenes.length < 2;
-      this.load(next, 0);
+      drawings.selectedIndex = Math.max(0, next.scenes.findIndex(([name]) => name === this.kept?.drawing));
+      this.load(next, Math.max(0, drawings.selectedIndex));
     };
     const runs = study.runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
     if (study.table.reasons) {
@@ -132,11 +146,16 @@ export class Stage {
       const choose = (k: number) => {
         const found = runs[k];
         if (!found) return;
+        this.run = found.run.label;
         fill(found.run.results!);
         this.chosen(found.index);
       };
+      const before = Math.max(0, runs.findIndex(({ run }) => run.label === this.kept?.run));
       box.append(h('label', {}, 'run ', select));
-      queueMicrotask(() => choose(0));
+      queueMicrotask(() => {
+        select.selectedIndex = before;
+        choose(before);
+      });
     } else queueMicrotask(() => fill(study));
     box.append(drawings);
     return box;
@@ -164,7 +183,8 @@ export class Stage {
   private load(results: Results, index: number): void {
     const coded = results.scenes[index]?.[1];
     this.results = results;
-    this.clock.play(false);
+    this.drawing = results.scenes[index]?.[0] ?? '';
+    if (!this.kept || !coded) this.clock.play(false);
     this.element.hidden = !coded;
     if (!coded) return;
     const motion = new Motion(sceneOf(coded));
@@ -173,6 +193,8 @@ export class Stage {
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
+    if (this.kept?.dimensions === motion.scene.dimensions) this.renderer?.outlook(this.kept.look);
+    this.kept = undefined;
     this.element.classList.toggle('still', motion.to <= motion.from);
     this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
     const kinds = arrows.kinds();

@@ -6,10 +6,23 @@ import { h } from './dom';
 import { type ShowPlace, facts, rowsInWords } from './facts';
 import { heading, pretty, shownIn } from './numbers';
 import { drawable } from './plot/curves';
-import { PlotView } from './plot/plot';
-import { Stage } from './stage';
+import { type PlotKept, PlotView } from './plot/plot';
+import { Stage, type StageKept } from './stage';
 import { table } from './table';
 import type { Column, Plot, Results, Study } from './types';
+
+/** What a reader has chosen in a study: it stays when the study is computed again. */
+export interface Kept {
+  stage: StageKept | undefined;
+  plots: Map<string, PlotKept>;
+  own: Plot[];
+  /** Parts by their titles, and whether they are open. */
+  open: Map<string, boolean>;
+  scrolled: number[];
+}
+
+const parts = (of: HTMLElement) => [...of.querySelectorAll<HTMLDetailsElement>('details.part')];
+const title = (part: HTMLDetailsElement) => part.querySelector('summary')?.textContent ?? '';
 
 export class StudyView {
   readonly element: HTMLElement;
@@ -17,11 +30,15 @@ export class StudyView {
   private readonly plots: PlotView[] = [];
   private readonly figures = h('div', { class: 'plots' });
   private readonly rows = h('div', { class: 'tables card' });
+  private readonly own: Plot[];
   private count = 0;
 
-  constructor(private readonly study: Study, private readonly clock: Clock, show: ShowPlace) {
-    this.stage = new Stage(study, clock, (run) => this.choose(run));
+  constructor(private readonly study: Study, private readonly clock: Clock, show: ShowPlace, private readonly kept?: Kept) {
+    this.stage = new Stage(study, clock, (run) => this.choose(run), kept?.stage);
+    this.own = kept?.own ?? [];
+    this.count = this.own.length;
     study.plots.forEach((plot) => this.add(plot));
+    this.own.forEach((plot) => this.add(plot, true));
     this.element = h('article', { class: 'study', 'aria-labelledby': 'study-title' },
       h('header', { class: 'title' },
         h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
@@ -30,6 +47,19 @@ export class StudyView {
       h('div', { class: 'left' }, this.stage.element, facts(study, show)),
       h('div', { class: 'right' }, this.figures, this.chooser(), this.rows));
     this.tables(study.table.reasons ? null : study);
+    for (const part of parts(this.element)) part.open = kept?.open.get(title(part)) ?? part.open;
+  }
+
+  /** What a reader has chosen. */
+  keep(): Kept {
+    const open = new Map(parts(this.element).map((part) => [title(part), part.open]));
+    const scrolled = [...this.rows.querySelectorAll('.rows')].map((box) => box.scrollTop);
+    return { stage: this.stage.keep(), plots: new Map(this.plots.map((plot) => plot.keep())), own: this.own, open, scrolled };
+  }
+
+  /** Tables stand where they stood; once the study is on the page. */
+  scroll(): void {
+    this.rows.querySelectorAll('.rows').forEach((box, i) => (box.scrollTop = this.kept?.scrolled[i] ?? 0));
   }
 
   tick(): void {
@@ -42,8 +72,9 @@ export class StudyView {
     if (!drawn) return;
     const view: PlotView = new PlotView(drawn, this.study.study, this.clock, own ? () => {
       this.plots.splice(this.plots.indexOf(view), 1);
+      this.own.splice(this.own.indexOf(plot), 1);
       view.element.remove();
-    } : undefined);
+    } : undefined, this.kept?.plots.get(plot.name));
     this.plots.push(view);
     this.figures.append(view.element);
   }
@@ -67,7 +98,9 @@ export class StudyView {
     const draw = () => {
       const [kind, name] = [show.value.slice(0, 2), show.value.slice(2)];
       const horizontal = kind === 'r:' || over.value === '' || !column(results, over.value) ? null : over.value;
-      this.add({ name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:' }, true);
+      const plot = { name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:' };
+      this.own.push(plot);
+      this.add(plot, true);
     };
     return h('div', { class: 'chooser card' }, h('label', {}, 'Draw ', show), h('label', {}, ' over ', over), h('button', { type: 'button', class: 'primary', click: draw }, 'Add figure'));
   }

@@ -8,17 +8,19 @@
 //! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
 
 mod base64;
+mod live;
 mod poses;
 mod rows;
 mod study;
 mod tables;
 
+pub use live::{LIVE_POLICY, live_page};
 pub use study::{ReportRuns, ReportStudy};
 
 use base64::base64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::io::Write;
 
 const STYLE: &str = include_str!("../../../viewer/dist/page.css");
@@ -42,6 +44,21 @@ pub struct ReportModel<'a> {
     pub overview: &'a [(String, String)],
 }
 
+impl ReportModel<'_> {
+    /// The object that a page has of it, without studies.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let overview: Vec<_> = self.overview.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
+        let about = (!self.about.trim().is_empty()).then_some(self.about);
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "model": { "name": self.name, "path": self.path, "source": self.source, "about": about },
+            "made": null,
+            "overview": overview,
+        })
+    }
+}
+
 /// A report to which studies are added as they are finished; it keeps them compressed.
 #[derive(Debug)]
 pub struct Report {
@@ -55,15 +72,7 @@ impl Report {
     /// A report without studies.
     #[must_use]
     pub fn new(model: &ReportModel<'_>) -> Self {
-        let overview: Vec<_> = model.overview.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
-        let about = (!model.about.trim().is_empty()).then_some(model.about);
-        let head = json!({
-            "version": env!("CARGO_PKG_VERSION"),
-            "model": { "name": model.name, "path": model.path, "source": model.source, "about": about },
-            "made": null,
-            "overview": overview,
-        });
-        let head = head.to_string();
+        let head = model.json().to_string();
         let mut report =
             Self { title: model.name.into(), data: GzEncoder::new(Vec::new(), Compression::default()), studies: 0, spatial: false };
         report.put(head.strip_suffix('}').unwrap_or(&head));

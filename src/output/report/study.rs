@@ -30,6 +30,12 @@ pub struct ReportRuns {
 }
 
 impl ReportStudy {
+    /// The object of JSON that a page has of it.
+    #[must_use]
+    pub fn json(&self) -> &str {
+        &self.text
+    }
+
     /// Of a study of one run; `about` says what it is for.
     #[must_use]
     pub fn of(results: &Results, about: &str) -> Self {

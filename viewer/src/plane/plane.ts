@@ -47,6 +47,12 @@ export class Plane implements Renderer {
     this.shift = [this.shift[0] + dx, this.shift[1] + dy];
   }
 
+  outlook(from?: number[]): number[] {
+    const [zoomed, x, y] = from ?? [];
+    if (zoomed !== undefined) [this.zoomed, this.shift] = [zoomed, [x ?? 0, y ?? 0]];
+    return [this.zoomed, ...this.shift];
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.inks = inks;

@@ -10,6 +10,9 @@ import { saveCsv, saveSvg } from './export';
 /** Pixels of a drag that is no click. */
 const DRAG = 5;
 
+/** What a reader has chosen in a figure. */
+export interface PlotKept { view: View; hidden: string[] }
+
 export class PlotView {
   readonly element: HTMLElement;
   private readonly stage = h('div', { class: 'plot-stage', tabindex: 0, role: 'group' });
@@ -20,14 +23,16 @@ export class PlotView {
   /** A place on the horizontal axis at which the values are shown; none: at the time of the motion. */
   private cursor: number | null = null;
 
-  constructor(private readonly of: Drawable, private readonly study: string, private readonly clock: Clock, remove?: () => void) {
+  constructor(private readonly of: Drawable, private readonly study: string, private readonly clock: Clock, remove?: () => void, kept?: PlotKept) {
     const { figure, name } = of;
+    if (kept) this.view = { ...kept.view, width: 0 };
+    for (const curve of figure.curves) if (kept?.hidden.includes(curve.label)) curve.shown = false;
     const title = words(name);
     const log = button('log', `${title}: logarithmic axis`, () => {
       this.view = { ...this.view, log: !this.view.log, y: null };
       log.setAttribute('aria-pressed', String(this.view.log));
       this.draw();
-    }, { 'aria-pressed': 'false' });
+    }, { 'aria-pressed': String(this.view.log) });
     const file = `${study}-${name}`;
     const tools = h('div', { class: 'tools' },
       log,
@@ -39,6 +44,12 @@ export class PlotView {
     this.stage.setAttribute('aria-label', `${title}; arrow keys move the cursor, + and − zoom, escape shows the whole range`);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.stage);
+  }
+
+  /** The name of the figure, and what a reader has chosen in it. */
+  keep(): [string, PlotKept] {
+    const hidden = this.of.figure.curves.filter((curve) => !curve.shown).map((curve) => curve.label);
+    return [this.of.name, { view: this.view, hidden }];
   }
 
   /** Draws the time of the motion. */
@@ -57,7 +68,7 @@ export class PlotView {
       this.values.push(value);
       const line = s('svg', { width: 22, height: 8, 'aria-hidden': 'true' },
         s('path', { d: 'M1 4h20', stroke: color(k, curves.length), 'stroke-width': 2.4, 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
-      const entry = h('button', { type: 'button', 'aria-pressed': 'true', title: 'show or hide', click: () => {
+      const entry = h('button', { type: 'button', 'aria-pressed': String(curve.shown), title: 'show or hide', click: () => {
         curve.shown = !curve.shown;
         entry.setAttribute('aria-pressed', String(curve.shown));
         this.draw();

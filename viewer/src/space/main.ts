@@ -69,6 +69,12 @@ class Space implements Renderer {
     } else this.shift = [this.shift[0] + dx, this.shift[1] + dy];
   }
 
+  outlook(from?: number[]): number[] {
+    const [zoomed, x, y, turn, tilt] = from ?? [];
+    if (zoomed !== undefined) [this.zoomed, this.shift, this.turn, this.tilt] = [zoomed, [x ?? 0, y ?? 0], turn ?? this.turn, tilt ?? this.tilt];
+    return [this.zoomed, ...this.shift, this.turn, this.tilt];
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.look(width, height);

@@ -1,0 +1,129 @@
+//! The look-out: what is in the model file and in the files that it includes.
+//!
+//! Editors write in place, rename a new file over the old one, or delete and write again; contents are compared, whatever they do.
+
+use super::super::files;
+use super::super::interrupt::interrupted;
+use super::board::Board;
+use grashof::api::beside;
+use grashof::model::{Document, Report};
+use grashof::par;
+use std::cell::RefCell;
+use std::fs::Metadata;
+use std::io::{Error, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, SystemTime};
+
+/// Between looks.
+const EVERY: Duration = Duration::from_millis(50);
+/// A file whose time is older than this, and the same, is not read again: clocks of file systems are coarse.
+const SETTLED: Duration = Duration::from_secs(3);
+/// Looks at which a file must be away before that is said: it may be on its way.
+const AWAY: u32 = 4;
+/// Largest file that is read at all; the reader itself refuses above 8 MiB and says so.
+const MOST: u64 = 16 << 20;
+
+/// What a look found.
+#[derive(Clone, Debug)]
+pub(super) struct Look {
+    /// Bytes of the model file.
+    pub(super) bytes: Arc<Vec<u8>>,
+    /// The model, or what is wrong with its text.
+    pub(super) read: Result<Arc<Document>, Report>,
+    /// Files that it includes, with what was in them.
+    included: Vec<(PathBuf, Option<Vec<u8>>)>,
+}
+
+/// Reads the model file and what it includes.
+pub(super) fn read(model: &str) -> Result<Look, Error> {
+    files::bytes(model, MOST).map(|bytes| of(model, bytes))
+}
+
+/// The model of some bytes, in the place of those of its file.
+pub(super) fn of(model: &str, bytes: Vec<u8>) -> Look {
+    let included = RefCell::new(Vec::new());
+    let read = Document::with_files(&bytes, model, &|path| {
+        let found = beside(model, path);
+        let place = Path::new(model).parent().unwrap_or(Path::new("")).join(path);
+        included.borrow_mut().push((place, found.as_ref().ok().map(|(_, bytes)| bytes.clone())));
+        found
+    });
+    Look { bytes: Arc::new(bytes), read: read.map(Arc::new), included: included.into_inner() }
+}
+
+/// Begins to look, in a thread of its own; `known` is what is known already.
+pub(super) fn begin(board: Arc<Board>, known: Look) -> bool {
+    par::background("look-out", move || {
+        let mut lookout = Lookout { known, stamp: None, doubtful: None, away: 0 };
+        while !interrupted() {
+            std::thread::sleep(EVERY);
+            lookout.look(&board);
+        }
+    })
+}
+
+struct Lookout {
+    known: Look,
+    /// Of the model file when it was last read.
+    stamp: Option<(u64, SystemTime)>,
+    /// Bytes that are no model: perhaps half of what is being written.
+    doubtful: Option<Vec<u8>>,
+    away: u32,
+}
+
+impl Lookout {
+    fn look(&mut self, board: &Board) {
+        let model = board.model();
+        if self.is_settled(model) && !self.included_changed() {
+            return;
+        }
+        let bytes = match files::bytes(model, MOST) {
+            Ok(bytes) => bytes,
+            Err(error) => return self.miss(board, &error),
+        };
+        let was_away = std::mem::take(&mut self.away) >= AWAY;
+        if bytes == *self.known.bytes && !self.included_changed() {
+            self.doubtful = None;
+            if was_away {
+                board.read(self.known.clone());
+            }
+            return;
+        }
+        let next = of(model, bytes);
+        // shown at the second look, unless it is whole by then
+        if next.read.is_err() && self.doubtful.as_ref() != Some(&*next.bytes) {
+            self.doubtful = Some((*next.bytes).clone());
+            self.stamp = None;
+            return;
+        }
+        self.doubtful = None;
+        self.known = next.clone();
+        board.read(next);
+    }
+
+    /// Whether the file is the one that was read last, without reading it.
+    fn is_settled(&mut self, model: &str) -> bool {
+        let stamp = std::fs::metadata(model).ok().and_then(|of: Metadata| Some((of.len(), of.modified().ok()?)));
+        let old = stamp.is_some_and(|(_, time)| SystemTime::now().duration_since(time).is_ok_and(|age| age > SETTLED));
+        let same = stamp.is_some() && stamp == self.stamp && self.doubtful.is_none() && self.away == 0;
+        self.stamp = stamp;
+        same && old
+    }
+
+    fn included_changed(&self) -> bool {
+        self.known.included.iter().any(|(path, bytes)| {
+            let length = std::fs::metadata(path).map(|of| of.len()).ok();
+            let known = bytes.as_ref().map(|bytes| bytes.len() as u64);
+            length != known || bytes.is_some() && std::fs::read(path).ok() != *bytes
+        })
+    }
+
+    fn miss(&mut self, board: &Board, error: &Error) {
+        self.away += 1;
+        if self.away == AWAY {
+            let why = if error.kind() == ErrorKind::NotFound { "it is not there".to_string() } else { error.to_string() };
+            board.miss(why);
+        }
+    }
+}

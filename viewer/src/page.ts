@@ -1,0 +1,220 @@
+// The page: header, contents, the study in view, and the model file.
+
+import { Clock } from './clock';
+import { button, h, icon } from './dom';
+import { type Source, source } from './source';
+import { StudyView } from './study';
+import { begin, isDark, toggle } from './theme';
+import type { Data, Study } from './types';
+
+declare global {
+  interface Window {
+    /** For tests and for readers with a console: where a joint is, the place of the motion, another place, another study. */
+    grashof: {
+      place(joint: string): number[] | null;
+      time(): number;
+      seek(at: number): void;
+      study(name: string): boolean;
+    };
+  }
+}
+
+const SUN = 'M8 4.5a3.5 3.5 0 1 1 0 7a3.5 3.5 0 0 1 0-7zM8 1v1.5M8 13.5V15M1 8h1.5M13.5 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1';
+
+/** A study in the contents. */
+export interface Entry { name: string; about: string; bad: boolean; state?: string }
+
+/** What a page has beside that of a report. */
+export interface More {
+  /** In the header, above the study, and below the contents. */
+  status?: HTMLElement;
+  notices?: HTMLElement;
+  values?: HTMLElement;
+  /** Is told which study is in view. */
+  viewed?(name: string): void;
+}
+
+export function entryOf(study: Study): Entry {
+  return { name: study.study, about: study.about, bad: study.stopped !== null || study.expectations.some((e) => !e.met) };
+}
+
+export class Page {
+  private readonly clock = new Clock();
+  private readonly main = h('main', { id: 'main' });
+  private readonly list = h('ol');
+  private header: HTMLElement;
+  private file: Source;
+  private links: HTMLAnchorElement[] = [];
+  private view: StudyView | null = null;
+  private name = '';
+
+  constructor(private data: Data, private entries: Entry[], root: HTMLElement, private readonly more: More = {}) {
+    this.file = source(data.model.source, data.model.path);
+    this.header = this.top();
+    this.contents();
+    root.append(
+      h('a', { href: '#main', class: 'skip', click: (event) => {
+        event.preventDefault();
+        document.getElementById('study-title')?.focus();
+      } }, 'to the study'),
+      this.header,
+      h('div', { class: 'body' },
+        h('div', { class: 'side' }, h('nav', { class: 'contents', 'aria-label': 'studies' }, h('h2', {}, 'Studies'), this.list), more.values),
+        h('div', { class: 'content' }, more.notices, this.main, this.file.element)));
+    this.clock.tell(() => this.view?.tick());
+    this.clock.tellState(() => this.view?.stage.state());
+    this.listen();
+    this.show(decodeURIComponent(location.hash.slice(1))) || this.show(entries[0]?.name ?? '');
+  }
+
+  /** The study in view. */
+  get inView(): string {
+    return this.name;
+  }
+
+  /** Shows a study; tells whether there is one of this name. */
+  show(name: string, focus = false): boolean {
+    const entry = this.entries.find((known) => known.name === name);
+    if (!entry) return false;
+    this.clock.play(false);
+    this.clock.at = -Infinity;
+    this.name = name;
+    const study = this.data.studies.find((known) => known.study === name);
+    this.view = study ? this.viewOf(study) : null;
+    this.main.replaceChildren(this.view?.element ?? this.waiting(entry));
+    this.mark();
+    const link = this.links[this.entries.indexOf(entry)]!;
+    const nav = link.closest('nav');
+    const seen = nav && link.offsetTop >= nav.scrollTop && link.offsetTop + link.offsetHeight <= nav.scrollTop + nav.clientHeight;
+    if (nav && !seen) nav.scrollTop = link.offsetTop - nav.clientHeight / 2;
+    document.title = `${name} – ${this.data.model.name}`;
+    this.more.viewed?.(name);
+    if (focus) {
+      scrollTo(0, 0);
+      document.getElementById('study-title')?.focus({ preventScroll: true });
+    }
+    return true;
+  }
+
+  /** Takes a study that was computed anew; what a reader has chosen in it stays. */
+  put(study: Study): void {
+    const index = this.data.studies.findIndex((known) => known.study === study.study);
+    if (index < 0) this.data.studies.push(study);
+    else this.data.studies[index] = study;
+    if (study.study !== this.name) return;
+    if (!this.view) {
+      this.show(study.study);
+      return;
+    }
+    const focused = this.main.contains(document.activeElement) ? document.activeElement?.getAttribute('aria-label') : null;
+    const [before, scrolled] = [this.view.element, scrollY];
+    this.view = this.viewOf(study, this.view);
+    // figures get their height when they are drawn: until then the page must not become shorter
+    this.main.style.minHeight = `${this.main.offsetHeight}px`;
+    before.replaceWith(this.view.element);
+    this.view.scroll();
+    if (focused) this.main.querySelector<HTMLElement>(`[aria-label="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
+    scrollTo(scrollX, scrolled);
+    requestAnimationFrame(() => requestAnimationFrame(() => (this.main.style.minHeight = '')));
+  }
+
+  /** Takes studies of the file, in its order. */
+  setEntries(entries: Entry[]): void {
+    this.entries = entries;
+    this.data.studies = this.data.studies.filter((study) => entries.some((entry) => entry.name === study.study));
+    this.contents();
+    this.mark();
+    const entry = entries.find((known) => known.name === this.name);
+    if (!entry) this.show(entries[0]?.name ?? '');
+    else if (!this.view) this.main.replaceChildren(this.waiting(entry));
+  }
+
+  /** Takes what is known of a model whose file has changed. */
+  setModel(data: Data): void {
+    this.data = { ...data, studies: this.data.studies };
+    const [file, header] = [source(data.model.source, data.model.path), this.top()];
+    file.element.open = this.file.element.open;
+    this.file.element.replaceWith(file.element);
+    this.header.replaceWith(header);
+    [this.file, this.header] = [file, header];
+    document.title = `${this.name} – ${data.model.name}`;
+  }
+
+  /** Brings a line of the file, from 1, into view. */
+  showLine(line: number): boolean {
+    return this.file.showLine(line - 1);
+  }
+
+  face(): Window['grashof'] {
+    return {
+      place: (joint) => this.view?.stage.motion?.joint(joint, this.clock.at) ?? null,
+      time: () => this.clock.at,
+      seek: (at) => this.clock.seek(at),
+      study: (name) => this.show(name),
+    };
+  }
+
+  private viewOf(study: Study, before?: StudyView): StudyView {
+    return new StudyView(study, this.clock, (place) => this.file.show(place), before?.keep());
+  }
+
+  private waiting(entry: Entry): HTMLElement {
+    return h('article', { class: 'study', 'aria-labelledby': 'study-title' },
+      h('header', { class: 'title' }, h('h2', { id: 'study-title', tabindex: -1 }, entry.name), h('p', { class: 'about' }, entry.bad ? 'There is no result of this study.' : 'is being computed')));
+  }
+
+  private mark(): void {
+    this.links.forEach((link, k) => (this.entries[k]?.name === this.name ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current')));
+  }
+
+  private top(): HTMLElement {
+    const { model, overview, version } = this.data;
+    const theme = button(icon(SUN), 'light or dark', () => {
+      toggle();
+      theme.setAttribute('aria-pressed', String(isDark()));
+      this.view?.stage.redraw();
+    }, { class: 'line theme', 'aria-pressed': String(isDark()) });
+    const about = model.about?.trimEnd() ?? '';
+    const first = /^.*?\.(?=\s|$)|^.*/.exec((about.split(/\n\s*\n/)[0] ?? '').replace(/\s+/g, ' ').trim())![0];
+    const rest = about.replace(/\s+/g, ' ') !== first;
+    return h('header', { class: 'page' },
+      h('div', { class: 'top' }, h('h1', {}, model.name), h('span', { class: 'soft version' }, `Grashof ${version}`), this.more.status, theme),
+      first !== '' && h('p', { class: 'lead' }, first),
+      overview.length > 0 && h('dl', { class: 'overview' }, ...overview.map(({ label, value }) => h('div', {}, h('dt', {}, label), h('dd', {}, value)))),
+      rest && h('details', { class: 'about-model' }, h('summary', {}, 'more about the model'), h('pre', {}, about)));
+  }
+
+  private contents(): void {
+    this.links = this.entries.map(({ name, about, bad, state }) =>
+      h('a', { href: `#${encodeURIComponent(name)}` }, h('span', { class: `name ${bad ? 'bad' : ''} ${state ?? ''}`.trim() }, name), about !== '' && h('span', { class: 'what' }, about)));
+    this.list.replaceChildren(...this.links.map((link) => h('li', {}, link)));
+  }
+
+  private listen(): void {
+    begin(() => this.view?.stage.redraw());
+    addEventListener('hashchange', () => this.show(decodeURIComponent(location.hash.slice(1)), true));
+    addEventListener('keydown', (event) => {
+      const target = event.target as HTMLElement;
+      const busy = event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea, [contenteditable], .rows');
+      const pressed = event.key === ' ' && target.closest('button, summary, a');
+      if (!busy && !pressed && this.view?.stage.key(event)) event.preventDefault();
+    });
+    // pictures on paper are light, and all parts are open
+    const repaint = () => this.view?.stage.paint();
+    let before: string | undefined;
+    let closed: HTMLDetailsElement[] = [];
+    addEventListener('beforeprint', () => {
+      before = document.documentElement.dataset.theme;
+      document.documentElement.dataset.theme = 'light';
+      closed = [...document.querySelectorAll<HTMLDetailsElement>('.part:not([open])')];
+      closed.forEach((part) => (part.open = true));
+      repaint();
+    });
+    addEventListener('afterprint', () => {
+      if (before) document.documentElement.dataset.theme = before;
+      else delete document.documentElement.dataset.theme;
+      closed.forEach((part) => (part.open = false));
+      repaint();
+    });
+  }
+}
