@@ -1,6 +1,6 @@
 //! What a drawing of a mechanism shows.
 
-/// A mechanism in the plane, all lengths in metres, y upwards.
+/// A mechanism in the plane of its picture, all lengths in metres, y upwards.
 ///
 /// Everything that moves has one entry for each position; the first position is drawn strongly, the others paler and paler.
 /// Points that are not finite are left out.
@@ -14,17 +14,46 @@ pub struct Drawing {
     pub joints: Vec<Symbol>,
     /// Springs and dampers.
     pub links: Vec<Link>,
+    /// Pairs of gears.
+    pub gears: Vec<Gear>,
     /// The paths of points.
     pub traces: Vec<Trace>,
+    /// The three axes of space as they are seen, each of length 1 in space; none in the plane.
+    pub axes: Option<[[f64; 2]; 3]>,
 }
 
-/// A body: a rounded bar through two points, a rounded plate around more, a disc for a single one that has no joint.
+/// A body.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
     /// Beside the body; may be empty.
     pub name: String,
-    /// For each position the points of the body: its joints, its attached points.
-    pub poses: Vec<Vec<[f64; 2]>>,
+    /// Its shapes in each position.
+    pub poses: Vec<Vec<Form>>,
+}
+
+/// A shape in the picture.
+#[derive(Clone, Debug)]
+pub struct Form {
+    /// What it is.
+    pub kind: FormKind,
+    /// What is nearer to the eye has more of it, and is drawn later.
+    pub depth: f64,
+}
+
+/// Shapes.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum FormKind {
+    /// A rounded bar; as wide as bars are drawn if it has no `width`.
+    Bar { from: [f64; 2], to: [f64; 2], width: Option<f64> },
+    /// A rounded plate around points.
+    Plate { points: Vec<[f64; 2]> },
+    /// A true outline, closed; `shade` 1 is full light, 0 none.
+    Area { points: Vec<[f64; 2]>, shade: f64 },
+    /// A circle with a spoke to `spoke` on its rim, which tells how it is turned.
+    Disc { center: [f64; 2], radius: f64, spoke: Option<[f64; 2]> },
+    /// A point mass.
+    Mass { center: [f64; 2], radius: f64 },
 }
 
 /// A joint.
@@ -36,6 +65,10 @@ pub struct Symbol {
     pub kind: SymbolKind,
     /// One of its sides is the frame: hatched.
     pub grounded: bool,
+    /// Of a slide: the way belongs to the frame.
+    pub way_grounded: bool,
+    /// Something drives it.
+    pub driven: bool,
     /// Where it is, for each position.
     pub poses: Vec<Placement>,
 }
@@ -61,10 +94,16 @@ pub enum SymbolKind {
 pub struct Placement {
     /// Its point.
     pub at: [f64; 2],
-    /// The direction of a slide or a slot, of any length; unused by others.
+    /// The direction of a slide, a slot or a hinge in space, of any length; none is seen of a hinge in the plane.
     pub along: [f64; 2],
     /// The ends of the way or slot, if they are known; else it is drawn a little longer than what is seen of the motion.
     pub way: Option<[[f64; 2]; 2]>,
+    /// Two directions at right angles in space, across the axis, counter-clockwise about it.
+    pub across: [[f64; 2]; 2],
+    /// Sense in which it moves: 1 along or counter-clockwise about the axis, −1 the other way, 0 not known.
+    pub sense: f64,
+    /// Of a slide the places where stops are, of a hinge in the plane the directions in which they are.
+    pub stops: [Option<[f64; 2]>; 2],
 }
 
 /// A massless element between two points.
@@ -74,8 +113,10 @@ pub struct Link {
     pub name: String,
     /// What it looks like.
     pub kind: LinkKind,
-    /// Its ends, for each position; only the first is drawn.
+    /// Its ends, for each position; only the first is drawn, but for rods.
     pub poses: Vec<[[f64; 2]; 2]>,
+    /// Of a spring about a hinge: angles of the two bodies, rad, for each position.
+    pub turned: Vec<[f64; 2]>,
 }
 
 /// What a massless element looks like.
@@ -86,8 +127,23 @@ pub enum LinkKind {
     Spring,
     /// A piston in a cylinder.
     Damper,
-    /// A thin line.
+    /// Both side by side.
+    SpringDamper,
+    /// A bar between two pins.
     Rod,
+    /// A spiral.
+    Torsion,
+}
+
+/// Gears, or a pinion and its rack, in the first position.
+#[derive(Clone, Debug, Default)]
+pub struct Gear {
+    /// Pitch circles, as closed lines.
+    pub circles: Vec<Vec<[f64; 2]>>,
+    /// Pitch line of a rack.
+    pub line: Option<[[f64; 2]; 2]>,
+    /// Where they touch.
+    pub mesh: Option<[f64; 2]>,
 }
 
 /// The path of a point.

@@ -75,7 +75,14 @@ pub fn at(
             (None, run(Case { rows, ..Case::new(model, study, &values) }, stop).map(Box::new))
         }
     };
-    Run { at: point, solved, result }
+    let mut run = Run { at: point, solved, result };
+    if let Ok(outcome) = &mut run.result
+        && !study.sweep.is_empty()
+    {
+        let caption = label(model, study, &run.at);
+        outcome.scenes.iter_mut().for_each(|(_, scene)| scene.caption.clone_from(&caption));
+    }
+    run
 }
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others

@@ -21,6 +21,10 @@ pub struct Scene {
     pub dimensions: usize,
     /// Unit direction that is upwards in a picture: y in the plane; in space against gravity, or z without it.
     pub up: [f64; 3],
+    /// What a title says beside the names of model and study: the run of a sweep, the frequency of a mode; may be empty.
+    pub caption: String,
+    /// Azimuth and elevation of the eye, rad, if the study asks for them.
+    pub view: Option<[f64; 2]>,
     /// Bodies; the first is the ground.
     pub bodies: Vec<Body>,
     /// Joints; those of the kind `distance` are links.

@@ -62,7 +62,7 @@ pub(super) fn picture<G: Space<S = f64>>(
             let span = Span { ends: [0.0, TAU], turns: true, first: QUARTERS, most };
             let mut scene = subject.over(span, &mut |phase| Some((phase, at(s * phase.sin())?)));
             let last = scene.frames.count() - 1;
-            scene.frames.shown = vec![0, last / 4, last - last / 4];
+            scene.frames.shown = vec![last / 4, 0, last - last / 4];
             return scene;
         }
         s *= 0.5;

@@ -158,6 +158,12 @@ impl Report<'_> {
         residual: f64,
         scenes: Vec<Scene>,
     ) -> Outcome {
+        let ratios = self.lists.iter().find(|list| list.name == "damping_ratios").map_or(&[][..], |list| &list.values);
+        let shown = scenes.into_iter().enumerate().map(|(i, scene)| {
+            let caption = caption(frequencies.get(i).copied(), ratios.get(i).copied());
+            (format!("mode-{}", i + 1), Scene { caption, ..scene })
+        });
+        let scenes: Vec<(String, Scene)> = shown.collect();
         let results: Vec<f64> = (0..case.study.results.len()).map(|i| frequencies.get(i).copied().unwrap_or(f64::NAN)).collect();
         let numbers = Sources { case, tables: &mechanism.tables, functionals: &[], results: &results, works: &[] }.numbers(true);
         self.findings.extend(numbers.findings);
@@ -172,10 +178,18 @@ impl Report<'_> {
             shapes: self.shapes,
             findings: self.findings,
             certificate: Certificate { evaluations: 1, constraint: residual, ..Certificate::default() },
-            scenes: scenes.into_iter().enumerate().map(|(i, scene)| (format!("mode-{}", i + 1), scene)).collect(),
+            scenes,
             ..Outcome::default()
         }
     }
+}
+
+/// What the title of a drawing says of a mode: its frequency (of rad/s) and damping ratio.
+fn caption(frequency: Option<f64>, ratio: Option<f64>) -> String {
+    let Some(frequency) = frequency.filter(|f| *f > 0.0) else { return String::new() };
+    let digits = |x: f64| format!("{x:.3e}").parse().unwrap_or(x).to_string();
+    let damping = ratio.map_or_else(String::new, |ratio| format!(", damping ratio {}", digits(ratio)));
+    format!("{} Hz{damping}", digits(frequency / std::f64::consts::TAU))
 }
 
 /// Six significant digits.

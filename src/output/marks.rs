@@ -1,0 +1,174 @@
+//! Signs beside the bodies: springs and dampers, what drives, stops, gears, the axes of space, the scale.
+
+use super::font;
+use super::pose::{Gear, LinkKind, Placement};
+use super::scene::{Anchor, Color, INK, Scene, Stroke};
+use super::symbols::{Signs, direction, off};
+use super::thin::Point;
+use std::f64::consts::TAU;
+
+/// Of springs and dampers.
+pub(super) const RUST: Color = [150, 60, 20];
+/// Of what drives.
+const DRIVE: Color = [0, 112, 84];
+/// Of stops.
+const STOP: Color = [176, 20, 40];
+/// A centre line: long, short.
+const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
+/// Coils of a spring, whatever its length: one that is pulled is seen to be.
+const COILS: u32 = 8;
+
+impl Signs {
+    /// A spring, a damper, or both.
+    pub(super) fn link(self, scene: &mut Scene, kind: LinkKind, [a, b]: [Point; 2], turned: [f64; 2]) {
+        [a, b].into_iter().for_each(|end| scene.circle(end, 4.0 * self.size, Some(RUST), None));
+        let (along, _) = direction(a, b);
+        match kind {
+            LinkKind::Spring => self.spring(scene, [a, b]),
+            LinkKind::Damper => self.damper(scene, [a, b]),
+            LinkKind::SpringDamper => {
+                let aside = 12.0 * self.size;
+                for (side, spring) in [(-aside, true), (aside, false)] {
+                    let ends = [off(a, along, 0.0, side), off(b, along, 0.0, side)];
+                    if spring { self.spring(scene, ends) } else { self.damper(scene, ends) }
+                }
+                for end in [a, b] {
+                    scene.line(vec![off(end, along, 0.0, -aside), off(end, along, 0.0, aside)], Stroke::solid(RUST, self.pen(2.6)));
+                }
+            }
+            LinkKind::Rod => scene.line(vec![a, b], Stroke::solid(RUST, self.pen(2.6))),
+            LinkKind::Torsion => self.spiral(scene, a, turned),
+        }
+    }
+
+    fn spring(self, scene: &mut Scene, [a, b]: [Point; 2]) {
+        let (along, length) = direction(a, b);
+        // The straight ends; the coils stay between.
+        let end = (0.16 * length).min(22.0 * self.size);
+        let step = (length - 2.0 * end) / f64::from(2 * COILS);
+        let half = 10.0 * self.size;
+        let zigzag = (0..2 * COILS).map(|k| off(a, along, end + (f64::from(k) + 0.5) * step, if k % 2 == 0 { half } else { -half }));
+        let points = [a, off(a, along, end, 0.0)].into_iter().chain(zigzag).chain([off(a, along, length - end, 0.0), b]);
+        scene.line(points.collect(), Stroke::solid(RUST, self.pen(2.4)));
+    }
+
+    fn damper(self, scene: &mut Scene, [a, b]: [Point; 2]) {
+        let (along, length) = direction(a, b);
+        let stroke = Stroke::solid(RUST, self.pen(2.6));
+        let at = |s: f64, t: f64| off(a, along, s * length, t * self.size);
+        scene.line(vec![a, at(0.35, 0.0)], stroke);
+        scene.line(vec![at(0.65, -10.0), at(0.35, -10.0), at(0.35, 10.0), at(0.65, 10.0)], stroke);
+        scene.line(vec![at(0.55, 0.0), b], stroke);
+        scene.line(vec![at(0.55, -7.0), at(0.55, 7.0)], Stroke::solid(RUST, self.pen(3.6)));
+    }
+
+    /// A spring about a hinge: from the first body outside to the second one inside, wound by the angle between them.
+    fn spiral(self, scene: &mut Scene, at: Point, [a, b]: [f64; 2]) {
+        let (inner, outer) = (10.0 * self.size, 24.0 * self.size);
+        let from = a;
+        let to = b + 2.0 * TAU - TAU * ((b - a) / TAU).floor();
+        let points = (0..=60).map(|k| {
+            let s = f64::from(k) / 60.0;
+            let (angle, radius) = (from + s * (to - from), outer + s * (inner - outer));
+            [at[0] + radius * angle.cos(), at[1] - radius * angle.sin()]
+        });
+        scene.line(points.collect(), Stroke::solid(RUST, self.pen(2.0)));
+    }
+
+    /// The arrow of what drives a joint: about a hinge, or along a slide above its box.
+    pub(super) fn drive(self, scene: &mut Scene, placement: &Placement, slides: bool) {
+        let both = placement.sense == 0.0;
+        let points: Vec<Point> = if slides {
+            let (along, _) = direction([0.0; 2], placement.along);
+            let (reach, height) = (26.0 * self.size, self.slide_box()[1] + 12.0 * self.size);
+            // above the box, whichever way the slide points
+            let side = if along[0] >= 0.0 { -height } else { height };
+            let sense = if both { 1.0 } else { placement.sense };
+            vec![off(placement.at, along, -sense * reach, side), off(placement.at, along, sense * reach, side)]
+        } else {
+            let radius = 22.0 * self.size;
+            let [u, v] = placement.across;
+            let (from, to) = if placement.sense < 0.0 { (2.6, -1.1) } else { (-1.1, 2.6) };
+            let at = |k: u32| {
+                let (s, c) = (from + (to - from) * f64::from(k) / 40.0_f64).sin_cos();
+                [placement.at[0] + radius * (c * u[0] + s * v[0]), placement.at[1] + radius * (c * u[1] + s * v[1])]
+            };
+            (0..=40).map(at).collect()
+        };
+        scene.line(points.clone(), Stroke::solid(DRIVE, self.pen(3.0)));
+        self.head(scene, &points, DRIVE);
+        if both {
+            self.head(scene, &points.iter().rev().copied().collect::<Vec<_>>(), DRIVE);
+        }
+    }
+
+    /// The head of an arrow at the end of a line.
+    fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
+        let Some(tip) = points.last() else { return };
+        let size = 9.0 * self.size.max(0.6);
+        let behind = points.iter().rev().find(|p| (p[0] - tip[0]).hypot(p[1] - tip[1]) > 0.8 * size);
+        let Some(behind) = behind else { return };
+        let (along, _) = direction(*behind, *tip);
+        let end = off(*tip, along, 0.45 * size, 0.0);
+        scene.shape(vec![end, off(end, along, -1.3 * size, 0.6 * size), off(end, along, -1.3 * size, -0.6 * size)], Some(color), None);
+    }
+
+    /// Stops: bars across the way where the box ends, or radial ones beside a hinge.
+    pub(super) fn stops(self, scene: &mut Scene, placement: &Placement, slides: bool) {
+        let stroke = Stroke::solid(STOP, self.pen(5.0));
+        for (stop, sense) in placement.stops.iter().zip([-1.0, 1.0]).filter_map(|(stop, sense)| Some(((*stop)?, sense))) {
+            if slides {
+                let (along, _) = direction([0.0; 2], placement.along);
+                let half = self.slide_box();
+                let at = |t: f64| off(stop, along, sense * (half[0] + 4.0 * self.size), t * half[1]);
+                scene.line(vec![at(-1.0), at(1.0)], stroke);
+            } else {
+                let (along, _) = direction([0.0; 2], stop);
+                let at = |s: f64| off(placement.at, along, s * self.size, sense * (self.size * super::symbols::BAR * 0.5 + 3.0) * -1.0);
+                scene.line(vec![at(16.0), at(44.0)], stroke);
+            }
+        }
+    }
+
+    /// Pitch circles and lines, and where they touch.
+    pub(super) fn gear(self, scene: &mut Scene, gear: &Gear) {
+        let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
+        gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
+        gear.line.iter().for_each(|line| scene.line(line.to_vec(), stroke));
+        gear.mesh.iter().for_each(|at| scene.circle(*at, 4.5 * self.size.max(0.6), Some(DRIVE), None));
+    }
+}
+
+/// The axes of space with their names, at the lower right; `axes` in pixels, each as long as one unit is seen.
+pub(super) fn triad(scene: &mut Scene, axes: [Point; 3], letters: f64) {
+    let signs = Signs { size: 0.7 };
+    let origin = [scene.width - 70.0, scene.height - 58.0];
+    for (axis, name) in axes.into_iter().zip(["x", "y", "z"]) {
+        let tip = [origin[0] + 36.0 * axis[0], origin[1] + 36.0 * axis[1]];
+        if (tip[0] - origin[0]).hypot(tip[1] - origin[1]) < 4.0 {
+            scene.circle(origin, 3.0, Some(INK), None);
+            continue;
+        }
+        scene.line(vec![origin, tip], Stroke::solid(INK, 1.8));
+        signs.head(scene, &[origin, tip], INK);
+        let (along, _) = direction(origin, tip);
+        let at = off(tip, along, 14.0, 0.0);
+        scene.text([at[0], at[1] + 0.8 * letters * font::CAPITAL / 2.0], name, 0.8 * letters, Anchor::Middle);
+    }
+}
+
+/// A bar of round length at the lower left, for `scale` pixels to the metre.
+pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
+    let longest = 200.0 / scale;
+    let power = 10f64.powf(longest.log10().floor());
+    let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|length| *length <= longest * (1.0 + 1e-9)).unwrap_or(power);
+    let (left, y) = (30.0, scene.height - 26.0);
+    let right = left + length * scale;
+    scene.line(vec![[left, y], [right, y]], Stroke::solid(INK, 2.5));
+    for x in [left, right] {
+        scene.line(vec![[x, y - 7.0], [x, y + 7.0]], Stroke::solid(INK, 2.5));
+    }
+    let (length, unit) = if length < 0.0099 { (length * 1e3, "mm") } else { (length, "m") };
+    let text = format!("{} {unit}", super::scalars::significant(length, 6));
+    scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
+}

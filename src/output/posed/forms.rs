@@ -1,0 +1,153 @@
+//! Shapes of bodies in the picture; solids as the faces that are seen.
+
+use super::Posed;
+use crate::output::pose::{Form, FormKind};
+use crate::output::view::{across, cross, dot};
+use crate::results::scene::{Place, Shape};
+use std::f64::consts::TAU;
+
+/// Corners of a circle.
+const CORNERS: usize = 48;
+/// Points in space that legs lead to; more than that are taken for an outline.
+const LEGS: usize = 4;
+
+impl Posed<'_> {
+    /// A shape of a body in one position.
+    pub(super) fn forms(&self, poses: &[f64], body: usize, shape: &Shape) -> Vec<Form> {
+        let world = |at: &[f64]| self.scene.world(poses, &Place { body, at: at.to_vec() });
+        let planar = self.scene.dimensions == 2;
+        match shape {
+            Shape::Bar { from, to, width } => vec![self.bar(world(from), world(to), *width)],
+            Shape::Hull { points } => {
+                let places: Vec<[f64; 3]> = points.iter().map(|p| world(p)).collect();
+                if planar || places.len() < 3 || places.len() > LEGS { vec![self.plate(&places)] } else { self.legs(&places) }
+            }
+            Shape::Polygon { points } => vec![self.area(&points.iter().map(|p| world(p)).collect::<Vec<_>>(), 1.0)],
+            Shape::Disc { center, radius, axis, thickness } => match axis {
+                Some(axis) => {
+                    let (c, n) = (world(center), self.scene.direction(poses, body, axis));
+                    let half = 0.5 * thickness.unwrap_or(0.0);
+                    let end = |side: f64| std::array::from_fn(|i| c[i] + side * half * n[i]);
+                    self.cylinder(end(-1.0), end(1.0), n, *radius)
+                }
+                None => {
+                    let mut rim = center.clone();
+                    rim[0] += radius;
+                    let (center, spoke) = (self.view.flat(world(center)), Some(self.view.flat(world(&rim))));
+                    vec![Form { kind: FormKind::Disc { center, radius: *radius, spoke }, depth: -radius }]
+                }
+            },
+            Shape::Box { center, size } => {
+                let edges: [[f64; 3]; 3] = std::array::from_fn(|i| {
+                    let mut e = [0.0; 3];
+                    e[i] = 0.5 * size[i];
+                    self.scene.direction(poses, body, &e)
+                });
+                self.faces(world(center), edges)
+            }
+            Shape::Cylinder { from, to, radius } => {
+                let (a, b) = (world(from), world(to));
+                self.cylinder(a, b, std::array::from_fn(|i| b[i] - a[i]), *radius)
+            }
+            Shape::Sphere { center, radius } => {
+                let c = world(center);
+                let kind = FormKind::Disc { center: self.view.flat(c), radius: radius * self.view.stretch(), spoke: None };
+                vec![Form { kind, depth: self.view.depth(c) }]
+            }
+            Shape::Mass { at, radius, .. } => {
+                let c = world(at);
+                let depth = if planar { f64::INFINITY } else { self.view.depth(c) + radius };
+                vec![Form { kind: FormKind::Mass { center: self.view.flat(c), radius: radius * self.view.stretch() }, depth }]
+            }
+        }
+    }
+
+    fn bar(&self, a: [f64; 3], b: [f64; 3], width: Option<f64>) -> Form {
+        let kind = FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width };
+        Form { kind, depth: 0.5 * (self.view.depth(a) + self.view.depth(b)) }
+    }
+
+    /// In the plane large plates lie under small ones and under bars.
+    fn depth(&self, places: &[[f64; 3]]) -> f64 {
+        if self.scene.dimensions == 2 {
+            let span = |axis: usize| {
+                let along = places.iter().map(|p| p[axis]);
+                along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+            };
+            return -span(0).hypot(span(1));
+        }
+        places.iter().map(|p| self.view.depth(*p)).sum::<f64>() / places.len().max(1) as f64
+    }
+
+    fn plate(&self, places: &[[f64; 3]]) -> Form {
+        let points: Vec<[f64; 2]> = places.iter().map(|p| self.view.flat(*p)).collect();
+        if let [from, to] = points[..] {
+            return Form {
+                kind: FormKind::Bar { from, to, width: None },
+                depth: if self.scene.dimensions == 2 { 0.0 } else { self.depth(places) },
+            };
+        }
+        Form { kind: FormKind::Plate { points }, depth: self.depth(places) }
+    }
+
+    fn area(&self, places: &[[f64; 3]], shade: f64) -> Form {
+        let points = places.iter().map(|p| self.view.flat(*p)).collect();
+        Form { kind: FormKind::Area { points, shade }, depth: self.depth(places) }
+    }
+
+    /// Bars from the middle of places to each of them.
+    fn legs(&self, places: &[[f64; 3]]) -> Vec<Form> {
+        let middle = std::array::from_fn(|i| places.iter().map(|p| p[i]).sum::<f64>() / places.len() as f64);
+        places.iter().map(|p| self.bar(middle, *p, None)).collect()
+    }
+
+    /// How light a face with this outward normal is; none if it is turned away.
+    fn light(&self, normal: [f64; 3]) -> Option<f64> {
+        let length = dot(normal, normal).sqrt();
+        let facing = self.view.depth(normal) / length;
+        (facing > 1e-6).then(|| 0.62 + 0.38 * (0.5 * facing + 0.5 * (dot(normal, self.scene.up) / length).max(0.0)))
+    }
+
+    /// The faces of a box that are seen, from its half edges.
+    fn faces(&self, center: [f64; 3], edges: [[f64; 3]; 3]) -> Vec<Form> {
+        let mut faces = Vec::new();
+        for axis in 0..3 {
+            let (u, v) = (edges[(axis + 1) % 3], edges[(axis + 2) % 3]);
+            let normal = cross(u, v);
+            for side in [-1.0, 1.0] {
+                if let Some(light) = self.light(normal.map(|x| side * x)) {
+                    let corner = |s: f64, t: f64| std::array::from_fn(|i| center[i] + side * edges[axis][i] + s * u[i] + t * v[i]);
+                    faces.push(self.area(&[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], light));
+                }
+            }
+        }
+        faces
+    }
+
+    /// The side of a round bar and the end that is seen.
+    fn cylinder(&self, a: [f64; 3], b: [f64; 3], axis: [f64; 3], radius: f64) -> Vec<Form> {
+        let ring = |center: [f64; 3]| self.ring(center, axis, radius);
+        let (first, second) = (ring(a), ring(b));
+        let front = if self.view.depth(axis) >= 0.0 { &second } else { &first };
+        let side: Vec<[f64; 3]> = first.iter().chain(&second).copied().collect();
+        let light = self.light(axis).or_else(|| self.light(axis.map(|x| -x))).unwrap_or(1.0);
+        let mut forms = Vec::new();
+        if a != b {
+            let flat: Vec<[f64; 2]> = side.iter().map(|p| self.view.flat(*p)).collect();
+            let kind = FormKind::Area { points: crate::output::outlines::hull(&flat), shade: 0.75 };
+            forms.push(Form { kind, depth: self.depth(&side) - 1e-9 * radius });
+        }
+        forms.push(self.area(front, light));
+        forms
+    }
+
+    /// A circle in space.
+    pub(super) fn ring(&self, center: [f64; 3], axis: [f64; 3], radius: f64) -> Vec<[f64; 3]> {
+        let [u, v] = across(axis);
+        let corner = |k: usize| {
+            let (s, c) = (TAU * k as f64 / CORNERS as f64).sin_cos();
+            std::array::from_fn(|i| center[i] + radius * (c * u[i] + s * v[i]))
+        };
+        (0..CORNERS).map(corner).collect()
+    }
+}

@@ -1,0 +1,127 @@
+//! The drawing of a scene: its shown frames in the plane of the picture.
+
+mod forms;
+mod gears;
+mod joints;
+
+use super::pose::{Drawing, Link, LinkKind, Outline, Symbol, Trace};
+use super::view::View;
+use crate::results::Scene;
+use crate::results::scene::{self, Place};
+
+/// Places along a path.
+const ALONG: usize = 240;
+
+/// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
+#[must_use]
+pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
+    let view = match (scene.dimensions, scene.view) {
+        (2, _) => View::PLANE,
+        (_, Some([azimuth, elevation])) => View::from(scene.up, azimuth, elevation),
+        _ => View::isometric(scene.up),
+    };
+    let frames: Vec<&[f64]> = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
+    let posed = Posed { scene, view, frames };
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| view.flat(e));
+    Drawing {
+        title: title(model, study, name, &scene.caption),
+        bodies: posed.bodies().collect(),
+        joints: posed.joints().chain(posed.pins()).collect(),
+        links: posed.links().collect(),
+        gears: posed.gears().collect(),
+        traces: scene.traces.iter().map(|trace| posed.trace(trace)).collect(),
+        axes: (scene.dimensions == 3).then_some(axes),
+    }
+}
+
+/// What stands above the picture.
+fn title(model: &str, study: &str, name: &str, caption: &str) -> String {
+    let name = if name == "mechanism" { String::new() } else { name.replace('-', " ") };
+    let after: Vec<&str> = [name.as_str(), caption].into_iter().filter(|part| !part.is_empty()).collect();
+    let before = [model, study].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
+    if after.is_empty() { before } else { format!("{before}: {}", after.join(", ")) }
+}
+
+/// A scene in a few poses, seen from somewhere.
+struct Posed<'a> {
+    scene: &'a Scene,
+    view: View,
+    frames: Vec<&'a [f64]>,
+}
+
+impl Posed<'_> {
+    fn flat(&self, poses: &[f64], place: &Place) -> [f64; 2] {
+        self.view.flat(self.scene.world(poses, place))
+    }
+
+    fn bodies(&self) -> impl Iterator<Item = Outline> {
+        self.scene.bodies.iter().enumerate().map(|(index, body)| {
+            let shapes = |poses: &&[f64]| body.shapes.iter().flat_map(|shape| self.forms(poses, index, shape)).collect();
+            Outline { name: body.name.clone(), poses: self.frames.iter().map(shapes).collect() }
+        })
+    }
+
+    /// The pins of massless links.
+    fn pins(&self) -> impl Iterator<Item = Symbol> {
+        let rods = self.scene.links.iter().filter(|link| link.kind == scene::LinkKind::Rod);
+        rods.flat_map(|link| [&link.a, &link.b]).map(|end| {
+            let pin = |poses: &&[f64]| super::pose::Placement { at: self.flat(poses, end), ..super::pose::Placement::default() };
+            Symbol { grounded: end.body == 0, poses: self.frames.iter().map(pin).collect(), ..Symbol::default() }
+        })
+    }
+
+    fn links(&self) -> impl Iterator<Item = Link> {
+        self.scene.links.iter().map(|link| {
+            let kind = match link.kind {
+                scene::LinkKind::Spring => LinkKind::Spring,
+                scene::LinkKind::Damper => LinkKind::Damper,
+                scene::LinkKind::SpringDamper => LinkKind::SpringDamper,
+                scene::LinkKind::Rod => LinkKind::Rod,
+                scene::LinkKind::Torsion => LinkKind::Torsion,
+            };
+            let ends = |poses: &&[f64]| [self.flat(poses, &link.a), self.flat(poses, &link.b)];
+            let turned = |poses: &&[f64]| [link.a.body, link.b.body].map(|body| self.angle(poses, body));
+            Link {
+                name: link.name.clone(),
+                kind,
+                poses: self.frames.iter().map(ends).collect(),
+                turned: self.frames.iter().map(turned).collect(),
+            }
+        })
+    }
+
+    /// Direction of the x axis of a body in the picture, rad.
+    fn angle(&self, poses: &[f64], body: usize) -> f64 {
+        let [x, y] = self.view.flat(self.scene.direction(poses, body, &[1.0]));
+        y.atan2(x)
+    }
+
+    /// A path through the frames, with places between them where they are few.
+    fn trace(&self, trace: &scene::Trace) -> Trace {
+        let place = Place { body: trace.body, at: trace.at.clone() };
+        let frames = &self.scene.frames;
+        let between = ALONG.div_ceil(frames.count().max(2) - 1);
+        let mut points = Vec::new();
+        for (index, pair) in frames.at.windows(2).enumerate() {
+            points.push(self.flat(self.scene.frame(index), &place));
+            for k in 1..between {
+                let x = pair[0] + (pair[1] - pair[0]) * k as f64 / between as f64;
+                points.push(self.flat(&frames.at(x, self.scene.dimensions), &place));
+            }
+        }
+        points.extend(frames.count().checked_sub(1).map(|last| self.flat(self.scene.frame(last), &place)));
+        Trace { name: trace.name.clone(), points }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_name_the_study_and_the_run() {
+        assert_eq!(title("engine", "turn", "mechanism", ""), "engine, turn");
+        assert_eq!(title("engine", "turn", "mechanism", "r = 0.1 m"), "engine, turn: r = 0.1 m");
+        assert_eq!(title("engine", "v", "mode-1", "2.3 Hz"), "engine, v: mode 1, 2.3 Hz");
+    }
+}
