@@ -15,7 +15,7 @@ mod tables;
 
 pub use study::{ReportRuns, ReportStudy};
 
-use base64::base64;
+pub(super) use base64::base64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::json;
