@@ -53,28 +53,61 @@ pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection
 }
 
 /// Writes a file that must not be there yet, unless `--force` says so; a failure was reported.
-pub(super) fn write_new(file: &Path, text: &str, common: &Common) -> bool {
+pub(super) fn write_new(file: &Path, bytes: &[u8], common: &Common) -> bool {
     let whole = |path: &Path| {
         // never over somebody's work
         let mut new = std::fs::File::create_new(path)?;
-        new.write_all(text.as_bytes()).inspect_err(|_| _ = std::fs::remove_file(path))
+        new.write_all(bytes).inspect_err(|_| _ = std::fs::remove_file(path))
     };
     let replace = || {
         // a file of the same directory is renamed over the old one, so that this is never half written
-        let mut name = std::ffi::OsString::from(".");
-        name.push(file.file_name().unwrap_or_default());
-        name.push(format!(".new-{}", std::process::id()));
-        let new = file.with_file_name(name);
+        let new = unfinished(file);
         whole(&new)?;
         std::fs::rename(&new, file).inspect_err(|_| _ = std::fs::remove_file(&new))
     };
     let Err(error) = (if common.force { replace() } else { whole(file) }) else { return true };
+    unwritten(file, &error);
+    false
+}
+
+/// A name in the directory of a file for what is not whole yet.
+pub(super) fn unfinished(file: &Path) -> PathBuf {
+    let mut name = std::ffi::OsString::from(".");
+    name.push(file.file_name().unwrap_or_default());
+    name.push(format!(".new-{}", std::process::id()));
+    file.with_file_name(name)
+}
+
+/// Looks whether a file can be written: that it is not there yet, unless `--force` says so, and that its directory is; what is wrong was
+/// reported.
+pub(super) fn may_write(file: &Path, common: &Common) -> Result<(), u8> {
+    let directory = file.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let error = if file.exists() && !common.force {
+        std::io::Error::from(ErrorKind::AlreadyExists)
+    } else if !directory.is_dir() {
+        std::io::Error::from(ErrorKind::NotFound)
+    } else {
+        return Ok(());
+    };
+    unwritten(file, &error);
+    Err(code::INPUT)
+}
+
+/// Gives a whole file its name, which must be free unless `--force` says otherwise; a failure was reported.
+pub(super) fn place(whole: &Path, file: &Path, common: &Common) -> Result<(), u8> {
+    may_write(file, common)?;
+    std::fs::rename(whole, file).map_err(|error| {
+        unwritten(file, &error);
+        code::INPUT
+    })
+}
+
+fn unwritten(file: &Path, error: &std::io::Error) {
     let help = match error.kind() {
         ErrorKind::AlreadyExists => "name another file, remove this one, or replace it with `--force`",
         _ => "name a file in a directory that can be written to",
     };
-    print_error(&format!("cannot write `{}`: {error}", file.display()), help);
-    false
+    print_error(&format!("cannot write `{}`: {}", file.display(), why(error)), help);
 }
 
 /// Looks whether results of these names can be written, and mends what a killed run has left; what is wrong was reported.

@@ -52,7 +52,7 @@ pub(super) fn import(arguments: &Arguments, common: &Common) -> u8 {
             code::DONE
         }
         Some(file) => {
-            if !files::write_new(file, &imported.text, common) {
+            if !files::write_new(file, imported.text.as_bytes(), common) {
                 return code::INPUT;
             }
             let file = file.display();

@@ -1,18 +1,21 @@
 //! The commands: what is printed, what is written, and the exit code. Nothing else of the program prints, reads a clock or exits.
 
 mod adhoc;
+mod animate;
 mod check;
 mod code;
 mod common;
 mod compare;
 mod completions;
 mod end;
+mod export;
 mod files;
 mod gather;
 mod import;
 mod interrupt;
 mod kept;
 mod modes;
+mod moving;
 mod new;
 mod progress;
 mod report;
@@ -23,6 +26,7 @@ mod statics;
 mod study;
 mod sweep;
 mod terminal;
+mod video;
 mod watch;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -77,6 +81,16 @@ enum Command {
         after_help = "Examples:\n  grashof compare models/pendulum.yaml --study swing\n  grashof compare models/andrews.yaml --study squeeze --integrators dop853,radau5,bdf --tolerances 1e-3..1e-10\n  grashof compare my.yaml --study swing --integrators rk4,newmark --steps 1e-2..1e-4"
     )]
     Compare(compare::Arguments),
+    /// Show the motion of a study: GIF, SVG that moves, film or single pictures
+    #[command(
+        after_help = "Examples:\n  grashof animate models/crank_rocker.yaml --study one-turn --speed 0.1 -o turn.gif\n  grashof animate models/four_bar_spatial.yaml --study turn --view 30,20 -o turn.mp4\n  grashof animate my.yaml --study swing --duration 5 --size 600 -o frames/"
+    )]
+    Animate(animate::Arguments),
+    /// Write a mechanism for other programs: glTF with its motion, DXF of its first position
+    #[command(
+        after_help = "Examples:\n  grashof export models/four_bar_spatial.yaml --study turn --gltf turn.glb\n  grashof export models/crank_rocker.yaml --study one-turn --dxf linkage.dxf"
+    )]
+    Export(export::Arguments),
     /// Eigenvalues, frequencies and shapes of the motions about a pose, with no study in the file
     #[command(
         after_help = "Examples:\n  grashof modes models/crank_rocker.yaml --variant motor --variant elastic\n  grashof modes my.yaml --at statics --damped"
@@ -124,7 +138,7 @@ pub(crate) fn main() -> ExitCode {
             return ended(code::DONE, Vec::new());
         }
     };
-    let to_file = matches!(cli.command, Command::Import(_));
+    let to_file = matches!(cli.command, Command::Import(_) | Command::Animate(_));
     if !to_file && cli.common.output.as_ref().is_some_and(|path| path.as_os_str() == "-") {
         print_error("`-o -` names no directory", "write `-o DIR`; `--json` prints results on stdout without it");
         return ended(code::INPUT, take_errors());
@@ -135,6 +149,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),
         Command::Gather(arguments) => gather::gather(arguments, &cli.common),
         Command::Compare(arguments) => compare::compare(arguments, &cli.common),
+        Command::Animate(arguments) => animate::animate(arguments, &cli.common),
+        Command::Export(arguments) => export::export(arguments, &cli.common),
         Command::Modes(arguments) => modes::modes(arguments, &cli.common),
         Command::Statics(arguments) => statics::statics(arguments, &cli.common),
         Command::Check(arguments) => check::check(arguments, &cli.common),

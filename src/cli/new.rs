@@ -44,7 +44,7 @@ pub(super) fn new(arguments: &Arguments, common: &Common) -> u8 {
         print_out(text.trim_end());
         return code::DONE;
     }
-    if !files::write_new(&file, text, common) {
+    if !files::write_new(&file, text.as_bytes(), common) {
         return code::INPUT;
     }
     print_note(&format!("wrote {}; now: grashof run {}", file.display(), file.display()));

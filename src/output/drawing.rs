@@ -7,7 +7,7 @@ use super::naming::{self, Name};
 use super::picture::Picture;
 use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind};
 use super::raster::RenderError;
-use super::scene::{Color, INK, PALETTE, Rect, Scene, Stroke, pale};
+use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin;
@@ -27,7 +27,16 @@ pub fn render_drawing(drawing: &Drawing) -> Result<Picture, RenderError> {
     Picture::of(&layout(drawing))
 }
 
-fn layout(drawing: &Drawing) -> Scene {
+/// How a drawing lies on its sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    pub(super) sheet: Sheet,
+    pub(super) signs: Signs,
+    pub(super) height: f64,
+}
+
+/// The plan by which all of a drawing is seen.
+pub(super) fn plan(drawing: &Drawing) -> Plan {
     let [left, bottom, right, top] = extent(drawing);
     let size = (right - left).max(top - bottom);
     let size = if size > 1e-12 { size } else { 1.0 };
@@ -40,13 +49,40 @@ fn layout(drawing: &Drawing) -> Scene {
     let middle = [(left + right) / 2.0, (top + bottom) / 2.0];
     let center = [WIDTH / 2.0, head + (height - head - foot) / 2.0];
     let sheet = Sheet { scale, origin: [center[0] - scale * middle[0], center[1] + scale * middle[1]] };
+    Plan { sheet, signs: Signs { size: size_of_signs(drawing, scale) }, height }
+}
 
-    let mut scene = Scene { width: WIDTH, height, title: drawing.title.clone(), items: Vec::new() };
-    let paper = Rect { left: 8.0, top: if drawing.title.is_empty() { 8.0 } else { 50.0 }, right: WIDTH - 8.0, bottom: height - 58.0 };
+/// The empty sheet of a plan with its title.
+pub(super) fn frame(drawing: &Drawing, plan: &Plan) -> Scene {
+    let mut scene = Scene { width: WIDTH, height: plan.height, title: drawing.title.clone(), items: Vec::new() };
     if !drawing.title.is_empty() {
         scene.headline(&drawing.title);
     }
-    let mut pen = Pen { drawing, sheet, signs: Signs { size: size_of_signs(drawing, scale) }, letters: Lettering::new(paper), scene };
+    scene
+}
+
+/// The scale and the axes.
+pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
+    marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    if let Some(axes) = drawing.axes {
+        marks::triad(scene, axes.map(|[x, y]| [x, -y]), LETTERS);
+    }
+}
+
+/// The first position of a drawing by a plan, without names and paths.
+pub(super) fn position(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
+    let letters = Lettering::new(Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: plan.height });
+    let scene = Scene { width: WIDTH, height: plan.height, ..Scene::default() };
+    let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters, scene };
+    pen.pose(0, 1.0);
+    pen.scene.items
+}
+
+fn layout(drawing: &Drawing) -> Scene {
+    let plan = plan(drawing);
+    let scene = frame(drawing, &plan);
+    let paper = Rect { left: 8.0, top: if drawing.title.is_empty() { 8.0 } else { 50.0 }, right: WIDTH - 8.0, bottom: plan.height - 58.0 };
+    let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters: Lettering::new(paper), scene };
     let count = poses(drawing);
     for pose in (0..count).rev() {
         let strength = if pose == 0 { 1.0 } else { 0.45 - 0.28 * (pose - 1) as f64 / (count - 1).max(1) as f64 };
@@ -57,10 +93,7 @@ fn layout(drawing: &Drawing) -> Scene {
     pen.names(names, paper);
     let Pen { letters, mut scene, .. } = pen;
     letters.draw(&mut scene);
-    marks::scale_bar(&mut scene, scale, LETTERS);
-    if let Some(axes) = drawing.axes {
-        marks::triad(&mut scene, axes.map(|[x, y]| [x, -y]), LETTERS);
-    }
+    margin(drawing, &plan, &mut scene);
     scene
 }
 
@@ -71,7 +104,7 @@ fn poses(drawing: &Drawing) -> usize {
 }
 
 /// Colour and dashes of a path; no two of 42 are alike, and those that are near each other differ in both.
-fn path_stroke(index: usize) -> (Color, &'static [f64]) {
+pub(super) fn path_stroke(index: usize) -> (Color, &'static [f64]) {
     const DASHES: [&[f64]; 6] =
         [&[9.0, 5.0], &[18.0, 6.0], &[3.0, 6.0], &[16.0, 5.0, 3.0, 5.0], &[26.0, 8.0], &[12.0, 4.0, 3.0, 4.0, 3.0, 4.0]];
     // Vermilion first: it stands out most from the muted bodies.

@@ -4,15 +4,18 @@
 //! pure but [`Staging::commit`], [`prepare`], [`CsvRows`] and [`RowFiles`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
+mod animation;
 pub mod comparison;
 mod content;
 mod csv;
 mod csv_rows;
 mod drawing;
+mod dxf;
 mod figure;
 mod figures;
 mod font;
 mod formats;
+mod gltf;
 mod json;
 mod legend;
 mod lettering;
@@ -48,13 +51,16 @@ mod view;
 mod write_error;
 
 pub use crate::results::number;
+pub use animation::{Film, Pace, Projector, Shot, ShotOptions, moving_svg, write_gif};
 pub use content::Spooled;
 pub use csv::write_csv;
 pub use csv_rows::CsvRows;
 pub use drawing::render_drawing;
+pub use dxf::write_dxf;
 pub use figure::render_figure;
 pub use figures::figures;
 pub use formats::{Formats, files, run_files, tables};
+pub use gltf::write_gltf;
 pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
 pub use matrices::matrices;

@@ -14,7 +14,7 @@ const FINE: usize = 3;
 
 /// A picture that could not be made; with pictures held in memory this is no user's fault.
 #[derive(Debug)]
-pub struct RenderError(String);
+pub struct RenderError(pub(super) String);
 
 impl fmt::Display for RenderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -35,13 +35,17 @@ pub(super) fn write_png(scene: &Scene) -> Result<Vec<u8>, RenderError> {
             painter.item(item)?;
         }
     }
-    let failed = |error: png::EncodingError| RenderError(error.to_string());
+    encode(&averaged(&fine, width, height), width, height)
+}
+
+/// The bytes of a PNG file of pixels: red, green, blue of each, row by row.
+pub(super) fn encode(pixels: &[u8], width: usize, height: usize) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&averaged(&fine, width, height)).map_err(failed)?;
+    writer.write_image_data(pixels).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
@@ -184,7 +188,7 @@ impl Painter<'_> {
 }
 
 /// The dashes of a line through `points`, each a line of its own.
-fn dashes(points: &[Point], dash: &[f64]) -> Vec<Vec<Point>> {
+pub(super) fn dashes(points: &[Point], dash: &[f64]) -> Vec<Vec<Point>> {
     let whole: f64 = dash.iter().sum();
     if !(whole > 0.0 && whole.is_finite()) {
         return vec![points.to_vec()];

@@ -29,7 +29,7 @@ pub(super) struct Scene {
 }
 
 /// One primitive.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Item {
     Path { points: Vec<Point>, closed: bool, fill: Option<Color>, stroke: Option<Stroke> },
     Circle { at: Point, radius: f64, fill: Option<Color>, stroke: Option<Stroke> },
@@ -37,7 +37,7 @@ pub(super) enum Item {
 }
 
 /// How a line is drawn; ends and corners are round.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stroke {
     pub(super) color: Color,
     pub(super) width: f64,
@@ -46,7 +46,7 @@ pub(super) struct Stroke {
 }
 
 /// One line of text.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Text {
     /// Left end, middle or right end of the base line.
     pub(super) at: Point,

@@ -4,6 +4,7 @@
 //! bitmaps.
 
 use super::scene::{Anchor, Color, Item, Scene, Stroke, Text};
+use super::thin::Point;
 use std::fmt::Write;
 
 /// DejaVu's close relatives come next: their letters have the same widths.
@@ -11,32 +12,48 @@ const FAMILY: &str = "'DejaVu Sans', 'Bitstream Vera Sans', Verdana, sans-serif"
 
 /// The text of an SVG file.
 pub(super) fn write_svg(scene: &Scene) -> String {
-    let (width, height) = (short(scene.width), short(scene.height));
-    let mut out = format!(
+    let mut out = head(scene.width, scene.height, &scene.title);
+    scene.items.iter().for_each(|item| write_item(&mut out, item, ""));
+    out.push_str("</svg>\n");
+    out
+}
+
+/// What a file begins with, up to the white of the paper.
+pub(super) fn head(width: f64, height: f64, title: &str) -> String {
+    let (width, height) = (short(width), short(height));
+    format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"{FAMILY}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-        escaped(&scene.title)
-    );
-    for item in &scene.items {
-        match item {
-            Item::Path { points, closed, fill, stroke } => {
-                let element = if *closed { "polygon" } else { "polyline" };
-                let _ = write!(out, "<{element} points=\"");
-                for (index, [x, y]) in points.iter().enumerate() {
-                    let _ = write!(out, "{}{},{}", if index == 0 { "" } else { " " }, short(*x), short(*y));
-                }
-                let _ = writeln!(out, "\"{}{}/>", filled(*fill), stroked(*stroke));
-            }
-            Item::Circle { at: [x, y], radius, fill, stroke } => {
-                let (x, y, radius) = (short(*x), short(*y), short(*radius));
-                let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}{}/>", filled(*fill), stroked(*stroke));
-            }
-            Item::Text(text) => write_text(&mut out, text),
+        escaped(title)
+    )
+}
+
+/// The element of an item, with elements that stand `within` it.
+pub(super) fn write_item(out: &mut String, item: &Item, within: &str) {
+    match item {
+        Item::Path { points, closed, fill, stroke } => {
+            let element = if *closed { "polygon" } else { "polyline" };
+            let _ = write!(out, "<{element} points=\"{}\"{}{}", pairs(points), filled(*fill), stroked(*stroke));
+            close(out, element, within);
         }
+        Item::Circle { at: [x, y], radius, fill, stroke } => {
+            let (x, y, radius) = (short(*x), short(*y), short(*radius));
+            let _ = write!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}{}", filled(*fill), stroked(*stroke));
+            close(out, "circle", within);
+        }
+        Item::Text(text) => write_text(out, text),
     }
-    out.push_str("</svg>\n");
-    out
+}
+
+fn close(out: &mut String, element: &str, within: &str) {
+    let _ = if within.is_empty() { writeln!(out, "/>") } else { writeln!(out, ">{within}</{element}>") };
+}
+
+/// Points as the attribute `points` has them.
+pub(super) fn pairs(points: &[Point]) -> String {
+    let pair = |[x, y]: &Point| format!("{},{}", short(*x), short(*y));
+    points.iter().map(pair).collect::<Vec<_>>().join(" ")
 }
 
 fn write_text(out: &mut String, text: &Text) {
@@ -73,12 +90,12 @@ fn stroked(stroke: Option<Stroke>) -> String {
     text
 }
 
-fn hex([r, g, b]: Color) -> String {
+pub(super) fn hex([r, g, b]: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// A hundredth of a pixel is more than enough.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let text = format!("{x:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }

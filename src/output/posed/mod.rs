@@ -15,27 +15,28 @@ const ALONG: usize = 240;
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
 pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
-    let view = match (scene.dimensions, scene.view) {
+    let frames = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
+    let posed = Posed { scene, view: view(scene), frames };
+    let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
+    Drawing { title: title(model, study, name, &scene.caption), traces, ..posed.positions() }
+}
+
+/// The drawing of a scene in given poses, without title and paths.
+pub(super) fn in_poses(scene: &Scene, frames: Vec<&[f64]>) -> Drawing {
+    Posed { scene, view: view(scene), frames }.positions()
+}
+
+/// From where a scene is seen.
+pub(super) fn view(scene: &Scene) -> View {
+    match (scene.dimensions, scene.view) {
         (2, _) => View::PLANE,
         (_, Some([azimuth, elevation])) => View::from(scene.up, azimuth, elevation),
         _ => View::isometric(scene.up),
-    };
-    let frames: Vec<&[f64]> = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
-    let posed = Posed { scene, view, frames };
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| view.flat(e));
-    Drawing {
-        title: title(model, study, name, &scene.caption),
-        bodies: posed.bodies().collect(),
-        joints: posed.joints().chain(posed.pins()).collect(),
-        links: posed.links().collect(),
-        gears: posed.gears().collect(),
-        traces: scene.traces.iter().map(|trace| posed.trace(trace)).collect(),
-        axes: (scene.dimensions == 3).then_some(axes),
     }
 }
 
 /// What stands above the picture.
-fn title(model: &str, study: &str, name: &str, caption: &str) -> String {
+pub(super) fn title(model: &str, study: &str, name: &str, caption: &str) -> String {
     let name = if name == "mechanism" { String::new() } else { name.replace('-', " ") };
     let after: Vec<&str> = [name.as_str(), caption].into_iter().filter(|part| !part.is_empty()).collect();
     let before = [model, study].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
@@ -50,6 +51,19 @@ struct Posed<'a> {
 }
 
 impl Posed<'_> {
+    fn positions(&self) -> Drawing {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| self.view.flat(e));
+        Drawing {
+            title: String::new(),
+            bodies: self.bodies().collect(),
+            joints: self.joints().chain(self.pins()).collect(),
+            links: self.links().collect(),
+            gears: self.gears().collect(),
+            traces: Vec::new(),
+            axes: (self.scene.dimensions == 3).then_some(axes),
+        }
+    }
+
     fn flat(&self, poses: &[f64], place: &Place) -> [f64; 2] {
         self.view.flat(self.scene.world(poses, place))
     }

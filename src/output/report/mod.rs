@@ -17,7 +17,7 @@ mod tables;
 pub use live::{LIVE_POLICY, live_page};
 pub use study::{ReportRuns, ReportStudy};
 
-use base64::base64;
+pub(super) use base64::base64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::{Value, json};

@@ -1,0 +1,176 @@
+//! A study computed for its motion alone: nothing of it is written.
+
+use super::interrupt::{self, interrupted, watch_interrupts};
+use super::{Common, code, files, print_error, print_note, run};
+use grashof::model::Selection;
+use grashof::output::{Pace, Shot, ShotOptions};
+use grashof::results::{Results, Scene};
+use grashof::studies::loader::Loader;
+use grashof::studies::sweep::{at, grid, single};
+
+/// Which motion is meant.
+#[derive(clap::Args)]
+pub(super) struct Chosen {
+    /// Model file, or `-` for stdin
+    model: String,
+    /// The study whose motion it is; may be left out if the file has one study
+    #[arg(long, value_name = "S")]
+    study: Option<String>,
+    /// Of a sweep: the run, counted from 1
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    run: u32,
+    /// Of vibrations: the mode, counted from 1
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    mode: u32,
+}
+
+/// How fast the motion is shown.
+#[derive(clap::Args)]
+pub(super) struct Fast {
+    /// Pictures a second
+    #[arg(long, value_name = "R", default_value_t = 30.0, value_parser = rate)]
+    pub(super) rate: f64,
+    /// Speed as a multiple of the real one; a motion without time takes 4 s at speed 1
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
+    speed: f64,
+    /// Show all of it in so many seconds, whatever its speed
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "speed")]
+    duration: Option<f64>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0).ok_or_else(|| "a number above 0".into())
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|x| (0.1..=240.0).contains(x)).ok_or_else(|| "a number from 0.1 to 240".into())
+}
+
+/// A motion that was computed.
+pub(super) struct Moving {
+    pub(super) results: Results,
+    /// Which of its drawings is meant.
+    index: usize,
+}
+
+impl Moving {
+    /// Name of the drawing.
+    pub(super) fn name(&self) -> &str {
+        &self.results.scenes[self.index].0
+    }
+
+    /// The mechanism with its motion.
+    pub(super) fn scene(&self) -> &Scene {
+        &self.results.scenes[self.index].1
+    }
+
+    /// The mechanism, to be seen from elsewhere.
+    pub(super) fn scene_mut(&mut self) -> &mut Scene {
+        &mut self.results.scenes[self.index].1
+    }
+
+    /// When pictures are taken; what is wrong was reported.
+    pub(super) fn shot(&self, fast: &Fast, repeats: bool) -> Result<Shot, u8> {
+        let pace = fast.duration.map_or(Pace::Speed(fast.speed), Pace::Duration);
+        Shot::of(&self.results, self.scene(), &ShotOptions { rate: fast.rate, pace, repeats }).map_err(|message| {
+            print_error(&message, "show it faster with `--speed`, as a whole with `--duration 10`, or with fewer pictures by `--rate`");
+            code::INPUT
+        })
+    }
+}
+
+/// Computes the motion of a study; what is wrong was reported.
+pub(super) fn moving(chosen: &Chosen, common: &Common) -> Result<Moving, u8> {
+    watch_interrupts();
+    let (document, selection, _) = files::sound(&chosen.model, common).ok_or(code::INPUT)?;
+    files::print_notes(&document, common);
+    let known = document.study_names();
+    let name = named(chosen.study.as_deref(), &known).ok_or(code::INPUT)?;
+    interrupt::begins(format!("interrupted: study `{name}` is not shown"), false);
+    let selection = Selection { study: Some(name), ..selection };
+    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
+        Err(_) if interrupted() => return Err(ended(name)),
+        loaded => loaded?,
+    };
+    if let Some(parameter) = run::conflict(&model) {
+        return Err(run::refused(&parameter, name));
+    }
+    let study = model.study.as_ref().ok_or(code::INPUT)?;
+    let mut points = grid(&model, study);
+    if chosen.run as usize > points.len() {
+        let (message, help) = match study.sweep.is_empty() {
+            true => (format!("study `{name}` is no sweep and has one run"), "leave `--run` out".to_string()),
+            false => {
+                (format!("study `{name}` has {} runs", points.len()), format!("name one of them: `--run 1` to `--run {}`", points.len()))
+            }
+        };
+        print_error(&message, &help);
+        return Err(code::INPUT);
+    }
+    let point = points.swap_remove(chosen.run as usize - 1);
+    let run = at(&model, study, point, common.threads(), None, &interrupted, &|_, _| {});
+    let results = match single(&model, study, run) {
+        Err(_) if interrupted() => return Err(ended(name)),
+        Err(failure) => return Err(files::explain(&document, &failure, name, common)),
+        Ok(results) => results,
+    };
+    if let (Some(reason), false) = (&results.stopped, common.quiet) {
+        print_note(&format!("note: study `{name}` stopped on its way, and is shown up to there: {reason}"));
+    }
+    found(results, name, chosen)
+}
+
+fn ended(study: &str) -> u8 {
+    interrupt::print_end(&format!("interrupted: study `{study}` is not shown"));
+    code::INTERRUPTED
+}
+
+/// The study that is named, or the only one; what is wrong was reported.
+fn named<'a>(asked: Option<&'a str>, known: &'a [String]) -> Option<&'a str> {
+    match (asked, known) {
+        // of one that is not there the loader says which there are
+        (Some(study), _) => Some(study),
+        (None, [only]) => Some(only),
+        (None, []) => {
+            print_error(
+                "the model has no studies, so there is no motion",
+                "add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`",
+            );
+            None
+        }
+        (None, several) => {
+            let help = format!("name one of them with `--study`: {}", several.join(", "));
+            print_error(&format!("the model has {} studies", several.len()), &help);
+            None
+        }
+    }
+}
+
+/// The drawing that moves.
+fn found(results: Results, name: &str, chosen: &Chosen) -> Result<Moving, u8> {
+    let rests = ["statics", "linearize"].contains(&results.kind.as_str());
+    let moves = |(_, (_, scene)): &(usize, &(String, Scene))| scene.frames.count() > 1 && !rests;
+    let moving: Vec<usize> = results.scenes.iter().enumerate().filter(moves).map(|(index, _)| index).collect();
+    if moving.is_empty() {
+        print_error(
+            &format!("study `{name}` has no motion to show"),
+            "name a study of a motion, as `kinematics`, `inverse`, `dynamics`, `periodic` or `modes`",
+        );
+        return Err(code::INPUT);
+    }
+    match moving.get(chosen.mode as usize - 1) {
+        Some(index) => Ok(Moving { index: *index, results }),
+        None => {
+            let (message, help) = if results.kind == "modes" {
+                (
+                    format!("study `{name}` draws {} modes", moving.len()),
+                    format!("name one of them: `--mode 1` to `--mode {}`", moving.len()),
+                )
+            } else {
+                (format!("study `{name}` has no modes"), "leave `--mode` out".to_string())
+            };
+            print_error(&message, &help);
+            Err(code::INPUT)
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! When the pictures of a motion are taken.
+
+use crate::results::{Results, Scene};
+
+/// Seconds that a motion without time takes.
+const WHOLE: f64 = 4.0;
+/// Pictures at most.
+const MOST: f64 = 20_000.0;
+
+/// How fast a motion is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// As a multiple of the speed that it has; a motion without time takes 4 s at speed 1.
+    Speed(f64),
+    /// All of it in so many seconds.
+    Duration(f64),
+}
+
+/// What is asked of a shot.
+#[derive(Clone, Copy, Debug)]
+pub struct ShotOptions {
+    /// Pictures a second.
+    pub rate: f64,
+    /// How fast.
+    pub pace: Pace,
+    /// Whether it begins again at its end.
+    pub repeats: bool,
+}
+
+/// Even steps of time, and where the motion is at each of them.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    /// The independent variable in each picture. In a motion that returns and repeats the end is left out: it is the first again.
+    pub at: Vec<f64>,
+    /// The time of the motion in each picture, s, if it has one.
+    pub time: Option<Vec<f64>>,
+    /// Pictures a second.
+    pub rate: f64,
+    /// How long all of it is shown, s.
+    pub seconds: f64,
+    /// Whether it begins again at its end.
+    pub repeats: bool,
+    /// Even steps from its beginning to its end.
+    pub(super) steps: usize,
+    clock: Clock,
+}
+
+impl Shot {
+    /// The pictures of a scene of a study.
+    ///
+    /// # Errors
+    /// How many pictures it would take, if these are too many, or that it has none.
+    pub fn of(results: &Results, scene: &Scene, asked: &ShotOptions) -> Result<Self, String> {
+        let (Some(low), Some(high)) = (scene.frames.at.first(), scene.frames.at.last()) else { return Err("there is no motion".into()) };
+        let clock = Clock::of(results, *low, *high);
+        let seconds = match asked.pace {
+            Pace::Speed(speed) => clock.span() / speed,
+            Pace::Duration(seconds) => seconds,
+        };
+        let steps = (seconds * asked.rate).round().max(1.0);
+        if steps.is_nan() || steps > MOST {
+            return Err(format!("the motion takes {seconds:.4} s as it is shown, which are {steps} pictures and more than {MOST}"));
+        }
+        let steps = steps as usize;
+        let count = if scene.frames.closed && asked.repeats { steps } else { steps + 1 };
+        let parts: Vec<f64> = (0..count).map(|k| k as f64 / steps as f64).collect();
+        let time = clock.real.then(|| parts.iter().map(|part| clock.time(*part)).collect());
+        let at = parts.iter().map(|part| clock.place(*part)).collect();
+        Ok(Self { at, time, rate: asked.rate, seconds: steps as f64 / asked.rate, repeats: asked.repeats, steps, clock })
+    }
+
+    /// The independent variable at so many even steps, from the beginning to the end; shape steps + 1.
+    pub(super) fn places(&self, steps: usize) -> Vec<f64> {
+        (0..=steps).map(|k| self.clock.place(k as f64 / steps as f64)).collect()
+    }
+}
+
+/// Time over the independent variable, both as nodes in the order in which they are gone through.
+#[derive(Clone, Debug)]
+struct Clock {
+    at: Vec<f64>,
+    time: Vec<f64>,
+    /// Whether the time is that of the motion.
+    real: bool,
+}
+
+impl Clock {
+    /// The clock of a motion over a range of its independent variable.
+    fn of(results: &Results, low: f64, high: f64) -> Self {
+        let independent = &results.independent;
+        let known = if results.kind == "modes" {
+            None
+        } else if independent.unit == "s" {
+            Some((vec![low, high], vec![low, high]))
+        } else {
+            let time = results.table.column("time").filter(|column| column.unit == "s");
+            time.and_then(|time| nodes(&independent.values, &time.values))
+        };
+        if let Some((at, time)) = known {
+            return Self { at, time, real: true };
+        }
+        let falls = results.kind != "modes" && independent.values.last() < independent.values.first();
+        Self { at: if falls { vec![high, low] } else { vec![low, high] }, time: vec![0.0, WHOLE], real: false }
+    }
+
+    /// How long it takes, s.
+    fn span(&self) -> f64 {
+        self.time[self.time.len() - 1] - self.time[0]
+    }
+
+    /// The time at a part of the whole, 0 to 1.
+    fn time(&self, part: f64) -> f64 {
+        self.time[0] + part * self.span()
+    }
+
+    /// The independent variable there.
+    fn place(&self, part: f64) -> f64 {
+        let t = self.time(part);
+        let k = self.time.partition_point(|node| *node <= t).clamp(1, self.time.len() - 1);
+        let s = (t - self.time[k - 1]) / (self.time[k] - self.time[k - 1]);
+        self.at[k - 1] + s.clamp(0.0, 1.0) * (self.at[k] - self.at[k - 1])
+    }
+}
+
+/// Rows at which time rises and the independent variable goes on in one sense; none if these are less than half of them.
+fn nodes(at: &[f64], time: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let sense = if at.last() < at.first() { -1.0 } else { 1.0 };
+    let (mut x, mut t): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    for (place, moment) in at.iter().zip(time).filter(|(place, moment)| place.is_finite() && moment.is_finite()) {
+        let on = |(x, t): (&f64, &f64)| sense * (place - x) > 0.0 && moment > t;
+        if x.last().zip(t.last()).is_none_or(on) {
+            x.push(*place);
+            t.push(*moment);
+        }
+    }
+    (x.len() >= 2 && 2 * x.len() >= at.len()).then_some((x, t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::scene::Frames;
+    use crate::results::{Column, Table};
+
+    fn motion(at: &[f64], time: Option<&[f64]>, closed: bool) -> (Results, Scene) {
+        let column = |name: &str, unit: &str, values: &[f64]| Column {
+            name: name.into(),
+            unit: unit.into(),
+            values: values.to_vec(),
+            ..Column::default()
+        };
+        let columns = time.map(|time| column("time", "s", time)).into_iter().collect();
+        let results =
+            Results { independent: column("theta", "rad", at), table: Table { columns, ..Table::default() }, ..Results::default() };
+        let frames = Frames { at: vec![0.0, 3.0, 6.0], closed, ..Frames::default() };
+        (results, Scene { dimensions: 2, frames, ..Scene::default() })
+    }
+
+    fn shot(of: &(Results, Scene), pace: Pace, repeats: bool) -> Shot {
+        Shot::of(&of.0, &of.1, &ShotOptions { rate: 10.0, pace, repeats }).unwrap()
+    }
+
+    #[test]
+    fn a_turn_that_repeats_ends_before_its_first_picture() {
+        let turn = motion(&[0.0, 6.0], None, true);
+        let (again, once) = (shot(&turn, Pace::Duration(2.0), true), shot(&turn, Pace::Duration(2.0), false));
+        assert_eq!((again.at.len(), once.at.len()), (20, 21));
+        assert_eq!((again.at[10], once.at[20]), (3.0, 6.0));
+        assert!(again.time.is_none());
+    }
+
+    #[test]
+    fn time_is_that_of_the_motion() {
+        // the second half takes three times as long
+        let turn = motion(&[0.0, 3.0, 6.0], Some(&[0.0, 1.0, 4.0]), true);
+        let shown = shot(&turn, Pace::Speed(2.0), false);
+        assert_eq!((shown.seconds, shown.at.len()), (2.0, 21));
+        assert_eq!(shown.time.as_ref().map(|time| (time[0], time[20])), Some((0.0, 4.0)));
+        assert!((shown.at[5] - 3.0).abs() < 1e-12 && (shown.at[10] - 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_motion_may_go_down_its_variable() {
+        let back = motion(&[6.0, 0.0], Some(&[0.0, 2.0]), false);
+        let shown = shot(&back, Pace::Speed(1.0), true);
+        assert_eq!((shown.at[0], shown.at[20]), (6.0, 0.0));
+    }
+
+    #[test]
+    fn too_many_pictures_are_refused() {
+        let (results, scene) = motion(&[0.0, 6.0], None, true);
+        let asked = ShotOptions { rate: 30.0, pace: Pace::Duration(1e9), repeats: true };
+        assert!(Shot::of(&results, &scene, &asked).unwrap_err().contains("pictures"));
+    }
+}

@@ -1,0 +1,149 @@
+//! The drawing of the first position as DXF of release 12 (ASCII), which CAD programs read: true size in mm, a layer to each kind.
+
+mod entities;
+
+use super::drawing::plan;
+use super::naming;
+use super::outlines::hull;
+use super::pose::{Drawing, FormKind, Symbol, SymbolKind};
+use super::scene::{Item, Scene as Sheet};
+use super::sheet::is_usable;
+use super::symbols::{BAR, Looks, longer};
+use super::thin::{self, Point};
+use entities::{Entities, Layer};
+
+/// How signs look here: only their lines are used.
+const LINES: Looks = Looks { fill: [255; 3], edge: [0; 3], strong: true, strength: 1.0 };
+/// Height of letters in pixels of the drawing.
+const LETTERS: f64 = 14.0;
+
+/// The text of a DXF file of the first position of a drawing.
+#[must_use]
+pub fn write_dxf(drawing: &Drawing) -> String {
+    let plan = plan(drawing);
+    let (sheet, signs) = (plan.sheet, plan.signs);
+    // from pixels downwards to mm upwards
+    let mm = 1e3 / sheet.scale;
+    let back = |[x, y]: Point| [(x - sheet.origin[0]) * mm, (sheet.origin[1] - y) * mm];
+    let mut out = Entities::default();
+    for body in &drawing.bodies {
+        for form in body.poses.first().into_iter().flatten().filter_map(|form| sheet.form(form)) {
+            match form {
+                FormKind::Bar { from, to, width } => {
+                    rounded(&mut out, Layer::Bodies, &[back(from), back(to)], width.unwrap_or(BAR * signs.size) * mm)
+                }
+                FormKind::Plate { points } => {
+                    let points: Vec<Point> = points.into_iter().map(back).collect();
+                    rounded(&mut out, Layer::Bodies, &points, BAR * signs.size * mm);
+                }
+                other => signed(&mut out, Layer::Bodies, &back, mm, |scene| _ = signs.form(scene, &other, &LINES)),
+            }
+        }
+    }
+    for symbol in &drawing.joints {
+        let Some(placement) = symbol.poses.first().and_then(|placement| sheet.placement(placement)) else { continue };
+        let way = placement.way.unwrap_or([placement.at; 2]);
+        if symbol.kind == SymbolKind::Slot {
+            rounded(&mut out, Layer::Joints, &longer(way, &placement, 11.0 * signs.size).map(back), 13.0 * signs.size * mm);
+        }
+        let ground = |scene: &mut Sheet| {
+            if symbol.kind == SymbolKind::Slide {
+                let more = signs.slide_box()[0] + 14.0 * signs.size;
+                signs.slideway(scene, longer(way, &placement, more), symbol.way_grounded);
+            } else if stands(symbol) {
+                signs.ground(scene, placement.at);
+            }
+        };
+        signed(&mut out, Layer::Ground, &back, mm, ground);
+        let pin = |scene: &mut Sheet| {
+            if symbol.kind == SymbolKind::Slide {
+                signs.slider(scene, &placement, &LINES);
+            }
+            signs.pin(scene, symbol.kind, &placement, &LINES);
+        };
+        signed(&mut out, Layer::Joints, &back, mm, pin);
+    }
+    for link in &drawing.links {
+        let Some(ends) = sheet.ends(link) else { continue };
+        let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
+        signed(&mut out, Layer::Links, &back, mm, |scene| signs.link(scene, link.kind, ends, turned));
+    }
+    for gear in drawing.gears.iter().map(|gear| sheet.gear(gear)) {
+        gear.circles.iter().for_each(|circle| out.path(Layer::Gears, &circle.iter().copied().map(back).collect::<Vec<_>>(), false));
+        gear.line.iter().for_each(|line| out.path(Layer::Gears, &line.map(back), false));
+    }
+    for trace in &drawing.traces {
+        for piece in trace.points.split(|point| !is_usable(point)) {
+            let points = thin::thinned(sheet.points(piece), false);
+            out.path(Layer::Paths, &points.into_iter().map(back).collect::<Vec<_>>(), false);
+        }
+    }
+    for name in naming::all(drawing, &sheet, signs.size) {
+        let [x, y] = back(name.at);
+        out.text(Layer::Names, [x + 0.7 * name.reach * mm, y + 0.7 * name.reach * mm], LETTERS * mm, &name.text);
+    }
+    out.file()
+}
+
+/// Whether a joint stands on a bearing of its own.
+fn stands(symbol: &Symbol) -> bool {
+    symbol.grounded && symbol.kind != SymbolKind::Slot
+}
+
+/// Adds the lines of signs.
+fn signed(out: &mut Entities, layer: Layer, back: &dyn Fn(Point) -> Point, mm: f64, draw: impl FnOnce(&mut Sheet)) {
+    let mut scene = Sheet::default();
+    draw(&mut scene);
+    for item in scene.items {
+        match item {
+            Item::Path { points, closed, .. } => out.path(layer, &points.into_iter().map(back).collect::<Vec<_>>(), closed),
+            Item::Circle { at, radius, .. } => out.circle(layer, back(at), radius * mm),
+            Item::Text(_) => {}
+        }
+    }
+}
+
+/// Adds the outline of a rounded bar or plate: lines, and arcs at its corners.
+fn rounded(out: &mut Entities, layer: Layer, points: &[Point], width: f64) {
+    let (corners, radius) = (hull(points), 0.5 * width);
+    let n = corners.len();
+    if n < 2 {
+        corners.iter().for_each(|at| out.circle(layer, *at, radius));
+        return;
+    }
+    let outwards = |k: usize| {
+        let (a, b) = (corners[k % n], corners[(k + 1) % n]);
+        (b[1] - a[1]).atan2(b[0] - a[0]) - 0.5 * std::f64::consts::PI
+    };
+    for k in 0..n {
+        let off = |p: Point| [p[0] + radius * outwards(k).cos(), p[1] + radius * outwards(k).sin()];
+        out.path(layer, &[off(corners[k]), off(corners[(k + 1) % n])], false);
+        out.arc(layer, corners[k], radius, [outwards(k + n - 1), outwards(k)].map(f64::to_degrees));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pose::{Form, Outline, Placement};
+    use super::*;
+
+    #[test]
+    fn a_bar_is_drawn_in_its_true_length() {
+        let bar = Form { kind: FormKind::Bar { from: [0.0, 0.0], to: [0.25, 0.0], width: Some(0.02) }, depth: 0.0 };
+        let body = Outline { name: "arm".into(), poses: vec![vec![bar]] };
+        let hinge =
+            Symbol { name: "A\u{3b8}".into(), poses: vec![Placement { at: [0.25, 0.0], ..Placement::default() }], ..Symbol::default() };
+        let drawing = Drawing { bodies: vec![Outline::default(), body], joints: vec![hinge], ..Drawing::default() };
+        let text = write_dxf(&drawing);
+        let pairs: Vec<(&str, &str)> =
+            text.lines().zip(text.lines().skip(1)).step_by(2).map(|(code, value)| (code.trim(), value)).collect();
+        let count = |kind: &str| pairs.iter().filter(|pair| **pair == ("0", kind)).count();
+        assert_eq!((count("LINE"), count("ARC"), count("CIRCLE"), count("TEXT")), (2, 2, 1, 2));
+        let lines = pairs.windows(6).filter(|w| w[0] == ("0", "LINE"));
+        let number = |pair: &(&str, &str)| pair.1.parse::<f64>().unwrap();
+        for w in lines {
+            assert!((number(&w[2]) - number(&w[4])).abs() - 250.0 < 1e-6 && (number(&w[3]).abs() - 10.0).abs() < 1e-6, "{w:?}");
+        }
+        assert!(text.contains("A\\U+03B8") && text.ends_with("EOF\n") && text.is_ascii());
+    }
+}
