@@ -378,7 +378,11 @@ fn drawings_keep_the_constraints_and_stay_small() {
         let joint = scene.joints.iter().find(|j| j.name == joint).expect("the joint");
         scene.world(scene.frame(frame), &joint.a)
     };
-    assert!(scene.frames.closed && scene.frames.shown.len() == 3 && scene.frames.shown[1] == 0 && scene.frames.error < 1e-6, "{:?}", scene.frames);
+    assert!(
+        scene.frames.closed && scene.frames.shown.len() == 3 && scene.frames.shown[1] == 0 && scene.frames.error < 1e-6,
+        "{:?}",
+        scene.frames
+    );
     let distance = |p: [f64; 3], q: [f64; 3]| (p[0] - q[0]).hypot(p[1] - q[1]);
     let mut moved: f64 = 0.0;
     for frame in 0..scene.frames.count() {
