@@ -201,6 +201,7 @@ fn only_its_own_page_is_served_and_to_itself() {
     let bad = [json!({ "place": "parameters.length", "value": "1" }), json!({ "value": 1 }), json!(null)];
     bad.iter().for_each(|message| assert_eq!(watch.post("/move", message).0, 400, "{message}"));
     assert_eq!(watch.raw("POST", &watch.with_token("/move"), &[&own], &" ".repeat(20_000)).0, 413);
+    assert_eq!(watch.raw("POST", &watch.with_token("/back"), &[&own, "Transfer-Encoding: chunked"], "0\r\n\r\n").0, 400);
     assert_eq!(watch.text(), MODEL);
 }
 
@@ -209,7 +210,7 @@ fn a_changed_file_is_computed_again() {
     let watch = Watch::new("changed", &["--study", "rest"]);
     let state = watch.until_done();
     assert_eq!((&state["first"], studies(&state).len()), (&json!("rest"), 3));
-    assert!((watch.far().to_degrees() + 60.0).abs() > 1.0 && study(&state, "lengths")["bad"] == false);
+    assert_eq!(study(&state, "lengths")["bad"], false);
     let before = watch.far();
     // the same bytes again change nothing
     watch.put(MODEL);

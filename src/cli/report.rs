@@ -12,7 +12,7 @@ pub(super) const FILE: &str = "report.html";
 
 /// A report without studies.
 pub(super) fn begun(document: &Document, common: &Common) -> Report {
-    with_model(document, common, |model| Report::new(model))
+    with_model(document, common, Report::new)
 }
 
 /// What a page has of a model, without studies; none if it has errors.

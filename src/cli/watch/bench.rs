@@ -2,7 +2,8 @@
 
 use super::super::interrupt::interrupted;
 use super::super::{Common, files, report, run::conflict};
-use super::board::{Board, Computed};
+use super::board::Board;
+use super::entry::Computed;
 use grashof::api::explained;
 use grashof::model::{Document, Model, Report, Study};
 use grashof::output::{ReportRuns, ReportStudy};

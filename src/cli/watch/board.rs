@@ -1,10 +1,10 @@
 //! The board: what the threads of a watch share.
 
 use super::super::Common;
+use super::entry::{Computed, Entry, entry, shown, unknown};
 use super::lookout::Look;
 use super::values::Values;
-use grashof::model::{Diagnostic, Document, Report, Severity};
-use grashof::output::ReportModel;
+use grashof::model::{Document, Report};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -45,32 +45,6 @@ pub(super) struct State {
     away: Option<String>,
     studies: Vec<Entry>,
     viewed: VecDeque<String>,
-}
-
-/// A study.
-struct Entry {
-    name: String,
-    /// What the page has of it, and its number; 0 if there is nothing.
-    result: (u64, Arc<String>),
-    /// Of what it was computed last.
-    of: u64,
-    busy: bool,
-    bad: bool,
-    about: String,
-    findings: Vec<Value>,
-}
-
-/// What came of a study.
-#[derive(Default)]
-pub(super) struct Computed {
-    /// What the page has of it; none if it came to nothing.
-    pub(super) json: Option<String>,
-    /// What it is for.
-    pub(super) about: String,
-    /// Whether it stopped on its way or does not meet what is expected.
-    pub(super) bad: bool,
-    /// Why it came to nothing.
-    pub(super) report: Report,
 }
 
 impl Board {
@@ -275,38 +249,4 @@ impl State {
             "first": self.viewed.front(), "moved": self.values.are_moved(), "values": self.values.json(), "studies": studies,
         })
     }
-}
-
-impl Entry {
-    fn json(&self, wanted: u64) -> Value {
-        json!({
-            "name": self.name, "about": self.about, "version": self.result.0, "stale": self.of != wanted, "busy": self.busy,
-            "bad": self.bad, "findings": self.findings,
-        })
-    }
-}
-
-/// The entry of a study, with what was known of it.
-fn entry(name: String, known: &mut Vec<Entry>) -> Entry {
-    match known.iter().position(|entry| entry.name == name) {
-        Some(i) => known.swap_remove(i),
-        None => Entry { name, result: (0, Arc::default()), of: 0, busy: false, bad: false, about: String::new(), findings: Vec::new() },
-    }
-}
-
-/// What a page has of a model that was never sound.
-fn unknown(path: &str) -> Value {
-    let model = ReportModel { name: path, path, source: "", about: "", overview: &[] };
-    model.json()
-}
-
-/// Findings as a page has them.
-fn shown(report: &Report) -> Vec<Value> {
-    let one = |found: &Diagnostic| {
-        let mut text = String::new();
-        found.render(&mut text, false);
-        let error = found.severity == Severity::Error;
-        json!({ "error": error, "text": text.trim_end(), "file": found.file, "line": found.line(), "column": found.column() })
-    };
-    report.diagnostics.iter().map(one).collect()
 }

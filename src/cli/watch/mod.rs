@@ -7,6 +7,7 @@
 
 mod bench;
 mod board;
+mod entry;
 mod lookout;
 mod request;
 mod server;

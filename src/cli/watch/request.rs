@@ -40,6 +40,10 @@ pub(super) fn asked(request: &Request, port: u16, token: &str) -> Result<Asked, 
     if !header("Origin").iter().all(is_own) {
         return Err((403, "another page may not ask"));
     }
+    // pages of ours say how long a message is; what says so in two ways may be meant to be read in two ways
+    if !header("Transfer-Encoding").is_empty() {
+        return Err((400, "the length of a message is needed"));
+    }
     route(request.method(), request.url(), token)
 }
 
