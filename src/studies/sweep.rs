@@ -86,7 +86,8 @@ pub fn at(
 }
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
-/// those at the places that are `wanted`. Drawings are left of all of them where these have no more than [`DRAWN`] numbers together, else of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// those at the places that are `wanted`. Drawings are left of all of them where these have no more than two million numbers together,
+/// else of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
 /// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,

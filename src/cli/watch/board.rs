@@ -2,7 +2,7 @@
 
 use super::super::Common;
 use super::entry::{Computed, Entry, entry, shown, unknown};
-use super::lookout::Look;
+use super::look::Look;
 use super::values::Values;
 use grashof::model::{Document, Report};
 use serde_json::{Value, json};

@@ -1,17 +1,14 @@
-//! The look-out: what is in the model file and in the files that it includes.
+//! The look-out: tells the board what has become of the model file and of the files that it includes.
 //!
 //! Editors write in place, rename a new file over the old one, or delete and write again; contents are compared, whatever they do.
 
 use super::super::files;
 use super::super::interrupt::interrupted;
 use super::board::Board;
-use grashof::api::beside;
-use grashof::model::{Document, Report};
+use super::look::{Look, MOST, of};
 use grashof::par;
-use std::cell::RefCell;
 use std::fs::Metadata;
 use std::io::{Error, ErrorKind};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
@@ -21,37 +18,6 @@ const EVERY: Duration = Duration::from_millis(50);
 const SETTLED: Duration = Duration::from_secs(3);
 /// Looks at which a file must be away before that is said: it may be on its way.
 const AWAY: u32 = 4;
-/// Largest file that is read at all; the reader itself refuses above 8 MiB and says so.
-const MOST: u64 = 16 << 20;
-
-/// What a look found.
-#[derive(Clone, Debug)]
-pub(super) struct Look {
-    /// Bytes of the model file.
-    pub(super) bytes: Arc<Vec<u8>>,
-    /// The model, or what is wrong with its text.
-    pub(super) read: Result<Arc<Document>, Report>,
-    /// Files that it includes, with what was in them.
-    included: Vec<(PathBuf, Option<Vec<u8>>)>,
-}
-
-/// Reads the model file and what it includes.
-pub(super) fn read(model: &str) -> Result<Look, Error> {
-    files::bytes(model, MOST).map(|bytes| of(model, bytes))
-}
-
-/// The model of some bytes, in the place of those of its file.
-pub(super) fn of(model: &str, bytes: Vec<u8>) -> Look {
-    let included = RefCell::new(Vec::new());
-    let read = Document::with_files(&bytes, model, &|path| {
-        let found = beside(model, path);
-        let place = Path::new(model).parent().unwrap_or(Path::new("")).join(path);
-        included.borrow_mut().push((place, found.as_ref().ok().map(|(_, bytes)| bytes.clone())));
-        found
-    });
-    Look { bytes: Arc::new(bytes), read: read.map(Arc::new), included: included.into_inner() }
-}
-
 /// Begins to look, in a thread of its own; `known` is what is known already.
 pub(super) fn begin(board: Arc<Board>, known: Look) -> bool {
     par::background("look-out", move || {
@@ -75,7 +41,7 @@ struct Lookout {
 impl Lookout {
     fn look(&mut self, board: &Board) {
         let model = board.model();
-        if self.is_settled(model) && !self.included_changed() {
+        if self.is_settled(model) && !self.known.included_changed() {
             return;
         }
         let bytes = match files::bytes(model, MOST) {
@@ -83,7 +49,7 @@ impl Lookout {
             Err(error) => return self.miss(board, &error),
         };
         let was_away = std::mem::take(&mut self.away) >= AWAY;
-        if bytes == *self.known.bytes && !self.included_changed() {
+        if bytes == *self.known.bytes && !self.known.included_changed() {
             self.doubtful = None;
             if was_away {
                 board.read(self.known.clone());
@@ -109,14 +75,6 @@ impl Lookout {
         let same = stamp.is_some() && stamp == self.stamp && self.doubtful.is_none() && self.away == 0;
         self.stamp = stamp;
         same && old
-    }
-
-    fn included_changed(&self) -> bool {
-        self.known.included.iter().any(|(path, bytes)| {
-            let length = std::fs::metadata(path).map(|of| of.len()).ok();
-            let known = bytes.as_ref().map(|bytes| bytes.len() as u64);
-            length != known || bytes.is_some() && std::fs::read(path).ok() != *bytes
-        })
     }
 
     fn miss(&mut self, board: &Board, error: &Error) {

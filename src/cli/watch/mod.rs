@@ -8,6 +8,7 @@
 mod bench;
 mod board;
 mod entry;
+mod look;
 mod lookout;
 mod request;
 mod server;
@@ -49,7 +50,7 @@ pub(super) fn watch(arguments: &Arguments, common: &Common) -> u8 {
     if files::selection(common, None).is_none() {
         return code::INPUT;
     }
-    let first = match lookout::read(model) {
+    let first = match look::read(model) {
         Ok(first) => first,
         Err(error) => {
             files::unreadable(model, &error, "a model file", "check the path, or write a new model with `grashof new four-bar`");

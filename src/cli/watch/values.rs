@@ -1,6 +1,6 @@
 //! The values that can be moved in the page: numbers that stand in the file, and where they were moved to.
 
-use super::lookout::{Look, of};
+use super::look::{Look, of};
 use grashof::model::{Literal, Model, Study, replaced};
 use grashof::studies::common::case::parameters;
 use grashof::studies::sweep::grid;

@@ -2,7 +2,7 @@
 
 use super::super::interrupt::uncut;
 use super::board::Board;
-use super::lookout;
+use super::look;
 use grashof::model::{Document, replaced};
 use std::fs;
 use std::io::Write;
@@ -35,7 +35,7 @@ pub(super) fn write(board: &Board, place: &str, to: Option<f64>) -> Result<(), S
 
 /// The model of the file's bytes; none if it does not read.
 fn look_of(board: &Board, bytes: &[u8]) -> Option<Arc<Document>> {
-    lookout::of(board.model(), bytes.to_vec()).read.ok()
+    look::of(board.model(), bytes.to_vec()).read.ok()
 }
 
 /// Writes a file beside another one and renames it over that, with its permissions.

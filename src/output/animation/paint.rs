@@ -189,7 +189,8 @@ fn spread(row: &mut [f32], x0: f64, x1: f64, height: f64) {
 }
 
 fn disc(at: Point, radius: f64) -> Vec<Point> {
-    let count = (4.0 * radius.sqrt()).clamp(12.0, 120.0).ceil();
+    // chords stay within 0.08 pixels of the circle
+    let count = (8.0 * radius.sqrt()).clamp(12.0, 120.0).ceil();
     (0..count as usize).map(|k| on_circle(at, radius, TAU * k as f64 / count)).collect()
 }
 

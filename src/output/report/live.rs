@@ -1,6 +1,6 @@
 //! The page of `grashof watch`: the same page as the report, whose data come from the program that serves it.
 
-use super::{SPACE, STYLE, escaped};
+use super::bundle::{SPACE, STYLE, escaped};
 
 const LIVE: &str = include_str!("../../../viewer/dist/live.js");
 const LIVE_STYLE: &str = include_str!("../../../viewer/dist/live.css");

@@ -8,6 +8,7 @@
 //! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
 
 mod base64;
+mod bundle;
 mod live;
 mod poses;
 mod rows;
@@ -18,14 +19,13 @@ pub use live::{LIVE_POLICY, live_page};
 pub use study::{ReportRuns, ReportStudy};
 
 pub(super) use base64::base64;
+use bundle::{SPACE, STYLE, escaped};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::{Value, json};
 use std::io::Write;
 
-const STYLE: &str = include_str!("../../../viewer/dist/page.css");
 const PAGE: &str = include_str!("../../../viewer/dist/page.js");
-const SPACE: &str = include_str!("../../../viewer/dist/space.js");
 /// What the page may load and run: itself, by the checksums of its parts.
 const POLICY: &str = include_str!("../../../viewer/dist/policy.txt");
 
@@ -121,11 +121,6 @@ impl Report {
     fn put(&mut self, text: &str) {
         let _ = self.data.write_all(text.as_bytes());
     }
-}
-
-/// Text as it stands in HTML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
