@@ -59,7 +59,9 @@ impl Place {
     /// A run of one of two kinds, whose sets of files differ in names and contents.
     fn command(&self, kind: usize, directory: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_grashof"));
-        command.args(["run", "model.yaml", "-q", "-o", directory]).args([&["--set", "l4=1.01 m"][..], &["--no-plots"]][kind]);
+        command
+            .args(["run", "model.yaml", "-q", "--no-report", "-o", directory])
+            .args([&["--set", "l4=1.01 m"][..], &["--no-plots"]][kind]);
         command.current_dir(&self.0).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         command
     }

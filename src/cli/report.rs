@@ -16,7 +16,9 @@ pub(super) fn begun(document: &Document, common: &Common) -> Report {
     let looked = model.as_ref().and_then(|model| survey(model, &parameters(model)).ok());
     let overview = looked.as_ref().map(overview).unwrap_or_default();
     let (name, about) = model.as_ref().map_or((document.file(), ""), |model| (&model.name, &model.about));
-    Report::new(&ReportModel { name, path: document.file(), source: document.text(), about, overview: &overview })
+    // where it lies is nobody's business to whom the page is sent
+    let path = Path::new(document.file()).file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    Report::new(&ReportModel { name, path, source: document.text(), about, overview: &overview })
 }
 
 /// What is worth knowing of a mechanism at a glance.
@@ -40,10 +42,12 @@ fn overview(survey: &Survey) -> Vec<(String, String)> {
     out.into_iter().map(|(label, value)| (label.to_string(), value)).collect()
 }
 
-/// Writes a report, and takes away the one of an earlier run if there is none; the code is that of what could not be written.
+/// Writes a report, or takes away the one of an earlier run if none is wanted; one without studies changes nothing. The code is that of
+/// what could not be written.
 pub(super) fn written(report: Option<Report>, directory: &Path, common: &Common) -> u8 {
     let mut staging = Staging::new();
-    match report.filter(|report| !report.is_empty()) {
+    match report {
+        Some(report) if report.is_empty() => return code::DONE,
         Some(report) => staging.add(FILE, report.html()),
         None if directory.join(FILE).exists() => {}
         None => return code::DONE,

@@ -117,7 +117,7 @@ fn a_full_disk_is_an_error_and_leaves_no_half_file() {
     assert!(start(&out).wait().unwrap().success());
     let before = results(&out);
     // a limit of the size of files, whose signal is ignored, fails writes as a full disk does; in blocks of 512 bytes
-    for blocks in [0, 1, 4, 16, 40] {
+    for blocks in [0, 1, 4, 16, 40, 1000] {
         for directory in [out.clone(), fresh("full-new")] {
             let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
             let status = Command::new("sh")

@@ -71,12 +71,12 @@ impl Run {
         self.directory.join(name).is_file()
     }
 
-    /// Names of all files written.
+    /// Names of all files written but the report.
     pub(crate) fn files(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(&self.directory) else { return Vec::new() };
         let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        // the record of what was written
-        names.retain(|name| name != ".grashof.json");
+        // the record of what was written, and the report, which names the model's file
+        names.retain(|name| name != ".grashof.json" && name != "report.html");
         names.sort();
         names
     }

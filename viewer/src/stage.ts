@@ -13,6 +13,9 @@ import { inks } from './theme';
 import type { CodedScene, Results, Scene, Study } from './types';
 
 const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
+/** A motion that takes less is slowed down to what can be followed, s. */
+const BLINK = 0.15;
+const SEEN = 2;
 const NAMES: Record<Kind, string> = { velocities: 'velocities', accelerations: 'accelerations', loads: 'loads', reactions: 'reactions' };
 const PLAY = 'M4 2.5v11l9-5.5z';
 const PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
@@ -34,6 +37,7 @@ export class Stage {
   private readonly slider = h('input', { type: 'range', min: 0, max: 10_000, step: 1, value: 0, 'aria-label': 'place of the motion', class: 'scrub' });
   private readonly time = h('output', { class: 'time', 'aria-live': 'polite' });
   private readonly playing = button(icon(PLAY), 'play', () => this.clock.play(), { class: 'play' });
+  private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = SPEEDS[this.speed.selectedIndex] ?? 1) }, ...SPEEDS.map((s) => h('option', {}, `${s}×`)));
   private readonly shown = h('div', { class: 'shown', role: 'group', 'aria-label': 'what is shown' });
   private readonly note = h('p', { class: 'note' });
   private renderer: Renderer | null = null;
@@ -139,8 +143,6 @@ export class Stage {
   }
 
   private transport(): HTMLElement {
-    const speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = SPEEDS[speed.selectedIndex] ?? 1) },
-      ...SPEEDS.map((s) => h('option', s === this.clock.speed ? { selected: true } : {}, `${s}×`)));
     const loop = button(icon('M3 8a5 5 0 0 1 8.5-3.5L13 6M13 2.5V6H9.5M13 8a5 5 0 0 1-8.5 3.5L3 10M3 13.5V10h3.5'), 'again and again', () => {
       this.clock.loop = !this.clock.loop;
       loop.setAttribute('aria-pressed', String(this.clock.loop));
@@ -151,7 +153,7 @@ export class Stage {
       this.clock.play(false);
       this.clock.seek(from + (to - from) * part);
     });
-    return h('div', { class: 'transport' }, this.playing, this.slider, this.time, speed, loop,
+    return h('div', { class: 'transport' }, this.playing, this.slider, this.time, this.speed, loop,
       button(icon('M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4'), 'whole mechanism', () => {
         this.renderer?.fit();
         this.redraw();
@@ -179,8 +181,16 @@ export class Stage {
     const { error } = motion.scene.frames;
     this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
     const { seconds, place } = this.pace;
+    this.pick(seconds(motion.to) - seconds(motion.from));
     this.clock.range(motion.from, motion.to, seconds, place);
     this.state();
+  }
+
+  /** The speed at first: that of the motion, unless it is over at once. */
+  private pick(duration: number): void {
+    const fit = duration < BLINK ? SPEEDS.findLastIndex((s) => duration / s >= SEEN) : SPEEDS.indexOf(1);
+    this.speed.selectedIndex = Math.max(fit, 0);
+    this.clock.speed = SPEEDS[this.speed.selectedIndex]!;
   }
 
   private showOptions(kinds: Kind[]): void {
