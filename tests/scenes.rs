@@ -2,10 +2,12 @@
 
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;
+use grashof::model::{Document, Selection};
 use grashof::results::Scene;
 use grashof::results::scene::{LinkKind, Place, Shape, Trace};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
+use grashof::studies::sweep::sweep;
 
 /// A slider-crank over a turn, at rows that are no frames.
 const SLIDER_CRANK: &str = "grashof: 1
@@ -201,4 +203,42 @@ fn links_say_what_they_are() {
     let scene = &study(&text, "fall", Coordinates::Joint).scenes[0].1;
     let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind, link.rest)).collect();
     assert_eq!(kinds, [("s", LinkKind::Spring, Some(1.0)), ("d", LinkKind::Torsion, None)]);
+}
+
+#[test]
+fn a_study_names_its_paths() {
+    let traced = |trace: &str| {
+        let text = SLIDER_CRANK.replace("columns: [rod.P.x, rod.P.y, crank.end.x, crank.end.y, block.x, block.y]", trace);
+        let scene = study(&text, "turn", Coordinates::Joint).scenes.remove(0).1;
+        scene.traces.into_iter().map(|trace| trace.name).collect::<Vec<_>>()
+    };
+    assert_eq!(traced("trace: [crank.end, block]"), ["crank.end", "block"]);
+    assert!(traced("trace: []").is_empty());
+    // the crank pin is on a circle and the block on a line
+    assert_eq!(traced("columns: [O.angle]"), ["rod.P"]);
+}
+
+#[test]
+fn a_study_says_where_the_eye_is() {
+    let seen =
+        |view: &str| study(&TOP.replace("dynamics:", &format!("view: {view}, dynamics:")), "spin", Coordinates::Joint).scenes[0].1.view;
+    let quarter = std::f64::consts::FRAC_PI_2;
+    assert_eq!(seen("top"), Some([-quarter, quarter]));
+    let [azimuth, elevation] = seen("[180 deg, 20 deg]").expect("a view");
+    assert!((azimuth - 2.0 * quarter).abs() < 1e-15 && (elevation - 20_f64.to_radians()).abs() < 1e-15);
+    let planar = SLIDER_CRANK.replace("turn: { ", "turn: { view: front, ");
+    let report = Document::read(&planar, "test.yaml").and_then(|d| d.model(&Selection { study: Some("turn"), ..Selection::default() }));
+    assert!(report.is_err_and(|report| report.diagnostics[0].code == "spatial-only"));
+}
+
+#[test]
+fn runs_of_a_sweep_keep_their_scenes_and_name_themselves() {
+    let text = SLIDER_CRANK
+        .replace("gravity: none", "gravity: none\nparameters: { r: 0.3 m }")
+        .replace("crank: { bar: { length: 0.3 m } }", "crank: { bar: { length: r } }");
+    let model = model(&text.replace("turn: { ", "turn: { sweep: { r: [0.2 m, 0.3 m] }, "), Some("turn"));
+    let asked = model.study.clone().expect("the study");
+    let runs = sweep(&model, &asked, 2, Vec::new(), &|_| true, &|| false, &|_, _| {});
+    let captions: Vec<_> = runs.iter().map(|run| run.result.as_ref().expect("a run").scenes[0].1.caption.clone()).collect();
+    assert_eq!(captions, ["r = 0.2 m", "r = 0.3 m"]);
 }

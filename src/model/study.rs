@@ -2,7 +2,7 @@
 
 use super::integrator::Integrator;
 use super::keys::{Words, words};
-use super::place::Place;
+use super::place::{Place, PointRef};
 use crate::expression::{Dimension, Id};
 
 /// One study: a kind with its own keys, and what is common to all.
@@ -36,10 +36,36 @@ pub struct Study {
     pub functionals: Vec<Functional>,
     /// Figures.
     pub plots: Vec<Plot>,
+    /// Points whose paths are drawn; `None` if the file leaves it open.
+    pub trace: Option<Vec<PointRef>>,
+    /// Where a drawing in space is seen from; `None` for an isometric view.
+    pub view: Option<View>,
     /// Expectations.
     pub expect: Vec<Expectation>,
     /// Where it stands.
     pub place: Place,
+}
+
+words! {
+    /// A side from which a drawing in space is seen, with `up` upwards (z if that is x, y or z by turns).
+    pub enum Side {
+        /// Against the second level axis (y): x to the right.
+        Front = "front",
+        /// Against `up`, from above.
+        Top = "top",
+        /// Against the first level axis (x): y to the right.
+        Right = "side",
+    }
+}
+
+/// Where a drawing in space is seen from.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum View {
+    /// From a side.
+    Side(Side),
+    /// From an `azimuth` about the upward direction, counted from the first level axis (x), and an `elevation`, rad.
+    From { azimuth: Id, elevation: Id },
 }
 
 /// A scalar that the kind of a study gives.

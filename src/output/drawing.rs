@@ -222,6 +222,9 @@ impl Pen<'_> {
             let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
             self.signs.link(&mut self.scene, link.kind, ends, turned);
             self.letters.avoid_line(&ends, Obstacle::Body);
+            if link.kind == LinkKind::Torsion {
+                self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
+            }
         }
     }
 
@@ -254,11 +257,13 @@ impl Pen<'_> {
 
     /// The names of the strong position, unless they would cover more of the sheet than can be read, and those of paths.
     fn names(&mut self, names: Vec<Name>, paper: Rect) {
+        // the path of a body that is named goes without a name of its own
+        let known: Vec<String> = names.iter().map(|name| name.text.clone()).collect();
         let area: f64 = names.iter().map(|name| font::width(&name.text, LETTERS) * LETTERS).sum();
         if area <= NAMED * paper.width() * paper.height() {
             names.into_iter().for_each(|name| self.letters.name(&name.text, name.at, name.reach, LETTERS, name.color));
         }
-        for (index, trace) in self.drawing.traces.iter().enumerate() {
+        for (index, trace) in self.drawing.traces.iter().enumerate().filter(|(_, trace)| !known.contains(&trace.name)) {
             let pixels = self.sheet.points(&trace.points);
             if let Some(highest) = pixels.iter().min_by(|a, b| a[1].total_cmp(&b[1])) {
                 self.letters.name(&trace.name, *highest, 6.0, LETTERS, path_stroke(index).0);

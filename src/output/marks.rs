@@ -46,7 +46,7 @@ impl Signs {
         // The straight ends; the coils stay between.
         let end = (0.16 * length).min(22.0 * self.size);
         let step = (length - 2.0 * end) / f64::from(2 * COILS);
-        let half = 10.0 * self.size;
+        let half = (10.0 * self.size).min(0.2 * length);
         let zigzag = (0..2 * COILS).map(|k| off(a, along, end + (f64::from(k) + 0.5) * step, if k % 2 == 0 { half } else { -half }));
         let points = [a, off(a, along, end, 0.0)].into_iter().chain(zigzag).chain([off(a, along, length - end, 0.0), b]);
         scene.line(points.collect(), Stroke::solid(RUST, self.pen(2.4)));
@@ -124,7 +124,7 @@ impl Signs {
                 scene.line(vec![at(-1.0), at(1.0)], stroke);
             } else {
                 let (along, _) = direction([0.0; 2], stop);
-                let at = |s: f64| off(placement.at, along, s * self.size, sense * (self.size * super::symbols::BAR * 0.5 + 3.0) * -1.0);
+                let at = |s: f64| off(placement.at, along, s * self.size, -sense * (self.size * super::symbols::BAR * 0.5 + 3.0));
                 scene.line(vec![at(16.0), at(44.0)], stroke);
             }
         }

@@ -53,7 +53,7 @@ impl Signs {
             FormKind::Bar { from, to, width } => self.rounded(scene, vec![*from, *to], width.unwrap_or(BAR * self.size), looks),
             FormKind::Plate { points } => self.rounded(scene, hull(points), BAR * self.size, looks),
             FormKind::Area { points, shade } => {
-                let fill = shaded(pale(looks.fill, if looks.strong { 0.85 } else { 0.5 }), 0.5 + 0.5 * shade);
+                let fill = shaded(pale(looks.fill, if looks.strong { 0.85 } else { 0.5 }), 1.0 - 0.5 * (1.0 - shade) * looks.strength);
                 scene.shape(points.clone(), Some(fill), thin);
                 points.iter().chain(points.first()).copied().collect()
             }

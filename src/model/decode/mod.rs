@@ -16,6 +16,7 @@ mod kinds;
 mod measures;
 mod order;
 mod outside;
+mod pictures;
 mod scalars;
 mod springs;
 mod start;

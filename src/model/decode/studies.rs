@@ -5,6 +5,7 @@ use super::decoder::{Check, Decoder};
 use super::frame::Frame;
 use super::kinds::{Features, OF_KINDS};
 use super::outside::{Outside, retarget};
+use super::pictures::{TRACE, VIEW};
 use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
@@ -77,6 +78,8 @@ keys! {
             "Numbers of the whole study.";
         plot: may Shape::Named(Keys::Title, "a figure", &Shape::Either(&[Shape::Map(&PLOT), Shape::List(&COLUMN, Size::AtLeast(1))])),
             "Figures.";
+        trace: may TRACE, "Points whose paths are drawn; without it those of points that columns name, or of a few that are on no circle.";
+        view: may VIEW, "In space: where the drawing is seen from, a side or azimuth and elevation; isometric if omitted.";
         expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)),
             "What must come out; if not, exit code 1.";
     }
@@ -149,6 +152,8 @@ impl<'n> Decoder<'n> {
             retarget(&mut plots, &own, &over);
             over
         };
+        let trace = self.trace(keys.trace, &at);
+        let view = self.view(keys.view, &at);
         let expect = self.expectations(keys.expect, &at, &mut frame);
         let undefined = self.may_be_undefined(keys.undefined, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
@@ -194,6 +199,8 @@ impl<'n> Decoder<'n> {
             results,
             functionals,
             plots,
+            trace,
+            view,
             expect,
             place: self.place(&at),
         });

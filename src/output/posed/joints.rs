@@ -70,15 +70,15 @@ impl Posed<'_> {
             let axis = if planar { [0.0, 0.0, 1.0] } else { std::array::from_fn(|i| joint.axis.get(i).copied().unwrap_or(0.0)) };
             let e = across(axis)[0];
             // a direction of b that lies across the axis before, seen from a before and behind
-            let seen = |poses: &[f64], own: [f64; 3]| self.from_body(poses, joint.a.body, self.scene.direction(poses, joint.b.body, &own));
-            let own = self.from_body(before, joint.b.body, self.scene.direction(before, joint.a.body, &e));
+            let seen = |poses: &[f64], own: [f64; 3]| self.in_axes_of(poses, joint.a.body, self.scene.direction(poses, joint.b.body, &own));
+            let own = self.in_axes_of(before, joint.b.body, self.scene.direction(before, joint.a.body, &e));
             dot(axis, cross(seen(before, own), seen(behind, own)))
         };
         if change.abs() > 1e-12 { change.signum() * ahead } else { 0.0 }
     }
 
     /// A direction of the world in the axes of a body.
-    fn from_body(&self, poses: &[f64], body: usize, v: [f64; 3]) -> [f64; 3] {
+    fn in_axes_of(&self, poses: &[f64], body: usize, v: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| {
             let mut e = [0.0; 3];
             e[i] = 1.0;

@@ -186,7 +186,11 @@ impl Report<'_> {
 
 /// What the title of a drawing says of a mode: its frequency (of rad/s) and damping ratio.
 fn caption(frequency: Option<f64>, ratio: Option<f64>) -> String {
-    let Some(frequency) = frequency.filter(|f| *f > 0.0) else { return String::new() };
+    let frequency = match frequency {
+        Some(frequency) if frequency > 0.0 => frequency,
+        Some(frequency) => return if frequency.is_nan() { "unstable" } else { "does not oscillate" }.into(),
+        None => return String::new(),
+    };
     let digits = |x: f64| format!("{x:.3e}").parse().unwrap_or(x).to_string();
     let damping = ratio.map_or_else(String::new, |ratio| format!(", damping ratio {}", digits(ratio)));
     format!("{} Hz{damping}", digits(frequency / std::f64::consts::TAU))

@@ -15,6 +15,7 @@ use super::case::Case;
 use super::motion::Motion;
 use crate::geometry::{Pose, Space};
 use crate::mechanism::Mechanism;
+use crate::model::{Side, View};
 use crate::results::Scene;
 use crate::results::scene::Frames;
 
@@ -48,6 +49,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         let Self { case, mechanism } = *self;
         let mut scene = Scene {
             dimensions: G::VECTOR,
+            view: view(case),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
             links: links::links(case.model, mechanism),
@@ -68,6 +70,17 @@ pub(crate) fn of_motion<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'
     let (ends, length) = (motion.ends, motion.clock.length);
     let span = Span { ends, turns: (length - std::f64::consts::TAU).abs() < 1e-9, ..Span::default() };
     subject.over(span, &mut |s| Some((motion.clock.value(s), motion.poses(s)?)))
+}
+
+/// Azimuth and elevation of the eye, rad, if the study says where it is.
+fn view(case: Case<'_>) -> Option<[f64; 2]> {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    Some(match case.study.view? {
+        View::Side(Side::Front) => [-quarter, 0.0],
+        View::Side(Side::Top) => [-quarter, quarter],
+        View::Side(Side::Right) => [0.0, 0.0],
+        View::From { azimuth, elevation } => [azimuth, elevation].map(|angle| case.value(angle)),
+    })
 }
 
 /// The direction that is upwards in a picture.

@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::results::scene::{Body, Shape};
 
 /// Radius of the largest point mass, as part of the size of the mechanism.
-const LARGEST: f64 = 0.05;
+const LARGEST: f64 = 0.035;
 
 /// The bodies of a mechanism with their shapes.
 pub(super) fn bodies<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<Body> {
@@ -31,7 +31,9 @@ pub(super) fn bodies<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>)
 /// Point masses: those that are attached, and a body that is one itself.
 fn masses<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, index: usize) -> Vec<(G::Vector, f64)> {
     let (body, said) = (&mechanism.bodies[index], &model.bodies[index]);
-    let itself = (index > 0 && said.shape.is_none() && said.inertia.is_empty()).then_some((body.bare.com, body.bare.mass));
+    // one that slides is seen by the box of its slide
+    let slides = mechanism.joints.iter().any(|j| (j.a.0 == index || j.b.0 == index) && j.kind == "slider");
+    let itself = (index > 0 && !slides && said.shape.is_none() && said.inertia.is_empty()).then_some((body.bare.com, body.bare.mass));
     let attached = body.attached.iter().map(|a| (a.mass.com, a.mass.mass));
     itself.into_iter().chain(attached).filter(|(_, mass)| *mass > 0.0).collect()
 }

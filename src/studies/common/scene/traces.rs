@@ -11,20 +11,27 @@ use crate::studies::common::case::Case;
 /// Paths at most that are drawn unasked, so that a picture of a large mechanism stays readable.
 const MOST: usize = 8;
 
-/// Points that the columns of the study name; without any, points of the file and joints between moving bodies whose paths are neither
+/// Points that the study asks for, else those that its columns name; without any, points of the file and joints between moving bodies whose paths are neither
 /// circles nor lines. The frames of the scene are there.
 pub(super) fn traces<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Trace> {
     if scene.frames.count() < 4 {
         return Vec::new();
     }
-    let named = of_columns(case, mechanism);
-    let mut traces = if named.is_empty() { of_mechanism(mechanism, scene) } else { named };
-    traces.truncate(MOST);
-    traces
+    let trace = |at: &PointRef| {
+        let body = &mechanism.bodies[at.body];
+        let (point, place) = &body.points[at.point];
+        let name = if point == "origin" { body.name.clone() } else { format!("{}.{point}", body.name) };
+        Trace { name, body: at.body, at: numbers::<G>(*place) }
+    };
+    if let Some(asked) = &case.study.trace {
+        return asked.iter().map(trace).collect();
+    }
+    let named = of_columns(case);
+    if named.is_empty() { of_mechanism(mechanism, scene) } else { named.iter().map(trace).take(MOST).collect() }
 }
 
 /// Points of moving bodies whose coordinates are columns.
-fn of_columns<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Vec<Trace> {
+fn of_columns(case: Case<'_>) -> Vec<PointRef> {
     let ids: Vec<_> = case.study.columns.iter().map(|column| column.value).collect();
     let mut found: Vec<PointRef> = Vec::new();
     for id in ids {
@@ -37,13 +44,7 @@ fn of_columns<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Ve
             }
         }
     }
-    let trace = |at: PointRef| {
-        let body = &mechanism.bodies[at.body];
-        let (point, place) = &body.points[at.point];
-        let name = if point == "origin" { body.name.clone() } else { format!("{}.{point}", body.name) };
-        Trace { name, body: at.body, at: numbers::<G>(*place) }
-    };
-    found.into_iter().map(trace).collect()
+    found
 }
 
 /// Points of moving bodies that are not fixed on a circle or a line.
