@@ -1,6 +1,7 @@
 //! All tests of the program and its library, in one binary: `cargo test --test all NAME`.
 
 mod allocations;
+mod animate;
 mod architecture;
 mod assembly;
 mod assignment;

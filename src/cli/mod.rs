@@ -83,12 +83,12 @@ enum Command {
     Compare(compare::Arguments),
     /// Show the motion of a study: GIF, SVG that moves, film or single pictures
     #[command(
-        after_help = "Examples:\n  grashof animate models/crank_rocker.yaml --study one-turn --speed 0.1 -o turn.gif\n  grashof animate models/four_bar_spatial.yaml --study turn --view 30,20 -o turn.mp4\n  grashof animate my.yaml --study swing --duration 5 --size 600 -o frames/"
+        after_help = "Examples:\n  grashof animate models/crank_rocker.yaml --study one-turn --speed 0.1 -o turn.gif\n  grashof animate models/four_bar_spatial.yaml --study one-turn --view 30,20 -o turn.mp4\n  grashof animate my.yaml --study swing --duration 5 --size 600 -o frames/"
     )]
     Animate(animate::Arguments),
     /// Write a mechanism for other programs: glTF with its motion, DXF of its first position
     #[command(
-        after_help = "Examples:\n  grashof export models/four_bar_spatial.yaml --study turn --gltf turn.glb\n  grashof export models/crank_rocker.yaml --study one-turn --dxf linkage.dxf"
+        after_help = "Examples:\n  grashof export models/four_bar_spatial.yaml --study one-turn --gltf turn.glb\n  grashof export models/crank_rocker.yaml --study one-turn --dxf linkage.dxf"
     )]
     Export(export::Arguments),
     /// Eigenvalues, frequencies and shapes of the motions about a pose, with no study in the file

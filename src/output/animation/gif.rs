@@ -84,7 +84,7 @@ fn changed(below: Option<&[u8]>, picture: &[u8], width: usize, same: u8) -> Fram
     };
     let Some(below) = below else { return frame([0, 0], [width, picture.len() / width], picture.to_vec()) };
     let rows = || picture.chunks_exact(width).zip(below.chunks_exact(width)).enumerate().filter(|(_, (new, old))| new != old);
-    let (Some((top, _)), Some((bottom, _))) = (rows().next(), rows().last()) else { return frame([0, 0], [1, 1], vec![same]) };
+    let (Some((top, _)), Some((bottom, _))) = (rows().next(), rows().next_back()) else { return frame([0, 0], [1, 1], vec![same]) };
     let mut range = [width, 0];
     for (_, (new, old)) in rows() {
         let differs = |(new, old): (&u8, &u8)| new != old;

@@ -40,7 +40,7 @@ impl Canvas {
             Item::Path { points, closed, fill, stroke } => {
                 let points: Vec<Point> = points.iter().map(|p| p.map(|x| (x * self.scale).clamp(-1e6, 1e6))).collect();
                 if let Some(color) = fill {
-                    self.fill(&[points.clone()], *color);
+                    self.fill(std::slice::from_ref(&points), *color);
                 }
                 if let Some(stroke) = stroke {
                     self.stroke(points, *closed, *stroke);
@@ -177,12 +177,12 @@ fn spread(row: &mut [f32], x0: f64, x1: f64, height: f64) {
     let per = height / (x1 - x0);
     let mut before = 0.0;
     let mut covered = 0.0;
-    for column in first..last {
+    for (column, change) in row.iter_mut().enumerate().take(last).skip(first) {
         let (from, to) = (x0.max(column as f64), x1.min((column + 1) as f64));
         // the mean height of the part of the column behind the edge
         let area = covered + per * (to - from) * ((column + 1) as f64 - 0.5 * (from + to));
         covered += per * (to - from);
-        row[column] += (area - before) as f32;
+        *change += (area - before) as f32;
         before = area;
     }
     row[last] += (height - before) as f32;

@@ -1,0 +1,153 @@
+//! glTF and DXF: their numbers beside those of the motion.
+
+use super::{Place, SLIDER_CRANK, shot};
+use grashof::output::Pace;
+use serde_json::Value;
+
+/// A top whose quaternion goes round, on a spring.
+const TOP: &str = "grashof: 1
+name: top
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+ground: { S: [0, 0, 1 m] }
+bodies: { top: { disc: { radius: 0.3 m, mass: 1 kg }, points: { foot: [0, 0, -0.5 m], rim: [0.3 m, 0, 0] } } }
+joints: { P: { spherical: [ground, top.foot] } }
+springs: { coil: { between: [ground.S, top.rim], stiffness: 1 N/m, free_length: 0.5 m } }
+start: { top.rotation: { axis: [1, 0, 0], angle: 40 deg }, top.wz: 30 rad/s }
+studies: { spin: { dynamics: { until: 1 s, every: 10 ms } } }
+";
+
+/// A glTF document with its numbers.
+struct Document {
+    json: Value,
+    bytes: Vec<u8>,
+}
+
+impl Document {
+    /// Of the form `.glb`.
+    fn packed(file: &[u8]) -> Self {
+        let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&file[..4], word(4), word(8)), (&b"glTF"[..], 2, file.len()));
+        let text = word(12);
+        assert_eq!((&file[16..20], text % 4, &file[24 + text..28 + text]), (&b"JSON"[..], 0, &b"BIN\0"[..]));
+        assert_eq!(28 + text + word(20 + text), file.len());
+        Self { json: serde_json::from_slice(&file[20..20 + text]).unwrap(), bytes: file[28 + text..].to_vec() }
+    }
+
+    /// The values of an accessor, flat, and its numbers to a value.
+    fn values(&self, accessor: &Value) -> (Vec<f64>, usize) {
+        let accessor = &self.json["accessors"][accessor.as_u64().unwrap() as usize];
+        let view = &self.json["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+        let from = view["byteOffset"].as_u64().unwrap() as usize;
+        let bytes = &self.bytes[from..from + view["byteLength"].as_u64().unwrap() as usize];
+        let words = bytes.chunks_exact(4).map(|b| b.try_into().unwrap());
+        let float = accessor["componentType"] == 5126;
+        let values: Vec<f64> =
+            words.map(|b| if float { f64::from(f32::from_le_bytes(b)) } else { f64::from(u32::from_le_bytes(b)) }).collect();
+        let width = match accessor["type"].as_str().unwrap() {
+            "SCALAR" => 1,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            other => panic!("{other}"),
+        };
+        assert_eq!(accessor["count"].as_u64().unwrap() as usize * width, values.len());
+        for (key, pick) in [("min", f64::min as fn(f64, f64) -> f64), ("max", f64::max)] {
+            for (i, bound) in accessor[key].as_array().into_iter().flatten().enumerate() {
+                assert_eq!(values.iter().skip(i).step_by(width).copied().reduce(pick).unwrap(), bound.as_f64().unwrap());
+            }
+        }
+        (values, width)
+    }
+
+    /// The track of a node: its times and its values.
+    fn track(&self, node: usize, path: &str) -> (Vec<f64>, Vec<f64>) {
+        let animation = &self.json["animations"][0];
+        let channels = animation["channels"].as_array().unwrap();
+        let of = |c: &&Value| c["target"]["node"] == node && c["target"]["path"] == path;
+        let channel = channels.iter().find(of).unwrap_or_else(|| panic!("no {path} of node {node}"));
+        let sampler = &animation["samplers"][channel["sampler"].as_u64().unwrap() as usize];
+        (self.values(&sampler["input"]).0, self.values(&sampler["output"]).0)
+    }
+
+    fn node(&self, name: &str) -> usize {
+        self.json["nodes"].as_array().unwrap().iter().position(|node| node["name"] == name).unwrap()
+    }
+}
+
+#[test]
+fn a_motion_in_space_is_that_of_its_frames() {
+    let place = Place::new("glb", TOP);
+    let file = Document::packed(&place.made("export --study spin --rate 50 --gltf out.glb", "out.glb"));
+    let (scene, shot) = shot(TOP, "spin", Pace::Speed(1.0), 50.0, false);
+    let top = file.node("top");
+    let (times, places) = file.track(top, "translation");
+    let (_, turns) = file.track(top, "rotation");
+    assert_eq!((times.len(), times[0], times[50]), (51, 0.0, 1.0));
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
+    for (k, (place, turn)) in places.chunks_exact(3).zip(turns.chunks_exact(4)).enumerate() {
+        let pose = scene.frames.at(shot.at[k], 3);
+        assert!(place.iter().zip(&pose[..3]).all(|(a, b)| (a - b).abs() < 1e-6));
+        // x, y, z, w there; w, x, y, z here
+        assert!((0..4).all(|i| (turn[i] - pose[3 + (i + 1) % 4]).abs() < 1e-6), "{turn:?} {pose:?}");
+        assert!((turn.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-6);
+    }
+    // the spring reaches from the ground to the rim
+    let coil = file.node("coil");
+    let (_, scales) = file.track(coil, "scale");
+    let poses = scene.frames.at(shot.at[20], 3);
+    let [a, b] = [&scene.links[0].a, &scene.links[0].b].map(|end| scene.world(&poses, end));
+    let length = (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
+    assert!((scales[62] - length).abs() < 1e-6);
+    // z becomes y
+    let turn: Vec<f64> = file.json["nodes"][0]["rotation"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert!((turn[0] + 0.5_f64.sqrt()).abs() < 1e-12 && (turn[3] - 0.5_f64.sqrt()).abs() < 1e-12);
+}
+
+#[test]
+fn meshes_have_bounds_and_unit_normals() {
+    let place = Place::new("mesh", SLIDER_CRANK);
+    let file = Document::packed(&place.made("export --study turn --gltf out.glb", "out.glb"));
+    let meshes = file.json["meshes"].as_array().unwrap();
+    assert!(meshes.len() >= 3);
+    for primitive in meshes.iter().flat_map(|mesh| mesh["primitives"].as_array().unwrap()) {
+        let (positions, _) = file.values(&primitive["attributes"]["POSITION"]);
+        let (normals, _) = file.values(&primitive["attributes"]["NORMAL"]);
+        let (indices, _) = file.values(&primitive["indices"]);
+        assert_eq!(positions.len(), normals.len());
+        assert!(normals.chunks_exact(3).all(|n| (n.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-5));
+        assert!(indices.len() % 3 == 0 && indices.iter().all(|i| (*i as usize) < positions.len() / 3));
+    }
+    // a whole turn of the crank, clockwise: minus the unit quaternion at its end
+    let (_, turns) = file.track(file.node("crank"), "rotation");
+    let last = &turns[turns.len() - 4..];
+    assert!(turns[..4].iter().zip(last).all(|(a, b)| (a + b).abs() < 1e-5), "{:?} {last:?}", &turns[..4]);
+}
+
+#[test]
+fn text_has_the_same_numbers() {
+    let place = Place::new("gltf", SLIDER_CRANK);
+    place.made("export --study part --gltf out.gltf --dxf out.dxf", "out.gltf");
+    let text: Value = serde_json::from_slice(&std::fs::read(place.0.join("out.gltf")).unwrap()).unwrap();
+    let packed = Document::packed(&place.made("export --study part --gltf out.glb", "out.glb"));
+    assert_eq!(text["accessors"], packed.json["accessors"]);
+    let uri = text["buffers"][0]["uri"].as_str().unwrap();
+    let data = uri.strip_prefix("data:application/octet-stream;base64,").unwrap();
+    let length = text["buffers"][0]["byteLength"].as_u64().unwrap() as usize;
+    assert_eq!(data.len(), length.div_ceil(3) * 4);
+}
+
+#[test]
+fn a_drawing_has_its_layers_and_its_size() {
+    let place = Place::new("dxf", SLIDER_CRANK);
+    let text = String::from_utf8(place.made("export --study turn --dxf out.dxf", "out.dxf")).unwrap();
+    let pairs: Vec<(&str, &str)> = text.lines().zip(text.lines().skip(1)).step_by(2).map(|(code, value)| (code.trim(), value)).collect();
+    assert_eq!((pairs[0], pairs[pairs.len() - 1]), (("0", "SECTION"), ("0", "EOF")));
+    for layer in ["GROUND", "BODIES", "JOINTS", "LINKS", "PATHS", "NAMES"] {
+        assert!(pairs.windows(2).any(|w| w[0].0 == "0" && w[0].1 != "LAYER" && w[1] == ("8", layer)), "nothing on {layer}");
+    }
+    // the straight sides of the crank, 300 mm long
+    let number = |pair: &(&str, &str)| pair.1.parse::<f64>().unwrap();
+    let lines = pairs.windows(8).filter(|w| w[0] == ("0", "LINE") && w[1] == ("8", "BODIES"));
+    let lengths: Vec<f64> = lines.map(|w| (number(&w[5]) - number(&w[2])).hypot(number(&w[6]) - number(&w[3]))).collect();
+    assert_eq!(lengths.iter().filter(|length| (**length - 300.0).abs() < 1e-3).count(), 2, "{lengths:?}");
+}
