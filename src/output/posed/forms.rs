@@ -151,3 +151,34 @@ impl Posed<'_> {
         (0..CORNERS).map(corner).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::drawing;
+    use crate::results::Scene;
+    use crate::results::scene::{Body, Frames};
+
+    /// The forms of one body that stands as the world does.
+    fn seen(shape: Shape, view: Option<[f64; 2]>) -> Vec<Form> {
+        let bodies = vec![Body { name: "ground".into(), shapes: vec![] }, Body { name: "b".into(), shapes: vec![shape] }];
+        let frames = Frames { at: vec![0.0], poses: vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], shown: vec![0], ..Frames::default() };
+        let scene = Scene { dimensions: 3, up: [0.0, 0.0, 1.0], view, bodies, frames, ..Scene::default() };
+        drawing("m", "s", "mechanism", &scene).bodies.remove(1).poses.remove(0)
+    }
+
+    #[test]
+    fn solids_show_the_faces_that_are_turned_to_the_eye() {
+        let cuboid = Shape::Box { center: vec![0.0; 3], size: vec![1.0, 2.0, 3.0] };
+        assert_eq!(seen(cuboid.clone(), None).len(), 3);
+        // from the front one face, as wide as x and as high as z
+        let front = seen(cuboid, Some([-0.25 * TAU, 0.0]));
+        let [Form { kind: FormKind::Area { points, .. }, .. }] = &front[..] else { panic!("{front:?}") };
+        let span = |axis: usize| points.iter().map(|p| p[axis]).fold(0.0, f64::max) * 2.0;
+        assert!((span(0) - 1.0).abs() < 1e-12 && (span(1) - 3.0).abs() < 1e-12, "{points:?}");
+        let disc = Shape::Disc { center: vec![0.0; 3], radius: 1.0, axis: Some(vec![0.0, 0.0, 1.0]), thickness: Some(0.2) };
+        assert_eq!(seen(disc, None).len(), 2);
+        let hull = |n: usize| Shape::Hull { points: (0..n).map(|i| vec![i as f64, (i * i) as f64, 0.5]).collect() };
+        assert_eq!((seen(hull(2), None).len(), seen(hull(3), None).len(), seen(hull(8), None).len()), (1, 3, 1));
+    }
+}
