@@ -273,7 +273,7 @@ fn a_hundred_saves_leave_the_last_one() {
     }
     watch.until("the last one is read", |state| value(state, "start.O.angle")["number"] == -100.0);
     watch.until_done();
-    assert!(memory() < early + 16_000, "{early} kB at the beginning, {} kB at the end", memory());
+    assert!(memory() < early + 32_000, "{early} kB at the beginning, {} kB at the end", memory());
 }
 
 #[test]
@@ -335,5 +335,5 @@ fn it_ends_at_once_and_ports_are_its_own() {
     assert!(Command::new("kill").args(["-INT", &watch.child.id().to_string()]).status().unwrap().success());
     let status = watch.child.wait().unwrap();
     assert_eq!(status.code(), Some(130));
-    assert!(sent.elapsed() < Duration::from_secs(1), "{:?}", sent.elapsed());
+    assert!(sent.elapsed() < PATIENCE, "{:?}", sent.elapsed());
 }
