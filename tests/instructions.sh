@@ -42,7 +42,7 @@ chain 140 >"$work/chain.yaml"
 # count MODEL STUDY: instructions, thousands
 count() {
     local said
-    said=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null "$program" run "$1" --study "$2" --no-plots -q -j 1 -o "$work/out" 2>&1 >/dev/null) ||
+    said=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null "$program" run "$1" --study "$2" --no-plots --no-report -q -j 1 -o "$work/out" 2>&1 >/dev/null) ||
         { printf '%s\n' "$said" >&2; return 1; }
     awk '/Collected/ { printf "%d", $4 / 1000 }' <<<"$said"
 }
