@@ -12,23 +12,23 @@ pub(super) const FILE: &str = "report.html";
 
 /// A report without studies.
 pub(super) fn begun(document: &Document, common: &Common) -> Report {
-    with_model(document, common, Report::new)
+    // where it lies is nobody's business to whom the page is sent
+    let path = Path::new(document.file()).file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    with_model(document, common, path, Report::new)
 }
 
 /// What a page has of a model, without studies; none if it has errors.
 pub(super) fn model_json(document: &Document, common: &Common) -> Option<serde_json::Value> {
     let sound = files::selection(common, None).is_some_and(|selection| document.model(&selection).is_ok());
-    sound.then(|| with_model(document, common, |model| model.json()))
+    sound.then(|| with_model(document, common, document.file(), |model| model.json()))
 }
 
-/// Makes something of what a report says of a model.
-fn with_model<T>(document: &Document, common: &Common, make: impl FnOnce(&ReportModel<'_>) -> T) -> T {
+/// Makes something of what a report says of a model whose file is called `path` there.
+fn with_model<T>(document: &Document, common: &Common, path: &str, make: impl FnOnce(&ReportModel<'_>) -> T) -> T {
     let model = files::selection(common, None).and_then(|selection| document.model(&selection).ok());
     let looked = model.as_ref().and_then(|model| survey(model, &parameters(model)).ok());
     let overview = looked.as_ref().map(overview).unwrap_or_default();
     let (name, about) = model.as_ref().map_or((document.file(), ""), |model| (&model.name, &model.about));
-    // where it lies is nobody's business to whom the page is sent
-    let path = Path::new(document.file()).file_name().and_then(|name| name.to_str()).unwrap_or_default();
     make(&ReportModel { name, path, source: document.text(), about, overview: &overview })
 }
 
