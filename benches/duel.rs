@@ -3,6 +3,8 @@
 //! `cargo bench --bench duel -- MODEL SETTING...` runs the study `motion` of a model; a setting is INTEGRATOR:TOLERANCE. One line of JSON a
 //! setting: its processor time and the columns at the end. `cost:INTEGRATOR:TOLERANCE` gives set-up, a step and an evaluation instead.
 
+#![allow(clippy::print_stdout, reason = "lines for the program that calls it are what it is for")]
+
 use grashof::model::{Control, Document, Forward, Integrator, Kind, Model, Selection};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::dynamics::{Unrecorded, unrecorded};

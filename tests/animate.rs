@@ -30,11 +30,11 @@ joints:
   A: { revolute: [crank.end, rod.start] }
   B: { revolute: [rod.end, block.origin] }
   W: { slider: [ground.W, block.origin], axis: [1, 0] }
-springs: { coil: { between: [ground.O, block.origin], stiffness: 1 N/m, free_length: 0.5 m } }
+springs: { coil: { between: [ground.O, block.origin], stiffness: 1 N/m, length: 0.5 m } }
 drivers: { drive: { joint: O, speed: -2 rad/s } }
 start: { O.angle: 20 deg, rod.angle: ~0 deg }
 studies:
-  turn: { kinematics: { over: 1 turn, samples: 97 }, columns: [time, rod.P, rod.P.x, rod.P.y] }
+  turn: { kinematics: { over: 1 turn, samples: 97 }, columns: [time, rod.P] }
   part: { kinematics: { over: 0.25 turn, samples: 10 } }
   cranks: { kinematics: { over: 1 turn, samples: 20 }, sweep: { r: [0.2 m, 0.3 m] } }
   rest: { statics: { from: start } }

@@ -12,7 +12,7 @@ gravity: [0, 0, -9.81 m/s^2]
 ground: { S: [0, 0, 1 m] }
 bodies: { top: { disc: { radius: 0.3 m, mass: 1 kg }, points: { foot: [0, 0, -0.5 m], rim: [0.3 m, 0, 0] } } }
 joints: { P: { spherical: [ground, top.foot] } }
-springs: { coil: { between: [ground.S, top.rim], stiffness: 1 N/m, free_length: 0.5 m } }
+springs: { coil: { between: [ground.S, top.rim], stiffness: 1 N/m, length: 0.5 m } }
 start: { top.rotation: { axis: [1, 0, 0], angle: 40 deg }, top.wz: 30 rad/s }
 studies: { spin: { dynamics: { until: 1 s, every: 10 ms } } }
 ";
@@ -53,7 +53,8 @@ impl Document {
         assert_eq!(accessor["count"].as_u64().unwrap() as usize * width, values.len());
         for (key, pick) in [("min", f64::min as fn(f64, f64) -> f64), ("max", f64::max)] {
             for (i, bound) in accessor[key].as_array().into_iter().flatten().enumerate() {
-                assert_eq!(values.iter().skip(i).step_by(width).copied().reduce(pick).unwrap(), bound.as_f64().unwrap());
+                let found = values.iter().skip(i).step_by(width).copied().reduce(pick).unwrap();
+                assert_eq!(found as f32, bound.as_f64().unwrap() as f32);
             }
         }
         (values, width)
@@ -69,8 +70,9 @@ impl Document {
         (self.values(&sampler["input"]).0, self.values(&sampler["output"]).0)
     }
 
+    /// The node of a body or link; the root, which comes first, may have the same name.
     fn node(&self, name: &str) -> usize {
-        self.json["nodes"].as_array().unwrap().iter().position(|node| node["name"] == name).unwrap()
+        self.json["nodes"].as_array().unwrap().iter().rposition(|node| node["name"] == name).unwrap()
     }
 }
 
