@@ -1,6 +1,6 @@
 //! `grashof animate`: a mechanism in motion, as GIF, SVG, film or pictures.
 
-use super::interrupt::interrupted;
+use super::interrupt::{interrupted, uncut};
 use super::moving::{Chosen, Fast, Moving, moving};
 use super::progress::Progress;
 use super::{Common, code, files, interrupt, print_error, print_note, video};
@@ -142,12 +142,14 @@ fn made(kind: Kind, file: &Path, moving: &Moving, shot: &Shot, arguments: &Argum
         Kind::Video(codec) => {
             let projector = Projector::new(&film, width);
             let temporary = files::unfinished(file);
-            let encoded = video::encoded(codec, &projector, shot.rate, &temporary, common, &step);
-            let placed = encoded.and_then(|()| files::place(&temporary, file, common));
-            if placed.is_err() {
-                let _ = std::fs::remove_file(&temporary);
-            }
-            placed
+            uncut(|| {
+                let encoded = video::encoded(codec, &projector, shot.rate, &temporary, common, &step);
+                let placed = encoded.and_then(|()| files::place(&temporary, file, common));
+                if placed.is_err() {
+                    let _ = std::fs::remove_file(&temporary);
+                }
+                placed
+            })
         }
         Kind::Frames => pictures(file, &Projector::new(&film, width), film.count(), common, &step),
     }

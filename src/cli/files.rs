@@ -52,22 +52,33 @@ pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection
     (!report.failed()).then_some((document, selection, report))
 }
 
-/// Writes a file that must not be there yet, unless `--force` says so; a failure was reported.
+/// Writes a file that must not be there yet, unless `--force` says so, whole or not at all; a failure was reported.
 pub(super) fn write_new(file: &Path, bytes: &[u8], common: &Common) -> bool {
-    let whole = |path: &Path| {
-        // never over somebody's work
-        let mut new = std::fs::File::create_new(path)?;
-        new.write_all(bytes).inspect_err(|_| _ = std::fs::remove_file(path))
+    let new = unfinished(file);
+    let whole = || {
+        let mut out = std::fs::File::create_new(&new)?;
+        out.write_all(bytes)?;
+        name(&new, file, common)
     };
-    let replace = || {
-        // a file of the same directory is renamed over the old one, so that this is never half written
-        let new = unfinished(file);
-        whole(&new)?;
-        std::fs::rename(&new, file).inspect_err(|_| _ = std::fs::remove_file(&new))
-    };
-    let Err(error) = (if common.force { replace() } else { whole(file) }) else { return true };
+    // never over somebody's work
+    let written = if file.exists() && !common.force { Err(ErrorKind::AlreadyExists.into()) } else { uncut(whole) };
+    let Err(error) = written else { return true };
+    let _ = std::fs::remove_file(&new);
     unwritten(file, &error);
     false
+}
+
+/// Gives a whole file its name, which must be free unless `--force` says otherwise.
+fn name(whole: &Path, file: &Path, common: &Common) -> std::io::Result<()> {
+    if common.force {
+        return std::fs::rename(whole, file);
+    }
+    match std::fs::hard_link(whole, file) {
+        Ok(()) => std::fs::remove_file(whole),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(error),
+        // a file system without links
+        Err(_) => std::fs::rename(whole, file),
+    }
 }
 
 /// A name in the directory of a file for what is not whole yet.
@@ -93,10 +104,9 @@ pub(super) fn may_write(file: &Path, common: &Common) -> Result<(), u8> {
     Err(code::INPUT)
 }
 
-/// Gives a whole file its name, which must be free unless `--force` says otherwise; a failure was reported.
+/// Gives a whole file its name, as [`write_new`] does; a failure was reported.
 pub(super) fn place(whole: &Path, file: &Path, common: &Common) -> Result<(), u8> {
-    may_write(file, common)?;
-    std::fs::rename(whole, file).map_err(|error| {
+    name(whole, file, common).map_err(|error| {
         unwritten(file, &error);
         code::INPUT
     })

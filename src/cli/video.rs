@@ -87,8 +87,10 @@ pub(super) fn encoded(
 fn feed(child: &mut Child, projector: &Projector<'_>, common: &Common, step: &(dyn Fn() + Sync)) -> std::io::Result<()> {
     let Some(mut pipe) = child.stdin.take() else { return Ok(()) };
     let count = projector.count();
+    // who has heard a signal makes no more pictures
+    let picture = |index: usize| if interrupted() { Vec::new() } else { projector.rgb(index) };
     for first in (0..count).step_by(HELD) {
-        let pictures = par::map(HELD.min(count - first), common.threads(), |i| projector.rgb(first + i), step);
+        let pictures = par::map(HELD.min(count - first), common.threads(), |i| picture(first + i), step);
         if interrupted() {
             break;
         }

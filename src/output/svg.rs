@@ -12,20 +12,20 @@ const FAMILY: &str = "'DejaVu Sans', 'Bitstream Vera Sans', Verdana, sans-serif"
 
 /// The text of an SVG file.
 pub(super) fn write_svg(scene: &Scene) -> String {
-    let mut out = head(scene.width, scene.height, &scene.title);
+    let mut out = head([scene.width, scene.height], scene);
     scene.items.iter().for_each(|item| write_item(&mut out, item, ""));
     out.push_str("</svg>\n");
     out
 }
 
-/// What a file begins with, up to the white of the paper.
-pub(super) fn head(width: f64, height: f64, title: &str) -> String {
-    let (width, height) = (short(width), short(height));
+/// What a file begins with, up to the white of the paper; it is shown in a size, pixels.
+pub(super) fn head(shown: [f64; 2], scene: &Scene) -> String {
+    let ([wide, high], [width, height]) = (shown.map(short), [scene.width, scene.height].map(short));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}\" height=\"{high}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"{FAMILY}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-        escaped(title)
+        escaped(&scene.title)
     )
 }
 

@@ -70,8 +70,9 @@ impl Document {
         (self.values(&sampler["input"]).0, self.values(&sampler["output"]).0)
     }
 
+    /// The node of a body or link; the root, which comes first, may have the same name.
     fn node(&self, name: &str) -> usize {
-        self.json["nodes"].as_array().unwrap().iter().position(|node| node["name"] == name).unwrap()
+        self.json["nodes"].as_array().unwrap().iter().rposition(|node| node["name"] == name).unwrap()
     }
 }
 

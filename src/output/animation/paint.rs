@@ -189,8 +189,8 @@ fn spread(row: &mut [f32], x0: f64, x1: f64, height: f64) {
 }
 
 fn disc(at: Point, radius: f64) -> Vec<Point> {
-    // chords stay within 0.08 pixels of the circle
-    let count = (8.0 * radius.sqrt()).clamp(12.0, 120.0).ceil();
+    // within a twentieth of a pixel of the circle
+    let count = (10.0 * radius.sqrt()).clamp(12.0, 400.0).ceil();
     (0..count as usize).map(|k| on_circle(at, radius, TAU * k as f64 / count)).collect()
 }
 
@@ -232,7 +232,7 @@ fn sector(at: Point, radius: f64, from: f64, turn: f64, shapes: &mut Vec<Vec<Poi
     if turn.abs() < 1e-3 {
         return;
     }
-    let count = (turn.abs() * (1.0 + radius.sqrt())).ceil().max(1.0);
+    let count = (1.6 * turn.abs() * radius.sqrt()).ceil().max(1.0);
     let arc = (0..=count as usize).map(|k| on_circle(at, radius, from + turn * k as f64 / count));
     shapes.push(std::iter::once(at).chain(arc).collect());
 }

@@ -22,9 +22,8 @@ const PATH: f64 = 2.4;
 pub fn moving_svg(film: &Film<'_>, width: usize) -> String {
     let (shot, sheet) = (film.shot(), &film.sheet);
     let steps = (shot.seconds * RATE.min(shot.rate)).round().max(1.0) as usize;
-    let mut out = head(sheet.width, sheet.height, &sheet.title);
-    let (from, to) = (format!("width=\"{}\" height=\"{}\"", short(sheet.width), short(sheet.height)), width as f64 / sheet.width);
-    out = out.replacen(&from, &format!("width=\"{width}\" height=\"{}\"", (sheet.height * to).ceil()), 1);
+    let height = (sheet.height * width as f64 / sheet.width).ceil();
+    let mut out = head([width as f64, height], sheet);
     sheet.items.iter().for_each(|item| write_item(&mut out, item, ""));
     let timing = timing(shot.seconds, shot.repeats);
     // one place more than steps: the end, which in a motion that returns is the beginning
