@@ -2,7 +2,9 @@
 //!
 //! The page is the bundle of `viewer/`, and data behind it: one object of JSON, compressed (gzip) and written as base64. It has
 //!
-//!     { "version", "model": { "name", "path", "source", "about" }, "overview": [{ "label", "value" }], "studies": [...] }
+//! ```text
+//! { "version", "model": { "name", "path", "source", "about" }, "overview": [{ "label", "value" }], "studies": [...] }
+//! ```
 //!
 //! where each study is [`Results`](crate::results::Results) as serde writes it, with `about`, with `rows`, which says what was left out
 //! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
