@@ -46,9 +46,44 @@ impl Sparsity {
     /// The pattern of a square matrix in which all indices of a group meet each other, for each of the groups, whose indices may come
     /// in any order, repeated or not.
     ///
-    /// Groups may overlap in most of their indices, as the paths to the bodies of a chain do: each costs its length times a row of
-    /// bits, not the square of its length.
+    /// Short groups cost the squares of their lengths. Where they overlap in most of their indices, as the paths to the bodies of a chain
+    /// do, each costs its length times a row of bits instead.
     pub fn of_groups<'g>(size: usize, groups: impl IntoIterator<Item = &'g [usize]>) -> Self {
+        let groups: Vec<&[usize]> = groups.into_iter().collect();
+        let words = size.div_ceil(64);
+        let meetings: usize = groups.iter().map(|group| group.len() * group.len()).sum();
+        let lengths: usize = groups.iter().map(|group| group.len()).sum();
+        if meetings <= (size + lengths) * words { Self::of_short_groups(size, &groups) } else { Self::of_long_groups(size, &groups) }
+    }
+
+    /// Row by row, through the groups that each index is in.
+    fn of_short_groups(size: usize, groups: &[&[usize]]) -> Self {
+        let members = || groups.iter().enumerate().flat_map(|(g, group)| group.iter().filter(|&&i| i < size).map(move |&i| (g, i)));
+        let mut begins = vec![0; size + 1];
+        members().for_each(|(_, i)| begins[i + 1] += 1);
+        (0..size).for_each(|i| begins[i + 1] += begins[i]);
+        let (mut next, mut of) = (begins.clone(), vec![0; begins[size]]);
+        for (g, i) in members() {
+            of[next[i]] = g;
+            next[i] += 1;
+        }
+        let mut met = vec![usize::MAX; size];
+        let (mut starts, mut indices) = (vec![0], Vec::new());
+        for row in 0..size {
+            let begin = indices.len();
+            for &j in of[begins[row]..begins[row + 1]].iter().flat_map(|&g| groups[g]).filter(|&&j| j < size) {
+                if std::mem::replace(&mut met[j], row) != row {
+                    indices.push(j);
+                }
+            }
+            indices[begin..].sort_unstable();
+            starts.push(indices.len());
+        }
+        Self::of(size, starts, indices)
+    }
+
+    /// By a row of bits for each index.
+    fn of_long_groups(size: usize, groups: &[&[usize]]) -> Self {
         let words = size.div_ceil(64);
         let mut met = vec![0_u64; size * words];
         let mut own = vec![0_u64; words];
@@ -163,7 +198,9 @@ mod tests {
     fn groups_are_their_pairs() {
         let groups: [&[usize]; 4] = [&[0, 2], &[70, 2, 2], &[5], &[9, 70, 80]];
         let pairs = groups.iter().flat_map(|g| g.iter().flat_map(|&i| g.iter().map(move |&k| (i, k))));
-        assert_eq!(Sparsity::of_groups(71, groups), Sparsity::new(71, 71, pairs));
+        let all = Sparsity::new(71, 71, pairs);
+        assert_eq!([Sparsity::of_short_groups(71, &groups), Sparsity::of_long_groups(71, &groups)], [all.clone(), all.clone()]);
+        assert_eq!(Sparsity::of_groups(71, groups), all);
         assert_eq!(Sparsity::of_groups(0, [[].as_slice()]), Sparsity::empty(0, 0));
     }
 
