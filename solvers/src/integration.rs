@@ -82,6 +82,8 @@ pub struct Integration {
     pending: Option<bool>,
     dense: Dense,
     dense_ready: bool,
+    /// Length of the last step, of which a part may be told, s.
+    length: f64,
     h: f64,
     /// Number of given steps since `origin`.
     turn: usize,
@@ -169,6 +171,7 @@ impl Integration {
             node,
             dense: Dense::new(dims),
             dense_ready: false,
+            length: 0.0,
             h: 0.0,
             turn: 0,
             origin: start.t,
@@ -339,6 +342,7 @@ impl Integration {
         if ends {
             self.node.state.t = until;
         }
+        self.length = self.node.state.t - self.last.state.t;
         self.end_bridge(system)?;
         self.finish(system, ends)
     }

@@ -58,6 +58,13 @@ pub trait Scheme {
     /// If the system cannot be evaluated inside of the step.
     fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why>;
 
+    /// Adds ∫ power dt over the step accepted last, which was `step` long (s), by the weights of the scheme, to `out`, and tells the largest
+    /// error of a work and the size of what was added up, J. None where the scheme does not integrate it:
+    /// then the loop does, along the continuous solution.
+    fn work(&self, _step: f64, _out: &mut [f64]) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Whether Newton's method solves its steps, on a matrix that is singular where the position is: the loop then crosses such
     /// positions by explicit steps.
     fn is_implicit(&self) -> bool {

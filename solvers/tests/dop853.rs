@@ -60,6 +60,21 @@ fn orders_are_8_and_4_in_positions_velocities_and_multipliers() {
     reaches_order(Method::Rk4, 4.0, 0.01);
 }
 
+#[test]
+fn work_comes_with_the_stages() {
+    let mut motor = InductanceMotor::new();
+    let [(node, with), (_, without)] = [true, false].map(|balance| run(&mut motor, Settings { balance, ..precise(1e-9) }, 0.7, |_, _| {}));
+    // no place inside of a step is evaluated for it
+    assert_eq!(with.evaluations, without.evaluations);
+    assert!((node.state.work[0] - motor.energy(&node.state)).abs() < 1e-8 * motor.energy(&node.state), "{:?}", node.state.work);
+    // powers that the steps do not resolve are integrated along the continuous solution
+    let coarse = Settings { balance: true, ..settings(Method::Dop853, Control::Steps([0.05, 0.05])) };
+    let (node, counts) = run(&mut motor, coarse, 0.7, |_, _| {});
+    let along = Settings { balance: false, ..coarse };
+    assert!(counts.evaluations > run(&mut motor, along, 0.7, |_, _| {}).1.evaluations);
+    assert!((node.state.work[0] - motor.energy(&node.state)).abs() < 1e-4 * motor.energy(&node.state), "{:?}", node.state.work);
+}
+
 /// Error of the continuous solution over all steps, in q and v.
 fn dense_error(h: f64) -> [f64; 2] {
     let mut system = Pendulum::new();

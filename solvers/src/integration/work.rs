@@ -1,10 +1,11 @@
-//! Work over a step: the integral of the powers along its continuous solution.
+//! Work over a step: the integral of the powers by the weights of the scheme, or else along its continuous solution.
 //!
 //! Lobatto's rule with five nodes is exact to degree seven (Abramowitz & Stegun 25.4.32); Simpson's, over three of the same nodes, to
 //! degree three. Where the two are apart by a part d, the first is off by about d^(9/5), the ratio of their orders. That is below the
 //! tolerance where the step follows a motion; where drivers leave nothing to integrate a step may span whole turns, and is halved.
+//! So is one whose weights are too coarse for the powers, as their own estimate of the error tells.
 
-use super::{Integration, WORK_NODES};
+use super::{Integration, WORK_NODES, active};
 use crate::engine::Why;
 use crate::{Power, System};
 use std::ops::Range;
@@ -19,6 +20,10 @@ const STEPS_TO_A_HALVING: usize = 20;
 /// Where a step that ends at a root has not reached it yet.
 const NEAR_SIDE: f64 = 1.0 - 1e-9;
 
+/// Tolerances, as a part of the work of a step, that the weights of a scheme may be off: the tolerance is that of a motion, whose errors
+/// powers multiply.
+const TOLERANCES: f64 = 10.0;
+
 /// Part of the powers of all forces, those included that store energy, that is round-off of their differences.
 const NOISE: f64 = 1e-13;
 
@@ -30,16 +35,20 @@ impl Integration {
         if !self.settings.balance || of == Power::Zero {
             return Ok(());
         }
-        self.interpolate(system)?;
         let h = self.node.state.t - self.last.state.t;
+        let forces = self.engine.terms.force.iter().zip(&self.node.state.v);
+        let noise = NOISE * forces.map(|(f, v)| (f * v).abs()).sum::<f64>();
         self.work.copy_from_slice(&self.last.state.work);
+        if !at_root && h == self.length && self.by_weights(h, noise) {
+            self.node.state.work.copy_from_slice(&self.work);
+            return Ok(());
+        }
+        self.interpolate(system)?;
         let apart = 3.0 * if self.engine.is_fixed() { 1e-8 } else { self.engine.tolerance() }.powf(5.0 / 9.0);
         let inner = 0.5 - 0.5 * (3.0_f64 / 7.0).sqrt();
         let (end, side, middle) = (1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0);
         let (places, weights) = ([0.0, inner, 0.5, 1.0 - inner, if at_root { NEAR_SIDE } else { 1.0 }], [end, side, middle, side, end]);
         let count = self.work.len();
-        let forces = self.engine.terms.force.iter().zip(&self.node.state.v);
-        let noise = NOISE * forces.map(|(f, v)| (f * v).abs()).sum::<f64>();
         let mut parts = [(0.0, 1.0); MOST_HALVINGS + 2];
         let mut left = 1;
         while left > 0 {
@@ -71,6 +80,19 @@ impl Integration {
         }
         self.node.state.work.copy_from_slice(&self.work);
         Ok(())
+    }
+
+    /// Adds the work of a step of `h` (s) by the weights of the scheme, where they are fine enough.
+    fn by_weights(&mut self, h: f64, noise: f64) -> bool {
+        let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
+        let fine = match scheme.work(h, &mut self.work) {
+            Some([error, size]) => error <= (TOLERANCES * self.engine.tolerance() * size).max(noise * h),
+            None => return false,
+        };
+        if !fine {
+            self.work.copy_from_slice(&self.last.state.work);
+        }
+        fine
     }
 
     /// Powers at the place θ of the last step, into a part of `power`.

@@ -46,7 +46,7 @@ impl Auto {
     /// Room for a system.
     pub(super) fn new(settings: Settings, system: &dyn System) -> Self {
         Self {
-            explicit: Dop853::new(system, !settings.locate),
+            explicit: Dop853::new(settings, system),
             implicit: Radau5::new(settings, system),
             on: false,
             change: false,
@@ -169,6 +169,10 @@ impl Scheme for Auto {
 
     fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why> {
         self.active().dense(system, engine, from, to, out)
+    }
+
+    fn work(&self, step: f64, out: &mut [f64]) -> Option<[f64; 2]> {
+        if self.on { self.implicit.work(step, out) } else { self.explicit.work(step, out) }
     }
 
     fn order(&self) -> usize {

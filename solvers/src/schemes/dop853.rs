@@ -10,9 +10,11 @@ use crate::System;
 use crate::dense_output::Dense;
 use crate::engine::{Engine, Node, Rejected, Why};
 use crate::scheme::Scheme;
+use crate::settings::Settings;
 use coefficients::*;
 use crossing::Crossing;
 use stiffness::Stiffness;
+use work::Work;
 
 pub(super) use stiffness::BORDER;
 
@@ -21,6 +23,7 @@ mod crossing;
 mod stiffness;
 #[cfg(test)]
 mod tests;
+mod work;
 
 /// Stage that begins the next step.
 const LAST: usize = 12;
@@ -48,6 +51,7 @@ pub(super) struct Dop853 {
     e3: Vec<f64>,
     stiffness: Stiffness,
     crossing: Crossing,
+    work: Work,
     /// Whether the stages of this step are projected.
     projected: bool,
     h: f64,
@@ -56,9 +60,9 @@ pub(super) struct Dop853 {
 }
 
 impl Dop853 {
-    /// Room for a system; `follow` takes the modes of every stage from its values.
-    pub(super) fn new(system: &dyn System, follow: bool) -> Self {
-        let flow = Flow::new(system, follow);
+    /// Room for a system; where switches are not located, the modes of every stage are taken from its values.
+    pub(super) fn new(settings: Settings, system: &dyn System) -> Self {
+        let flow = Flow::new(system, !settings.locate);
         let vector = vec![0.0; flow.n];
         Self {
             y0: vector.clone(),
@@ -69,6 +73,7 @@ impl Dop853 {
             e3: vector,
             stiffness: Stiffness::new(system),
             crossing: Crossing::new(system.dims()),
+            work: Work::new(settings, system),
             projected: false,
             h: 0.0,
             factor: 1.0,
@@ -107,7 +112,12 @@ impl Dop853 {
         if self.projected {
             return self.flow.settled(system, engine, (&from.state, t), &self.y, &mut self.crossing.node, rate);
         }
-        self.flow.rates(system, engine, (t, &from.state.live), &self.y, rate)
+        self.flow.rates(system, engine, (t, &from.state.live), &self.y, rate)?;
+        if self.work.wants(number) {
+            let (at, solved) = self.flow.solved((t, &from.state.live), &self.y, rate);
+            self.work.stage(number, system, at, solved);
+        }
+        Ok(())
     }
 
     /// The stages of a step behind the first, which is known.
@@ -201,6 +211,7 @@ impl Scheme for Dop853 {
     fn restart(&mut self, _: &mut dyn System, engine: &mut Engine, _: &Node, _: f64) -> Result<(), Why> {
         self.rejected = false;
         self.stiffness.forget();
+        self.work.forget();
         self.crossing.forget(engine);
         Ok(())
     }
@@ -210,6 +221,7 @@ impl Scheme for Dop853 {
         self.projected = self.crossing.near();
         let n = self.flow.n;
         self.flow.begin(system, from, &mut self.y0, &mut self.k[..n]);
+        self.work.begin(system, from, self.projected);
         let tried = self.stages(system, engine, from).and_then(|()| {
             self.sum();
             self.flow.state(&from.state, from.state.t + h, &self.y1, &mut to.state);
@@ -236,6 +248,7 @@ impl Scheme for Dop853 {
 
     fn accept(&mut self, engine: &mut Engine, _: &Node, to: &Node) -> f64 {
         self.stiffness.count();
+        self.work.accept();
         let most = if std::mem::take(&mut self.rejected) { 1.0 } else { GROW };
         if engine.is_fixed() {
             return self.h;
@@ -264,6 +277,10 @@ impl Scheme for Dop853 {
             out.set_entry(i, &powers(self.y0[i], [r1, r2, r3, r4, r5, r6, r7]));
         }
         Ok(())
+    }
+
+    fn work(&self, step: f64, out: &mut [f64]) -> Option<[f64; 2]> {
+        self.work.add(step, out)
     }
 
     fn order(&self) -> usize {

@@ -76,6 +76,13 @@ impl Flow {
         Ok(())
     }
 
+    /// The state y at t whose F was evaluated last, with its accelerations and multipliers.
+    pub(super) fn solved<'a>(&'a self, (t, live): (f64, &'a [f64]), y: &'a [f64], rate: &'a [f64]) -> (At<'a>, [&'a [f64]; 2]) {
+        let [q, v, z] = self.parts(y);
+        let [_, a, _] = self.parts(rate);
+        (At { t, q, v, z, modes: &self.modes, live }, [a, &self.lambda])
+    }
+
     /// F of the state on the constraints that is nearest to y at t: that state with its accelerations, in `node`. Modes and live
     /// parameters are those of `from`.
     pub(super) fn settled(

@@ -28,7 +28,7 @@ pub fn new(method: Method, settings: Settings, system: &dyn System) -> Box<dyn S
     let _ = settings;
     match method {
         Method::Auto => Box::new(auto::Auto::new(settings, system)),
-        Method::Dop853 => Box::new(dop853::Dop853::new(system, !settings.locate)),
+        Method::Dop853 => Box::new(dop853::Dop853::new(settings, system)),
         Method::Bdf { order } => Box::new(bdf::Bdf::new(order, settings, system)),
         Method::Radau5 => Box::new(radau5::Radau5::new(settings, system)),
         Method::Newmark { displacement, velocity } => {

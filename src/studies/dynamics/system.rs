@@ -257,10 +257,17 @@ where
         self.velocities(at);
     }
 
+    /// Evaluates the forces of a state whose positions and velocities are there, for whoever may change them after.
+    fn loads(&mut self, at: &At<'_>) {
+        if !self.seen.takes_loads(at) {
+            self.dynamics.loads(at.modes);
+        }
+    }
+
     /// Evaluates a state with its accelerations and reads the columns' quantities.
     pub(crate) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
         self.motion(at);
-        self.dynamics.loads(at.modes);
+        self.loads(at);
         self.dynamics.react(a, lambda, &mut self.reactions);
         let own = self.own(at.modes);
         self.observer.read(&mut self.dynamics, [at.q, at.v, a], &self.reactions, own);
@@ -275,8 +282,9 @@ where
     pub(crate) fn glance(&mut self, at: &At<'_>) {
         self.motion(at);
         if self.observer.needs() == Needs::Inertias {
-            self.dynamics.loads(at.modes);
+            self.loads(at);
         }
+        self.seen.takes_loads(at);
         let own = self.own(at.modes);
         let Self { dynamics, observer, reactions, a, .. } = self;
         observer.read(dynamics, [at.q, at.v, a], reactions, own);
@@ -326,6 +334,7 @@ where
         }
         if stage >= Stage::Dynamics {
             self.dynamics.forces(at.modes);
+            self.seen.loads(&at);
         } else {
             self.dynamics.inertias();
         }
@@ -358,7 +367,7 @@ where
 
     fn reaction_friction(&mut self, at: At<'_>, lambda: &[f64], force: &mut [f64], r_lambda: &mut Block) {
         self.kinematics(&at);
-        self.dynamics.loads(at.modes);
+        self.loads(&at);
         self.dynamics.friction(lambda, force, r_lambda);
     }
 
@@ -367,7 +376,7 @@ where
         self.linearizer.tangents(&point, out);
         if self.friction.is_some() {
             self.kinematics(&at);
-            self.dynamics.loads(at.modes);
+            self.loads(&at);
             self.dynamics.friction_slope(lambda, &mut out.r_lambda);
         }
     }

@@ -16,7 +16,7 @@ where
     /// they store: what changes the energy, W.
     pub(super) fn powers(&mut self, at: &At<'_>, lambda: &[f64], w: &mut [f64]) {
         self.motion(at);
-        self.dynamics.loads(at.modes);
+        self.loads(at);
         self.dynamics.apply_friction(lambda);
         let m = self.dynamics.mechanism;
         self.modes.copy_from_slice(&at.modes[..m.switches + m.windings]);

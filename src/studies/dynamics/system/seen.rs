@@ -14,6 +14,9 @@ pub(super) struct Seen {
     moving: bool,
     /// Whether G is there as well: terms take it away.
     rows: bool,
+    /// Whether forces are there as well: whatever else is asked for takes them away.
+    loads: bool,
+    z: Vec<f64>,
 }
 
 impl Seen {
@@ -33,13 +36,25 @@ impl Seen {
         copy(&mut self.q, at.q);
         copy(&mut self.modes, at.modes);
         copy(&mut self.live, at.live);
-        (self.placed, self.rows, self.moving) = (true, true, false);
+        (self.placed, self.rows, self.moving, self.loads) = (true, true, false, false);
     }
 
     /// Velocities have been evaluated.
     pub(super) fn moves(&mut self, at: &At<'_>) {
         copy(&mut self.v, at.v);
-        self.moving = true;
+        (self.moving, self.loads) = (true, false);
+    }
+
+    /// Forces have been evaluated where positions and velocities are.
+    pub(super) fn loads(&mut self, at: &At<'_>) {
+        copy(&mut self.z, at.z);
+        self.loads = true;
+    }
+
+    /// Whether forces are those of a state whose positions and velocities are there. Whoever asks may change them, so that they are not
+    /// taken for those of a state again.
+    pub(super) fn takes_loads(&mut self, at: &At<'_>) -> bool {
+        std::mem::take(&mut self.loads) && self.z == at.z
     }
 
     /// G was taken away.
