@@ -18,12 +18,15 @@ clutches: {{ main: {{ between: [A, B], torque: \"if(t < 1 s, 0 N m, 30 N m)\" }}
 loads: {{ hill: {{ joint: B, torque: \"if(t < 4 s, 0 N m, -60 N m)\" }} }}
 start: {{ A.omega: 40 rad/s, B.omega: 0 rad/s }}
 studies:
-  run: {{ dynamics: {{ until: 5 s, every: 10 ms, {settings} }}, columns: [time, A.omega, B.omega, main.torque, main.slip] }}
+  run: {{ dynamics: {{ until: 5 s, every: 10 ms, {settings} }}, columns: [time, A.omega, B.omega, main.torque, main.slip],
+    scalars: {{ nearly: \"first(time > 1 s and main.slip < 0.1 rad/s)\" }} }}
 "
         )
     };
     for (of, tolerance) in forms() {
         let outcome = done(&text(&of), "run");
+        // the condition switches in the same instant as the torque
+        close("nearly joined", outcome.scalars[0], 1.0 + 39.9 / 20.0, 1e-5);
         // slip 40 falls by 30/2 + 30/6 = 20 rad/s²: joined at 3 s with 10 rad/s; from 4 s on the hill asks 60·2/8 = 15 N m
         for row in &outcome.rows {
             let t = row[0];

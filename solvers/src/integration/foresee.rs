@@ -43,15 +43,16 @@ impl Integration {
         Ok(next.filter(|(t, _)| *t <= to).map(|(t, root)| (((t - from) / (to - from)).clamp(0.0, 1.0), root)))
     }
 
-    /// A root of time alone that belongs to the instant of the node, and was not crossed yet.
+    /// A root of time alone that belongs to the instant of the node, and was not crossed yet. Whether one that is zero there does so shows
+    /// behind it, as far ahead as the next step will look.
     pub(super) fn also_timed(&mut self, system: &mut dyn System) -> Option<usize> {
         if self.foresight.roots.is_empty() {
             return None;
         }
         let Node { state, .. } = &self.node;
         let instant = state.t + shortest(state.t, self.goal);
-        match system.ahead(state.at(), instant, &self.foresight.roots) {
-            Ahead::Crossing(_, root) if !self.crossed.contains(&root) => Some(root),
+        match system.ahead(state.at(), instant.max(state.t + self.h), &self.foresight.roots) {
+            Ahead::Crossing(t, root) if t <= instant && !self.crossed.contains(&root) => Some(root),
             _ => None,
         }
     }
