@@ -13,6 +13,7 @@ mod closed_form;
 mod common;
 mod compare;
 mod couplings;
+mod drawn;
 mod dynamics;
 mod equivalence;
 mod external;

@@ -85,6 +85,8 @@ pub(crate) enum Shape {
     Flag,
     /// A whole number in a range.
     Count(u64, u64),
+    /// A whole number up to a bound; the words say of what.
+    CountOf(&'static str, u64),
     /// A name of something; the words say of what.
     Name(&'static str),
     /// A list.
@@ -152,6 +154,7 @@ impl Shape {
             Self::Flag => "`true` or `false`".to_owned(),
             Self::Count(least, most) if least == most => format!("the number {least}"),
             Self::Count(least, most) => format!("a whole number from {least} to {most}"),
+            Self::CountOf(words, _) => (*words).to_owned(),
             Self::Name(words) => (*words).to_owned(),
             Self::List(item, size) => match size {
                 Size::AtLeast(_) => format!("a list `[ , ]` of: {}", item.expected()),

@@ -75,6 +75,7 @@ fn shape(of: &Shape, patch: bool) -> Value {
         Shape::Word(words) => json!({ "enum": words }),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Count(least, most) => json!({ "type": "integer", "minimum": least, "maximum": most }),
+        Shape::CountOf(words, most) => json!({ "type": "integer", "minimum": 0, "maximum": most, "title": words }),
         Shape::Name(words) => json!({ "type": "string", "title": words }),
         Shape::List(item, size) => {
             let mut list = json!({ "type": "array", "items": shape(item, false) });

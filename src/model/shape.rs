@@ -102,6 +102,12 @@ impl Shapes<'_> {
                     self.fault("bad-count", at, format!("found {n}"), outer.expected()).help = Some(help);
                 }
             }
+            (Shape::CountOf(_, most), Node::Plain(Value::Number(n))) => {
+                if !n.as_u64().is_some_and(|n| n <= *most) {
+                    self.fault("bad-count", at, format!("found {n}"), outer.expected()).help =
+                        Some(format!("write a whole number up to {most}"));
+                }
+            }
             (Shape::List(item, size), Node::Plain(Value::Sequence(items))) => self.list(items, item, *size, at, outer),
             (Shape::Map(table), _) if node.is_map() => self.map(node, table, at),
             (Shape::Named(keys, what, inner), _) if node.is_map() => self.named(node, *keys, what, inner, at),

@@ -16,6 +16,8 @@ pub struct Study {
     pub kind: Kind,
     /// Swept parameters; several: the grid, last one fastest.
     pub sweep: Vec<Sweep>,
+    /// How many points of the sweep are drawn from the distributions of its parameters, if some have one.
+    pub samples: Option<Samples>,
     /// `solve`, read and checked.
     pub solve: Option<Solve>,
     /// `take`: local name, study, scalar.
@@ -317,6 +319,27 @@ pub enum Values {
     List(Vec<Id>),
     /// `count` values from `from` to `to`, equally spaced, or so in the logarithm.
     Span { from: Id, to: Id, count: usize, log: bool },
+    /// Drawn from a normal distribution.
+    Normal { mean: Id, deviation: Id },
+    /// Drawn from between two values, all with the same chance.
+    Uniform { from: Id, to: Id },
+}
+
+impl Values {
+    /// Whether they are drawn.
+    #[must_use]
+    pub fn are_drawn(&self) -> bool {
+        matches!(self, Self::Normal { .. } | Self::Uniform { .. })
+    }
+}
+
+/// Points that are drawn, all parameters with a distribution at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How many.
+    pub count: usize,
+    /// Decides which.
+    pub seed: u64,
 }
 
 /// `solve`: vary a parameter between two values until scalars meet their targets.

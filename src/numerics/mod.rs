@@ -12,3 +12,4 @@ mod peaks;
 pub mod quadrature;
 pub mod resolve;
 pub mod root;
+pub(crate) mod sampling;

@@ -1,6 +1,8 @@
 //! The JSON file of a study: what was set, what came out, where the extremes are, and how far to trust it.
 
-use crate::results::{Extremes, Extremum, Finding, Happened, LinearSystem, March, Results, Run, Scalar, Solution};
+use crate::results::{
+    Extremes, Extremum, Finding, Happened, LinearSystem, March, PERCENTAGES, Part, Results, Run, Scalar, Solution, Statistics,
+};
 use serde_json::{Map, Value, json};
 
 /// Names and values of an object, in order.
@@ -27,7 +29,7 @@ pub fn write_json(results: &Results) -> String {
     };
     let parameters: Map<_, _> = results.parameters.iter().map(|p| (p.name.clone(), json_number(p.value))).collect();
     let extrema: Map<_, _> = results.extremes.iter().map(|(name, extremes)| (name.clone(), both(*extremes))).collect();
-    let text = json!({
+    let mut text = json!({
         "study": results.study,
         "status": if whole { "done" } else { "failed" },
         "parameters": parameters,
@@ -36,12 +38,28 @@ pub fn write_json(results: &Results) -> String {
         "certificate": object(if several { runs(results) } else { certificate(results) }),
         "findings": findings(results),
     });
+    if !results.statistics.is_empty() {
+        text["statistics"] = results.statistics.iter().map(|s| (s.name.clone(), statistics(s))).collect::<Map<_, _>>().into();
+    }
     // The alternate form of a Value is its indented text, and it cannot fail.
     format!("{text:#}\n")
 }
 
 fn object(entries: Entries) -> Value {
     Value::Object(entries.into_iter().collect())
+}
+
+/// How a number is distributed over runs.
+fn statistics(of: &Statistics) -> Value {
+    let mut entries: Entries = vec![("runs".into(), json_number(of.runs as f64))];
+    let numbers = [("mean", of.mean), ("deviation", of.deviation), ("least", of.range[0]), ("most", of.range[1])];
+    entries.extend(numbers.map(|(name, x)| (name.to_string(), json_number(x))));
+    let part = |p: &Part| (p.parameter.clone(), json!({ "slope": json_number(p.slope), "share": json_number(p.share) }));
+    entries.extend(PERCENTAGES.iter().zip(of.percentiles).map(|(p, x)| (format!("p{p}"), json_number(x))));
+    if !of.parts.is_empty() {
+        entries.push(("parts".into(), object(of.parts.iter().map(part).collect())));
+    }
+    object(entries)
 }
 
 /// The extremes of a column.

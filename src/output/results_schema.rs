@@ -87,6 +87,30 @@ pub fn results_schema() -> Value {
                 "description": "Extremes of each column on the continuous motion, wherever its rows are.",
                 "additionalProperties": { "type": "object", "properties": { "min": extreme, "max": extreme }, "required": ["min", "max"] },
             },
+            "statistics": {
+                "type": "object",
+                "description": "Of a sweep whose values are drawn: how each number of its table is distributed over the runs that have it; `p5` is the value below which 5 of a hundred are.",
+                "additionalProperties": {
+                    "type": "object",
+                    "properties": {
+                        "runs": count("Runs that have the number."),
+                        "mean": number("Mean."), "deviation": number("Standard deviation of the sample."),
+                        "least": number("Least value."), "most": number("Largest value."),
+                        "p5": number("5 % are below."), "p25": number("25 % are below."), "p50": number("The median."),
+                        "p75": number("75 % are below."), "p95": number("95 % are below."),
+                        "parts": {
+                            "type": "object",
+                            "description": "What each parameter that is drawn has to do with it, by the plane of least squares through the runs.",
+                            "additionalProperties": {
+                                "type": "object",
+                                "properties": { "slope": number("Change of the number with the parameter, SI."), "share": number("Share of the variance, 0 to 1.") },
+                                "additionalProperties": false,
+                            },
+                        },
+                    },
+                    "additionalProperties": false,
+                },
+            },
             "certificate": {
                 "type": "object",
                 "description": "How far to trust the results.",

@@ -53,6 +53,12 @@ pub fn ten_digits(x: f64) -> String {
     number(rounded)
 }
 
+/// Six significant digits.
+pub(super) fn six_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    number(rounded)
+}
+
 fn without_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -15,7 +15,7 @@ const EVENTS: usize = 6;
 /// The summary of a study: what was found, how far it is to be trusted, its scalars; of a sweep a line for each run.
 pub fn summary(results: &Results) -> String {
     if results.table.reasons.is_some() {
-        return runs::summary(&results.table);
+        return if results.statistics.is_empty() { runs::summary(&results.table) } else { runs::distributed(results) };
     }
     let of_kind = match results.kind.as_str() {
         "statics" => equilibria(results),

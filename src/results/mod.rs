@@ -10,6 +10,7 @@ mod number;
 mod plot;
 mod rows;
 pub mod scene;
+mod statistics;
 mod table;
 mod unknown;
 
@@ -23,6 +24,7 @@ pub use number::number;
 pub use plot::Plot;
 pub use rows::{Rows, Sink};
 pub use scene::Scene;
+pub use statistics::{PERCENTAGES, Part, Statistics};
 pub use table::{Column, ShownIn, Table};
 pub use unknown::Unknown;
 
@@ -75,6 +77,8 @@ pub struct Results {
     pub scenes: Vec<(String, Scene)>,
     /// Figures that the study asks for.
     pub plots: Vec<Plot>,
+    /// How the numbers of a sweep whose values are drawn are distributed over its runs.
+    pub statistics: Vec<Statistics>,
     /// The runs of a sweep.
     pub runs: Vec<Run>,
 }

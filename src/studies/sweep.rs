@@ -4,11 +4,14 @@ use super::common::case::{Case, Streamed, parameters, parameters_with};
 use super::common::named::{self, named};
 use super::run::run;
 use super::solve::{Solved, Task, solve};
+use crate::expression::Id;
 use crate::model::{Model, Study, Sweep, Values};
+use crate::numerics::sampling::Design;
 use crate::par;
 use crate::results::Failure;
-use crate::results::{self, By, Column, Finding, Results, Solution, Table, number};
+use crate::results::{self, By, Column, Finding, Results, Solution, Statistics, Table, number};
 use crate::studies::common::outcome::Outcome;
+use statrs::distribution::{ContinuousCDF, Normal};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Numbers of the drawings of all runs together, so that they are all kept.
@@ -25,13 +28,16 @@ pub struct Run {
     pub result: Result<Box<Outcome>, Failure>,
 }
 
-/// The points of a study's sweep: the grid over its parameters, the last one fastest; one empty point if it sweeps nothing.
+/// The points of a study's sweep: the grid over its parameters, the last one fastest; one empty point if it sweeps nothing. At each of
+/// them the points that are drawn from distributions follow each other, the same at all.
 #[must_use]
 pub fn grid(model: &Model, study: &Study) -> Vec<Vec<f64>> {
     let base = parameters(model);
     let mut points = vec![vec![]];
     for sweep in &study.sweep {
         let values: Vec<f64> = match &sweep.values {
+            // its place, to be filled below
+            Values::Normal { .. } | Values::Uniform { .. } => vec![f64::NAN],
             Values::List(ids) => model.pool.values(ids, &base),
             &Values::Span { from, to, count, log } => {
                 let (a, b) = (model.pool.value(from, &base), model.pool.value(to, &base));
@@ -50,7 +56,25 @@ pub fn grid(model: &Model, study: &Study) -> Vec<Vec<f64>> {
         };
         points = points.iter().flat_map(|p| values.iter().map(move |v| [p.clone(), vec![*v]].concat())).collect();
     }
-    points
+    let Some(samples) = study.samples else { return points };
+    let drawn: Vec<usize> = (0..study.sweep.len()).filter(|k| study.sweep[*k].values.are_drawn()).collect();
+    let design = Design::new(samples.count, drawn.len(), samples.seed);
+    let draw = |place: usize, mut point: Vec<f64>| {
+        for (&k, u) in drawn.iter().zip(design.point(place)) {
+            point[k] = drawn_at(&study.sweep[k].values, u, &|id| model.pool.value(id, &base));
+        }
+        point
+    };
+    points.iter().flat_map(|point| (0..samples.count).map(|place| draw(place, point.clone())).collect::<Vec<_>>()).collect()
+}
+
+/// The value of a distribution below which it is with the chance u, 0 < u < 1.
+fn drawn_at(values: &Values, u: f64, value: &dyn Fn(Id) -> f64) -> f64 {
+    match *values {
+        Values::Normal { mean, deviation } => value(mean) + value(deviation) * Normal::standard().inverse_cdf(u),
+        Values::Uniform { from, to } => value(from) + (value(to) - value(from)) * u,
+        Values::List(_) | Values::Span { .. } => f64::NAN,
+    }
 }
 
 /// The study at one point of its sweep (an empty one if it has none), solved if it has a `solve`; `rows` takes the rows of a motion that is
@@ -176,12 +200,20 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
         kind: study.kind.name().into(),
         place: study.place.clone(),
         parameters: named::parameters(model, parameters(model).into_iter()),
+        statistics: if study.samples.is_some() { statistics(&study.sweep, &table) } else { Vec::new() },
         table,
         findings,
         plots: named::plots(study),
         runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }
+}
+
+/// How the numbers of a table are distributed over its rows, behind the parameters that the sweep gives.
+fn statistics(sweep: &[Sweep], table: &Table) -> Vec<Statistics> {
+    let (swept, found) = table.columns.split_at(sweep.len());
+    let drawn: Vec<&Column> = if sweep.iter().all(|s| s.values.are_drawn()) { swept.iter().collect() } else { Vec::new() };
+    found.iter().filter_map(|column| Some(Statistics::of(column)?.with_parts(column, &drawn))).collect()
 }
 
 /// What certifies the solution of a run that solves.

@@ -140,6 +140,7 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
         solution: results.solution.clone(),
         scenes: Vec::new(),
         plots: results.plots.clone(),
+        statistics: results.statistics.clone(),
         runs: Vec::new(),
     };
     // names and numbers alone cannot fail

@@ -35,6 +35,7 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
         solution: None,
         scenes: outcome.scenes,
         plots: plots(study),
+        statistics: Vec::new(),
         runs: Vec::new(),
     }
 }
