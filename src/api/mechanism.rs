@@ -167,7 +167,9 @@ impl Mechanism {
     /// What evaluates many states in memory that it takes once.
     #[must_use]
     pub fn evaluator(&self) -> Evaluator<'_> {
-        Evaluator::new(self.system(), self.begin())
+        let mut system = self.system();
+        let begin = self.begin(&mut *system);
+        Evaluator::new(system, begin)
     }
 
     /// Where a body is at a position.
@@ -196,7 +198,9 @@ impl Mechanism {
     /// be made consistent.
     pub fn simulate(&self, settings: Settings) -> Result<Simulation<'_>, Error> {
         self.followed()?;
-        Simulation::new(self.system(), settings, None, self.begin())
+        let mut system = self.system();
+        let begin = self.begin(&mut *system);
+        Simulation::new(system, settings, None, begin)
     }
 
     /// [`Self::simulate`] by a scheme of one's own; `method` of the settings is not looked at.
@@ -205,7 +209,9 @@ impl Mechanism {
     /// As there.
     pub fn simulate_by(&self, scheme: Box<dyn Scheme>, settings: Settings) -> Result<Simulation<'_>, Error> {
         self.followed()?;
-        Simulation::new(self.system(), settings, Some(scheme), self.begin())
+        let mut system = self.system();
+        let begin = self.begin(&mut *system);
+        Simulation::new(system, settings, Some(scheme), begin)
     }
 
     /// The mechanism as the integrators see it: for schemes of one's own.
@@ -227,8 +233,7 @@ impl Mechanism {
     }
 
     /// The start, settled.
-    fn begin(&self) -> State {
-        let mut system = self.system();
+    fn begin(&self, system: &mut dyn System) -> State {
         let mut state = State::new(system.dims());
         built!(self, b => {
             state.q.copy_from_slice(&b.start.q);
@@ -237,7 +242,7 @@ impl Mechanism {
             state.modes[..b.start.modes.len()].copy_from_slice(&b.start.modes);
         });
         let mut modes = state.modes.clone();
-        settle(&mut *system, &mut state, &mut modes);
+        settle(system, &mut state, &mut modes);
         state
     }
 }
