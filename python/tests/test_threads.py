@@ -10,7 +10,7 @@ from typing import Callable
 
 import numpy as np
 import pytest
-from common import CRANK_ROCKER, PENDULUM
+from common import CRANK_ROCKER, MODELS, PENDULUM
 
 import grashof
 
@@ -42,6 +42,13 @@ def test_ctrl_c_ends_a_run() -> None:
 def test_ctrl_c_ends_a_sweep() -> None:
     model = grashof.load(CRANK_ROCKER)
     assert interrupted(lambda: model.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 3000)})) < 0.1
+
+
+def test_ctrl_c_ends_a_batch() -> None:
+    d = grashof.load(MODELS / "stewart_platform.yaml").dynamics()
+    q, v = d.start()
+    states = np.tile(q, (300_000, 1))
+    assert interrupted(lambda: d.accelerations(0.0, states, v)) < 0.1
 
 
 def test_ctrl_c_ends_a_step() -> None:
