@@ -13,9 +13,11 @@ from .builder import Model
 from .compared import Compared, ComparedRun
 from .dynamics import Dynamics, Pose
 from .errors import Error, Fault, Interrupted, ModelError, Refused, StudyError, UnknownName
+from .linear import Linear
 from .model import LoadedModel, Study, load, parse
 from .page import Animation, Page
-from .results import Checked, Event, Extreme, Extremes, Finding, Linear, Results, Runs, Solution
+from .records import Checked, Event, Extreme, Extremes, Finding, Solution
+from .results import Results, Runs
 from .stepper import State, Stepper
 
 #: The version of the library.

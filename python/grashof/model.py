@@ -159,7 +159,7 @@ class LoadedModel:
         """A new model with one more study, a mapping as it would stand in the file; and its name, which is the first of ``name``,
         ``name-2``, ... that no study has.
 
-        >>> m, name = m.with_study("slow", {"inverse": {"over": "1 turn"}, "set": {"speed": "60 rpm"}, "columns": ["drive.torque"]})
+        >>> m, name = m.with_study("slow", {"inverse": {"over": "1 turn", "samples": 72}, "set": {"speed": "60 rpm"}, "columns": ["drive.torque"]})
         """
         core, name = self._core.with_study(name, _text.text(study))
         return LoadedModel(core), name

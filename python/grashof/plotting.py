@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 
+import numpy as np
+
 if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
@@ -30,14 +32,19 @@ def plot(results: Results, names: Sequence[str], over: Optional[str]) -> matplot
         raise Refused(f"study `{results.study}` has no figures; {help}", code="refused", help=help)
     rows = [(figure, unit, curves) for figure in figures for unit, curves in _panels(figure)]
     drawn, axes = plt.subplots(len(rows), 1, squeeze=False, figsize=(8.0, 1.8 + 3.0 * len(rows)), layout="constrained")
-    begun: Dict[int, Any] = {}
-    for (figure, unit, curves), ax in zip(rows, axes[:, 0]):
-        first = begun.setdefault(id(figure), ax)
-        if first is not ax:
-            ax.sharex(first)
-            first.tick_params(labelbottom=False)
-            first.set_xlabel("")
-        _draw(ax, figure, unit, curves, title=first is ax)
+    above: Any = None
+    for place, ((figure, unit, curves), ax) in enumerate(zip(rows, axes[:, 0])):
+        first = place == 0 or rows[place - 1][0] is not figure
+        _draw(ax, figure, unit, curves, title=first)
+        if not ax.get_ylabel() and curves:
+            # more names than there is room for
+            ax.set_ylabel(_axis(results.quantities.get(curves[0][0], ""), unit or ""), color=INK)
+        if not first:
+            # panels of one figure have one horizontal axis
+            ax.sharex(above)
+            above.tick_params(labelbottom=False)
+            above.set_xlabel("")
+        above = ax
     return drawn
 
 
@@ -54,12 +61,14 @@ def _draw(ax: matplotlib.axes.Axes, figure: Dict[str, Any], unit: Optional[str],
     for (label, own, points), (color, dash) in zip(curves, styles):
         shown = f"{label} in {pretty(own)}" if unit is None and own else label
         style: Any = (0, [length / STROKE for length in dash]) if dash else "-"
-        ax.plot(points[:, 0], points[:, 1], label=shown, color=[c / 255 for c in color], linestyle=style, linewidth=LINE)
+        x, y = _parted(points).T
+        ax.plot(x, y, label=shown, color=[c / 255 for c in color], linestyle=style, linewidth=LINE)
     for at in figure["breaks"]:
         ax.axvline(at, color=GREY, linewidth=0.6, linestyle=(0, (4, 4)))
     names = [label for label, _, _ in curves]
     name = figure["y"][0] or (", ".join(names) if len(names) <= 3 else "")
-    ax.set_ylabel(_axis(name, unit or ""), color=INK)
+    if name:
+        ax.set_ylabel(_axis(name, unit or ""), color=INK)
     ax.set_xlabel(_axis(*figure["x"]), color=INK)
     if title:
         ax.set_title(figure["title"], loc="left", color=INK, fontsize="medium")
@@ -72,6 +81,14 @@ def _draw(ax: matplotlib.axes.Axes, figure: Dict[str, Any], unit: Optional[str],
     for side in ax.spines.values():
         side.set_color(GREY)
     ax.tick_params(colors=INK)
+
+
+def _parted(points: Any) -> Any:
+    """The points with a gap between the two sides of a jump: two at one place, where x else runs one way."""
+    steps = np.diff(points[:, 0])
+    if np.all(steps >= 0) or np.all(steps <= 0):
+        return np.insert(points, np.flatnonzero(steps == 0) + 1, np.nan, axis=0)
+    return points
 
 
 def _axis(name: str, unit: str) -> str:

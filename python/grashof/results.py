@@ -5,147 +5,25 @@ from __future__ import annotations
 import json
 import os
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union, overload
 
 import numpy as np
 
 from . import _grashof, _text
-from .errors import StudyError, UnknownName
+from .errors import StudyError
+from .linear import Linear
 from .page import Animation, Page
+from .records import Checked, Event, Extremes, Finding, Named, Solution, extremes_of, unknown
 
 if TYPE_CHECKING:
-    import control
     import matplotlib.figure
     import pandas
-    import scipy.signal
     import xarray
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["Checked", "Event", "Extreme", "Extremes", "Finding", "Linear", "Results", "Runs", "Solution"]
-
-
-class Extreme(NamedTuple):
-    """An extreme of a column over the continuous motion."""
-
-    #: The value, SI.
-    value: float
-    #: The independent variable there, SI.
-    at: float
-
-
-class Extremes(NamedTuple):
-    """The extremes of a column."""
-
-    min: Extreme
-    max: Extreme
-
-
-class Finding(NamedTuple):
-    """Something worth knowing that is no error."""
-
-    #: Its kind, a word to search for.
-    code: str
-    message: str
-    #: Path of keys in the file.
-    path: str
-
-
-class Event(NamedTuple):
-    """An event of the model that happened."""
-
-    name: str
-    #: When, s.
-    at: float
-
-
-class Checked(NamedTuple):
-    """An expectation of the model file."""
-
-    #: As written.
-    text: str
-    found: float
-    wanted: float
-    tolerance: float
-    met: bool
-
-
-class Solution(NamedTuple):
-    """A value of a parameter for which a scalar meets its target, SI."""
-
-    parameter: str
-    value: float
-    #: Name of the scalar.
-    of: str
-    found: float
-    target: float
-
-
-class Linear:
-    """A linear system of small deviations from a state: ẋ = A x + B u, y = C x + D u, and M ü + C u̇ + K u = 0 of mechanics."""
-
-    def __init__(self, facts: Mapping[str, Any]) -> None:
-        #: Names of x, u and y, and of the independent coordinates.
-        self.states: List[str] = facts["states"]
-        self.inputs: List[str] = facts["inputs"]
-        self.outputs: List[str] = facts["outputs"]
-        self.coordinates: List[str] = facts["coordinates"]
-        self._matrices = {name: np.array(rows, dtype=np.float64) for name, rows in facts["matrices"]}
-        #: Values of x, ẋ, u and y in the state, SI.
-        self.x, self.rates, self.u, self.y = (np.array(values, dtype=np.float64) for values in facts["values"])
-
-    def _matrix(self, name: str, rows: Sequence[str], columns: Sequence[str]) -> Array:
-        return self._matrices[name].reshape(len(rows), len(columns))
-
-    @property
-    def A(self) -> Array:
-        """A (states × states)."""
-        return self._matrix("A", self.states, self.states)
-
-    @property
-    def B(self) -> Array:
-        """B (states × inputs)."""
-        return self._matrix("B", self.states, self.inputs)
-
-    @property
-    def C(self) -> Array:
-        """C (outputs × states)."""
-        return self._matrix("C", self.outputs, self.states)
-
-    @property
-    def D(self) -> Array:
-        """D (outputs × inputs)."""
-        return self._matrix("D", self.outputs, self.inputs)
-
-    @property
-    def mass(self) -> Array:
-        """M on the independent coordinates."""
-        return self._matrix("mass", self.coordinates, self.coordinates)
-
-    @property
-    def damping(self) -> Array:
-        """C of mechanics on the independent coordinates."""
-        return self._matrix("damping", self.coordinates, self.coordinates)
-
-    @property
-    def stiffness(self) -> Array:
-        """K on the independent coordinates."""
-        return self._matrix("stiffness", self.coordinates, self.coordinates)
-
-    def to_control(self) -> control.StateSpace:
-        """As a system of python-control, with its names, in which points are not allowed: ``P_angle``."""
-        import control
-
-        named = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
-        plain = {what: [name.replace(".", "_") for name in names] for what, names in named.items()}
-        return control.ss(self.A, self.B, self.C, self.D, **plain)
-
-    def to_scipy(self) -> scipy.signal.StateSpace:
-        """As a system of SciPy."""
-        import scipy.signal
-
-        return scipy.signal.StateSpace(self.A, self.B, self.C, self.D)
+__all__ = ["Results", "Runs"]
 
 
 class Results:
@@ -251,7 +129,7 @@ class Results:
     @cached_property
     def extremes(self) -> Dict[str, Optional[Extremes]]:
         """Extremes of each column over the continuous motion, not over the rows; none where a column has no value."""
-        return Named("column", {name: extremes and _extremes(extremes) for name, extremes in self._facts["extremes"]})
+        return Named("column", {name: extremes and extremes_of(extremes) for name, extremes in self._facts["extremes"]})
 
     @property
     def lists(self) -> Dict[str, Array]:
@@ -431,29 +309,6 @@ class Runs(Sequence[Results]):
     def whole(self) -> Iterator[Results]:
         """The runs that began."""
         return (results for _, results in map(self._run, range(len(self))) if results is not None)
-
-
-class Named(Dict[str, Any]):
-    """What is known by names; says which there are where one is not."""
-
-    def __init__(self, what: str, known: Dict[str, Any]) -> None:
-        super().__init__(known)
-        self._what = what
-
-    def __missing__(self, name: str) -> Any:
-        raise unknown(self._what, name, list(self))
-
-
-def unknown(what: str, name: object, known: Sequence[str]) -> UnknownName:
-    """There is nothing of a name."""
-    listed = ", ".join(f"`{each}`" for each in known)
-    there = f"there are {listed}" if known else "there is none"
-    return UnknownName(f"there is no {what} `{name}`: {there}", code="unknown", help=there)
-
-
-def _extremes(extremes: Mapping[str, Any]) -> Extremes:
-    low, high = (Extreme(extremes[end]["value"], extremes[end]["at"]) for end in ("min", "max"))
-    return Extremes(low, high)
 
 
 def _written(text: str, path: Optional[_text.Path]) -> Optional[str]:
