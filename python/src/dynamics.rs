@@ -58,7 +58,7 @@ impl Dynamics {
             self.give(Box::new(move |evaluator| drop(sender.send(all(evaluator, &own)))));
             awaited(py, receiver, &flag)?
         };
-        Ok(PyArray1::from_vec(py, done.map_err(|error| raised(py, &error))?).reshape([count, width])?)
+        PyArray1::from_vec(py, done.map_err(|error| raised(py, &error))?).reshape([count, width])
     }
 
     /// Gives work to the evaluator that is kept.
@@ -192,6 +192,6 @@ impl Dynamics {
             })?;
             Ok::<_, Error>(out)
         });
-        Ok(PyArray1::from_vec(py, placed.map_err(|error| raised(py, &error))?).reshape([count, 12])?)
+        PyArray1::from_vec(py, placed.map_err(|error| raised(py, &error))?).reshape([count, 12])
     }
 }

@@ -19,8 +19,10 @@ enum Call {
     Set(String, f64),
 }
 
+/// Who waits for the end of a call.
+type Reply = Sender<Result<Present, Error>>;
 /// A call, and who waits for its end.
-type Asked = (Call, Sender<Result<Present, Error>>);
+type Asked = (Call, Reply);
 
 /// Where a motion is.
 #[derive(Clone, Default)]
@@ -88,7 +90,7 @@ enum Waiting {
     /// The call that made the stepper, with the names of the columns.
     First(Sender<Result<(Present, Vec<String>), Error>>, Vec<String>),
     /// A call to it.
-    Call(Sender<Result<Present, Error>>),
+    Call(Reply),
 }
 
 impl Waiting {
@@ -116,7 +118,7 @@ fn follow(
     flag: &Flag,
     asked: &Receiver<Asked>,
     waiting: Waiting,
-) -> Option<(Stepping, State, Sender<Result<Present, Error>>)> {
+) -> Option<(Stepping, State, Reply)> {
     let begun = from.map_or_else(|| stepping.begin(), |state| stepping.begin_at(state));
     let mut motion = match begun {
         Ok(motion) => motion,
