@@ -117,6 +117,9 @@ class Dynamics:
                 found = array.shape[-1] if array.ndim else "no axis of"
                 message = f"there are {found} {what}, and the mechanism has {size}"
                 raise Refused(message, code="refused", help="see `start` and `coordinates`")
+        if times.ndim == 0 and all(array.ndim == 1 for array in arrays):
+            # one state, as solvers of differential equations ask for it
+            return (), [times.reshape(1), *(np.ascontiguousarray(array)[np.newaxis] for array in arrays)]
         lead = np.broadcast_shapes(times.shape, *(array.shape[:-1] for array in arrays))
         count = int(np.prod(lead, dtype=np.int64))
         rows = [np.ascontiguousarray(np.broadcast_to(array, lead + array.shape[-1:])).reshape(count, array.shape[-1]) for array in arrays]
