@@ -17,6 +17,7 @@ mod drawn;
 mod dynamics;
 mod equivalence;
 mod external;
+mod face;
 mod frames;
 mod friction;
 mod hand_written;

@@ -1,7 +1,7 @@
 //! What goes wrong, as errors.
 
 use crate::mechanism::BuildFault;
-use crate::model::{Document, Report};
+use crate::model::{Diagnostic, Document, Report};
 use crate::results::{Failure, Undefined, Unknown, Unsolved};
 use crate::studies::loader::NotLoaded;
 use std::borrow::Cow;
@@ -52,6 +52,38 @@ impl Error {
         }
     }
 
+    /// Path of keys of the first fault in the file, as `joints.O.revolute[1]`; empty if there is none.
+    #[must_use]
+    pub fn place(&self) -> &str {
+        self.first().map_or("", |d| &d.place)
+    }
+
+    /// What to do about it; empty if nothing is known.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::Refused { help, .. } => help.clone(),
+            Self::Unknown(unknown) => unknown.help(),
+            _ => self.first().and_then(|d| d.help.clone()).unwrap_or_default(),
+        }
+    }
+
+    /// Whether it is a name that there is not: in the call, or among the parameters and variants that were asked for from outside of
+    /// the file.
+    #[must_use]
+    pub fn is_unknown_name(&self) -> bool {
+        let outside = |d: &Diagnostic| d.code.starts_with("unknown-") && d.place.is_empty();
+        match self {
+            Self::Unknown(_) => true,
+            Self::Wrong(report) => !report.diagnostics.is_empty() && report.diagnostics.iter().all(outside),
+            _ => false,
+        }
+    }
+
+    fn first(&self) -> Option<&Diagnostic> {
+        self.report().and_then(|report| report.diagnostics.first())
+    }
+
     /// The kind of the first fault, a word to search for.
     #[must_use]
     pub fn code(&self) -> Cow<'_, str> {
@@ -59,7 +91,7 @@ impl Error {
             Self::Read { .. } => "unreadable".into(),
             Self::Unknown(_) => "unknown".into(),
             Self::Refused { .. } => "refused".into(),
-            Self::Wrong(report) | Self::Failed { report, .. } => report.diagnostics.first().map_or("unknown".into(), |d| d.code.into()),
+            Self::Wrong(_) | Self::Failed { .. } => self.first().map_or("unknown".into(), |d| d.code.into()),
         }
     }
 }

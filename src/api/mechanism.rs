@@ -1,8 +1,10 @@
 //! A mechanism to evaluate by hand.
 
 use super::error::Error;
+use super::evaluator::Evaluator;
 use super::force::{Element, Elements, PointMotion, Wrench};
 use super::simulation::Simulation;
+use super::state::{settle, sized};
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::kinematics::assemble::Assembled;
@@ -15,7 +17,7 @@ use crate::scalar::Dual;
 use crate::studies::common::case::parameters;
 use crate::studies::common::observe::Observer;
 use crate::studies::dynamics::system::Mechanical;
-use grashof_solvers::{Kkt, Loaded, Scheme, Settings, Stage, State, System};
+use grashof_solvers::{Loaded, Scheme, Settings, State, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -131,9 +133,17 @@ impl Mechanism {
     /// # Errors
     /// If q or v have other sizes than those of the mechanism.
     pub fn terms(&self, t: f64, q: &[f64], v: &[f64]) -> Result<Terms, Error> {
-        let mut system = self.system();
-        let state = self.state(&mut *system, t, q, v)?;
-        Ok(terms(&mut *system, &state))
+        let mut evaluator = self.evaluator();
+        let terms = evaluator.terms(t, q, v)?;
+        let (_, nv, m) = self.sizes();
+        Ok(Terms {
+            mass: DMatrix::from_row_slice(nv, nv, &terms.mass.to_dense()),
+            force: DVector::from_column_slice(&terms.force),
+            phi: DVector::from_column_slice(&terms.phi),
+            g: DMatrix::from_row_slice(m, nv, &terms.g.to_dense()),
+            nu: DVector::from_column_slice(&terms.nu),
+            gamma: DVector::from_column_slice(&terms.gamma),
+        })
     }
 
     /// Accelerations a (nv) and multipliers λ (m) in a state. Friction that depends on reactions is left out.
@@ -141,19 +151,9 @@ impl Mechanism {
     /// # Errors
     /// If q or v have other sizes than those of the mechanism; if mass is missing.
     pub fn accelerations(&self, t: f64, q: &[f64], v: &[f64]) -> Result<(DVector<f64>, DVector<f64>), Error> {
-        let mut system = self.system();
-        let state = self.state(&mut *system, t, q, v)?;
-        let mut terms = grashof_solvers::Terms::new(system.dims(), system.pattern());
-        system.terms(state.at(), Stage::Dynamics, &mut terms);
-        let dims = system.dims();
-        let mut kkt = Kkt::of_pattern(system.pattern());
-        kkt.factor(terms.mass.values(), terms.g.values()).map_err(|_| Error::Refused {
-            message: "the accelerations are not determined: mass is missing".into(),
-            help: "give each body that moves a mass".into(),
-        })?;
-        let (mut a, mut lambda) = (vec![0.0; dims.v], vec![0.0; dims.rows()]);
-        kkt.solve(&terms.force, &terms.gamma, &mut a, &mut lambda);
-        Ok((DVector::from_vec(a), DVector::from_vec(lambda)))
+        let mut evaluator = self.evaluator();
+        let (a, lambda) = evaluator.accelerations(t, q, v)?;
+        Ok((DVector::from_column_slice(a), DVector::from_column_slice(lambda)))
     }
 
     /// Inverse dynamics: the forces along the velocities (nv) which, added to f, give accelerations `a`: M a + Gᵀλ − f.
@@ -161,14 +161,15 @@ impl Mechanism {
     /// # Errors
     /// If an argument has another size than in the mechanism.
     pub fn inverse(&self, t: f64, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> Result<DVector<f64>, Error> {
+        Ok(DVector::from_column_slice(self.evaluator().inverse(t, q, v, a, lambda)?))
+    }
+
+    /// What evaluates many states in memory that it takes once.
+    #[must_use]
+    pub fn evaluator(&self) -> Evaluator<'_> {
         let mut system = self.system();
-        let state = self.state(&mut *system, t, q, v)?;
-        let dims = system.dims();
-        sized("accelerations", a, dims.v)?;
-        sized("multipliers", lambda, dims.rows())?;
-        let mut r = vec![0.0; dims.v];
-        system.residual(state.at(), a, lambda, &mut r);
-        Ok(DVector::from_vec(r))
+        let begin = self.begin(&mut *system);
+        Evaluator::new(system, begin)
     }
 
     /// Where a body is at a position.
@@ -176,7 +177,18 @@ impl Mechanism {
     /// # Errors
     /// If there is no such body, or q has another size than that of the mechanism.
     pub fn placement(&self, body: &str, q: &[f64]) -> Result<Placement, Error> {
-        built!(self, b => b.placement(body, q))
+        sized("coordinates", q, self.sizes().0)?;
+        let mut placed = Placement { position: Vector3::zeros(), rotation: Matrix3::identity() };
+        self.placements(body, q, |at| placed = at)?;
+        Ok(placed)
+    }
+
+    /// Where a body is at many positions, which follow each other in `q`; `each` is told in their order.
+    ///
+    /// # Errors
+    /// If there is no such body, or q is no multiple of the coordinates of the mechanism.
+    pub fn placements(&self, body: &str, q: &[f64], each: impl FnMut(Placement)) -> Result<(), Error> {
+        built!(self, b => b.placements(body, q, each))
     }
 
     /// The motion from the start, to be advanced step by step.
@@ -186,7 +198,9 @@ impl Mechanism {
     /// be made consistent.
     pub fn simulate(&self, settings: Settings) -> Result<Simulation<'_>, Error> {
         self.followed()?;
-        Simulation::new(self.system(), settings, None, self.begin())
+        let mut system = self.system();
+        let begin = self.begin(&mut *system);
+        Simulation::new(system, settings, None, begin)
     }
 
     /// [`Self::simulate`] by a scheme of one's own; `method` of the settings is not looked at.
@@ -195,7 +209,9 @@ impl Mechanism {
     /// As there.
     pub fn simulate_by(&self, scheme: Box<dyn Scheme>, settings: Settings) -> Result<Simulation<'_>, Error> {
         self.followed()?;
-        Simulation::new(self.system(), settings, Some(scheme), self.begin())
+        let mut system = self.system();
+        let begin = self.begin(&mut *system);
+        Simulation::new(system, settings, Some(scheme), begin)
     }
 
     /// The mechanism as the integrators see it: for schemes of one's own.
@@ -216,8 +232,8 @@ impl Mechanism {
         })
     }
 
-    fn begin(&self) -> State {
-        let mut system = self.system();
+    /// The start, settled.
+    fn begin(&self, system: &mut dyn System) -> State {
         let mut state = State::new(system.dims());
         built!(self, b => {
             state.q.copy_from_slice(&b.start.q);
@@ -225,50 +241,9 @@ impl Mechanism {
             state.z.copy_from_slice(&b.mechanism.state_starts);
             state.modes[..b.start.modes.len()].copy_from_slice(&b.start.modes);
         });
-        settle(&mut *system, &mut state);
-        state
-    }
-
-    /// A state with the modes of its switches.
-    fn state(&self, system: &mut dyn System, t: f64, q: &[f64], v: &[f64]) -> Result<State, Error> {
-        let dims = system.dims();
-        sized("coordinates", q, dims.q)?;
-        sized("velocities", v, dims.v)?;
-        let mut state = State { t, q: q.to_vec(), v: v.to_vec(), ..self.begin() };
-        settle(system, &mut state);
-        Ok(state)
-    }
-}
-
-/// Takes the modes of the switches from a state.
-fn settle(system: &mut dyn System, state: &mut State) {
-    // a function of positions may switch and feed others: twice settles what depends on it
-    for _ in 0..2 {
         let mut modes = state.modes.clone();
-        system.modes(state.at(), &mut modes);
-        state.modes = modes;
-    }
-}
-
-fn sized(what: &str, x: &[f64], size: usize) -> Result<(), Error> {
-    if x.len() == size {
-        return Ok(());
-    }
-    let message = format!("there are {} {what}, and the mechanism has {size}", x.len());
-    Err(Error::Refused { message, help: "see `Mechanism::sizes` and `Mechanism::start`".into() })
-}
-
-fn terms(system: &mut dyn System, state: &State) -> Terms {
-    let dims = system.dims();
-    let mut terms = grashof_solvers::Terms::new(dims, system.pattern());
-    system.terms(state.at(), Stage::Dynamics, &mut terms);
-    Terms {
-        mass: DMatrix::from_row_slice(dims.v, dims.v, &terms.mass.to_dense()),
-        force: DVector::from_vec(terms.force),
-        phi: DVector::from_vec(terms.phi),
-        g: DMatrix::from_row_slice(dims.rows(), dims.v, &terms.g.to_dense()),
-        nu: DVector::from_vec(terms.nu),
-        gamma: DVector::from_vec(terms.gamma),
+        settle(system, &mut state, &mut modes);
+        state
     }
 }
 
@@ -292,19 +267,28 @@ where
         Box::new(Loaded::new(own, Box::new(Elements::new(&self.mechanism, elements))))
     }
 
-    fn placement(&self, body: &str, q: &[f64]) -> Result<Placement, Error> {
+    fn placements(&self, body: &str, q: &[f64], mut each: impl FnMut(Placement)) -> Result<(), Error> {
         let m = &self.mechanism;
-        sized("coordinates", q, m.nq)?;
         let index = m.bodies.iter().position(|b| b.name == body).ok_or_else(|| {
             Error::Unknown(Unknown { what: "body", name: body.into(), known: m.bodies.iter().map(|b| b.name.clone()).collect() })
         })?;
         let mut dynamics = Dynamics::new(m);
         dynamics.time(0.0, &self.start.modes);
-        dynamics.position(q, &self.start.modes);
-        let pose = dynamics.pose(index);
-        Ok(Placement {
-            position: Vector3::from_fn(|axis, _| G::component(pose.p, axis)),
-            rotation: Matrix3::from_fn(|i, k| G::entry(pose.r, i, k)),
-        })
+        let mut place = |q: &[f64]| {
+            dynamics.position(q, &self.start.modes);
+            let pose = dynamics.pose(index);
+            each(Placement {
+                position: Vector3::from_fn(|axis, _| G::component(pose.p, axis)),
+                rotation: Matrix3::from_fn(|i, k| G::entry(pose.r, i, k)),
+            });
+        };
+        if m.nq == 0 {
+            place(q);
+            return sized("coordinates", q, 0);
+        }
+        let positions = q.chunks_exact(m.nq);
+        sized("coordinates", positions.remainder(), 0)?;
+        positions.for_each(place);
+        Ok(())
     }
 }

@@ -3,15 +3,22 @@
 use super::error::Error;
 use super::files::beside;
 use super::mechanism::Mechanism;
+use super::page::told;
+use super::stepper::Stepping;
 use super::study::Study;
-use crate::model::{Document, Report, Selection};
-use crate::results::Unknown;
+use crate::model::{self, Document, Selection};
+use crate::output::{Report, ReportRuns, ReportStudy};
+use crate::results::{Results, Scalar, Unknown};
+use crate::studies::common::case::parameters;
+use crate::studies::common::named;
 use std::path::Path;
+use std::sync::Arc;
 
-/// A model file: a mechanism, and studies of it.
+/// A model file, with variants applied and parameters set: a mechanism, and studies of it.
 #[derive(Clone, Debug)]
 pub struct Model {
-    document: Document,
+    document: Arc<Document>,
+    selection: Selection<'static>,
 }
 
 impl Model {
@@ -25,7 +32,7 @@ impl Model {
         let name = path.to_string_lossy();
         let bytes = std::fs::read(path).map_err(|cause| Error::Read { path: path.into(), cause })?;
         let document = Document::with_files(&bytes, &name, &|included| beside(&name, included)).map_err(Error::Wrong)?;
-        Ok(Self { document })
+        Ok(Self::of(document))
     }
 
     /// A model that stands in a text and includes no files.
@@ -33,7 +40,55 @@ impl Model {
     /// # Errors
     /// If it is no model.
     pub fn parse(text: &str) -> Result<Self, Error> {
-        Ok(Self { document: Document::read(text, "<text>").map_err(Error::Wrong)? })
+        Ok(Self::of(Document::read(text, "<text>").map_err(Error::Wrong)?))
+    }
+
+    fn of(document: Document) -> Self {
+        Self { document: Arc::new(document), selection: Selection::default() }
+    }
+
+    /// The same with parameters at other values, given as in the file: `[("l3", "60 cm")]`, or as numbers in SI. They stand over what
+    /// variants and studies say.
+    ///
+    /// # Errors
+    /// If there is no such parameter, a value is none for it, or the model is wrong.
+    pub fn set(&self, values: &[(&str, &str)]) -> Result<Self, Error> {
+        let mut selection = self.selection.clone();
+        for (name, value) in values {
+            selection.sets.retain(|(known, _)| known != name);
+            selection.sets.push(((*name).into(), (*value).into()));
+        }
+        self.selected(selection)
+    }
+
+    /// The same with a variant of the file, behind those of its studies.
+    ///
+    /// # Errors
+    /// If there is no such variant, or the model is wrong with it.
+    pub fn variant(&self, name: &str) -> Result<Self, Error> {
+        let mut selection = self.selection.clone();
+        selection.variants.push(name.into());
+        self.selected(selection)
+    }
+
+    fn selected(&self, selection: Selection<'static>) -> Result<Self, Error> {
+        self.document.model(&selection).map_err(Error::Wrong)?;
+        Ok(Self { document: Arc::clone(&self.document), selection })
+    }
+
+    /// The same with one more study, given as the YAML that it would have in the file (`statics: { from: start }`); and its name, which
+    /// is the first of `name`, `name-2`, ... that no study has. What is wrong with it is told when it is run.
+    #[must_use]
+    pub fn with_study(&self, name: &str, yaml: &str) -> (Self, String) {
+        let mut document = Document::clone(&self.document);
+        let name = document.add_study(name, yaml);
+        (Self { document: Arc::new(document), selection: self.selection.clone() }, name)
+    }
+
+    /// The text of the file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.document.text()
     }
 
     /// Names of the studies, in file order.
@@ -48,10 +103,19 @@ impl Model {
         self.document.variant_names()
     }
 
+    /// The parameters with their values, SI, in file order.
+    ///
+    /// # Errors
+    /// If the file is wrong.
+    pub fn parameters(&self) -> Result<Vec<Scalar>, Error> {
+        let model = self.document.model(&self.selection).map_err(Error::Wrong)?;
+        Ok(named::parameters(&model, parameters(&model).into_iter()))
+    }
+
     /// All faults of the model, of each of its variants and studies.
     #[must_use]
-    pub fn check(&self) -> Report {
-        self.document.check_all(&Selection::default())
+    pub fn check(&self) -> model::Report {
+        self.document.check_all(&self.selection)
     }
 
     /// A study of the file.
@@ -61,12 +125,12 @@ impl Model {
     pub fn study(&self, name: &str) -> Result<Study<'_>, Error> {
         let known = self.studies();
         if known.iter().any(|study| study == name) {
-            return Ok(Study::new(&self.document, name));
+            return Ok(Study::new(&self.document, name, self.selection.clone()));
         }
         Err(Unknown { what: "study", name: name.into(), known }.into())
     }
 
-    /// The mechanism at the values that the file gives, assembled at its start.
+    /// The mechanism at the values that the model gives, assembled at its start.
     ///
     /// # Errors
     /// If the file is wrong, or the mechanism cannot be assembled.
@@ -79,8 +143,47 @@ impl Model {
     /// # Errors
     /// As there.
     pub fn mechanism_with(&self, set: &[(&str, &str)]) -> Result<Mechanism, Error> {
-        let sets = set.iter().map(|(name, value)| ((*name).to_string(), (*value).to_string())).collect();
-        let model = self.document.model(&Selection { sets, ..Selection::default() }).map_err(Error::Wrong)?;
+        let mut selection = self.selection.clone();
+        selection.sets.extend(set.iter().map(|(name, value)| ((*name).to_string(), (*value).to_string())));
+        let model = self.document.model(&selection).map_err(Error::Wrong)?;
         Mechanism::new(model).map_err(|failure| Error::failed(&self.document, "", failure))
     }
+
+    /// The motion of a study of the kind `dynamics`, to be advanced from outside by the integrator of the study.
+    ///
+    /// # Errors
+    /// If the study is no motion in time or wrong, does not begin, or has what changes the mechanism on the way: events, rigid stops,
+    /// exact friction.
+    pub fn stepping(&self, study: &str) -> Result<Stepping, Error> {
+        let known = self.studies();
+        if !known.iter().any(|name| name == study) {
+            return Err(Unknown { what: "study", name: study.into(), known }.into());
+        }
+        Stepping::new(&self.document, &Selection { study: Some(study), ..self.selection.clone() })
+    }
+
+    /// The page of a report on results of its studies, as the bytes of an HTML file that needs nothing else.
+    #[must_use]
+    pub fn report(&self, results: &[&Results]) -> Vec<u8> {
+        let path = Path::new(self.document.file()).file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let mut report = told(&self.document, Some(&self.selection), path, Report::new);
+        for results in results {
+            let selection = Selection { study: Some(&results.study), ..self.selection.clone() };
+            let study = self.document.model(&selection).ok().and_then(|model| model.study);
+            report.add(&shown(results, study.as_ref().map_or("", |study| &study.about)));
+        }
+        report.html()
+    }
+}
+
+/// What a page has of results; `about` says what they are for.
+fn shown(results: &Results, about: &str) -> ReportStudy {
+    if results.table.reasons.is_none() {
+        return ReportStudy::of(results, about);
+    }
+    let mut runs = ReportRuns::new(results.runs.len());
+    for (number, run) in results.runs.iter().enumerate() {
+        run.results.iter().for_each(|results| runs.add(number, results));
+    }
+    ReportStudy::of_runs(results, about, runs)
 }

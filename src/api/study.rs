@@ -30,10 +30,10 @@ pub struct Study<'a> {
 }
 
 impl<'a> Study<'a> {
-    pub(super) fn new(document: &'a Document, name: &str) -> Self {
+    pub(super) fn new(document: &'a Document, name: &str, selection: Selection<'a>) -> Self {
         Self {
             document,
-            selection: Selection::default(),
+            selection,
             name: name.into(),
             integrators: Vec::new(),
             sink: None,

@@ -148,9 +148,7 @@ fn named<'a>(asked: Option<&'a str>, known: &'a [String]) -> Option<&'a str> {
 
 /// The drawing that moves.
 fn found(results: Results, name: &str, chosen: &Chosen) -> Result<Moving, u8> {
-    let rests = ["statics", "linearize"].contains(&results.kind.as_str());
-    let moves = |(_, (_, scene)): &(usize, &(String, Scene))| scene.frames.count() > 1 && !rests;
-    let moving: Vec<usize> = results.scenes.iter().enumerate().filter(moves).map(|(index, _)| index).collect();
+    let moving = results.moving();
     if moving.is_empty() {
         print_error(
             &format!("study `{name}` has no motion to show"),

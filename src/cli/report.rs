@@ -1,10 +1,9 @@
 //! The report of a run: one page with all its studies.
 
 use super::{Common, code, files};
-use grashof::kinematics::survey::{Survey, survey};
+use grashof::api::told;
 use grashof::model::Document;
 use grashof::output::{Report, ReportModel, Staging};
-use grashof::studies::common::case::parameters;
 use std::path::Path;
 
 /// Its name. The name of a study has no point, so that no file of a study is called so.
@@ -25,32 +24,7 @@ pub(super) fn model_json(document: &Document, common: &Common) -> Option<serde_j
 
 /// Makes something of what a report says of a model whose file is called `path` there.
 fn with_model<T>(document: &Document, common: &Common, path: &str, make: impl FnOnce(&ReportModel<'_>) -> T) -> T {
-    let model = files::selection(common, None).and_then(|selection| document.model(&selection).ok());
-    let looked = model.as_ref().and_then(|model| survey(model, &parameters(model)).ok());
-    let overview = looked.as_ref().map(overview).unwrap_or_default();
-    let (name, about) = model.as_ref().map_or((document.file(), ""), |model| (&model.name, &model.about));
-    make(&ReportModel { name, path, source: document.text(), about, overview: &overview })
-}
-
-/// What is worth knowing of a mechanism at a glance.
-fn overview(survey: &Survey) -> Vec<(String, String)> {
-    let m = &survey.mobility;
-    let mass: f64 = survey.bodies.iter().map(|(_, mass, ..)| mass).sum();
-    let mut out = vec![
-        ("bodies", survey.bodies.len().to_string()),
-        ("joints", survey.joints.len().to_string()),
-        ("loops", survey.loops.len().to_string()),
-        ("degrees of freedom", m.freedom.to_string()),
-        ("left by the drivers", m.left.to_string()),
-        ("mass", format!("{} kg", grashof::output::ten_digits(mass))),
-    ];
-    if !m.redundant.is_empty() {
-        out.push(("redundant constraints", m.redundant.len().to_string()));
-    }
-    if let Some(four_bar) = &survey.grashof {
-        out.push(("Grashof class", four_bar.class.to_string()));
-    }
-    out.into_iter().map(|(label, value)| (label.to_string(), value)).collect()
+    told(document, files::selection(common, None).as_ref(), path, make)
 }
 
 /// Writes a report, or takes away the one of an earlier run if none is wanted; one without studies changes nothing. The code is that of

@@ -5,7 +5,7 @@ use super::panel::{Line, Panel, Ruler};
 use super::picture::Picture;
 use super::plot::{Curve, Figure, Scale};
 use super::raster::RenderError;
-use super::scene::{Rect, Scene, curve_color, curve_dash};
+use super::scene::{Rect, Scene, line_style};
 use super::{font, thin};
 
 const WIDTH: f64 = 1000.0;
@@ -98,10 +98,9 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
     let mut y = Ruler::over(values, &axis, unit, figure.equal);
     y.pad(0.06);
     let line = |(place, &index): (usize, &usize)| {
-        let count = indices.len();
-        let dash = if count > 7 { &[] } else { curve_dash(place) };
+        let (color, dash) = line_style(place, indices.len());
         let points = figure.curves[index].points.clone();
-        Line { ordered: thin::is_ordered(&points), points, color: curve_color(place, count), dash }
+        Line { ordered: thin::is_ordered(&points), points, color, dash }
     };
     let lines: Vec<_> = indices.iter().enumerate().map(line).collect();
     let label = |curve: &Curve| match curve.unit.as_ref().unwrap_or(&figure.y.unit) {

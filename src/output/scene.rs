@@ -158,7 +158,7 @@ pub(super) fn pale(color: Color, strength: f64) -> Color {
 }
 
 /// The colour of curve `index` of `count`: the palette, or, for many curves, a scale from dark blue to amber.
-pub(super) fn curve_color(index: usize, count: usize) -> Color {
+fn curve_color(index: usize, count: usize) -> Color {
     if count <= PALETTE.len() {
         return PALETTE[index % PALETTE.len()];
     }
@@ -171,8 +171,16 @@ pub(super) fn curve_color(index: usize, count: usize) -> Color {
     [channel(0), channel(1), channel(2)]
 }
 
+/// How curve `index` of a panel with `count` curves is drawn: its colour (red, green, blue), and lengths of dash, gap, dash...; empty for
+/// a solid line.
+#[must_use]
+pub fn line_style(index: usize, count: usize) -> ([u8; 3], &'static [f64]) {
+    // colours of a scale are told apart by their order
+    (curve_color(index, count), if count > PALETTE.len() { &[] } else { curve_dash(index) })
+}
+
 /// The dashes of curve `index`: with them curves differ in print without colour, too.
-pub(super) fn curve_dash(index: usize) -> &'static [f64] {
+fn curve_dash(index: usize) -> &'static [f64] {
     const DASHES: [&[f64]; 7] =
         [&[], &[14.0, 7.0], &[3.0, 7.0], &[18.0, 6.0, 3.0, 6.0], &[8.0, 5.0], &[24.0, 8.0], &[14.0, 5.0, 3.0, 5.0, 3.0, 5.0]];
     DASHES[index % DASHES.len()]

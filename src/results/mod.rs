@@ -242,6 +242,13 @@ impl Results {
         self.lists.iter().find(|list| list.name == name).map(|list| list.values.as_slice())
     }
 
+    /// Which of the drawings move: the motion, or each mode.
+    #[must_use]
+    pub fn moving(&self) -> Vec<usize> {
+        let rests = ["statics", "linearize"].contains(&self.kind.as_str());
+        (0..self.scenes.len()).filter(|index| self.scenes[*index].1.frames.count() > 1 && !rests).collect()
+    }
+
     /// The extremes of a column by its name; none if it has no value.
     #[must_use]
     pub fn extremes(&self, name: &str) -> Option<Extremes> {

@@ -13,11 +13,18 @@ pub struct Unknown {
     pub known: Vec<String>,
 }
 
+impl Unknown {
+    /// Which names there are.
+    #[must_use]
+    pub fn help(&self) -> String {
+        let known = self.known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        if known.is_empty() { "there is none".to_string() } else { format!("there are {known}") }
+    }
+}
+
 impl fmt::Display for Unknown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = self.known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let known = if known.is_empty() { "there is none".to_string() } else { format!("there are {known}") };
-        write!(f, "there is no {} `{}`: {known}", self.what, self.name)
+        write!(f, "there is no {} `{}`: {}", self.what, self.name, self.help())
     }
 }
 

@@ -13,6 +13,7 @@ mod pace;
 pub(crate) mod phases;
 pub(crate) mod rows;
 pub(crate) mod setup;
+pub(crate) mod stepping;
 pub(crate) mod system;
 pub(crate) mod trajectory;
 mod unrecorded;

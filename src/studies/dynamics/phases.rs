@@ -76,16 +76,32 @@ impl<G: Space<S = f64>> Phases<G> {
             Some(same) => same.mechanism.clone(),
             None => build::<G>(model, parameters, coordinates).map_err(Failure::Model)?,
         };
-        for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
-            if row.anchored {
-                (row.offset, row.anchored) = (before.offset, before.anchored);
-            }
-        }
+        self.anchor(&mut mechanism);
         holds.resting.iter().for_each(|stop| mechanism.rest(*stop));
         holds.held.iter().for_each(|contact| mechanism.hold(*contact));
         let lifted = mechanism.lift();
         let (parameters, start) = (parameters.to_vec(), self.start.clone());
         let next = Self { mechanism, lifted, parameters, start, holds: holds.clone(), next: OnceCell::new() };
         Ok(phase.next.get_or_init(|| Box::new(next)))
+    }
+
+    /// The mechanism with other parameters on its own; rows keep where the start has anchored them.
+    ///
+    /// # Errors
+    /// If the parameters allow no mechanism.
+    pub(super) fn anew(&self, model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
+        let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
+        self.anchor(&mut mechanism);
+        let lifted = mechanism.lift();
+        let (parameters, start) = (parameters.to_vec(), self.start.clone());
+        Ok(Self { mechanism, lifted, parameters, start, holds: Holds::default(), next: OnceCell::new() })
+    }
+
+    fn anchor(&self, mechanism: &mut Mechanism<G>) {
+        for (row, before) in mechanism.rows.iter_mut().zip(&self.mechanism.rows) {
+            if row.anchored {
+                (row.offset, row.anchored) = (before.offset, before.anchored);
+            }
+        }
     }
 }

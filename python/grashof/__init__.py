@@ -1,0 +1,56 @@
+"""Grashof: mechanisms from a text file to motion, forces, vibrations and pictures.
+
+>>> import grashof
+>>> model = grashof.load("crank_rocker.yaml")
+>>> results = model.run("one-turn", l3="60 cm")
+>>> results["drive.torque"]
+
+All numbers are SI and radians.
+"""
+
+from . import _grashof as _core
+from .builder import Model
+from .compared import Compared, ComparedRun
+from .dynamics import Dynamics, Pose
+from .errors import Error, Fault, Interrupted, ModelError, Refused, StudyError, UnknownName
+from .linear import Linear
+from .model import LoadedModel, Study, load, parse
+from .page import Animation, Page
+from .records import Checked, Event, Extreme, Extremes, Finding, Solution
+from .results import Results, Runs
+from .stepper import State, Stepper
+
+#: The version of the library.
+__version__: str = _core.version
+
+__all__ = [
+    "Animation",
+    "Checked",
+    "Compared",
+    "ComparedRun",
+    "Dynamics",
+    "Error",
+    "Event",
+    "Extreme",
+    "Extremes",
+    "Fault",
+    "Finding",
+    "Interrupted",
+    "Linear",
+    "LoadedModel",
+    "Model",
+    "ModelError",
+    "Page",
+    "Pose",
+    "Refused",
+    "Results",
+    "Runs",
+    "Solution",
+    "State",
+    "Stepper",
+    "Study",
+    "StudyError",
+    "UnknownName",
+    "load",
+    "parse",
+]

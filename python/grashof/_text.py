@@ -1,0 +1,62 @@
+"""Values of Python as a model file has them."""
+
+from __future__ import annotations
+
+import json
+import numbers
+import os
+from typing import Any, Iterable, List, Mapping, Tuple, Union
+
+import numpy as np
+
+from . import _grashof
+
+#: A value of a parameter: text as in a model file (``"60 cm"``, ``"l1/2"``), a number in SI, or a quantity of pint.
+Value = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Any]
+#: A path of a file.
+Path = Union[str, "os.PathLike[str]"]
+
+
+def value(x: Value) -> str:
+    """A value as text; numbers in their shortest form that reads back bit for bit."""
+    if isinstance(x, str):
+        return x
+    if hasattr(x, "to_base_units"):
+        x = x.to_base_units().magnitude
+    if isinstance(x, bool) or not isinstance(x, numbers.Real):
+        raise TypeError(f"a value is a text as in a model file, or a number in SI, and not {x!r}")
+    return repr(float(x))
+
+
+def settings(first: Mapping[str, Value] | None, more: Mapping[str, Value]) -> List[Tuple[str, str]]:
+    """Names with values as text."""
+    return [(name, value(x)) for name, x in {**(first or {}), **more}.items()]
+
+
+def values(x: Any) -> str:
+    """The values of a swept parameter: a list, or text as the program takes it (``"0.3..0.8:26"``, ``"30 cm, 40 cm"``)."""
+    return x if isinstance(x, str) else ",".join(value(each) for each in _each(x))
+
+
+def _each(x: Any) -> Iterable[Any]:
+    if isinstance(x, np.ndarray):
+        return [float(each) for each in x.ravel()]
+    return x if hasattr(x, "__iter__") and np.ndim(x) > 0 else [x]
+
+
+def text(sections: Mapping[str, Any]) -> str:
+    """A model, or a part of one, as YAML."""
+    return _grashof.yaml(json.dumps(sections, default=_plain, ensure_ascii=False, allow_nan=False))
+
+
+def _plain(x: Any) -> Any:
+    """What JSON does not know: arrays and numbers of NumPy, mappings, other sequences."""
+    if isinstance(x, (np.ndarray, np.generic)):
+        return x.tolist()
+    if isinstance(x, Mapping):
+        return dict(x)
+    if isinstance(x, os.PathLike):
+        return os.fspath(x)
+    if hasattr(x, "__iter__"):
+        return list(x)
+    raise TypeError(f"{x!r} has no form in a model file")

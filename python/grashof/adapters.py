@@ -1,0 +1,54 @@
+"""Results for other programs, which are imported when they are asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from .results import Results
+
+
+def frame(results: Results, copy: bool) -> pandas.DataFrame:
+    """The table as a frame."""
+    import pandas
+
+    index = None if results.reasons else pandas.Index(results.independent, name=results.independent_name or None)
+    made = pandas.DataFrame(results.table, index=index, columns=results.columns, copy=copy)
+    if results.reasons:
+        made.index.name = "run"
+        made["reason"] = results.reasons
+    made.attrs["units"] = {name: results.units[name] for name in results.columns}
+    return made
+
+
+def dataset(results: Results) -> xarray.Dataset:
+    """The table as a data set."""
+    import xarray
+
+    sweep = bool(results.reasons)
+    axis = "run" if sweep else results.independent_name or "row"
+
+    def attributes(name: str) -> dict[str, str]:
+        return {"units": results.units.get(name, ""), "quantity": results.quantities.get(name, "")}
+
+    # a column that is the independent variable itself is the coordinate
+    columns = {name: (axis, results[name], attributes(name)) for name in results.columns if name != axis}
+    at = np.arange(len(results)) if sweep else results.independent
+    made = xarray.Dataset(columns, coords={axis: (axis, at, {"units": results.units.get(axis, "")})})
+    if sweep:
+        made["reason"] = (axis, results.reasons)
+    made.attrs["study"] = results.study
+    return made
+
+
+def quantity(results: Results, name: str, registry: Any) -> Any:
+    """A column with its unit."""
+    import pint
+
+    registry = registry or pint.get_application_registry()
+    return registry.Quantity(results[name], results.units[name] or "dimensionless")

@@ -1,0 +1,82 @@
+"""A linearised motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, List, Mapping, Sequence
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import control
+    import scipy.signal
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Linear"]
+
+
+class Linear:
+    """A linear system of small deviations from a state: ẋ = A x + B u, y = C x + D u, and M ü + C u̇ + K u = 0 of mechanics."""
+
+    def __init__(self, facts: Mapping[str, Any]) -> None:
+        #: Names of x, u and y, and of the independent coordinates.
+        self.states: List[str] = facts["states"]
+        self.inputs: List[str] = facts["inputs"]
+        self.outputs: List[str] = facts["outputs"]
+        self.coordinates: List[str] = facts["coordinates"]
+        self._matrices = {name: np.array(rows, dtype=np.float64) for name, rows in facts["matrices"]}
+        #: Values of x, ẋ, u and y in the state, SI.
+        self.x, self.rates, self.u, self.y = (np.array(values, dtype=np.float64) for values in facts["values"])
+
+    def _matrix(self, name: str, rows: Sequence[str], columns: Sequence[str]) -> Array:
+        return self._matrices[name].reshape(len(rows), len(columns))
+
+    @property
+    def A(self) -> Array:
+        """A (states × states)."""
+        return self._matrix("A", self.states, self.states)
+
+    @property
+    def B(self) -> Array:
+        """B (states × inputs)."""
+        return self._matrix("B", self.states, self.inputs)
+
+    @property
+    def C(self) -> Array:
+        """C (outputs × states)."""
+        return self._matrix("C", self.outputs, self.states)
+
+    @property
+    def D(self) -> Array:
+        """D (outputs × inputs)."""
+        return self._matrix("D", self.outputs, self.inputs)
+
+    @property
+    def mass(self) -> Array:
+        """M on the independent coordinates."""
+        return self._matrix("mass", self.coordinates, self.coordinates)
+
+    @property
+    def damping(self) -> Array:
+        """C of mechanics on the independent coordinates."""
+        return self._matrix("damping", self.coordinates, self.coordinates)
+
+    @property
+    def stiffness(self) -> Array:
+        """K on the independent coordinates."""
+        return self._matrix("stiffness", self.coordinates, self.coordinates)
+
+    def to_control(self) -> control.StateSpace:
+        """As a system of python-control, with its names, in which points are not allowed: ``P_angle``."""
+        import control
+
+        named = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
+        plain = {what: [name.replace(".", "_") for name in names] for what, names in named.items()}
+        return control.ss(self.A, self.B, self.C, self.D, **plain)
+
+    def to_scipy(self) -> scipy.signal.StateSpace:
+        """As a system of SciPy."""
+        import scipy.signal
+
+        return scipy.signal.StateSpace(self.A, self.B, self.C, self.D)

@@ -1,0 +1,214 @@
+"""Model files and their studies."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+from . import _grashof, _text
+from .builder import Model
+from .compared import Compared
+from .dynamics import Dynamics
+from .errors import Fault, Refused
+from .page import Page
+from .results import Results
+from .stepper import Stepper
+
+__all__ = ["LoadedModel", "Study", "load", "parse"]
+
+
+def load(source: Union[_text.Path, Mapping[str, Any], Model]) -> LoadedModel:
+    """Reads a model: the path of a file, with what it includes; or a mechanism in code, as a mapping with the keys of a file.
+
+    Raises :class:`ModelError` if it cannot be read or is no model. What is wrong with the mechanism or a study is told by
+    :meth:`LoadedModel.check`, and when these are asked for.
+    """
+    if isinstance(source, Model):
+        return source.load()
+    if isinstance(source, Mapping):
+        return parse(_text.text(source))
+    return LoadedModel(_grashof.load(os.fspath(source)))
+
+
+def parse(text: str) -> LoadedModel:
+    """A model that stands in a text and includes no files."""
+    return LoadedModel(_grashof.parse(text))
+
+
+class LoadedModel:
+    """A model file with variants applied and parameters set: a mechanism, and studies of it. It never changes."""
+
+    def __init__(self, core: _grashof.Model) -> None:
+        self._core = core
+
+    def __repr__(self) -> str:
+        return f"<model with the studies {', '.join(self.studies) or 'none'}>"
+
+    @property
+    def text(self) -> str:
+        """The text of the file."""
+        return self._core.text
+
+    @property
+    def studies(self) -> List[str]:
+        """Names of the studies, in file order."""
+        return self._core.studies
+
+    @property
+    def variants(self) -> List[str]:
+        """Names of the variants, in file order."""
+        return self._core.variants
+
+    @property
+    def parameters(self) -> Dict[str, float]:
+        """Parameters with their values, SI, in file order."""
+        return {name: value for name, value, _ in self._core.parameters()}
+
+    @property
+    def units(self) -> Dict[str, str]:
+        """The SI units of the parameters; empty for a number."""
+        return {name: unit for name, _, unit in self._core.parameters()}
+
+    def set(self, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> LoadedModel:
+        """A new model with parameters at other values: text as in the file, or numbers in SI. They stand over what variants and
+        studies say.
+
+        >>> m.set(l3="60 cm", l1=0.15)
+        """
+        return LoadedModel(self._core.set(_text.settings(values, named)))
+
+    def variant(self, *names: str) -> LoadedModel:
+        """A new model with variants of the file, behind those of its studies."""
+        core = self._core
+        for name in names:
+            core = core.variant(name)
+        return LoadedModel(core)
+
+    def check(self) -> List[Fault]:
+        """All that is wrong with the model, with each of its variants and studies; empty if nothing is."""
+        return self._core.check()
+
+    def study(self, name: str) -> Study:
+        """A study of the file."""
+        return Study(self, name)
+
+    def run(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
+        """Runs a study, with parameters at other values, and first those from which it takes scalars.
+
+        A motion that stops on its way has results up to there, with :attr:`Results.stopped`; so has a sweep of which runs fail.
+        Raises :class:`StudyError` if the study does not begin.
+        """
+        return self._run(study, {}, None, _text.settings(values, named))
+
+    def sweep(
+        self,
+        study: str,
+        over: Mapping[str, Any],
+        *,
+        workers: Optional[int] = None,
+        values: Optional[Mapping[str, _text.Value]] = None,
+    ) -> Results:
+        """Runs a study for all combinations of values of parameters; the last parameter goes fastest.
+
+        ``over`` has for each parameter its values: numbers in SI or texts. The results have a row a run: the parameters and the
+        scalars of the study. ``workers`` are threads, all processors if omitted; the numbers are the same for any.
+
+        >>> m.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 31), "load_max": [0, 3000]})
+        """
+        return self._run(study, over, workers, _text.settings(values, {}))
+
+    def _run(self, study: str, over: Mapping[str, Any], workers: Optional[int], settings: Any) -> Results:
+        model = LoadedModel(self._core.set(settings)) if settings else self
+        axes = [(name, _text.values(values)) for name, values in over.items()]
+        return Results(model._core.run(study, axes, workers), model._core)
+
+    def solve(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
+        """Runs a study with a section ``solve``; :attr:`Results.solution` is the value of the parameter that meets the target."""
+        results = self.run(study, values, **named)
+        if results.solution is None and not any(run.solution for run in results.runs.whole()):
+            raise Refused(f"study `{study}` solves nothing; add a section `solve` to it", code="refused", help="add a section `solve` to it")
+        return results
+
+    def statics(self, study: Optional[str] = None, **keys: Any) -> Results:
+        """Equilibria: of a study of the file, or of one with these keys, ``from="start"`` if none are given."""
+        return self._kind("statics", study, keys or {"from": "start"})
+
+    def modes(self, study: Optional[str] = None, **keys: Any) -> Results:
+        """Vibrations: of a study of the file, or of one with these keys, as ``at="statics", damped=True, lowest=5``."""
+        return self._kind("modes", study, {"at": "start", **keys})
+
+    def linearize(self, study: Optional[str] = None, **keys: Any) -> Results:
+        """The linear system of small deviations, :attr:`Results.linear`: of a study of the file, or of one with these keys, as
+        ``at="statics", inputs=["push"]``; ``columns`` are its outputs."""
+        return self._kind("linearize", study, keys)
+
+    def _kind(self, kind: str, study: Optional[str], keys: Dict[str, Any]) -> Results:
+        if study is None:
+            columns = {"columns": keys.pop("columns")} if "columns" in keys else {}
+            return self._added(kind, {kind: keys, **columns})
+        results = self.run(study)
+        if results.kind != kind:
+            raise Refused(f"study `{study}` is of the kind `{results.kind}`, not `{kind}`", code="refused", help=f"name a study of the kind `{kind}`")
+        return results
+
+    def _added(self, name: str, study: Mapping[str, Any]) -> Results:
+        model, name = self.with_study(name, study)
+        return model.run(name)
+
+    def with_study(self, name: str, study: Mapping[str, Any]) -> tuple[LoadedModel, str]:
+        """A new model with one more study, a mapping as it would stand in the file; and its name, which is the first of ``name``,
+        ``name-2``, ... that no study has.
+
+        >>> m, name = m.with_study("slow", {"inverse": {"over": "1 turn", "samples": 72}, "set": {"speed": "60 rpm"}, "columns": ["drive.torque"]})
+        """
+        core, name = self._core.with_study(name, _text.text(study))
+        return LoadedModel(core), name
+
+    def compare(
+        self,
+        study: str,
+        integrators: Sequence[str],
+        tolerances: Optional[Sequence[float]] = None,
+        *,
+        steps: Optional[Sequence[float]] = None,
+    ) -> Compared:
+        """Computes a motion in time by several integrators, at several tolerances or with fixed steps of several sizes, s."""
+        if (tolerances is None) == (steps is None):
+            raise TypeError("give either `tolerances` or `steps`")
+        sizes = [float(size) for size in (tolerances if steps is None else steps) or ()]
+        return Compared(self._core.compare(study, list(integrators), sizes, steps is not None))
+
+    def dynamics(self) -> Dynamics:
+        """The mechanism, assembled at its start, to be evaluated by hand."""
+        return Dynamics(self._core.dynamics())
+
+    def stepper(self, study: str) -> Stepper:
+        """The motion of a study of the kind ``dynamics``, to be advanced step by step by the integrator of the study."""
+        return Stepper(self._core.stepper(study))
+
+    def report(self, *results: Results) -> Page:
+        """The page of a report on results of its studies: figures, tables, the mechanism in motion."""
+        return Page(self._core.report([each._core for each in results]).decode())
+
+
+class Study:
+    """A study of a model file."""
+
+    def __init__(self, model: LoadedModel, name: str) -> None:
+        self.model = model
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"<study {self.name}>"
+
+    def set(self, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Study:
+        """The study of a new model with parameters at other values."""
+        return Study(self.model.set(values, **named), self.name)
+
+    def run(self, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
+        """:meth:`LoadedModel.run` of this study."""
+        return self.model.run(self.name, values, **named)
+
+    def sweep(self, over: Mapping[str, Any], *, workers: Optional[int] = None) -> Results:
+        """:meth:`LoadedModel.sweep` of this study."""
+        return self.model.sweep(self.name, over, workers=workers)

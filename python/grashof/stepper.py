@@ -1,0 +1,83 @@
+"""A motion in time that is advanced from outside."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Dict, NamedTuple
+
+import numpy as np
+
+from . import _grashof
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["State", "Stepper"]
+
+
+class State(NamedTuple):
+    """The state of a motion."""
+
+    #: Time, s.
+    t: float
+    #: Coordinates (nq), m and rad.
+    q: NDArray[np.float64]
+    #: Velocities (nv), m/s and rad/s.
+    v: NDArray[np.float64]
+    #: First-order states of the model (nz), SI.
+    z: NDArray[np.float64]
+
+
+class Stepper:
+    """A motion in time that is advanced from outside, by the integrator of its study; parameters may be set on the way.
+
+    >>> motion = m.stepper("start-up")
+    >>> while motion.time < 1.0:
+    ...     motion.set_input("torque", controller(motion["omega"]))
+    ...     motion.advance(0.01)
+    """
+
+    def __init__(self, core: _grashof.Stepper) -> None:
+        self._core = core
+
+    def __repr__(self) -> str:
+        return f"<motion at t = {self.time:g} s>"
+
+    def advance(self, by: float) -> None:
+        """Goes on by a time, s.
+
+        Raises :class:`Refused` if the motion cannot go on; the state is the last good one.
+        """
+        self.advance_to(self.time + by)
+
+    def advance_to(self, t: float) -> None:
+        """Goes on to a time, s; a time in the past changes nothing."""
+        self._core.advance_to(t)
+
+    def set_input(self, parameter: str, value: float) -> None:
+        """Goes on with a parameter at another value, SI, from the present state, as behind an event that sets it."""
+        self._core.set_input(parameter, float(value))
+
+    @property
+    def time(self) -> float:
+        """The present time, s."""
+        return self._core.time
+
+    @property
+    def state(self) -> State:
+        """The present state."""
+        q, v, z = self._core.state()
+        return State(self.time, q, v, z)
+
+    @property
+    def columns(self) -> Dict[str, float]:
+        """The columns of the study in the present state, SI."""
+        return dict(zip(self._core.column_names, self._core.columns().tolist()))
+
+    def __getitem__(self, name: str) -> float:
+        columns = self.columns
+        if name not in columns:
+            from .errors import UnknownName
+
+            known = ", ".join(f"`{each}`" for each in columns)
+            raise UnknownName(f"there is no column `{name}`; there are {known}", code="unknown", help=f"there are {known}")
+        return columns[name]

@@ -1,0 +1,157 @@
+//! Model files.
+
+use crate::dynamics::Dynamics;
+use crate::errors::{faults, raised};
+use crate::interrupt::away;
+use crate::results::Results;
+use crate::stepper::Stepper;
+use grashof::Error;
+use grashof::results::Scalar;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList};
+use pythonize::pythonize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// Names with values, given as in a model file.
+type Settings = Vec<(String, String)>;
+
+/// A model file, with variants applied and parameters set.
+#[pyclass(frozen, module = "grashof._grashof")]
+pub(crate) struct Model {
+    model: Arc<grashof::Model>,
+}
+
+/// Reads a model file, and what it includes.
+#[pyfunction]
+pub(crate) fn load(py: Python<'_>, path: PathBuf) -> PyResult<Model> {
+    made(py, || grashof::Model::load(path))
+}
+
+/// A model that stands in a text and includes no files.
+#[pyfunction]
+pub(crate) fn parse(py: Python<'_>, text: &str) -> PyResult<Model> {
+    made(py, || grashof::Model::parse(text))
+}
+
+/// YAML for a value that is given as JSON.
+#[pyfunction]
+pub(crate) fn yaml(json: &str) -> PyResult<String> {
+    let wrong = |error: &dyn std::fmt::Display| pyo3::exceptions::PyValueError::new_err(error.to_string());
+    let value: serde_json::Value = serde_json::from_str(json).map_err(|error| wrong(&error))?;
+    serde_yaml::to_string(&value).map_err(|error| wrong(&error))
+}
+
+fn made(py: Python<'_>, make: impl FnOnce() -> Result<grashof::Model, Error> + Send) -> PyResult<Model> {
+    match py.detach(make) {
+        Ok(model) => Ok(Model { model: Arc::new(model) }),
+        Err(error) => Err(raised(py, &error)),
+    }
+}
+
+/// Settings as the library takes them.
+fn lent(settings: &Settings) -> Vec<(&str, &str)> {
+    settings.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect()
+}
+
+#[pymethods]
+impl Model {
+    /// The same with parameters at other values, given as in the file.
+    fn set(&self, py: Python<'_>, values: Settings) -> PyResult<Self> {
+        made(py, || self.model.set(&lent(&values)))
+    }
+
+    /// The same with a variant of the file.
+    fn variant(&self, py: Python<'_>, name: &str) -> PyResult<Self> {
+        made(py, || self.model.variant(name))
+    }
+
+    /// The same with one more study, given as YAML; and its name.
+    fn with_study(&self, name: &str, yaml: &str) -> (Self, String) {
+        let (model, name) = self.model.with_study(name, yaml);
+        (Self { model: Arc::new(model) }, name)
+    }
+
+    /// The text of the file.
+    #[getter]
+    fn text(&self) -> &str {
+        self.model.text()
+    }
+
+    /// Names of the studies.
+    #[getter]
+    fn studies(&self) -> Vec<String> {
+        self.model.studies()
+    }
+
+    /// Names of the variants.
+    #[getter]
+    fn variants(&self) -> Vec<String> {
+        self.model.variants()
+    }
+
+    /// Name, value in SI and unit of each parameter.
+    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, f64, String)>> {
+        let all = py.detach(|| self.model.parameters()).map_err(|error| raised(py, &error))?;
+        Ok(all.into_iter().map(|Scalar { name, value, unit, .. }| (name, value, unit)).collect())
+    }
+
+    /// All that is wrong with the file.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let report = py.detach(|| self.model.check());
+        faults(py, Some(&report))
+    }
+
+    /// Runs a study with settings, for all combinations of swept values.
+    #[pyo3(signature = (study, over, threads=None))]
+    fn run(&self, py: Python<'_>, study: String, over: Settings, threads: Option<usize>) -> PyResult<Results> {
+        let model = Arc::clone(&self.model);
+        let run = away(py, move |flag| {
+            let mut asked = model.study(&study)?;
+            asked = threads.into_iter().fold(asked, grashof::Study::threads);
+            asked = over.iter().fold(asked, |asked, (parameter, values)| asked.over(parameter, values));
+            asked.stop_if(|| flag.load(Ordering::Relaxed)).run()
+        })?;
+        Results::new(py, run.map_err(|error| raised(py, &error))?)
+    }
+
+    /// Computes a motion by several integrators, at several tolerances or with several steps, s.
+    fn compare<'py>(
+        &self,
+        py: Python<'py>,
+        study: String,
+        integrators: Vec<String>,
+        sizes: Vec<f64>,
+        fixed: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let model = Arc::clone(&self.model);
+        let compared = away(py, move |flag| {
+            let begin = Instant::now();
+            let clock = || begin.elapsed().as_secs_f64();
+            let study = model.study(&study)?.stop_if(|| flag.load(Ordering::Relaxed));
+            let integrators: Vec<&str> = integrators.iter().map(String::as_str).collect();
+            if fixed { study.compare_steps(&integrators, &sizes, &clock) } else { study.compare(&integrators, &sizes, &clock) }
+        })?;
+        Ok(pythonize(py, &compared.map_err(|error| raised(py, &error))?)?)
+    }
+
+    /// The mechanism, to be evaluated by hand.
+    fn dynamics(&self, py: Python<'_>) -> PyResult<Dynamics> {
+        let mechanism = py.detach(|| self.model.mechanism()).map_err(|error| raised(py, &error))?;
+        Ok(Dynamics::new(mechanism))
+    }
+
+    /// The motion of a study, to be advanced from outside.
+    fn stepper(&self, py: Python<'_>, study: String) -> PyResult<Stepper> {
+        Stepper::new(py, Arc::clone(&self.model), study)
+    }
+
+    /// The page of a report on results of its studies.
+    fn report<'py>(&self, py: Python<'py>, results: Vec<PyRef<'py, Results>>) -> PyResult<Bound<'py, PyBytes>> {
+        let results = results.iter().map(|results| results.whole(py)).collect::<PyResult<Vec<_>>>()?;
+        let page = py.detach(|| self.model.report(&results.iter().collect::<Vec<_>>()));
+        Ok(PyBytes::new(py, &page))
+    }
+}

@@ -1,0 +1,182 @@
+//! A motion in time that is advanced from outside by the integrator of its study.
+
+use super::error::Error;
+use crate::dynamics::LANES;
+use crate::geometry::{Planar, Space, Spatial};
+use crate::model::{Dimensions, Document, Forward, Kind, Model, Selection, Study};
+use crate::par;
+use crate::results::{Failure, Unknown};
+use crate::scalar::Dual;
+use crate::studies::dynamics::stepping;
+use crate::studies::loader::Loader;
+use grashof_solvers::State;
+use std::sync::Arc;
+
+/// The mechanism of a motion at values of its parameters, which a [`Stepper`] moves.
+pub struct Stepping {
+    asked: Arc<Asked>,
+    of: Of,
+}
+
+/// What was asked for.
+struct Asked {
+    document: Document,
+    model: Model,
+    study: Study,
+}
+
+impl Asked {
+    fn failed(&self, failure: Failure) -> Error {
+        Error::failed(&self.document, &self.study.name, failure)
+    }
+}
+
+/// In the plane or in space.
+enum Of {
+    Planar(Box<stepping::Stepping<Planar<f64>>>),
+    Spatial(Box<stepping::Stepping<Spatial<f64>>>),
+}
+
+/// What is the same in the plane and in space.
+macro_rules! stepped {
+    ($self:expr, $of:ident => $what:expr) => {
+        match &$self.of {
+            Of::Planar($of) => $what,
+            Of::Spatial($of) => $what,
+        }
+    };
+}
+
+impl Stepping {
+    pub(super) fn new(document: &Document, selection: &Selection<'_>) -> Result<Self, Error> {
+        let mut loader = Loader::new(document, par::processors());
+        let model = loader.model(selection, &|| false).map_err(|why| Error::not_loaded(document, why))?;
+        let name = selection.study.unwrap_or_default();
+        let study = model.study.clone().ok_or_else(|| Unknown { what: "study", name: name.into(), known: document.study_names() })?;
+        let Kind::Dynamics(forward) = study.kind.clone() else {
+            return Err(Error::Refused {
+                message: format!("study `{name}` is no motion in time, so nothing is there to step"),
+                help: "name a study of the kind `dynamics`".into(),
+            });
+        };
+        let of = Of::new(&model, &study, &forward).map_err(|failure| Error::failed(document, name, failure))?;
+        let stepping = Self { asked: Arc::new(Asked { document: document.clone(), model, study }), of };
+        if stepped!(stepping, s => s.changes(&stepping.asked.model)) {
+            return Err(Error::Refused {
+                message: "the mechanism has events, rigid stops or exact friction, which change it on the way".into(),
+                help: "run the study".into(),
+            });
+        }
+        Ok(stepping)
+    }
+
+    /// The same mechanism with a parameter at another value, SI; those that depend on it follow. A motion goes on with it by
+    /// [`Self::begin_at`] from the state that it has reached, as behind an event that sets the parameter.
+    ///
+    /// # Errors
+    /// If there is no such parameter, or no mechanism with this value.
+    pub fn set(&self, parameter: &str, value: f64) -> Result<Self, Error> {
+        let Asked { model, study, .. } = &*self.asked;
+        let known = || model.parameters.iter().map(|p| p.name.clone()).collect();
+        let index = model.parameters.iter().position(|p| p.name == parameter);
+        let index = index.ok_or_else(|| Unknown { what: "parameter", name: parameter.into(), known: known() })?;
+        let of = match &self.of {
+            Of::Planar(of) => of.set(model, study, index, value).map(|of| Of::Planar(Box::new(of))),
+            Of::Spatial(of) => of.set(model, study, index, value).map(|of| Of::Spatial(Box::new(of))),
+        };
+        Ok(Self { of: of.map_err(|failure| self.asked.failed(failure))?, asked: Arc::clone(&self.asked) })
+    }
+
+    /// The motion from the start.
+    ///
+    /// # Errors
+    /// If it does not begin.
+    pub fn begin(&self) -> Result<Stepper<'_>, Error> {
+        self.from(None)
+    }
+
+    /// The motion from a state: one that a [`Stepper`] has reached.
+    ///
+    /// # Errors
+    /// If it does not begin there.
+    pub fn begin_at(&self, state: &State) -> Result<Stepper<'_>, Error> {
+        self.from(Some(state))
+    }
+
+    fn from(&self, from: Option<&State>) -> Result<Stepper<'_>, Error> {
+        let Asked { model, study, .. } = &*self.asked;
+        let flow: Result<Box<dyn Flow + '_>, Failure> = match &self.of {
+            Of::Planar(of) => of.begin(model, study, from).map(|flow| Box::new(flow) as Box<dyn Flow>),
+            Of::Spatial(of) => of.begin(model, study, from).map(|flow| Box::new(flow) as Box<dyn Flow>),
+        };
+        Ok(Stepper { flow: flow.map_err(|failure| self.asked.failed(failure))? })
+    }
+
+    /// Names of the columns of the study.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        self.asked.study.columns.iter().map(|column| column.name.clone()).collect()
+    }
+}
+
+impl Of {
+    fn new(model: &Model, study: &Study, forward: &Forward) -> Result<Self, Failure> {
+        Ok(match model.space {
+            Dimensions::Planar => Self::Planar(Box::new(stepping::Stepping::new(model, study, forward)?)),
+            Dimensions::Spatial => Self::Spatial(Box::new(stepping::Stepping::new(model, study, forward)?)),
+        })
+    }
+}
+
+/// A motion in time, advanced to one time after the other.
+pub struct Stepper<'m> {
+    flow: Box<dyn Flow + 'm>,
+}
+
+impl Stepper<'_> {
+    /// Integrates to a time, s; `stop` is asked between steps, and ends it where it is.
+    ///
+    /// # Errors
+    /// Why the motion cannot go on; the state is the last good one.
+    pub fn advance(&mut self, t: f64, stop: &dyn Fn() -> bool) -> Result<(), Error> {
+        let halted = |message| Error::Refused { message, help: "end it before, or try another integrator".into() };
+        self.flow.advance(t, stop).map_err(halted)
+    }
+
+    /// The present state: t, q, v and the states z of the model.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        self.flow.state()
+    }
+
+    /// The columns of the study in the present state, SI.
+    #[must_use]
+    pub fn columns(&mut self) -> Vec<f64> {
+        self.flow.columns()
+    }
+}
+
+/// A motion in progress, in the plane or in space.
+trait Flow {
+    fn advance(&mut self, t: f64, stop: &dyn Fn() -> bool) -> Result<(), String>;
+    fn state(&self) -> &State;
+    fn columns(&mut self) -> Vec<f64>;
+}
+
+impl<G> Flow for stepping::Flow<'_, G>
+where
+    G: Space<S = f64>,
+    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
+{
+    fn advance(&mut self, t: f64, stop: &dyn Fn() -> bool) -> Result<(), String> {
+        self.advance(t, stop)
+    }
+
+    fn state(&self) -> &State {
+        self.state()
+    }
+
+    fn columns(&mut self) -> Vec<f64> {
+        self.columns()
+    }
+}

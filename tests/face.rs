@@ -1,0 +1,145 @@
+//! The face of the library: models with settings, evaluators, motions that are stepped from outside.
+
+use grashof::api::{Evaluator, Placement};
+use grashof::{Error, Model};
+use std::path::Path;
+
+fn model(file: &str) -> Model {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(file);
+    Model::load(path).unwrap_or_else(|e| panic!("{e}"))
+}
+
+const PENDULUM: &str = "
+grashof: 1
+name: pendulum
+space: planar
+gravity: none
+parameters: { length: 1 m, push: 0 N m }
+bodies: { rod: { bar: { length: length, mass: 2 kg } } }
+joints: { P: { revolute: [ground, rod.start] } }
+loads: { torque: { joint: P, torque: push } }
+start: { P.angle: -30 deg, P.omega: 0 }
+variants: { long: { parameters: { length: 2 m } } }
+studies:
+  swing: { dynamics: { until: 2 s, every: 0.1 s }, columns: [time, P.angle, P.omega] }
+";
+
+fn pendulum() -> Model {
+    Model::parse(PENDULUM).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn settings_of_a_model_are_those_of_its_studies() {
+    let model = pendulum();
+    let set = model.variant("long").unwrap().set(&[("push", "3")]).unwrap();
+    let values = |model: &Model| model.parameters().unwrap().into_iter().map(|p| p.value).collect::<Vec<_>>();
+    assert_eq!((values(&model), values(&set)), (vec![1.0, 0.0], vec![2.0, 3.0]));
+    let own = set.study("swing").unwrap().run().unwrap();
+    let asked = model.study("swing").unwrap().variant("long").set("push", "3").run().unwrap();
+    assert_eq!(own.table, asked.table);
+    // the later value counts
+    assert_eq!(values(&set.set(&[("push", "4 N m")]).unwrap()), [2.0, 4.0]);
+    assert!(set.mechanism().unwrap().terms(0.0, &[0.0], &[0.0]).unwrap().mass[(0, 0)] > 2.0);
+}
+
+#[test]
+fn names_that_there_are_not_are_told_from_faults_of_the_file() {
+    let model = pendulum();
+    let unknown = [model.set(&[("nobody", "1")]), model.variant("nobody")].map(Result::unwrap_err);
+    assert!(unknown.iter().all(Error::is_unknown_name), "{unknown:?}");
+    assert!(model.study("nobody").err().is_some_and(|e| e.is_unknown_name() && e.help().contains("`swing`")));
+    let wrong = model.set(&[("length", "1 kg")]).unwrap_err();
+    assert!(!wrong.is_unknown_name(), "{wrong}");
+    let misspelt = Model::parse(&PENDULUM.replace("revolute", "revolut")).unwrap().mechanism().unwrap_err();
+    assert_eq!((misspelt.is_unknown_name(), misspelt.place()), (false, "joints.P.revolut"));
+}
+
+#[test]
+fn a_study_is_added() {
+    let (model, name) = pendulum().with_study("swing", "{ dynamics: { until: 1 s }, columns: [P.angle] }");
+    assert_eq!(name, "swing-2");
+    let results = model.study(&name).unwrap().run().unwrap();
+    assert_eq!(results.independent.values.last(), Some(&1.0));
+    let page = String::from_utf8(model.report(&[&results])).unwrap();
+    assert!(page.contains("<title>pendulum</title>"));
+}
+
+#[test]
+fn an_evaluator_forgets_what_it_has_evaluated() {
+    for file in ["crank_rocker.yaml", "stewart_platform.yaml", "heavy_top.yaml", "quarter_car.yaml"] {
+        let mechanism = model(file).mechanism().unwrap();
+        let (q, v) = mechanism.start();
+        let states: Vec<(f64, Vec<f64>, Vec<f64>)> = (0..5)
+            .map(|k| {
+                let moved = |x: &Vec<f64>, by: f64| x.iter().enumerate().map(|(i, x)| x + by * ((3 * i + k) as f64).sin()).collect();
+                (0.1 * k as f64, moved(&q, 1e-3), moved(&v, 0.1))
+            })
+            .collect();
+        let all = |evaluator: &mut Evaluator<'_>, (t, q, v): &(f64, Vec<f64>, Vec<f64>)| {
+            let (a, lambda) = evaluator.accelerations(*t, q, v).map(|(a, lambda)| (a.to_vec(), lambda.to_vec())).unwrap();
+            let r = evaluator.inverse(*t, q, v, &a, &lambda).unwrap().to_vec();
+            let terms = evaluator.position(*t, q).unwrap();
+            (a, lambda, r, terms.mass.to_dense(), terms.phi.clone(), terms.g.to_dense())
+        };
+        let mut evaluator = mechanism.evaluator();
+        for state in states.iter().rev() {
+            assert_eq!(all(&mut evaluator, state), all(&mut mechanism.evaluator(), state), "{file}");
+        }
+    }
+}
+
+#[test]
+fn placements_are_those_of_each_position() {
+    let mechanism = model("stewart_platform.yaml").mechanism().unwrap();
+    let (q, _) = mechanism.start();
+    let mut many = q.clone();
+    many.extend(q.iter().map(|x| 1.01 * x));
+    let mut placed: Vec<Placement> = Vec::new();
+    mechanism.placements("plate", &many, |at| placed.push(at)).unwrap();
+    let each: Vec<_> = many.chunks(q.len()).map(|q| mechanism.placement("plate", q).unwrap()).collect();
+    assert_eq!(placed, each);
+    assert!(mechanism.placements("plate", &many[1..], |_| {}).is_err());
+    assert!(mechanism.placement("nobody", &q).is_err());
+}
+
+#[test]
+fn a_motion_is_stepped_with_an_input() {
+    let model = pendulum();
+    let rest = model.stepping("swing").unwrap();
+    let mut motion = rest.begin().unwrap();
+    motion.advance(0.5, &|| false).unwrap();
+    assert_eq!((motion.state().t, motion.columns()[2]), (0.5, 0.0));
+    // a torque of 4 N m on 2/3 kg m^2 for half a second
+    let pushed = rest.set("push", 4.0).unwrap();
+    let mut motion = pushed.begin_at(motion.state()).unwrap();
+    motion.advance(1.0, &|| false).unwrap();
+    assert!((motion.columns()[2] - 3.0).abs() < 1e-7, "{}", motion.columns()[2]);
+    assert_eq!(rest.columns(), ["time", "P.angle", "P.omega"]);
+    assert!(rest.set("nobody", 1.0).is_err_and(|e| e.is_unknown_name()));
+}
+
+#[test]
+fn a_stepped_motion_is_that_of_the_study() {
+    let model = model("crank_rocker.yaml");
+    for (study, tolerance) in [("start-up", 1e-4), ("start-up-exact", 1e-7)] {
+        let results = model.study(study).unwrap().run().unwrap();
+        let (time, omega) = (results.column("time").unwrap(), results.column("omega").unwrap());
+        let stepping = model.stepping(study).unwrap();
+        let mut motion = stepping.begin().unwrap();
+        for step in 1..=10 {
+            motion.advance(0.02 * f64::from(step), &|| false).unwrap();
+        }
+        let row = (0..time.len()).min_by(|&i, &k| (time[i] - 0.2).abs().total_cmp(&(time[k] - 0.2).abs())).unwrap();
+        let off = (motion.columns()[2] / omega[row] - 1.0).abs();
+        assert!(off < tolerance, "{study}: {off:e}");
+    }
+}
+
+#[test]
+fn what_cannot_be_stepped_is_refused() {
+    let crank = model("crank_rocker.yaml");
+    assert!(matches!(crank.stepping("one-turn"), Err(Error::Refused { .. })));
+    assert!(crank.stepping("nobody").is_err_and(|e| e.is_unknown_name()));
+    let events = Model::parse(&format!("{PENDULUM}events: {{ low: {{ when: P.angle + 90 deg }} }}\n")).unwrap();
+    assert!(matches!(events.stepping("swing"), Err(Error::Refused { .. })));
+}
