@@ -7,7 +7,7 @@ use grashof::results::Scene;
 use grashof::results::scene::{LinkKind, Place, Shape, Trace};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
-use grashof::studies::sweep::sweep;
+use grashof::studies::sweep::{Drawn, Run, Settings, sweep};
 
 /// A slider-crank over a turn, at rows that are no frames.
 const SLIDER_CRANK: &str = "grashof: 1
@@ -238,7 +238,16 @@ fn runs_of_a_sweep_keep_their_scenes_and_name_themselves() {
         .replace("crank: { bar: { length: 0.3 m } }", "crank: { bar: { length: r } }");
     let model = model(&text.replace("turn: { ", "turn: { sweep: { r: [0.2 m, 0.3 m] }, "), Some("turn"));
     let asked = model.study.clone().expect("the study");
-    let runs = sweep(&model, &asked, 2, Vec::new(), &|_| true, &|| false, &|_, _| {});
-    let captions: Vec<_> = runs.iter().map(|run| run.result.as_ref().expect("a run").scenes[0].1.caption.clone()).collect();
-    assert_eq!(captions, ["r = 0.2 m", "r = 0.3 m"]);
+    let runs = |drawn: Drawn, known: Vec<Option<Run>>| {
+        sweep(&model, &asked, Settings { threads: 2, drawn, stop: &|| false }, known, &|_| true, &|_, _| {})
+    };
+    let of = |runs: &[Run]| runs.iter().map(|run| run.result.as_ref().expect("a run").scenes.clone()).collect::<Vec<_>>();
+    let all = of(&runs(Drawn::All, Vec::new()));
+    assert_eq!(all.iter().map(|scenes| scenes[0].1.caption.as_str()).collect::<Vec<_>>(), ["r = 0.2 m", "r = 0.3 m"]);
+    let undrawn = runs(Drawn::None, Vec::new());
+    assert!(of(&undrawn).iter().all(Vec::is_empty));
+    // the one drawing of a sweep is the same, also of runs that were kept without
+    let first = [all[0].clone(), Vec::new()];
+    assert_eq!(of(&runs(Drawn::First, Vec::new())), first);
+    assert_eq!(of(&runs(Drawn::First, undrawn.into_iter().map(Some).collect())), first);
 }

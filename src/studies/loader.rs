@@ -1,7 +1,7 @@
 //! The model of a study, with the scalars that it takes from other studies.
 
 use super::common::named::named;
-use super::sweep::at;
+use super::sweep::{Drawn, Settings, at};
 use crate::model::{Document, Model, Report, Selection, Study};
 use crate::results::{Failure, Results};
 use std::collections::HashMap;
@@ -60,7 +60,8 @@ impl<'d> Loader<'d> {
         let model = self.model(selection, stop)?;
         let Some(study) = &model.study else { return Ok(Vec::new()) };
         let failed = |failure: Failure| NotLoaded::Failed { study: study.name.clone(), failure };
-        let outcome = at(&model, study, Vec::new(), self.threads, None, stop, &|_, _| {}).result.map_err(failed)?;
+        let settings = Settings { threads: self.threads, drawn: Drawn::None, stop };
+        let outcome = at(&model, study, Vec::new(), settings, None, &|_, _| {}).result.map_err(failed)?;
         if let Some(reason) = &outcome.stopped {
             return Err(NotLoaded::Stopped { study: of.into(), of: study.name.clone(), reason: reason.clone() });
         }
@@ -83,8 +84,8 @@ pub fn quickly(document: &Document, selection: &Selection<'_>) -> Result<Option<
             return Ok(None);
         }
         let hindered = |why: &str| format!("study `{}` takes a scalar of `{}`: {why}", selection.study.unwrap_or_default(), take.study);
-        let outcome =
-            at(&other, asked, Vec::new(), 1, None, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
+        let settings = Settings { threads: 1, drawn: Drawn::None, stop: &|| false };
+        let outcome = at(&other, asked, Vec::new(), settings, None, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
         if let Some(why) = &outcome.stopped {
             return Err(hindered(why));
         }

@@ -14,6 +14,28 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Numbers of the drawings of all runs together, so that they are all kept.
 const DRAWN: usize = 2_000_000;
 
+/// Of which runs drawings are wanted, whose frames take time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// Of none.
+    None,
+    /// Of the first one of a sweep that has results, and of a single run.
+    First,
+    /// Of all.
+    All,
+}
+
+/// How runs are made.
+#[derive(Clone, Copy)]
+pub struct Settings<'a> {
+    /// Threads for runs that do not depend on each other.
+    pub threads: usize,
+    /// Of which runs drawings are wanted.
+    pub drawn: Drawn,
+    /// Whether to end early.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
 /// One run of a study.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -59,20 +81,22 @@ pub fn at(
     model: &Model,
     study: &Study,
     point: Vec<f64>,
-    threads: usize,
+    settings: Settings<'_>,
     rows: Option<Streamed<'_>>,
-    stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(f64, f64) + Sync),
 ) -> Run {
     let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(point.iter().copied()).collect();
     let (solved, result) = match &study.solve {
-        Some(asked) => match solve(&Task { model, study, solve: asked, set: &set, threads, stop, done }) {
+        Some(asked) => match solve(&Task { model, study, solve: asked, set: &set, settings, done }) {
             Ok((outcome, solved)) => (Some(solved), Ok(Box::new(outcome))),
             Err(failure) => (None, Err(failure)),
         },
         None => {
             let values = parameters_with(model, &set);
-            (None, run(Case { rows, ..Case::new(model, study, &values) }, stop).map(Box::new))
+            (
+                None,
+                run(Case { rows, drawn: settings.drawn != Drawn::None, ..Case::new(model, study, &values) }, settings.stop).map(Box::new),
+            )
         }
     };
     let mut run = Run { at: point, solved, result };
@@ -87,15 +111,14 @@ pub fn at(
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
 /// those at the places that are `wanted`. Drawings are left of all of them where these have no more than two million numbers together,
-/// else of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// else of the first one with results alone; where that has none, or was kept without, it is computed once more. `done` is told each of the latter with its place in the grid, from any thread. Runs that
 /// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,
     study: &Study,
-    threads: usize,
+    settings: Settings<'_>,
     known: Vec<Option<Run>>,
     wanted: &dyn Fn(usize) -> bool,
-    stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(usize, &Run) + Sync),
 ) -> Vec<Run> {
     let mut points: Vec<Option<Vec<f64>>> = grid(model, study).into_iter().map(Some).collect();
@@ -107,15 +130,16 @@ pub fn sweep(
     let first = AtomicUsize::new(runs.iter().position(|run| run.as_ref().is_some_and(|run| run.result.is_ok())).unwrap_or(usize::MAX));
     let known = runs.iter().flatten().filter_map(|run| run.result.as_ref().ok());
     let drawn = AtomicUsize::new(known.map(|outcome| numbers(outcome)).sum());
+    let of_each = Settings { threads: 1, drawn: if settings.drawn == Drawn::All { Drawn::All } else { Drawn::None }, ..settings };
     let computed = par::map(
         missing.len(),
-        threads,
+        settings.threads,
         |k| {
             let (i, point) = &missing[k];
-            if stop() {
+            if (settings.stop)() {
                 return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
-            let mut run = at(model, study, point.clone(), 1, None, stop, &|_, _| {});
+            let mut run = at(model, study, point.clone(), of_each, None, &|_, _| {});
             if let Ok(outcome) = &mut run.result {
                 let all = drawn.fetch_add(numbers(outcome), Ordering::Relaxed) + numbers(outcome);
                 if first.fetch_min(*i, Ordering::Relaxed) < *i && all > DRAWN {
@@ -131,10 +155,29 @@ pub fn sweep(
         runs[i] = Some(run);
     }
     let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+    if settings.drawn != Drawn::None {
+        drawn.fetch_add(draw_first(model, study, &mut runs, settings), Ordering::Relaxed);
+    }
     if drawn.load(Ordering::Relaxed) > DRAWN {
         runs.iter_mut().filter_map(|run| run.result.as_mut().ok()).skip(1).for_each(|outcome| outcome.scenes = Vec::new());
     }
     runs
+}
+
+/// Draws the first run with results if it has no drawing, by computing it again; gives the numbers of its frames.
+fn draw_first(model: &Model, study: &Study, runs: &mut [Run], settings: Settings<'_>) -> usize {
+    let Some(first) = runs.iter_mut().find(|run| run.result.is_ok()) else { return 0 };
+    if first.result.as_ref().is_ok_and(|outcome| !outcome.scenes.is_empty()) || (settings.stop)() {
+        return 0;
+    }
+    let again = at(model, study, first.at.clone(), settings, None, &|_, _| {});
+    match (&mut first.result, again.result) {
+        (Ok(outcome), Ok(again)) => {
+            outcome.scenes = again.scenes;
+            numbers(outcome)
+        }
+        _ => 0,
+    }
 }
 
 /// Numbers of the frames of a run.

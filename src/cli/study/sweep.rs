@@ -85,7 +85,7 @@ impl Job<'_> {
             );
             return Finished::nothing(code::INPUT);
         }
-        let runs = sweep::sweep(self.model, study, self.common.threads(), known, &|_| true, &interrupted, &|_, _| {});
+        let runs = sweep::sweep(self.model, study, self.settings(), known, &|_| true, &|_, _| {});
         if interrupted() {
             return Finished::nothing(code::INTERRUPTED);
         }
@@ -120,7 +120,7 @@ impl Job<'_> {
             }
             progress.step();
         };
-        sweep::sweep(self.model, study, self.common.threads(), known, wanted, &interrupted, &done)
+        sweep::sweep(self.model, study, self.settings(), known, wanted, &done)
     }
 
     /// Judges and writes the runs of a sweep.

@@ -11,7 +11,7 @@ use grashof::par;
 use grashof::results::{Column, Failure, Results, Sink};
 use grashof::studies::common::case::Streamed;
 use grashof::studies::loader::{Loader, NotLoaded};
-use grashof::studies::sweep::{Run, at, single, sweep, together};
+use grashof::studies::sweep::{Drawn, Run, Settings, at, single, sweep, together};
 use std::sync::Arc;
 
 /// Numbers that are kept of the rows of a motion, for its figures.
@@ -78,6 +78,10 @@ impl Bench<'_> {
         &self.board.common
     }
 
+    fn settings(&self) -> Settings<'_> {
+        Settings { threads: self.common().threads(), drawn: Drawn::All, stop: self.stop }
+    }
+
     /// What came of a study; none if the file has it no more.
     fn study(&self, loader: &mut Loader<'_>, name: &str) -> Option<Computed> {
         let selection = files::selection(self.common(), Some(name))?;
@@ -109,7 +113,7 @@ impl Bench<'_> {
 
     fn single(&self, model: &Model, study: &Study) -> Computed {
         let rows = Some(Streamed { sink: &Nowhere, keep: KEPT });
-        let run = at(model, study, Vec::new(), self.common().threads(), rows, self.stop, &|_, _| {});
+        let run = at(model, study, Vec::new(), self.settings(), rows, &|_, _| {});
         match single(model, study, run) {
             Ok(results) => {
                 let json = ReportStudy::of(&results, &study.about).json().to_string();
@@ -120,7 +124,7 @@ impl Bench<'_> {
     }
 
     fn sweep(&self, model: &Model, study: &Study) -> Computed {
-        let runs = sweep(model, study, self.common().threads(), Vec::new(), &|_| true, self.stop, &|_, _| {});
+        let runs = sweep(model, study, self.settings(), Vec::new(), &|_| true, &|_, _| {});
         if let Some(failure) = none_began(&runs) {
             return wrong(explained(self.document, &study.name, failure));
         }

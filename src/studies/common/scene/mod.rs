@@ -22,6 +22,12 @@ use crate::results::scene::Frames;
 /// Name of the drawing of a motion.
 pub(crate) const MECHANISM: &str = "mechanism";
 
+/// The drawing of a study, if drawings are wanted of it.
+#[must_use]
+pub(crate) fn wanted(case: Case<'_>, scene: impl FnOnce() -> Scene) -> Vec<(String, Scene)> {
+    if case.drawn { vec![(MECHANISM.into(), scene())] } else { Vec::new() }
+}
+
 /// What is drawn: the mechanism of a run.
 #[derive(Clone, Copy)]
 pub(crate) struct Subject<'a, G: Space<S = f64>> {
