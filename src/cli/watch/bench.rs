@@ -85,7 +85,7 @@ impl Bench<'_> {
     /// What came of a study; none if the file has it no more.
     fn study(&self, loader: &mut Loader<'_>, name: &str) -> Option<Computed> {
         let selection = files::selection(self.common(), Some(name))?;
-        let mut model = match loader.model(&selection, self.stop) {
+        let mut model = match loader.drawn(&selection, self.stop) {
             Ok(model) => model,
             Err(why) => return Some(wrong(self.not_loaded(name, why))),
         };
