@@ -212,7 +212,7 @@ impl<'a> Study<'a> {
 
     fn model(&self) -> Result<Model, Error> {
         let selection = Selection { study: Some(&self.name), ..self.selection.clone() };
-        Loader::new(self.document, self.threads).model(&selection, &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
+        Loader::new(self.document, self.threads).drawn(&selection, &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
     }
 
     fn unknown(&self) -> Error {

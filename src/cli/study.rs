@@ -105,7 +105,7 @@ impl Job<'_> {
     /// Names of files that are known before anything is computed.
     fn names(&self, study: &Study) -> Vec<String> {
         let column = |shown: &Shown| matches!(shown.what, ShownWhat::Column(_));
-        let plots = study.plots.iter().filter(|plot| self.plots && plot.show.iter().chain(&plot.over).all(column));
+        let plots = study.plots.iter().filter(|plot| self.plots && plot.all().all(column));
         let plots = plots.flat_map(|plot| ["svg", "png"].map(|end| format!("{}-{}.{end}", self.study, plot.name)));
         let ends = self.formats.ends().into_iter().chain(["json"]);
         ends.map(|end| format!("{}.{end}", self.study)).chain(plots).collect()

@@ -9,6 +9,7 @@ mod acting;
 mod bodies;
 mod contacts;
 mod coordinates;
+mod data;
 mod decode;
 mod diagnostics;
 mod document;

@@ -1,6 +1,5 @@
 //! The drawing of a mechanism: links, joints and paths in the plane, in one or several positions.
 
-use super::font;
 use super::lettering::{Lettering, Obstacle};
 use super::marks;
 use super::naming::{self, Name};
@@ -10,7 +9,7 @@ use super::raster::RenderError;
 use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
-use super::thin;
+use super::{font, forces, thin};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
@@ -33,13 +32,21 @@ pub(super) struct Plan {
     pub(super) sheet: Sheet,
     pub(super) signs: Signs,
     pub(super) height: f64,
+    /// Force per length of arrows of loads and reactions, N/m.
+    pub(super) forces: [f64; 2],
 }
 
 /// The plan by which all of a drawing is seen.
 pub(super) fn plan(drawing: &Drawing) -> Plan {
-    let [left, bottom, right, top] = extent(drawing);
-    let size = (right - left).max(top - bottom);
-    let size = if size > 1e-12 { size } else { 1.0 };
+    let bare = extent(drawing);
+    let size_of = |[left, bottom, right, top]: [f64; 4]| {
+        let size = (right - left).max(top - bottom);
+        if size > 1e-12 { size } else { 1.0 }
+    };
+    let forces = forces::scales(drawing, size_of(bare));
+    let tips = forces::tips(drawing, forces).filter(is_usable);
+    let [left, bottom, right, top] = tips.fold(bare, |e, [x, y]| [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)]);
+    let size = size_of([left, bottom, right, top]);
     let head = if drawing.title.is_empty() { 70.0 } else { 106.0 };
     let (side, foot) = (100.0, 118.0);
     // Neither a flat nor a tall mechanism may grow beyond the sheet.
@@ -49,7 +56,7 @@ pub(super) fn plan(drawing: &Drawing) -> Plan {
     let middle = [(left + right) / 2.0, (top + bottom) / 2.0];
     let center = [WIDTH / 2.0, head + (height - head - foot) / 2.0];
     let sheet = Sheet { scale, origin: [center[0] - scale * middle[0], center[1] + scale * middle[1]] };
-    Plan { sheet, signs: Signs { size: size_of_signs(drawing, scale) }, height }
+    Plan { sheet, signs: Signs { size: size_of_signs(drawing, scale) }, height, forces }
 }
 
 /// The empty sheet of a plan with its title.
@@ -63,7 +70,8 @@ pub(super) fn frame(drawing: &Drawing, plan: &Plan) -> Scene {
 
 /// The scale and the axes.
 pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
-    marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    let end = marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    forces::legend(drawing, plan.sheet.scale, plan.forces, scene, end + 40.0, LETTERS);
     if let Some(axes) = drawing.axes {
         marks::triad(scene, axes.map(|[x, y]| [x, -y]), LETTERS);
     }
@@ -89,6 +97,7 @@ fn layout(drawing: &Drawing) -> Scene {
         pen.pose(pose, strength);
     }
     pen.traces();
+    forces::draw(drawing, &plan.sheet, plan.signs, plan.forces, &mut pen.scene, &mut pen.letters);
     let names = naming::all(drawing, &pen.sheet, pen.signs.size);
     pen.names(names, paper);
     let Pen { letters, mut scene, .. } = pen;

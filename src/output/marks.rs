@@ -103,7 +103,7 @@ impl Signs {
     }
 
     /// The head of an arrow at the end of a line.
-    fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
+    pub(super) fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
         let Some(tip) = points.last() else { return };
         let size = 9.0 * self.size.max(0.6);
         let behind = points.iter().rev().find(|p| (p[0] - tip[0]).hypot(p[1] - tip[1]) > 0.8 * size);
@@ -157,8 +157,8 @@ pub(super) fn triad(scene: &mut Scene, axes: [Point; 3], letters: f64) {
     }
 }
 
-/// A bar of round length at the lower left, for `scale` pixels to the metre.
-pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
+/// A bar of round length at the lower left, for `scale` pixels to the metre. Gives where it ends, pixels.
+pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) -> f64 {
     let longest = 200.0 / scale;
     let power = 10f64.powf(longest.log10().floor());
     let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|length| *length <= longest * (1.0 + 1e-9)).unwrap_or(power);
@@ -170,5 +170,6 @@ pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
     }
     let (length, unit) = if length < 0.0099 { (length * 1e3, "mm") } else { (length, "m") };
     let text = format!("{} {unit}", super::scalars::significant(length, 6));
-    scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
+    scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
+    right + 14.0 + font::width(&text, letters)
 }

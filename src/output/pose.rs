@@ -18,6 +18,8 @@ pub struct Drawing {
     pub gears: Vec<Gear>,
     /// The paths of points.
     pub traces: Vec<Trace>,
+    /// Forces in the first position.
+    pub forces: Vec<Force>,
     /// The three axes of space as they are seen, each of length 1 in space; none in the plane.
     pub axes: Option<[[f64; 2]; 3]>,
 }
@@ -144,6 +146,31 @@ pub struct Gear {
     pub line: Option<[[f64; 2]; 2]>,
     /// Where they touch.
     pub mesh: Option<[f64; 2]>,
+}
+
+/// A force or torque in the first position.
+#[derive(Clone, Debug, Default)]
+pub struct Force {
+    /// What it is.
+    pub kind: ForceKind,
+    /// Where it acts.
+    pub at: [f64; 2],
+    /// As it is seen, N; of a torque nothing.
+    pub along: [f64; 2],
+    /// Of a torque its part about the direction to the eye, N m.
+    pub turning: f64,
+    /// Force per length of its arrow, N/m; none for one that suits the picture.
+    pub scale: Option<f64>,
+}
+
+/// What a force is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ForceKind {
+    /// A load.
+    #[default]
+    Load,
+    /// What a joint transmits.
+    Reaction,
 }
 
 /// The path of a point.

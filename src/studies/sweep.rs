@@ -221,7 +221,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
         parameters: named::parameters(model, parameters(model).into_iter()),
         table,
         findings,
-        plots: named::plots(study),
+        plots: named::plots(model, study),
         runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }

@@ -178,7 +178,7 @@ impl Job<'_> {
 
 /// What is still asked of a run whose files are made: curves for figures, and what the kind gives beside numbers.
 fn remaining(study: &Study, run: Results) -> Results {
-    let curves = study.plots.iter().any(|plot| plot.show.iter().chain(&plot.over).any(|shown| matches!(shown.what, ShownWhat::Column(_))));
+    let curves = study.plots.iter().any(|plot| plot.all().any(|shown| matches!(shown.what, ShownWhat::Column(_))));
     let Results { stopped, lists, shapes, linear, independent, table, curves: extra, .. } = run;
     let kept = Results { stopped, lists, shapes, linear, ..Results::default() };
     if curves { Results { independent, table, curves: extra, ..kept } } else { kept }

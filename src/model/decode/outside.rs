@@ -2,6 +2,7 @@
 
 use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
+use crate::model::data::DataFiles;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::MOST_RUNS;
 use crate::model::rules::Rule;
@@ -17,6 +18,8 @@ pub(crate) struct Outside<'o> {
     pub(crate) set: &'o [(usize, Id)],
     /// Swept parameters with the texts of their values.
     pub(crate) over: &'o [(String, String)],
+    /// Measured data of figures.
+    pub(crate) files: &'o DataFiles,
 }
 
 /// An argument as it is shown, `--over l3=0.3,0.4`, and where its value begins.
@@ -233,7 +236,7 @@ pub(super) fn retarget(plots: &mut Vec<Plot>, own: &[Sweep], over: &[Sweep]) {
         plot.show.retain(|s| swept(s.what));
         let gone = plot.over.take_if(|shown| !swept(shown.what)).is_some();
         if gone || plot.over.is_none() && first(own) != first(over) {
-            plot.unit = None;
+            (plot.unit, plot.x) = (None, None);
         }
     }
     plots.retain(|plot| !plot.show.is_empty());

@@ -1,5 +1,6 @@
 //! The drawing of a scene: its shown frames in the plane of the picture.
 
+mod forces;
 mod forms;
 mod gears;
 mod joints;
@@ -18,7 +19,8 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let frames = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
     let posed = Posed { scene, view: view(scene), frames };
     let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
-    Drawing { title: title(model, study, name, &scene.caption), traces, ..posed.positions() }
+    let forces = posed.forces().collect();
+    Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
 }
 
 /// The drawing of a scene in given poses, without title and paths.
@@ -60,6 +62,7 @@ impl Posed<'_> {
             links: self.links().collect(),
             gears: self.gears().collect(),
             traces: Vec::new(),
+            forces: Vec::new(),
             axes: (self.scene.dimensions == 3).then_some(axes),
         }
     }
