@@ -9,6 +9,7 @@ use super::raster::RenderError;
 use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
+use super::thin::Point;
 use super::{font, forces, thin};
 
 const WIDTH: f64 = 1000.0;
@@ -178,10 +179,11 @@ impl Pen<'_> {
             let more = self.signs.slide_box()[0] + 14.0 * size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
             if ink.strong {
-                self.signs.slideway(&mut self.scene, way, symbol.way_grounded);
+                self.signs.slideway(&mut self.scene, way, symbol.way_grounded, placement.clear);
                 let [half, height] = self.signs.slide_box();
                 self.letters.avoid(placement.at, [half + 2.0, height + 4.0], [0.0; 2]);
-                let below = if symbol.way_grounded { symbols::lower_side(way, 24.0 * size) } else { way };
+                let below =
+                    if symbol.way_grounded { symbols::lower_side(way, (24.0 * size).max(placement.clear + 6.0 * size)) } else { way };
                 self.letters.avoid_line(&below, Obstacle::Body);
                 if symbol.grounded && !symbol.way_grounded {
                     let (along, _) = symbols::direction([0.0; 2], placement.along);
@@ -229,10 +231,27 @@ impl Pen<'_> {
         for link in self.drawing.links.iter().filter(|link| link.kind != LinkKind::Rod) {
             let Some(ends) = self.sheet.ends(link) else { continue };
             let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
+            self.anchors(link, ends);
             self.signs.link(&mut self.scene, link.kind, ends, turned);
             self.letters.avoid_line(&ends, Obstacle::Body);
             if link.kind == LinkKind::Torsion {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
+            }
+        }
+    }
+
+    /// The ground at the ends of a spring or damper, where no joint has its bearing.
+    fn anchors(&mut self, link: &super::pose::Link, ends: [Point; 2]) {
+        if link.kind == LinkKind::Torsion {
+            return;
+        }
+        let joints = self.drawing.joints.iter().filter(|joint| joint.grounded);
+        let bearings: Vec<Point> = joints.filter_map(|joint| Some(self.sheet.point(joint.poses.first()?.at))).collect();
+        for (end, other) in [(0, 1), (1, 0)] {
+            if link.grounded[end] && !bearings.iter().any(|at| near(*at, ends[end])) {
+                let (along, _) = symbols::direction(ends[other], ends[end]);
+                self.signs.anchor(&mut self.scene, ends[end], along);
+                self.letters.avoid(ends[end], [16.0 * self.signs.size; 2], [0.0; 2]);
             }
         }
     }
@@ -308,7 +327,7 @@ mod tests {
             let body = named("b", vec![plate(vec![at]), vec![round], plate(vec![at, at, at])]);
             let trace = Trace { name: "p".into(), points: vec![at, [0.5, 0.5], [nan, nan]] };
             let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
-            let gear = super::super::pose::Gear { circles: vec![vec![at; 3]], line: Some([at; 2]), mesh: Some(at) };
+            let gear = super::super::pose::Gear { circles: vec![vec![at; 3]], line: Some([at; 2]), mesh: Some(at), belt: vec![at; 3] };
             let (joints, gears) = (vec![symbol(at)], vec![gear]);
             let drawing = Drawing { bodies: vec![body], joints, traces: vec![trace], links: vec![link], gears, ..Drawing::default() };
             let svg = super::super::svg::write_svg(&layout(&drawing));

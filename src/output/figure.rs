@@ -121,7 +121,8 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         ruler
     });
     let line = |(place, &index): (usize, &usize)| {
-        let count = indices.len();
+        // no two curves of a picture are alike, in whatever panel
+        let (place, count) = if figure.curves.len() > 7 { (place, indices.len()) } else { (index, figure.curves.len()) };
         let dash = if count > 7 { &[] } else { curve_dash(place) };
         let Curve { points, right, dots, .. } = figure.curves[index].clone();
         Line { ordered: thin::is_ordered(&points), points, color: curve_color(place, count), dash, right, dots }

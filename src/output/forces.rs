@@ -89,10 +89,9 @@ fn turned(scene: &mut Scene, signs: Signs, at: Point, sense: f64, color: Color) 
 pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: [f64; 2], scene: &mut Scene, left: f64, letters: f64) {
     let (mut x, y) = (left, scene.height - 26.0);
     for (kind, name) in KINDS {
-        if drawing.forces.iter().all(|force| force.kind != kind) {
+        if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales[kind as usize]) {
             continue;
         }
-        // of a picture without forces there is nothing to measure by
         let most = SAMPLE * scales[kind as usize] / pixels;
         let value = round_above(0.4 * most);
         let to = x + value * pixels / scales[kind as usize];

@@ -13,6 +13,8 @@ pub(super) const RUST: Color = [150, 60, 20];
 const DRIVE: Color = [0, 112, 84];
 /// Of stops.
 const STOP: Color = [176, 20, 40];
+/// Of belts.
+const BELT: Color = [70, 70, 76];
 /// A centre line: long, short.
 const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
 /// Coils of a spring, whatever its length: one that is pulled is seen to be.
@@ -135,6 +137,9 @@ impl Signs {
         let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
         gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
         gear.line.iter().for_each(|line| scene.line(line.to_vec(), stroke));
+        if !gear.belt.is_empty() {
+            scene.shape(gear.belt.clone(), None, Some(Stroke::solid(BELT, self.pen(4.0))));
+        }
         gear.mesh.iter().for_each(|at| scene.circle(*at, 4.5 * self.size.max(0.6), Some(DRIVE), None));
     }
 }

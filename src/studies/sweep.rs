@@ -9,8 +9,12 @@ use crate::par;
 use crate::results::Failure;
 use crate::results::{self, By, Column, Finding, Results, Solution, Table, number};
 use crate::studies::common::outcome::Outcome;
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Digits of swept values in titles and legends, and all that a number has.
+const IN_TITLES: usize = 6;
+const ALL: usize = 17;
 /// Numbers of the drawings of all runs together, so that they are all kept.
 const DRAWN: usize = 2_000_000;
 
@@ -103,7 +107,7 @@ pub fn at(
     if let Ok(outcome) = &mut run.result
         && !study.sweep.is_empty()
     {
-        let caption = label(model, study, &run.at);
+        let caption = label(model, study, &run.at, IN_TITLES);
         outcome.scenes.iter_mut().for_each(|(_, scene)| scene.caption.clone_from(&caption));
     }
     run
@@ -197,9 +201,10 @@ pub fn single(model: &Model, study: &Study, run: Run) -> Result<Results, Failure
 /// What the runs of a sweep have come to: a table with a row for each, and the results of each. `each` gets the latter with their number
 /// from 0 as they are made, and may take from them what is of no further use.
 pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnMut(usize, &mut Results)) -> Results {
+    let labels = labels(model, study, &runs);
     let labelled = |(i, run): (usize, Run)| {
         let solution = solution(model, study, &run);
-        let label = label(model, study, &run.at);
+        let label = labels[i].clone();
         let mut results = run.result.ok().map(|outcome| Box::new(named(model, study, *outcome)));
         results.iter_mut().for_each(|results| each(i, results));
         results::Run { label, results, solution }
@@ -207,7 +212,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
     let table = table(model, study, &runs);
     let mut findings = Vec::new();
     for (i, (run, reason)) in runs.iter().zip(table.reasons.iter().flatten()).enumerate() {
-        let of = |message: &str| format!("run {} ({}): {message}", i + 1, label(model, study, &run.at));
+        let of = |message: &str| format!("run {} ({}): {message}", i + 1, labels[i]);
         if !reason.is_empty() {
             findings.push(Finding { code: "run-stopped".into(), message: of(reason), path: study.place.clone() });
         }
@@ -242,15 +247,28 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
     })
 }
 
-/// The swept values of a run: `l3 = 0.3 m`.
-fn label(model: &Model, study: &Study, at: &[f64]) -> String {
+/// The swept values of a run with some digits: `l3 = 0.3 m`.
+fn label(model: &Model, study: &Study, at: &[f64], digits: usize) -> String {
     let value = |(sweep, x): (&Sweep, &f64)| {
         let parameter = &model.parameters[sweep.parameter];
         let value = named::scalar(model, &parameter.name, parameter.dimension, *x, By::File);
         let (x, unit) = value.shown();
-        format!("{} = {} {unit}", value.name, number(x)).trim_end().to_string()
+        format!("{} = {} {unit}", value.name, number(significant(x, digits))).trim_end().to_string()
     };
     study.sweep.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
+}
+
+/// The swept values of all runs, with no more digits than tell them apart.
+fn labels(model: &Model, study: &Study, runs: &[Run]) -> Vec<String> {
+    let with = |digits: usize| runs.iter().map(|run| label(model, study, &run.at, digits)).collect::<Vec<String>>();
+    let short = with(IN_TITLES);
+    let distinct = short.iter().collect::<HashSet<_>>().len() == short.len();
+    if distinct { short } else { with(ALL) }
+}
+
+/// A number with some significant digits.
+fn significant(x: f64, digits: usize) -> f64 {
+    if digits >= ALL { x } else { format!("{x:.*e}", digits - 1).parse().unwrap_or(x) }
 }
 
 /// One row a run: swept parameters, the one that was solved for, results of the kind, scalars, and why a run is not whole.

@@ -150,7 +150,7 @@ export interface Joint {
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';
 export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
-export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean }
+export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean; belt: boolean }
 export interface Trace { name: string; body: number; at: number[] }
 export type ArrowKind = 'load' | 'reaction' | 'torque';
 

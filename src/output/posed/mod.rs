@@ -101,6 +101,7 @@ impl Posed<'_> {
             Link {
                 name: link.name.clone(),
                 kind,
+                grounded: [&link.a, &link.b].map(|end| end.body == 0),
                 poses: self.frames.iter().map(ends).collect(),
                 turned: self.frames.iter().map(turned).collect(),
             }

@@ -88,6 +88,8 @@ pub struct Gear {
     pub b: Wheel,
     /// Whether the second one is a rack.
     pub rack: bool,
+    /// Whether a belt joins them, so that they do not touch.
+    pub belt: bool,
 }
 
 /// A pitch circle, or the pitch line of a rack.

@@ -65,7 +65,11 @@ export class Plane implements Renderer {
     const { scene } = this.motion;
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
-    scene.gears.forEach(({ a, b, rack }, k) => {
+    scene.gears.forEach(({ a, b, rack, belt }, k) => {
+      if (belt) {
+        signs.belt(pen, this.point(a), Math.abs(a.radius) * this.scale, this.point(b), Math.abs(b.radius) * this.scale, inks);
+        return;
+      }
       const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
       for (const wheel of rack ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, place), wheel.radius < 0, color(wheel.body), inks);
       if (rack) signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), 0.1 * width * (k + 1), inks);
