@@ -16,6 +16,7 @@ mod couplings;
 mod dynamics;
 mod equivalence;
 mod external;
+mod figures;
 mod frames;
 mod friction;
 mod hand_written;

@@ -1,5 +1,6 @@
 //! Figures that a study asks for, laid out from its results.
 
+use super::units::pretty;
 use super::{Axis, Curve, Figure, Scale};
 use crate::results::{Column, Plot, PlotAxis, PlotBeside, Results};
 
@@ -28,8 +29,8 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
         let sides = left.iter().map(|name| (name, false)).chain(right.iter().map(|name| (*name, true)));
         for (y, on_right) in sides.filter_map(|(name, on_right)| Some((column(run, name)?, on_right))) {
             let name = match label {
-                Some(label) if several && left.len() + right.len() > 1 => format!("{}, {label}", y.name),
-                Some(label) if several => (*label).to_string(),
+                Some(label) if several && left.len() + right.len() > 1 => format!("{}, {}", y.name, pretty(label)),
+                Some(label) if several => pretty(label),
                 _ => y.name.clone(),
             };
             let points = joined(x.map_or(&[], |x| &x.values), &y.values, &run.table.switches, plot.over.is_some());

@@ -40,7 +40,8 @@ pub(super) fn view(scene: &Scene) -> View {
 /// What stands above the picture.
 pub(super) fn title(model: &str, study: &str, name: &str, caption: &str) -> String {
     let name = if name == "mechanism" { String::new() } else { name.replace('-', " ") };
-    let after: Vec<&str> = [name.as_str(), caption].into_iter().filter(|part| !part.is_empty()).collect();
+    let caption = crate::output::units::pretty(caption);
+    let after: Vec<&str> = [name.as_str(), caption.as_str()].into_iter().filter(|part| !part.is_empty()).collect();
     let before = [model, study].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
     if after.is_empty() { before } else { format!("{before}: {}", after.join(", ")) }
 }

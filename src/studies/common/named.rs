@@ -117,9 +117,25 @@ fn tables(model: &Model, study: &Study, outcome: &mut Outcome) -> (Table, Vec<Co
     let named = |id| of_pictures(study).find(|s| s.what == ShownWhat::Column(id));
     let extra = extra_curves(study).into_iter().enumerate();
     let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(model, &s.name, s.dimension, values(study.columns.len() + k))));
-    let curves = curves.collect();
+    let mut curves: Vec<Column> = curves.collect();
+    curves.extend(aliases(study, &curves).into_iter().map(|(s, k)| column(model, &s.name, s.dimension, values(k))));
     let (switches, selected_from) = (std::mem::take(&mut outcome.switches), outcome.selected_from);
     (Table { columns, switches, selected_from, reasons: None }, curves)
+}
+
+/// What pictures show under another name than that of the column with its values, and where among the rows these are.
+fn aliases<'s>(study: &'s Study, curves: &[Column]) -> Vec<(&'s Shown, usize)> {
+    let mut found: Vec<(&Shown, usize)> = Vec::new();
+    let known = |name: &str| study.columns.iter().any(|c| c.name == name) || curves.iter().any(|c| c.name == name);
+    for shown in of_pictures(study) {
+        let ShownWhat::Column(id) = shown.what else { continue };
+        if known(&shown.name) || found.iter().any(|(other, _)| other.name == shown.name) {
+            continue;
+        }
+        let place = study.columns.iter().map(|c| c.value).chain(extra_curves(study)).position(|value| value == id);
+        found.extend(place.map(|place| (shown, place)));
+    }
+    found
 }
 
 /// The outputs in the state of a linearised motion, one row.
