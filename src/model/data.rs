@@ -1,6 +1,6 @@
 //! Measured data: tables from files that figures name, which the caller reads as it reads what a model includes.
 
-use super::include::Files;
+use super::files::Files;
 use serde_yaml::{Mapping, Value};
 use std::collections::BTreeMap;
 

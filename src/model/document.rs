@@ -3,7 +3,8 @@
 use super::data::DataFiles;
 use super::diagnostics::{Diagnostic, Report};
 use super::fault::{Fault, Spot};
-use super::include::{self, Files};
+use super::files::Files;
+use super::include;
 use super::included::{Included, find};
 use super::merge::Node;
 use super::reading::{report, shown, text_of};

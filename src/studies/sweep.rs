@@ -9,6 +9,7 @@ use crate::par;
 use crate::results::Failure;
 use crate::results::{self, By, Column, Finding, Results, Solution, Table, number};
 use crate::studies::common::outcome::Outcome;
+pub use crate::studies::common::settings::{Drawn, Settings};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -17,28 +18,6 @@ const IN_TITLES: usize = 6;
 const ALL: usize = 17;
 /// Numbers of the drawings of all runs together, so that they are all kept.
 const DRAWN: usize = 2_000_000;
-
-/// Of which runs drawings are wanted, whose frames take time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drawn {
-    /// Of none.
-    None,
-    /// Of the first one of a sweep that has results, and of a single run.
-    First,
-    /// Of all.
-    All,
-}
-
-/// How runs are made.
-#[derive(Clone, Copy)]
-pub struct Settings<'a> {
-    /// Threads for runs that do not depend on each other.
-    pub threads: usize,
-    /// Of which runs drawings are wanted.
-    pub drawn: Drawn,
-    /// Whether to end early.
-    pub stop: &'a (dyn Fn() -> bool + Sync),
-}
 
 /// One run of a study.
 #[derive(Clone, Debug)]

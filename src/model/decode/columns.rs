@@ -2,21 +2,19 @@
 
 use super::decoder::{Decoder, Origin};
 use super::frame::Frame;
-use super::plots::{AXIS, DATA, RIGHT};
+use super::plots::{AXIS, COLUMN, DATA, RIGHT};
 use crate::expression::{Dimension, Id};
 use crate::model::data::DataFiles;
 use crate::model::fault::At;
 use crate::model::fields::{Keys, Shape, Size};
+use crate::model::figure::{Plot, Shown, ShownWhat};
 use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::scope::{Allow, Local};
-use crate::model::study::{Column, Plot, Shown, ShownWhat};
+use crate::model::study::Column;
 use crate::model::suggest::clip;
 use crate::model::vocabulary::Quantity;
-
-/// What names a column.
-pub(super) const COLUMN: Shape = Shape::Name("the name of a measure or a quantity such as `rocker.tip.x`");
 
 keys! {
     /// `plot`, one figure.

@@ -6,12 +6,13 @@ use crate::expression::{Dimension, Id};
 use crate::model::entities::LoadOn;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANGLE, POINT, Shape, Size, Want};
+use crate::model::figure::{ForceKind, ForceOn, Shown, ShownForce, ShownWhat};
 use crate::model::keys::{Entry, Words, keys};
 use crate::model::merge::Node;
 use crate::model::place::PointRef;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
-use crate::model::study::{ForceKind, ForceOn, Shown, ShownForce, ShownWhat, Side, View};
+use crate::model::study::{Side, View};
 use crate::model::vocabulary::Quantity;
 
 /// What `trace` takes.

@@ -6,12 +6,15 @@ use crate::expression::Dimension;
 use crate::model::data::{DataFiles, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANY, Shape, Size, Want};
+use crate::model::figure::{Beside, Plot, PlotAxis, Shown, ShownWhat};
 use crate::model::keys::{Entry, keys};
 use crate::model::rules::Rule;
 use crate::model::scope::Allow;
-use crate::model::study::{Beside, Plot, PlotAxis, Shown, ShownWhat};
 use crate::model::suggest;
 use crate::model::suggest::clip;
+
+/// What names a column.
+pub(super) const COLUMN: Shape = Shape::Name("the name of a measure or a quantity such as `rocker.tip.x`");
 
 keys! {
     /// An axis of a figure.
@@ -25,7 +28,7 @@ keys! {
 keys! {
     /// The axis on the right.
     pub(super) RIGHT = RightKeys "a second axis" [] {
-        show: need Shape::List(&super::columns::COLUMN, Size::AtLeast(1)), "What is drawn over it.";
+        show: need Shape::List(&COLUMN, Size::AtLeast(1)), "What is drawn over it.";
         unit("in"): may Shape::Text, "Its unit.";
         from: may ANY, "Where it begins.";
         to: may ANY, "Where it ends.";
@@ -39,7 +42,7 @@ keys! {
         x: may Shape::Text, "Name of the column along the horizontal axis; the first if omitted.";
         y: may Shape::Text, "Name of the other column; the second if omitted.";
         units("in"): may Shape::List(&Shape::Text, Size::Exactly(2)), "Units of the two columns; SI if omitted.";
-        of: may super::columns::COLUMN, "The shown name whose quantity it is; the first if omitted.";
+        of: may COLUMN, "The shown name whose quantity it is; the first if omitted.";
     }
 }
 

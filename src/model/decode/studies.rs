@@ -1,11 +1,12 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
-use super::columns::{COLUMN, PLOT};
+use super::columns::PLOT;
 use super::decoder::{Check, Decoder};
 use super::frame::Frame;
 use super::kinds::{Features, OF_KINDS};
 use super::outside::{Outside, retarget};
 use super::pictures::{SHOW, TRACE, VIEW};
+use super::plots::COLUMN;
 use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};

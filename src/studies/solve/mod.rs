@@ -8,8 +8,8 @@ mod search;
 mod task;
 
 use super::common::case::{Case, parameters_with};
+use super::common::settings::Drawn;
 use super::run::run;
-use super::sweep::Drawn;
 use crate::model::Study;
 use crate::results::{Failure, Finding};
 use crate::studies::common::outcome::Outcome;

@@ -1,7 +1,7 @@
 //! What is asked of a `solve`, and the runs that were made for it.
 
 use crate::model::{Model, Solve, Study};
-use crate::studies::sweep::Settings;
+use crate::studies::common::settings::Settings;
 
 /// What is asked of a study, and who is told.
 pub struct Task<'a> {
