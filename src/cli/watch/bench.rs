@@ -13,9 +13,14 @@ use grashof::studies::common::case::Streamed;
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::sweep::{Drawn, Run, Settings, at, single, sweep, together};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Numbers that are kept of the rows of a motion, for its figures.
 const KEPT: usize = 1_000_000;
+
+/// What a page takes to draw a study, and how often is looked meanwhile whether it is out of date.
+const DRAWING: Duration = Duration::from_millis(120);
+const LOOK: Duration = Duration::from_millis(5);
 
 /// Rows that go nowhere: the page has those that its figures need.
 struct Nowhere;
@@ -50,20 +55,30 @@ fn nothing(board: &Board, of: u64, report: &Report) {
 /// Computes studies until there is no more to be done, or all is out of date.
 fn all(board: &Board, of: u64, document: &Document) {
     let mut loader = Loader::new(document, board.common.threads());
-    let mut checked = false;
+    let mut first = true;
     while let Some(name) = board.next(of) {
         let stop = || board.is_stale(of) || interrupted();
         let computed = Bench { board, document, stop: &stop }.study(&mut loader, &name);
         board.put(of, &name, (!stop()).then(|| computed.unwrap_or_default()));
-        if !std::mem::replace(&mut checked, true)
-            && let Some(selection) = files::selection(&board.common, None)
-        {
+        if !std::mem::replace(&mut first, false) {
+            continue;
+        }
+        leave_processors(&stop);
+        if let Some(selection) = files::selection(&board.common, None) {
             board.put_findings(of, &document.check_all(&selection));
             // of a model with errors there is nothing to know
             if let Some(head) = report::model_json(document, &board.common) {
                 board.put_head(of, head);
             }
         }
+    }
+}
+
+/// Waits while a page draws the study in view, which it should not have to share the processors for.
+fn leave_processors(stop: &dyn Fn() -> bool) {
+    let until = Instant::now() + DRAWING;
+    while Instant::now() < until && !stop() {
+        std::thread::sleep(LOOK);
     }
 }
 
