@@ -32,7 +32,7 @@ export class PlotView {
     const { figure, name } = of;
     const keeper = new IntersectionObserver(([seen]) => {
       this.near = seen?.isIntersecting ?? true;
-      if (this.near && this.overlay) this.stale ? this.draw() : this.mark();
+      if (this.near) this.refresh();
     }, { rootMargin: '200px' });
     if (kept) this.view = { ...kept.view, width: 0 };
     for (const curve of figure.curves) if (kept?.hidden.includes(curve.label)) curve.shown = false;
@@ -83,7 +83,7 @@ export class PlotView {
 
   /** Draws the time of the motion. */
   tick(): void {
-    if (this.overlay && this.near && !this.stale && this.cursor === null) this.mark();
+    if (this.overlay && !this.stale && this.cursor === null) this.mark();
   }
 
   private title(): string {
