@@ -63,7 +63,7 @@ fn main() {
                 [|m: &Measured| m.setup, |m: &Measured| m.step, |m: &Measured| m.evaluation].map(|of| exponent(sizes, &all, of));
             let _ = writeln!(text, "| {kind}, exponent from {LARGE} on | | {} | |", exponents.join(" | "));
             let points = sizes.iter().zip(&all).map(|(&n, m)| (n as f64, m.step)).collect();
-            curves.push(Curve { label: kind.into(), unit: Some("s".into()), points });
+            curves.push(Curve { label: kind.into(), unit: Some("s".into()), points, ..Curve::default() });
         }
         figures.push((scheme, title, curves));
         text.push('\n');
@@ -181,7 +181,7 @@ fn model(kind: &str, n: usize, scheme: &str) -> String {
 /// Puts the tables between the marks of the document, and the figures beside it.
 fn write(text: &str, figures: Vec<(&str, String, Vec<Curve>)>) {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-    let axis = |label: &str, unit: &str| Axis { label: label.into(), unit: unit.into(), scale: Scale::Log };
+    let axis = |label: &str, unit: &str| Axis { label: label.into(), unit: unit.into(), scale: Scale::Log, ..Axis::default() };
     for (scheme, title, curves) in figures {
         let figure = Figure { title, x: axis("links", ""), y: axis("a step", "s"), curves, ..Figure::default() };
         let picture = render_figure(&figure).unwrap_or_else(|e| panic!("{e}"));

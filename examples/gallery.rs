@@ -8,7 +8,7 @@ use grashof::model::{Document, Selection};
 use grashof::output::{Film, Pace, Shot, ShotOptions, drawing, moving_svg, render_drawing};
 use grashof::results::Results;
 use grashof::studies::loader::Loader;
-use grashof::studies::sweep::{at, grid, single};
+use grashof::studies::sweep::{Drawn, Settings, at, grid, single};
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,7 +63,8 @@ fn shown(path: &Path) -> Result<Shown, Box<dyn Error>> {
     let model = Loader::new(&document, 1).model(&selection, &|| false).map_err(|why| format!("{why:?}"))?;
     let study = model.study.as_ref().ok_or("no study")?;
     let point = grid(&model, study).swap_remove(0);
-    let results = single(&model, study, at(&model, study, point, 1, None, &|| false, &|_, _| {})).map_err(|why| format!("{why:?}"))?;
+    let settings = Settings { threads: 1, drawn: Drawn::First, stop: &|| false };
+    let results = single(&model, study, at(&model, study, point, settings, None, &|_, _| {})).map_err(|why| format!("{why:?}"))?;
     // what comes after an empty line, and the sources, are for those who open the file
     let lines = model.about.lines().take_while(|line| !line.trim().is_empty() && !line.starts_with("Source:"));
     Ok(Shown { about: lines.map(str::trim).collect::<Vec<_>>().join(" "), results })

@@ -18,6 +18,7 @@ mod dynamics;
 mod equivalence;
 mod external;
 mod face;
+mod figures;
 mod frames;
 mod friction;
 mod hand_written;

@@ -4,7 +4,7 @@ use crate::common;
 use grashof::model::Model;
 use grashof::output::{Pace, Shot, ShotOptions};
 use grashof::results::{Results, Scene};
-use grashof::studies::sweep::{at, single};
+use grashof::studies::sweep::{Drawn, Settings, at, single};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -117,7 +117,7 @@ fn names(directory: &Path) -> Vec<String> {
 fn results(text: &str, study: &str) -> Results {
     let model: Model = common::model(text, Some(study));
     let study = model.study.as_ref().unwrap();
-    let run = at(&model, study, Vec::new(), 1, None, &|| false, &|_, _| {});
+    let run = at(&model, study, Vec::new(), Settings { threads: 1, drawn: Drawn::All, stop: &|| false }, None, &|_, _| {});
     single(&model, study, run).unwrap_or_else(|failure| panic!("{failure:?}"))
 }
 

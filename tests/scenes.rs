@@ -7,7 +7,7 @@ use grashof::results::Scene;
 use grashof::results::scene::{LinkKind, Place, Shape, Trace};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
-use grashof::studies::sweep::sweep;
+use grashof::studies::sweep::{Drawn, Run, Settings, sweep};
 
 /// A slider-crank over a turn, at rows that are no frames.
 const SLIDER_CRANK: &str = "grashof: 1
@@ -128,8 +128,12 @@ fn quaternions_go_round_without_a_jump() {
 
 /// Of a study of a model of the repository.
 fn scenes(file: &str, name: &str) -> Vec<(String, Scene)> {
-    let text = std::fs::read_to_string(format!("models/{file}.yaml")).expect("the model");
-    let model = model(&text, Some(name));
+    scenes_of(&std::fs::read_to_string(format!("models/{file}.yaml")).expect("the model"), name)
+}
+
+/// Of a study of a text.
+fn scenes_of(text: &str, name: &str) -> Vec<(String, Scene)> {
+    let model = model(text, Some(name));
     let study = model.study.clone().expect("the study");
     run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason())).scenes
 }
@@ -238,7 +242,78 @@ fn runs_of_a_sweep_keep_their_scenes_and_name_themselves() {
         .replace("crank: { bar: { length: 0.3 m } }", "crank: { bar: { length: r } }");
     let model = model(&text.replace("turn: { ", "turn: { sweep: { r: [0.2 m, 0.3 m] }, "), Some("turn"));
     let asked = model.study.clone().expect("the study");
-    let runs = sweep(&model, &asked, 2, Vec::new(), &|_| true, &|| false, &|_, _| {});
-    let captions: Vec<_> = runs.iter().map(|run| run.result.as_ref().expect("a run").scenes[0].1.caption.clone()).collect();
-    assert_eq!(captions, ["r = 0.2 m", "r = 0.3 m"]);
+    let runs = |drawn: Drawn, known: Vec<Option<Run>>| {
+        sweep(&model, &asked, Settings { threads: 2, drawn, stop: &|| false }, known, &|_| true, &|_, _| {})
+    };
+    let of = |runs: &[Run]| runs.iter().map(|run| run.result.as_ref().expect("a run").scenes.clone()).collect::<Vec<_>>();
+    let all = of(&runs(Drawn::All, Vec::new()));
+    assert_eq!(all.iter().map(|scenes| scenes[0].1.caption.as_str()).collect::<Vec<_>>(), ["r = 0.2 m", "r = 0.3 m"]);
+    let undrawn = runs(Drawn::None, Vec::new());
+    assert!(of(&undrawn).iter().all(Vec::is_empty));
+    // the one drawing of a sweep is the same, also of runs that were kept without
+    let first = [all[0].clone(), Vec::new()];
+    assert_eq!(of(&runs(Drawn::First, Vec::new())), first);
+    assert_eq!(of(&runs(Drawn::First, undrawn.into_iter().map(Some).collect())), first);
+}
+
+#[test]
+fn forces_are_shown_where_they_act_and_in_world_axes() {
+    let text = "grashof: 1
+name: lever
+space: planar
+gravity: none
+bodies: { bar: { bar: { length: 2 m } } }
+joints: { O: { revolute: [ground, bar.start] } }
+drivers: { turn: { joint: O, speed: 1 rad/s } }
+loads:
+  across: { at: bar.end, force: [0, -5 N], frame: bar }
+  twist: { at: bar.end, torque: -3 N m }
+studies: { swing: { SHOWN, inverse: { over: 90 deg, samples: 9 }, columns: [O.fx] } }
+";
+    let read = |shown: &str| {
+        let model = model(&text.replace("SHOWN", shown), Some("swing"));
+        let study = model.study.clone().expect("a study");
+        let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{}", f.reason()));
+        grashof::studies::common::named::named(&model, &study, outcome).scenes.remove(0).1
+    };
+    assert!(read("about: none").arrows.is_empty());
+    let scene = read("show: { loads: 2 kN/m }");
+    let [across, twist] = &scene.arrows[..] else { panic!("{:?}", scene.arrows) };
+    assert_eq!((across.scale, across.values.len(), twist.values.len()), (Some(2000.0), 2 * scene.frames.count(), scene.frames.count()));
+    for (k, at) in scene.frames.at.iter().enumerate() {
+        // across the bar, which is turned by now
+        let wanted = [5.0 * at.sin(), -5.0 * at.cos()];
+        (0..2).for_each(|i| assert!((across.values[2 * k + i] - wanted[i]).abs() < 1e-9, "{at}: {:?}", &across.values[2 * k..]));
+        assert_eq!(twist.values[k], -3.0);
+    }
+    // a bar without mass hands on what acts on it
+    let scene = read("show: [reactions]");
+    let [hinge] = &scene.arrows[..] else { panic!("{:?}", scene.arrows) };
+    let last = hinge.values.len() - 2;
+    assert!((hinge.values[0].abs() < 1e-9) && (hinge.values[1] - 5.0).abs() < 1e-9, "{:?}", &hinge.values[..2]);
+    assert!((hinge.values[last] + 5.0).abs() < 1e-9 && hinge.values[last + 1].abs() < 1e-9, "{:?}", &hinge.values[last..]);
+    assert_eq!(hinge.columns, ["O.fx", "O.fy"]);
+}
+
+#[test]
+fn springs_over_points_and_angles_have_places() {
+    let text = "grashof: 1
+name: springs
+space: planar
+gravity: none
+bodies: { a: { bar: { length: 1 m, mass: 1 kg } }, b: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { O: { revolute: [ground, a.start] }, P: { revolute: [ground, b.start] } }
+springs:
+  shaft: { stretch: b.angle - a.angle, stiffness: 10 N m }
+  rope: { stretch: \"hypot(b.end.x - a.end.x, b.end.y - a.end.y) - 10 cm\", stiffness: 10 N/m }
+  odd: { stretch: a.end.y, stiffness: 10 N/m }
+start: { a.angle: 0 deg, b.angle: 60 deg }
+studies: { still: { statics: { from: start } } }
+";
+    let scene = scenes_of(text, "still").remove(0).1;
+    let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind)).collect();
+    assert_eq!(kinds, [("shaft", LinkKind::Torsion), ("rope", LinkKind::Spring)]);
+    let mut bodies = [scene.links[1].a.body, scene.links[1].b.body];
+    bodies.sort_unstable();
+    assert_eq!((bodies, &scene.links[1].a.at), ([1, 2], &vec![1.0, 0.0]));
 }

@@ -47,10 +47,10 @@ impl Sheet {
             for s in series.iter().filter(|s| !["newmark", "hht", "ida"].contains(&s.name)) {
                 let good = s.samples.iter().filter(|(_, sample)| sample.error > 0.0);
                 let points = good.map(|(_, x)| (x.error, [x.time, x.bare.counts.evaluations as f64][of])).collect();
-                curves.push(Curve { label: s.name.into(), unit: Some(unit.into()), points });
+                curves.push(Curve { label: s.name.into(), unit: Some(unit.into()), points, ..Curve::default() });
             }
         }
-        let axis = |label: &str| Axis { label: label.into(), unit: String::new(), scale: Scale::Log };
+        let axis = |label: &str| Axis { label: label.into(), scale: Scale::Log, ..Axis::default() };
         let quantities = vec![("s".into(), "time".into()), (String::new(), "evaluations".into())];
         let figure = Figure { title: title.into(), x: axis("error at the end"), y: axis(""), curves, quantities, ..Figure::default() };
         let picture = render_figure(&figure).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -11,7 +11,7 @@ use crate::studies::compare::{NoReference, Watch, compare};
 use crate::studies::integrators::{By, OwnIntegrator, Steps};
 use crate::studies::loader::Loader;
 use crate::studies::run::run;
-use crate::studies::sweep::{at, grid, single, sweep, together};
+use crate::studies::sweep::{Drawn, Settings, at, grid, single, sweep, together};
 use crate::studies::verify::{Verdict, verify};
 use grashof_solvers::{Scheme, System};
 use std::cell::Cell;
@@ -25,6 +25,7 @@ pub struct Study<'a> {
     integrators: Vec<OwnIntegrator>,
     sink: Option<&'a dyn Sink>,
     threads: usize,
+    drawn: bool,
     progress: Box<dyn Fn(usize, usize) + Sync + 'a>,
     stop: Box<dyn Fn() -> bool + Sync + 'a>,
 }
@@ -38,6 +39,7 @@ impl<'a> Study<'a> {
             integrators: Vec::new(),
             sink: None,
             threads: par::processors(),
+            drawn: true,
             progress: Box::new(|_, _| {}),
             stop: Box::new(|| false),
         }
@@ -68,6 +70,13 @@ impl<'a> Study<'a> {
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads.max(1);
+        self
+    }
+
+    /// Leaves out drawings ([`Results::scenes`]), whose frames take time.
+    #[must_use]
+    pub fn undrawn(mut self) -> Self {
+        self.drawn = false;
         self
     }
 
@@ -112,14 +121,15 @@ impl<'a> Study<'a> {
         if let Some(sink) = self.sink {
             return self.streamed(&model, study, sink);
         }
+        let settings = Settings { threads: self.threads, drawn: if self.drawn { Drawn::All } else { Drawn::None }, stop: &*self.stop };
         let done = AtomicUsize::new(0);
         let count = |all: usize| (self.progress)(done.fetch_add(1, Ordering::Relaxed) + 1, all);
         if study.sweep.is_empty() {
-            let run = at(&model, study, Vec::new(), self.threads, None, &*self.stop, &|_, _| count(0));
+            let run = at(&model, study, Vec::new(), settings, None, &|_, _| count(0));
             return single(&model, study, run).map_err(|failure| Error::failed(self.document, &self.name, failure));
         }
         let all = grid(&model, study).len();
-        let runs = sweep(&model, study, self.threads, Vec::new(), &|_| true, &*self.stop, &|_, _| count(all));
+        let runs = sweep(&model, study, settings, Vec::new(), &|_| true, &|_, _| count(all));
         Ok(together(&model, study, runs, &mut |_, _| {}))
     }
 
@@ -130,7 +140,7 @@ impl<'a> Study<'a> {
             return Err(Error::Refused { message, help: "take the table of each of its runs from the results".into() });
         }
         let values = parameters(model);
-        let case = Case { rows: Some(Streamed { sink, keep: 0 }), ..Case::new(model, study, &values) };
+        let case = Case { rows: Some(Streamed { sink, keep: 0 }), drawn: self.drawn, ..Case::new(model, study, &values) };
         let outcome = run(case, &*self.stop).map_err(|failure| Error::failed(self.document, &self.name, failure))?;
         Ok(named(model, study, outcome))
     }
@@ -202,7 +212,7 @@ impl<'a> Study<'a> {
 
     fn model(&self) -> Result<Model, Error> {
         let selection = Selection { study: Some(&self.name), ..self.selection.clone() };
-        Loader::new(self.document, self.threads).model(&selection, &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
+        Loader::new(self.document, self.threads).drawn(&selection, &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
     }
 
     fn unknown(&self) -> Error {

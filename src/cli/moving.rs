@@ -6,7 +6,7 @@ use grashof::model::Selection;
 use grashof::output::{Pace, Shot, ShotOptions};
 use grashof::results::{Results, Scene};
 use grashof::studies::loader::Loader;
-use grashof::studies::sweep::{at, grid, single};
+use grashof::studies::sweep::{Drawn, Settings, at, grid, single};
 
 /// Which motion is meant.
 #[derive(clap::Args)]
@@ -108,7 +108,7 @@ pub(super) fn moving(chosen: &Chosen, common: &Common) -> Result<Moving, u8> {
         return Err(code::INPUT);
     }
     let point = points.swap_remove(chosen.run as usize - 1);
-    let run = at(&model, study, point, common.threads(), None, &interrupted, &|_, _| {});
+    let run = at(&model, study, point, Settings { threads: common.threads(), drawn: Drawn::First, stop: &interrupted }, None, &|_, _| {});
     let results = match single(&model, study, run) {
         Err(_) if interrupted() => return Err(ended(name)),
         Err(failure) => return Err(files::explain(&document, &failure, name, common)),

@@ -288,7 +288,7 @@ pub(super) fn conflict(model: &Model) -> Option<String> {
 
 /// The model of a study, with the scalars that it takes from others; what is wrong has been printed.
 pub(super) fn load(loader: &mut Loader<'_>, document: &Document, common: &Common, selection: &Selection<'_>) -> Result<Model, u8> {
-    loader.model(selection, &interrupted).map_err(|why| match why {
+    loader.drawn(selection, &interrupted).map_err(|why| match why {
         NotLoaded::Wrong(report) => {
             files::print(&report, common);
             code::INPUT

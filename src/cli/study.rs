@@ -14,7 +14,7 @@ use grashof::output::{
 use grashof::par;
 use grashof::results::{Failure, Results};
 use grashof::studies::common::case::{Streamed, parameters};
-use grashof::studies::sweep::{at, single};
+use grashof::studies::sweep::{Drawn, Settings, at, single};
 use std::path::Path;
 
 /// Numbers that are kept in memory of the rows of a motion, for its figures.
@@ -90,10 +90,22 @@ impl Job<'_> {
         }
     }
 
+    /// How its runs are made.
+    fn settings(&self) -> Settings<'static> {
+        // those of a shard are drawn once it is gathered; figures show the first run alone
+        let drawn = match self.part {
+            Part::Shard(_) => Drawn::None,
+            _ if self.report => Drawn::All,
+            _ if self.plots => Drawn::First,
+            _ => Drawn::None,
+        };
+        Settings { threads: self.common.threads(), drawn, stop: &interrupted }
+    }
+
     /// Names of files that are known before anything is computed.
     fn names(&self, study: &Study) -> Vec<String> {
         let column = |shown: &Shown| matches!(shown.what, ShownWhat::Column(_));
-        let plots = study.plots.iter().filter(|plot| self.plots && plot.show.iter().chain(&plot.over).all(column));
+        let plots = study.plots.iter().filter(|plot| self.plots && plot.all().all(column));
         let plots = plots.flat_map(|plot| ["svg", "png"].map(|end| format!("{}-{}.{end}", self.study, plot.name)));
         let ends = self.formats.ends().into_iter().chain(["json"]);
         ends.map(|end| format!("{}.{end}", self.study)).chain(plots).collect()
@@ -112,7 +124,7 @@ impl Job<'_> {
         };
         let counted = Counted { rows: &rows, progress: &progress, until };
         let streamed = Some(Streamed { sink: &counted, keep: KEPT });
-        let run = at(self.model, study, Vec::new(), self.common.threads(), streamed, &interrupted, &show);
+        let run = at(self.model, study, Vec::new(), self.settings(), streamed, &show);
         drop(progress);
         let results = match single(self.model, study, run) {
             Ok(results) => results,

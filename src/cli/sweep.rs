@@ -124,5 +124,5 @@ fn figure(study: &Study) -> Option<Plot> {
     }
     let scalars = study.scalars.iter().enumerate();
     let show = scalars.map(|(i, s)| Shown { name: s.name.clone(), what: ShownWhat::Scalar(i), dimension: s.dimension }).collect();
-    Some(Plot { name: FIGURE.into(), show, over: None, unit: None })
+    Some(Plot { name: FIGURE.into(), show, ..Plot::default() })
 }

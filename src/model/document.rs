@@ -1,8 +1,10 @@
 //! A model file in memory, and the models that can be made of it.
 
+use super::data::DataFiles;
 use super::diagnostics::{Diagnostic, Report};
 use super::fault::{Fault, Spot};
-use super::include::{self, Files};
+use super::files::Files;
+use super::include;
 use super::included::{Included, find};
 use super::merge::Node;
 use super::reading::{report, shown, text_of};
@@ -33,6 +35,8 @@ pub struct Document {
     pub(super) root: Value,
     /// The files that it includes, in its order.
     pub(super) included: Vec<Included>,
+    /// Measured data that its figures name.
+    pub(super) data: DataFiles,
 }
 
 impl Document {
@@ -63,7 +67,8 @@ impl Document {
     fn new(text: &str, file: &str, files: &Files<'_>) -> Result<Self, Report> {
         let root = yaml::read(text).map_err(|faults| report(file, text, &faults, &[]))?;
         let included = include::read(&root, file, text, files)?;
-        Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned(), included })
+        let data = DataFiles::read(&root, files);
+        Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned(), included, data })
     }
 
     /// What of included files the model does not use, or not as it stands, one sentence each with its file and line.

@@ -2,6 +2,7 @@
 
 use super::diagnostics::Report;
 use super::fault::{At, Fault, Spot};
+use super::files::Files;
 use super::included::Included;
 use super::keys::Entry;
 use super::merge::{self, Layers, Node};
@@ -10,9 +11,6 @@ use super::reading;
 use super::shape;
 use super::urdf::{self, Base, IncludeKeys, Options};
 use serde_yaml::{Mapping, Value};
-
-/// Gives the bytes of a file that a model names, and the name by which messages call it; the error says why not.
-pub type Files<'f> = dyn Fn(&str) -> Result<(String, Vec<u8>), String> + 'f;
 
 /// Reads the files that a model includes.
 ///

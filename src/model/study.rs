@@ -1,5 +1,6 @@
 //! What a study asks for.
 
+use super::figure::{Plot, ShownForce};
 use super::integrator::Integrator;
 use super::keys::{Words, words};
 use super::place::{Place, PointRef};
@@ -42,6 +43,8 @@ pub struct Study {
     pub trace: Option<Vec<PointRef>>,
     /// Where a drawing in space is seen from; `None` for an isometric view.
     pub view: Option<View>,
+    /// Forces that drawings show as arrows.
+    pub forces: Vec<ShownForce>,
     /// Expectations.
     pub expect: Vec<Expectation>,
     /// Where it stands.
@@ -426,43 +429,6 @@ pub enum FunctionalKind {
     Value,
     /// Where a condition first holds.
     First,
-}
-
-/// One figure.
-#[derive(Clone, Debug)]
-pub struct Plot {
-    /// Its name; the file is `<study>-<name>.svg`.
-    pub name: String,
-    /// What is drawn: a column or, in a sweep, a scalar.
-    pub show: Vec<Shown>,
-    /// What it is drawn over; the independent variable if none.
-    pub over: Option<Shown>,
-    /// Unit of the horizontal axis, if the file asks for one: its word and factor to SI.
-    pub unit: Option<(String, f64)>,
-}
-
-/// Something drawn: a column or a scalar by its name.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// Its name.
-    pub name: String,
-    /// What it refers to.
-    pub what: ShownWhat,
-    /// Its dimension.
-    pub dimension: Dimension,
-}
-
-/// What a plotted name refers to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShownWhat {
-    /// A time-varying expression (in the columns or not).
-    Column(Id),
-    /// `study.scalars[i]`, one value per run of a sweep.
-    Scalar(usize),
-    /// `study.results[i]`, one value per run of a sweep.
-    Result(usize),
-    /// `model.parameters[i]`, swept.
-    Parameter(usize),
 }
 
 /// `expect:` one scalar or expression with its tolerance.

@@ -32,10 +32,10 @@ pub fn figure(compared: &Compared) -> Figure {
         for name in compared.integrators() {
             let rows = compared.rows.iter().filter(|r| r.integrator == name && r.error > 0.0);
             let points = rows.map(|r| (r.error, numbers(r)[of])).collect();
-            curves.push(Curve { label: name.into(), unit: Some(unit.into()), points });
+            curves.push(Curve { label: name.into(), unit: Some(unit.into()), points, ..Curve::default() });
         }
     }
-    let axis = |label: &str| Axis { label: label.into(), unit: String::new(), scale: Scale::Log };
+    let axis = |label: &str| Axis { label: label.into(), scale: Scale::Log, ..Axis::default() };
     let quantities = vec![("s".into(), "time".into()), (String::new(), "evaluations".into())];
     let title = format!("{}: work over error at the end", compared.study);
     Figure { title, x: axis("error"), y: axis(""), curves, quantities, ..Figure::default() }

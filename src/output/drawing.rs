@@ -1,6 +1,5 @@
 //! The drawing of a mechanism: links, joints and paths in the plane, in one or several positions.
 
-use super::font;
 use super::lettering::{Lettering, Obstacle};
 use super::marks;
 use super::naming::{self, Name};
@@ -10,7 +9,8 @@ use super::raster::RenderError;
 use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
-use super::thin;
+use super::thin::Point;
+use super::{font, forces, thin};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
@@ -33,13 +33,21 @@ pub(super) struct Plan {
     pub(super) sheet: Sheet,
     pub(super) signs: Signs,
     pub(super) height: f64,
+    /// Force per length of arrows of loads and reactions, N/m.
+    pub(super) forces: [f64; 2],
 }
 
 /// The plan by which all of a drawing is seen.
 pub(super) fn plan(drawing: &Drawing) -> Plan {
-    let [left, bottom, right, top] = extent(drawing);
-    let size = (right - left).max(top - bottom);
-    let size = if size > 1e-12 { size } else { 1.0 };
+    let bare = extent(drawing);
+    let size_of = |[left, bottom, right, top]: [f64; 4]| {
+        let size = (right - left).max(top - bottom);
+        if size > 1e-12 { size } else { 1.0 }
+    };
+    let forces = forces::scales(drawing, size_of(bare));
+    let tips = forces::tips(drawing, forces).filter(is_usable);
+    let [left, bottom, right, top] = tips.fold(bare, |e, [x, y]| [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)]);
+    let size = size_of([left, bottom, right, top]);
     let head = if drawing.title.is_empty() { 70.0 } else { 106.0 };
     let (side, foot) = (100.0, 118.0);
     // Neither a flat nor a tall mechanism may grow beyond the sheet.
@@ -49,7 +57,7 @@ pub(super) fn plan(drawing: &Drawing) -> Plan {
     let middle = [(left + right) / 2.0, (top + bottom) / 2.0];
     let center = [WIDTH / 2.0, head + (height - head - foot) / 2.0];
     let sheet = Sheet { scale, origin: [center[0] - scale * middle[0], center[1] + scale * middle[1]] };
-    Plan { sheet, signs: Signs { size: size_of_signs(drawing, scale) }, height }
+    Plan { sheet, signs: Signs { size: size_of_signs(drawing, scale) }, height, forces }
 }
 
 /// The empty sheet of a plan with its title.
@@ -63,7 +71,8 @@ pub(super) fn frame(drawing: &Drawing, plan: &Plan) -> Scene {
 
 /// The scale and the axes.
 pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
-    marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    let end = marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    forces::legend(drawing, plan.sheet.scale, plan.forces, scene, end + 40.0, LETTERS);
     if let Some(axes) = drawing.axes {
         marks::triad(scene, axes.map(|[x, y]| [x, -y]), LETTERS);
     }
@@ -89,6 +98,7 @@ fn layout(drawing: &Drawing) -> Scene {
         pen.pose(pose, strength);
     }
     pen.traces();
+    forces::draw(drawing, &plan.sheet, plan.signs, plan.forces, &mut pen.scene, &mut pen.letters);
     let names = naming::all(drawing, &pen.sheet, pen.signs.size);
     pen.names(names, paper);
     let Pen { letters, mut scene, .. } = pen;
@@ -169,10 +179,11 @@ impl Pen<'_> {
             let more = self.signs.slide_box()[0] + 14.0 * size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
             if ink.strong {
-                self.signs.slideway(&mut self.scene, way, symbol.way_grounded);
+                self.signs.slideway(&mut self.scene, way, symbol.way_grounded, placement.clear);
                 let [half, height] = self.signs.slide_box();
                 self.letters.avoid(placement.at, [half + 2.0, height + 4.0], [0.0; 2]);
-                let below = if symbol.way_grounded { symbols::lower_side(way, 24.0 * size) } else { way };
+                let below =
+                    if symbol.way_grounded { symbols::lower_side(way, (24.0 * size).max(placement.clear + 6.0 * size)) } else { way };
                 self.letters.avoid_line(&below, Obstacle::Body);
                 if symbol.grounded && !symbol.way_grounded {
                     let (along, _) = symbols::direction([0.0; 2], placement.along);
@@ -220,10 +231,27 @@ impl Pen<'_> {
         for link in self.drawing.links.iter().filter(|link| link.kind != LinkKind::Rod) {
             let Some(ends) = self.sheet.ends(link) else { continue };
             let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
+            self.anchors(link, ends);
             self.signs.link(&mut self.scene, link.kind, ends, turned);
             self.letters.avoid_line(&ends, Obstacle::Body);
             if link.kind == LinkKind::Torsion {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
+            }
+        }
+    }
+
+    /// The ground at the ends of a spring or damper, where no joint has its bearing.
+    fn anchors(&mut self, link: &super::pose::Link, ends: [Point; 2]) {
+        if link.kind == LinkKind::Torsion {
+            return;
+        }
+        let joints = self.drawing.joints.iter().filter(|joint| joint.grounded);
+        let bearings: Vec<Point> = joints.filter_map(|joint| Some(self.sheet.point(joint.poses.first()?.at))).collect();
+        for (end, other) in [(0, 1), (1, 0)] {
+            if link.grounded[end] && !bearings.iter().any(|at| near(*at, ends[end])) {
+                let (along, _) = symbols::direction(ends[other], ends[end]);
+                self.signs.anchor(&mut self.scene, ends[end], along);
+                self.letters.avoid(ends[end], [16.0 * self.signs.size; 2], [0.0; 2]);
             }
         }
     }
@@ -299,7 +327,7 @@ mod tests {
             let body = named("b", vec![plate(vec![at]), vec![round], plate(vec![at, at, at])]);
             let trace = Trace { name: "p".into(), points: vec![at, [0.5, 0.5], [nan, nan]] };
             let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
-            let gear = super::super::pose::Gear { circles: vec![vec![at; 3]], line: Some([at; 2]), mesh: Some(at) };
+            let gear = super::super::pose::Gear { circles: vec![vec![at; 3]], line: Some([at; 2]), mesh: Some(at), belt: vec![at; 3] };
             let (joints, gears) = (vec![symbol(at)], vec![gear]);
             let drawing = Drawing { bodies: vec![body], joints, traces: vec![trace], links: vec![link], gears, ..Drawing::default() };
             let svg = super::super::svg::write_svg(&layout(&drawing));

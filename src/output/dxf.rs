@@ -49,7 +49,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
         let ground = |scene: &mut Sheet| {
             if symbol.kind == SymbolKind::Slide {
                 let more = signs.slide_box()[0] + 14.0 * signs.size;
-                signs.slideway(scene, longer(way, &placement, more), symbol.way_grounded);
+                signs.slideway(scene, longer(way, &placement, more), symbol.way_grounded, placement.clear);
             } else if stands(symbol) {
                 signs.ground(scene, placement.at);
             }

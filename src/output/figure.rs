@@ -24,12 +24,17 @@ pub fn render_figure(figure: &Figure) -> Result<Picture, RenderError> {
 /// The indices of the curves of each panel, and the panel's unit.
 fn panels(figure: &Figure) -> Vec<(String, Vec<usize>)> {
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
-    for (index, curve) in figure.curves.iter().enumerate() {
+    for (index, curve) in figure.curves.iter().enumerate().filter(|(_, curve)| !curve.right) {
         let unit = curve.unit.as_ref().unwrap_or(&figure.y.unit);
         match groups.iter_mut().find(|(known, _)| known == unit) {
             Some((_, indices)) => indices.push(index),
             None => groups.push((unit.clone(), vec![index])),
         }
+    }
+    // those over the axis on the right stand in the first panel
+    let right = figure.curves.iter().enumerate().filter(|(_, curve)| curve.right).map(|(index, _)| index);
+    if let Some((_, first)) = groups.first_mut() {
+        first.extend(right);
     }
     match groups.len() {
         0 => vec![(figure.y.unit.clone(), Vec::new())],
@@ -53,9 +58,10 @@ fn layout(figure: &Figure) -> Scene {
     let mut x = Ruler::over(all(|point| point.0), &figure.x, &figure.x.unit, figure.equal);
     // on a logarithmic axis the ends are results like all others, and their dots must not be cut
     x.pad(if ordered && figure.x.scale == Scale::Linear { 0.0 } else { 0.05 });
+    x.limit(figure.x.range);
 
     let unit = |curve: &Curve| curve.unit.clone().unwrap_or_else(|| figure.y.unit.clone());
-    let mixed = groups.len() == 1 && figure.curves.iter().any(|curve| unit(curve) != unit(&figure.curves[0]));
+    let mixed = groups.len() == 1 && figure.curves.iter().filter(|curve| !curve.right).any(|curve| unit(curve) != unit(&figure.curves[0]));
     let mut drawn: Vec<Panel> = groups.iter().map(|(unit, indices)| panel(figure, unit, indices, mixed)).collect();
     if let (true, [only]) = (figure.equal, drawn.as_mut_slice()) {
         Ruler::share(&mut x, &mut only.y);
@@ -84,9 +90,13 @@ fn layout(figure: &Figure) -> Scene {
 /// The panel of the curves `indices`, not yet placed.
 fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
     let curves = || indices.iter().map(|index| &figure.curves[*index]);
-    let values = curves().flat_map(|curve| curve.points.iter().map(|point| point.1));
+    let within =
+        |point: &&(f64, f64)| figure.x.range[0].is_none_or(|low| point.0 >= low) && figure.x.range[1].is_none_or(|high| point.0 <= high);
+    let values_of = |right: bool| {
+        curves().filter(move |curve| curve.right == right).flat_map(move |curve| curve.points.iter().filter(within).map(|point| point.1))
+    };
     let mut axis = figure.y.clone();
-    let names: Vec<_> = curves().map(|curve| curve.label.as_str()).filter(|label| !label.is_empty()).collect();
+    let names: Vec<_> = curves().filter(|curve| !curve.right).map(|curve| curve.label.as_str()).filter(|label| !label.is_empty()).collect();
     if axis.label.is_empty() || indices.len() < figure.curves.len() {
         // The names are in the legend anyway: on the axis they stand only if they are few.
         let joined = names.join(", ");
@@ -95,31 +105,54 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
     if let Some((_, quantity)) = figure.quantities.iter().find(|(known, _)| known == unit) {
         axis.label.clone_from(quantity);
     }
-    let mut y = Ruler::over(values, &axis, unit, figure.equal);
+    let mut y = Ruler::over(values_of(false), &axis, unit, figure.equal);
     y.pad(0.06);
+    if let Some((_, range)) = figure.ranges.iter().find(|(of, _)| of == unit) {
+        y.limit(*range);
+    }
+    let right = figure.right.as_ref().filter(|_| curves().any(|curve| curve.right)).map(|axis| {
+        let mut axis = axis.clone();
+        if axis.label.is_empty() {
+            axis.label = curves().filter(|curve| curve.right).map(|curve| curve.label.as_str()).collect::<Vec<_>>().join(", ");
+        }
+        let mut ruler = Ruler::over(values_of(true), &axis, &axis.unit, false);
+        ruler.pad(0.06);
+        ruler.limit(axis.range);
+        ruler
+    });
     let line = |(place, &index): (usize, &usize)| {
-        let (color, dash) = line_style(place, indices.len());
-        let points = figure.curves[index].points.clone();
-        Line { ordered: thin::is_ordered(&points), points, color, dash }
+        // no two curves of a picture are alike, in whatever panel
+        let (place, count) = if figure.curves.len() > 7 { (place, indices.len()) } else { (index, figure.curves.len()) };
+        let (color, dash) = line_style(place, count);
+        let Curve { points, right, dots, .. } = figure.curves[index].clone();
+        Line { ordered: thin::is_ordered(&points), points, color, dash, right, dots }
     };
     let lines: Vec<_> = indices.iter().enumerate().map(line).collect();
     let label = |curve: &Curve| match curve.unit.as_ref().unwrap_or(&figure.y.unit) {
         unit if mixed && !unit.is_empty() => format!("{} in {}", curve.label, super::units::pretty(unit)),
         _ => curve.label.clone(),
     };
-    let entries = lines.iter().zip(curves()).map(|(line, curve)| Entry { label: label(curve), color: line.color, dash: line.dash });
+    let entries = lines.iter().zip(curves()).map(|(line, curve)| {
+        let side = if line.right { " (right)" } else { "" };
+        Entry { label: label(curve) + side, color: line.color, dash: line.dash, dots: line.dots }
+    });
     // One curve whose name the axis has needs no legend.
-    let alone = names.len() == 1 && (indices.len() < figure.curves.len() || axis.label == names[0] || figure.curves.len() == 1);
+    let alone = names.len() == 1
+        && right.is_none()
+        && lines.len() == 1
+        && (indices.len() < figure.curves.len() || axis.label == names[0] || figure.curves.len() == 1);
     let entries = if alone || names.is_empty() { Vec::new() } else { entries.collect() };
     let marks = figure.marks.iter().filter(|mark| indices.contains(&mark.curve)).cloned().collect();
     Panel {
         rect: Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: HEIGHT },
         y,
+        right,
         lines,
         entries,
         legend: Legend::Inside(Vec::new(), [0.0; 2]),
         marks,
         label: 0.0,
+        side: 0.0,
     }
 }
 
@@ -134,9 +167,15 @@ fn place(panels: &mut [Panel], x: &mut Ruler, top: f64, height: f64, equal: bool
         panel.rect.top = above + legend;
         panel.rect.bottom = above + each;
         panel.y.mark(panel.rect.height(), 62.0, |_| 30.0);
+        if let Some(right) = &mut panel.right {
+            right.mark(panel.rect.height(), 62.0, |_| 30.0);
+        }
     }
     let widest = panels.iter().map(|panel| panel.y.widest()).fold(20.0, f64::max);
     let beside = panels.iter().map(|panel| panel.legend.width()).fold(0.0, f64::max);
+    // the numbers and the name of an axis on the right
+    let side = panels.iter().filter_map(|panel| panel.right.as_ref()).map(|right| right.widest() + 52.0).fold(0.0, f64::max);
+    let beside = beside + side;
     let left = 62.0 + widest;
     let mark = |x: &mut Ruler, right: f64| x.mark(right - left, 96.0, |label| font::width(label, super::panel::TICK) + 26.0);
     // Half of the last label of x may stand out on the right.
@@ -144,6 +183,7 @@ fn place(panels: &mut [Panel], x: &mut Ruler, top: f64, height: f64, equal: bool
     let right = WIDTH - (x.widest() / 2.0 + 10.0).max(if beside > 0.0 { 8.0 + beside } else { 34.0 });
     for panel in panels.iter_mut() {
         (panel.rect.left, panel.rect.right, panel.label) = (left, right, left - widest - 26.0);
+        panel.side = side;
     }
     if let (true, [only]) = (equal, &mut *panels) {
         Ruler::equalize(x, &mut only.y, only.rect);
@@ -160,7 +200,7 @@ mod tests {
     use super::*;
 
     fn curve(label: &str, unit: Option<&str>, points: Vec<(f64, f64)>) -> Curve {
-        Curve { label: label.into(), unit: unit.map(Into::into), points }
+        Curve { label: label.into(), unit: unit.map(Into::into), points, ..Curve::default() }
     }
 
     fn svg(figure: &Figure) -> String {
@@ -168,7 +208,7 @@ mod tests {
     }
 
     fn axis(label: &str, unit: &str) -> Axis {
-        Axis { label: label.into(), unit: unit.into(), scale: Scale::Linear }
+        Axis { label: label.into(), unit: unit.into(), ..Axis::default() }
     }
 
     /// The polylines of curves, not of the grid: those of the curves' stroke width.
@@ -207,7 +247,7 @@ mod tests {
         ];
         for points in samples {
             for (scale, equal) in [(Scale::Linear, false), (Scale::Log, false), (Scale::Linear, true), (Scale::Log, true)] {
-                let axis = Axis { label: "q".into(), unit: "m".into(), scale };
+                let axis = Axis { label: "q".into(), unit: "m".into(), scale, ..Axis::default() };
                 let curves = vec![curve("a", None, points.clone()), curve("b", None, points.clone())];
                 let figure = Figure { x: axis.clone(), y: axis, curves, equal, ..Figure::default() };
                 let svg = svg(&figure);

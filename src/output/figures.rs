@@ -1,7 +1,8 @@
 //! Figures that a study asks for, laid out from its results.
 
+use super::units::pretty;
 use super::{Axis, Curve, Figure, Scale};
-use crate::results::{Column, Plot, Results};
+use crate::results::{Column, Plot, PlotAxis, PlotBeside, Results};
 
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;
@@ -21,20 +22,23 @@ pub fn figures(results: &Results) -> Vec<(String, Figure)> {
 /// Curves of columns.
 fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)]) -> Figure {
     let several = runs.len() > 1;
+    let (left, right) = (&plot.show, plot.right.iter().flat_map(|right| &right.show).collect::<Vec<_>>());
     let mut curves = Vec::new();
     for (label, run) in runs {
         let x = plot.over.as_ref().map_or(Some(&run.independent), |over| column(run, over));
-        for y in plot.show.iter().filter_map(|name| column(run, name)) {
+        let sides = left.iter().map(|name| (name, false)).chain(right.iter().map(|name| (*name, true)));
+        for (y, on_right) in sides.filter_map(|(name, on_right)| Some((column(run, name)?, on_right))) {
             let name = match label {
-                Some(label) if several && plot.show.len() > 1 => format!("{}, {label}", y.name),
-                Some(label) if several => (*label).to_string(),
+                Some(label) if several && left.len() + right.len() > 1 => format!("{}, {}", y.name, pretty(label)),
+                Some(label) if several => pretty(label),
                 _ => y.name.clone(),
             };
             let points = joined(x.map_or(&[], |x| &x.values), &y.values, &run.table.switches, plot.over.is_some());
-            curves.push(curve(name, y, points));
+            curves.push(curve(name, y, points, plot, on_right));
         }
     }
     let first = runs.first().map(|(_, run)| *run);
+    curves.extend(plot.beside.iter().filter_map(|beside| self::beside(beside, column(first?, &beside.of)?, plot)));
     let over = first.and_then(|run| plot.over.as_ref().map_or(Some(&run.independent), |over| column(run, over)));
     let (x, factor) = axis(plot, over);
     scale_x(&mut curves, factor);
@@ -46,13 +50,39 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
         _ => vec![],
     };
     let shown: Vec<&Column> = first.map_or_else(Vec::new, |run| plot.show.iter().filter_map(|name| column(run, name)).collect());
-    let lengths = |column: &Column| column.unit == "m" && unit(column).0 == x.unit;
-    let same_plane = plot.over.is_some() && shown.iter().copied().chain(over).all(lengths);
+    let lengths = |column: &Column| column.unit == "m" && unit(column, plot.y.as_ref()).0 == x.unit;
+    let free = plot.right.is_none() && plot.y.as_ref().is_none_or(|y| y.range == [None; 2]) && plot.range == [None; 2];
+    let same_plane = free && plot.over.is_some() && shown.iter().copied().all(lengths) && over.is_some_and(|over| over.unit == "m");
     let y = match shown[..] {
-        [only] if several && plot.show.len() == 1 => Axis { label: only.name.clone(), unit: unit(only).0, ..Axis::default() },
+        [only] if (several || !plot.beside.is_empty()) && left.len() == 1 => {
+            Axis { label: only.name.clone(), unit: unit(only, plot.y.as_ref()).0, ..Axis::default() }
+        }
         _ => Axis::default(),
     };
-    Figure { title: title(results, plot), x, y, curves, breaks, equal: same_plane, ..Figure::default() }
+    let right = plot.right.as_ref().and_then(|right| Some((right, column(first?, right.show.first()?)?)));
+    Figure { x, y, curves, breaks, equal: same_plane, ..sides(results, plot, &shown, right.map(|(_, column)| column)) }
+}
+
+/// Title and vertical axes of a figure, of which `left` are columns of the axes on the left, and `right` is one of that on the right.
+fn sides(results: &Results, plot: &Plot, left: &[&Column], right: Option<&Column>) -> Figure {
+    let ends = |axis: &PlotAxis, size: f64| axis.range.map(|end| Some(end? / size));
+    let range = plot.y.as_ref().and_then(|y| {
+        let (unit, size) = unit(left.iter().find(|column| column.unit == y.si)?, Some(y));
+        Some((unit, ends(y, size)))
+    });
+    let right = plot.right.as_ref().zip(right).map(|(right, column)| {
+        let (unit, size) = unit(column, Some(&right.axis));
+        let label = if right.show.len() == 1 { right.show[0].clone() } else { String::new() };
+        Axis { label, unit, range: ends(&right.axis, size), ..Axis::default() }
+    });
+    Figure { title: title(results, plot), ranges: range.into_iter().collect(), right, ..Figure::default() }
+}
+
+/// A curve that does not come from the study, in the unit of the column whose quantity it is.
+fn beside(beside: &PlotBeside, of: &Column, plot: &Plot) -> Option<Curve> {
+    let on_right = plot.right.as_ref().is_some_and(|right| right.show.contains(&beside.of));
+    let points = beside.x.iter().copied().zip(beside.y.iter().copied()).collect();
+    Some(Curve { dots: beside.measured, ..curve(beside.label.clone(), of, points, plot, on_right) })
 }
 
 /// Numbers of whole runs over a swept parameter, or over another number.
@@ -66,11 +96,16 @@ fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
     let none = Column { values: nowhere, ..Column::default() };
     let shown = |name: &String| {
         let column = results.table.column(name).unwrap_or(&none);
-        curve(name.clone(), column, over.values.iter().copied().zip(column.values.iter().copied()).collect())
+        let on_right = plot.right.as_ref().is_some_and(|right| right.show.contains(name));
+        curve(name.clone(), column, over.values.iter().copied().zip(column.values.iter().copied()).collect(), plot, on_right)
     };
-    let mut curves: Vec<Curve> = plot.show.iter().map(shown).collect();
+    let right = plot.right.iter().flat_map(|right| &right.show);
+    let mut curves: Vec<Curve> = plot.show.iter().chain(right.clone()).map(shown).collect();
+    curves.extend(plot.beside.iter().filter_map(|beside| self::beside(beside, results.table.column(&beside.of)?, plot)));
     scale_x(&mut curves, factor);
-    Some(Figure { title: title(results, plot), x, curves, ..Figure::default() })
+    let right = right.clone().next().and_then(|name| results.table.column(name));
+    let left: Vec<&Column> = plot.show.iter().filter_map(|name| results.table.column(name)).collect();
+    Some(Figure { x, curves, ..sides(results, plot, &left, right) })
 }
 
 /// A column by its name, or a curve that only figures show.
@@ -97,19 +132,24 @@ fn title(results: &Results, plot: &Plot) -> String {
 /// The horizontal axis and the factor that its values are divided by.
 fn axis(plot: &Plot, over: Option<&Column>) -> (Axis, f64) {
     let label = over.map_or_else(String::new, |column| column.name.clone());
-    let (unit, size) = plot.unit.clone().or_else(|| over.map(unit)).unwrap_or_else(|| (String::new(), 1.0));
-    (Axis { label, unit, scale: Scale::Linear }, size)
+    let (unit, size) = plot.unit.clone().or_else(|| over.map(|over| unit(over, None))).unwrap_or_else(|| (String::new(), 1.0));
+    (Axis { label, unit, scale: Scale::Linear, range: plot.range.map(|end| Some(end? / size)) }, size)
 }
 
 /// A curve in the unit in which its column is shown; `points` are SI.
-fn curve(label: String, column: &Column, mut points: Vec<(f64, f64)>) -> Curve {
-    let (unit, size) = unit(column);
+fn curve(label: String, column: &Column, mut points: Vec<(f64, f64)>, plot: &Plot, right: bool) -> Curve {
+    let axis = if right { plot.right.as_ref().map(|right| &right.axis) } else { plot.y.as_ref() };
+    let (unit, size) = unit(column, axis);
     points.iter_mut().for_each(|point| point.1 /= size);
-    Curve { label, unit: Some(unit), points }
+    Curve { label, unit: Some(unit), points, right, dots: false }
 }
 
-/// The unit in which figures show a column, and its size in SI: degrees for radians, if the model asks for none.
-fn unit(column: &Column) -> (String, f64) {
+/// The unit in which figures show a column, and its size in SI: that of an axis for its quantity, else that of the model, else degrees
+/// for radians.
+fn unit(column: &Column, axis: Option<&PlotAxis>) -> (String, f64) {
+    if let Some(unit) = axis.filter(|axis| axis.si == column.unit).and_then(|axis| axis.unit.clone()) {
+        return unit;
+    }
     match column.shown() {
         ("rad", size) if column.shown_in.is_none() => ("deg".into(), size.to_radians()),
         (unit, size) => (unit.into(), size),
@@ -132,7 +172,7 @@ mod tests {
         let asked = |unit: &str, size| Some(ShownIn { unit: unit.into(), size });
         let shown = |si: &str, asked: Option<ShownIn>| {
             let column = Column { unit: si.into(), shown_in: asked, ..Column::default() };
-            let curve = curve("a".into(), &column, vec![(0.0, 6.0)]);
+            let curve = curve("a".into(), &column, vec![(0.0, 6.0)], &Plot::default(), false);
             (curve.unit.unwrap_or_default(), curve.points[0].1)
         };
         assert_eq!(shown("m", asked("mm", 1e-3)), ("mm".into(), 6000.0));

@@ -19,6 +19,8 @@ pub(super) struct Entry {
     pub(super) label: String,
     pub(super) color: Color,
     pub(super) dash: &'static [f64],
+    /// Whether it is of points without a line.
+    pub(super) dots: bool,
 }
 
 /// A legend and where it stands.
@@ -38,7 +40,11 @@ impl Entry {
     }
 
     fn draw(&self, scene: &mut Scene, [x, y]: Point) {
-        scene.line(vec![[x, y], [x + SAMPLE, y]], Stroke::dashed(self.color, 3.0, self.dash));
+        if self.dots {
+            [0.2, 0.5, 0.8].iter().for_each(|part| scene.circle([x + part * SAMPLE, y], 5.0, Some(self.color), None));
+        } else {
+            scene.line(vec![[x, y], [x + SAMPLE, y]], Stroke::dashed(self.color, 3.0, self.dash));
+        }
         scene.text([x + SAMPLE + GAP, y + SIZE * font::CAPITAL / 2.0], &self.label, SIZE, Anchor::Start);
     }
 }
@@ -128,8 +134,8 @@ impl Legend {
         if let Self::Beside(entries) = self { block(entries).0 } else { 0.0 }
     }
 
-    /// Draws it in or around `panel`.
-    pub(super) fn draw(&self, scene: &mut Scene, panel: Rect) {
+    /// Draws it in or around `panel`, on whose right an axis takes `side`.
+    pub(super) fn draw(&self, scene: &mut Scene, panel: Rect, side: f64) {
         match self {
             Self::Inside(entries, _) if entries.is_empty() => {}
             Self::Inside(entries, [x, y]) => {
@@ -153,7 +159,7 @@ impl Legend {
             }
             Self::Beside(entries) => {
                 let most = ((panel.height() / ROW) as usize).max(2);
-                let left = panel.right + PADDING;
+                let left = panel.right + PADDING + side;
                 let shown = if entries.len() > most { most - 1 } else { entries.len() };
                 // Of too many, evenly chosen ones: their colours are a scale.
                 let chosen = (0..shown).map(|k| k * (entries.len() - 1) / (shown - 1).max(1));

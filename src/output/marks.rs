@@ -13,6 +13,8 @@ pub(super) const RUST: Color = [150, 60, 20];
 const DRIVE: Color = [0, 112, 84];
 /// Of stops.
 const STOP: Color = [176, 20, 40];
+/// Of belts.
+const BELT: Color = [70, 70, 76];
 /// A centre line: long, short.
 const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
 /// Coils of a spring, whatever its length: one that is pulled is seen to be.
@@ -103,7 +105,7 @@ impl Signs {
     }
 
     /// The head of an arrow at the end of a line.
-    fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
+    pub(super) fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
         let Some(tip) = points.last() else { return };
         let size = 9.0 * self.size.max(0.6);
         let behind = points.iter().rev().find(|p| (p[0] - tip[0]).hypot(p[1] - tip[1]) > 0.8 * size);
@@ -135,6 +137,9 @@ impl Signs {
         let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
         gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
         gear.line.iter().for_each(|line| scene.line(line.to_vec(), stroke));
+        if !gear.belt.is_empty() {
+            scene.shape(gear.belt.clone(), None, Some(Stroke::solid(BELT, self.pen(4.0))));
+        }
         gear.mesh.iter().for_each(|at| scene.circle(*at, 4.5 * self.size.max(0.6), Some(DRIVE), None));
     }
 }
@@ -157,8 +162,8 @@ pub(super) fn triad(scene: &mut Scene, axes: [Point; 3], letters: f64) {
     }
 }
 
-/// A bar of round length at the lower left, for `scale` pixels to the metre.
-pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
+/// A bar of round length at the lower left, for `scale` pixels to the metre. Gives where it ends, pixels.
+pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) -> f64 {
     let longest = 200.0 / scale;
     let power = 10f64.powf(longest.log10().floor());
     let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|length| *length <= longest * (1.0 + 1e-9)).unwrap_or(power);
@@ -170,5 +175,6 @@ pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) {
     }
     let (length, unit) = if length < 0.0099 { (length * 1e3, "mm") } else { (length, "m") };
     let text = format!("{} {unit}", super::scalars::significant(length, 6));
-    scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
+    scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
+    right + 14.0 + font::width(&text, letters)
 }

@@ -5,6 +5,7 @@
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 mod animation;
+mod clip;
 pub mod comparison;
 mod content;
 mod csv;
@@ -14,6 +15,7 @@ mod dxf;
 mod figure;
 mod figures;
 mod font;
+mod forces;
 mod formats;
 mod gltf;
 mod json;
@@ -68,7 +70,7 @@ pub use matrices::matrices;
 pub use parquet::write_parquet;
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
-pub use pose::{Drawing, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
+pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use posed::drawing;
 pub use raster::RenderError;
 pub use report::{LIVE_POLICY, Report, ReportModel, ReportRuns, ReportStudy, live_page};

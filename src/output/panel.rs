@@ -1,5 +1,6 @@
 //! One panel of a figure: its axes, its grid and its curves.
 
+use super::clip;
 use super::legend::{self, Entry, Legend};
 use super::plot::{Axis, Mark, Scale};
 use super::scalars::significant;
@@ -92,6 +93,27 @@ impl Ruler {
         }
     }
 
+    /// Sets the ends that are given, in the unit of the axis.
+    pub(super) fn limit(&mut self, range: [Option<f64>; 2]) {
+        let usable = |x: &f64| x.is_finite() && (self.scale == Scale::Linear || *x > 0.0);
+        let [low, high] = range.map(|end| end.filter(usable));
+        if low.is_none() && high.is_none() {
+            return;
+        }
+        (self.low, self.high) = (low.unwrap_or(self.low), high.unwrap_or(self.high));
+        if self.low > self.high {
+            // one end may lie beyond all curves
+            (self.low, self.high) = if low.is_some() && high.is_some() { (self.high, self.low) } else { (self.low, self.low) };
+        }
+        if self.low == self.high {
+            self.high += if self.low == 0.0 { 1.0 } else { self.low.abs() };
+        }
+        self.offset = 0.0;
+        if self.scale == Scale::Linear {
+            self.rescale();
+        }
+    }
+
     /// Widens one of two even axes so that their units are equally long in `rect`.
     pub(super) fn equalize(x: &mut Self, y: &mut Self, rect: Rect) {
         if x.scale == Scale::Log || y.scale == Scale::Log {
@@ -175,12 +197,16 @@ pub(super) struct Line {
     pub(super) ordered: bool,
     pub(super) color: Color,
     pub(super) dash: &'static [f64],
+    /// Whether it is drawn over the axis on the right.
+    pub(super) right: bool,
+    /// Whether its points alone are drawn.
+    pub(super) dots: bool,
 }
 
 impl Line {
     /// Few values are the results of single runs: the line between is only a guide.
     fn is_short(&self) -> bool {
-        self.points.len() <= 25
+        self.points.len() <= 25 || self.dots
     }
 }
 
@@ -189,6 +215,8 @@ impl Line {
 pub(super) struct Panel {
     pub(super) rect: Rect,
     pub(super) y: Ruler,
+    /// The axis on the right.
+    pub(super) right: Option<Ruler>,
     pub(super) lines: Vec<Line>,
     /// Of the legend, until it is placed.
     pub(super) entries: Vec<Entry>,
@@ -196,11 +224,13 @@ pub(super) struct Panel {
     pub(super) marks: Vec<Mark>,
     /// The base line of the label of y, in pixels; the same for all panels.
     pub(super) label: f64,
+    /// What the axis on the right takes, in pixels.
+    pub(super) side: f64,
 }
 
 impl Panel {
-    fn point(&self, x: &Ruler, at: (f64, f64)) -> Point {
-        let (right, up) = (x.place(at.0), self.y.place(at.1));
+    fn point(&self, x: &Ruler, y: &Ruler, at: (f64, f64)) -> Point {
+        let (right, up) = (x.place(at.0), y.place(at.1));
         [self.rect.left + right * self.rect.width(), self.rect.bottom - up * self.rect.height()]
     }
 
@@ -208,18 +238,23 @@ impl Panel {
     fn pieces(&self, line: &Line, x: &Ruler, breaks: &[f64]) -> Vec<Vec<Point>> {
         // Few values get a dot each, and so none of them may go.
         let thinned = |points| if line.is_short() { points } else { thin::thinned(points, line.ordered) };
+        let y = self.right.as_ref().filter(|_| line.right).unwrap_or(&self.y);
         let shown = |at: &(f64, f64)| {
-            let known = self.point(x, *at).iter().all(|x| x.is_finite());
+            let known = self.point(x, y, *at).iter().all(|x| x.is_finite());
             if known { *at } else { (at.0, f64::NAN) }
         };
         let points: Vec<_> = line.points.iter().map(shown).collect();
         let pieces = thin::pieces(&points, line.ordered, breaks).into_iter();
-        pieces.map(|piece| thinned(piece.into_iter().map(|at| self.point(x, at)).collect())).collect()
+        let pixels = pieces.map(|piece| piece.into_iter().map(|at| self.point(x, y, at)).collect::<Vec<Point>>());
+        // an axis whose ends are given may end within its curves
+        let area = self.rect.grown(0.5);
+        let inside = pixels.flat_map(|piece| if line.is_short() { clip::points(&piece, area) } else { clip::line(&piece, area) });
+        inside.map(thinned).collect()
     }
 
     /// All curves in pixels.
     pub(super) fn pixels(&self, x: &Ruler, breaks: &[f64]) -> Vec<Vec<Point>> {
-        let marks = self.marks.iter().map(|mark| vec![self.point(x, mark.at)]);
+        let marks = self.marks.iter().map(|mark| vec![self.point(x, &self.y, mark.at)]);
         self.lines.iter().flat_map(|line| self.pieces(line, x, breaks)).chain(marks).collect()
     }
 
@@ -237,7 +272,7 @@ impl Panel {
                 if line.is_short() || piece.len() == 1 {
                     piece.iter().for_each(|at| scene.circle(*at, 5.0, Some(line.color), None));
                 }
-                if piece.len() > 1 {
+                if piece.len() > 1 && !line.dots {
                     // A curve that fills the panel would lose its dashes, and hide all others.
                     let dense = thin::length(&piece) > 20.0 * self.rect.width();
                     let stroke = if dense { Stroke::solid(line.color, 1.5) } else { Stroke::dashed(line.color, 3.0, line.dash) };
@@ -250,7 +285,7 @@ impl Panel {
             scene.text([x, y], "no values", LABEL, Anchor::Middle);
         }
         self.draw_marks(scene, x, breaks);
-        self.legend.draw(scene, self.rect);
+        self.legend.draw(scene, self.rect, self.side);
     }
 
     fn axes(&self, scene: &mut Scene, x: &Ruler, lowest: bool) {
@@ -285,15 +320,23 @@ impl Panel {
         if lowest {
             scene.text([(left + right) / 2.0, bottom + 66.0], x.label(self.rect.width()), LABEL, Anchor::Middle);
         }
-        let at = [self.label, (top + bottom) / 2.0];
-        let text = self.y.label(self.rect.height() + 20.0);
-        scene.items.push(Item::Text(Text { at, text, size: LABEL, color: INK, anchor: Anchor::Middle, upright: true, halo: false }));
+        let upright = |at: Point, text: String| {
+            Item::Text(Text { at, text, size: LABEL, color: INK, anchor: Anchor::Middle, upright: true, halo: false })
+        };
+        scene.items.push(upright([self.label, (top + bottom) / 2.0], self.y.label(self.rect.height() + 20.0)));
+        let Some(axis) = &self.right else { return };
+        for tick in axis.ticks.iter().filter(|tick| !tick.label.is_empty()) {
+            let y = bottom - axis.part(tick.at) * self.rect.height();
+            scene.line(vec![[right, y], [right + 6.0, y]], Stroke::solid(GREY, 1.2));
+            scene.text([right + 11.0, y + TICK * font::CAPITAL / 2.0], &tick.label, TICK, Anchor::Start);
+        }
+        scene.items.push(upright([right + 11.0 + axis.widest() + 30.0, (top + bottom) / 2.0], axis.label(self.rect.height() + 20.0)));
     }
 
     fn draw_marks(&self, scene: &mut Scene, x: &Ruler, breaks: &[f64]) {
         let curves = self.pixels(x, breaks);
         for mark in &self.marks {
-            let at = self.point(x, mark.at);
+            let at = self.point(x, &self.y, mark.at);
             if !self.rect.contains(at) {
                 continue;
             }

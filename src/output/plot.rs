@@ -20,10 +20,14 @@ pub struct Figure {
     pub equal: bool,
     /// Unit and quantity of panels whose curves are not named after their quantity.
     pub quantities: Vec<(String, String)>,
+    /// Ends of the vertical axis of the curves of a unit, where they are given.
+    pub ranges: Vec<(String, [Option<f64>; 2])>,
+    /// A second vertical axis on the right of the first panel, for the curves that are drawn over it.
+    pub right: Option<Axis>,
 }
 
 /// What an axis says and how it runs.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// The quantity, without its unit.
     pub label: String,
@@ -31,6 +35,8 @@ pub struct Axis {
     pub unit: String,
     /// Even or logarithmic.
     pub scale: Scale,
+    /// Its ends in this unit, where they are given.
+    pub range: [Option<f64>; 2],
 }
 
 /// How an axis runs.
@@ -52,6 +58,10 @@ pub struct Curve {
     pub unit: Option<String>,
     /// Its points; NaN breaks the line, and so does a pair of equal x if x else runs one way.
     pub points: Vec<(f64, f64)>,
+    /// Whether it is drawn over the axis on the right.
+    pub right: bool,
+    /// Whether it is shown by its points alone, as what was measured.
+    pub dots: bool,
 }
 
 /// A point of interest on a curve.

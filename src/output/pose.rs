@@ -18,6 +18,8 @@ pub struct Drawing {
     pub gears: Vec<Gear>,
     /// The paths of points.
     pub traces: Vec<Trace>,
+    /// Forces in the first position.
+    pub forces: Vec<Force>,
     /// The three axes of space as they are seen, each of length 1 in space; none in the plane.
     pub axes: Option<[[f64; 2]; 3]>,
 }
@@ -102,6 +104,8 @@ pub struct Placement {
     pub across: [[f64; 2]; 2],
     /// Sense in which it moves: 1 along or counter-clockwise about the axis, −1 the other way, 0 not known.
     pub sense: f64,
+    /// Of a slide how far the body that slides reaches to the lower side of the way, or to the right of an upright one, m.
+    pub clear: f64,
     /// Of a slide the places where stops are, of a hinge in the plane the directions in which they are.
     pub stops: [Option<[f64; 2]>; 2],
 }
@@ -113,6 +117,8 @@ pub struct Link {
     pub name: String,
     /// What it looks like.
     pub kind: LinkKind,
+    /// Whether each end is on the frame.
+    pub grounded: [bool; 2],
     /// Its ends, for each position; only the first is drawn, but for rods.
     pub poses: Vec<[[f64; 2]; 2]>,
     /// Of a spring about a hinge: angles of the two bodies, rad, for each position.
@@ -144,6 +150,33 @@ pub struct Gear {
     pub line: Option<[[f64; 2]; 2]>,
     /// Where they touch.
     pub mesh: Option<[f64; 2]>,
+    /// A belt around both, as a closed line.
+    pub belt: Vec<[f64; 2]>,
+}
+
+/// A force or torque in the first position.
+#[derive(Clone, Debug, Default)]
+pub struct Force {
+    /// What it is.
+    pub kind: ForceKind,
+    /// Where it acts.
+    pub at: [f64; 2],
+    /// As it is seen, N; of a torque nothing.
+    pub along: [f64; 2],
+    /// Of a torque its part about the direction to the eye, N m.
+    pub turning: f64,
+    /// Force per length of its arrow, N/m; none for one that suits the picture.
+    pub scale: Option<f64>,
+}
+
+/// What a force is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ForceKind {
+    /// A load.
+    #[default]
+    Load,
+    /// What a joint transmits.
+    Reaction,
 }
 
 /// The path of a point.

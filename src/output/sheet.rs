@@ -1,7 +1,8 @@
 //! A drawing in pixels: its extent, its scale, and its parts as they lie on the sheet.
 
 use super::pose::{Drawing, Form, FormKind, Gear, Link, Placement};
-use super::scene::Color;
+use super::scene::{Color, pale};
+use super::symbols::shaded;
 use super::thin::Point;
 
 /// Fills of bodies, muted: the joints and paths are what one looks for.
@@ -34,6 +35,7 @@ impl Sheet {
             way,
             across: placement.across.map(turned),
             sense: placement.sense,
+            clear: placement.clear * self.scale,
             stops: placement.stops.map(|stop| stop.filter(is_usable)),
         })
     }
@@ -67,13 +69,19 @@ impl Sheet {
             circles: gear.circles.iter().map(|circle| self.points(circle)).collect(),
             line: gear.line.filter(|line| line.iter().all(is_usable)).map(|line| line.map(|p| self.point(p))),
             mesh: gear.mesh.filter(is_usable).map(|p| self.point(p)),
+            belt: self.points(&gear.belt),
         }
     }
 }
 
-/// Fill of a body; 0 is the ground.
+/// Fill of a body; 0 is the ground. Of many bodies those of a further round are darker, then lighter.
 pub(super) fn body_color(index: usize) -> Color {
-    BODIES[(index + BODIES.len() - 1) % BODIES.len()]
+    let color = BODIES[(index + BODIES.len() - 1) % BODIES.len()];
+    match (index.max(1) - 1) / BODIES.len() {
+        0 => color,
+        round if round % 2 == 1 => shaded(color, 1.0 - 0.1 * round.div_ceil(2).min(4) as f64),
+        round => pale(color, 1.0 - 0.25 * (round / 2).min(3) as f64),
+    }
 }
 
 /// Whether two points in pixels are one.
@@ -103,7 +111,10 @@ pub(super) fn extent(drawing: &Drawing) -> [f64; 4] {
     let joints = joints.flat_map(|pose| std::iter::once(pose.at).chain(pose.way.into_iter().flatten()));
     let links = drawing.links.iter().flat_map(|link| link.poses.iter().flatten().copied());
     let traces = drawing.traces.iter().flat_map(|trace| trace.points.iter().copied());
-    let gears = drawing.gears.iter().flat_map(|gear| gear.circles.iter().flatten().copied().chain(gear.line.into_iter().flatten()));
+    let gears = drawing
+        .gears
+        .iter()
+        .flat_map(|gear| gear.circles.iter().flatten().chain(&gear.belt).copied().chain(gear.line.into_iter().flatten()));
     let all = bodies.chain(joints).chain(links).chain(traces).chain(gears).filter(is_usable);
     let [left, bottom, right, top] = all.fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |e, [x, y]| {
         [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)]

@@ -124,16 +124,22 @@ impl Signs {
         scene.line(vec![a, b], Stroke::solid(INK, self.pen(2.6)));
     }
 
+    /// A piece of ground at the end of a link that comes along a direction.
+    pub(super) fn anchor(self, scene: &mut Scene, at: Point, along: Point) {
+        let half = 13.0 * self.size;
+        self.hatched(scene, off(at, along, 0.0, half), off(at, along, 0.0, -half));
+    }
+
     /// A hatched line at `distance` on the lower side of `way`.
     pub(super) fn hatched_below(self, scene: &mut Scene, way: [Point; 2], distance: f64) {
         let [a, b] = lower_side(way, distance * self.size);
         self.hatched(scene, a, b);
     }
 
-    /// What a slide slides on: hatched ground, or a thin line on another body.
-    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], grounded: bool) {
+    /// What a slide slides on: hatched ground, at least `clear` pixels below the way, or a thin line on another body.
+    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], grounded: bool, clear: f64) {
         if grounded {
-            self.hatched_below(scene, way, BOX[1] + 2.0);
+            self.hatched_below(scene, way, (BOX[1] + 2.0).max(clear / self.size));
         } else {
             scene.line(way.to_vec(), Stroke::solid(INK, self.pen(3.0)));
         }

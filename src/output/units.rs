@@ -14,10 +14,12 @@ pub(super) fn plain(unit: &str) -> Shown {
     Shown { unit: pretty(unit), factor: 1.0 }
 }
 
-/// The unit for numbers up to `largest`: `kN m` for 25 000 N m, `10⁻⁶ kg m²` where no prefix fits.
+/// The unit for numbers up to `largest`, the same for all of an axis: `kN m` for 25 000 N m, `mm` for 10 mm, `10⁻⁶ kg m²` where no prefix fits.
 pub(super) fn scaled(unit: &str, largest: f64) -> Shown {
     let plain = plain(unit);
-    if unit == "deg" && largest >= 1e-2 || (1e-2..1e4).contains(&largest) || largest == 0.0 || !largest.is_finite() {
+    // 0.010 m are 10 mm; a power of ten is no gain there
+    let least = if prefix(&plain.unit, -3).is_some() { 0.1 } else { 1e-2 };
+    if unit == "deg" && largest >= 1e-2 || (least..1e4).contains(&largest) || largest == 0.0 || !largest.is_finite() {
         return plain;
     }
     // Shown numbers reach from 0.5 to 500: 0.9e-6 is better read as 0.9 µ than as 900 n.
@@ -91,6 +93,8 @@ mod tests {
         assert_eq!(scaled("kg m^2", 3e-6).unit, "10⁻⁶ kg m²");
         assert_eq!(scaled("m^2", 1e-5).unit, "10⁻⁶ m²");
         assert_eq!(scaled("m", 2e-3).unit, "mm");
+        assert_eq!([scaled("m", 0.05).unit, scaled("s", 0.02).unit, scaled("N", 0.04).unit], ["mm", "ms", "mN"]);
+        assert_eq!([scaled("m", 0.3).unit, scaled("m/s", 0.05).unit, scaled("", 0.05).unit], ["m", "mm/s", ""]);
         assert_eq!(scaled("m", 2e5).unit, "10³ m");
         assert_eq!(scaled("", 2e-13).unit, "10⁻¹⁵");
         assert_eq!(scaled("deg", 4e5).unit, "deg");

@@ -21,7 +21,7 @@ pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};
 pub use finding::{Checked, Finding, Happened};
 pub use number::number;
-pub use plot::Plot;
+pub use plot::{Plot, PlotAxis, PlotBeside, PlotRight};
 pub use rows::{Rows, Sink};
 pub use scene::Scene;
 pub use statistics::{PERCENTAGES, Part, Statistics};

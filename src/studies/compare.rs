@@ -128,7 +128,7 @@ impl Bench<'_> {
 
     /// A study under the bench, by an integrator of its own or one from outside.
     fn case<'c>(&'c self, study: &'c Study, integrator: Option<&'c OwnIntegrator>) -> Case<'c> {
-        Case { integrator, ..Case::new(self.model, study, self.values) }
+        Case { integrator, ..Case::new(self.model, study, self.values).undrawn() }
     }
 
     /// A run with everything but its time.

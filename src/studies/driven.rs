@@ -217,7 +217,7 @@ fn observe<G: Space<S = f64>>(
         findings,
         certificate,
         events: Vec::new(),
-        scenes: vec![(scene::MECHANISM.into(), scene::of_motion(case, &mut motion))],
+        scenes: scene::wanted(case, || scene::of_motion(case, &mut motion)),
         ..Outcome::default()
     })
 }

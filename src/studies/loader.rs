@@ -1,8 +1,8 @@
 //! The model of a study, with the scalars that it takes from other studies.
 
 use super::common::named::named;
-use super::sweep::at;
-use crate::model::{Document, Model, Report, Selection, Study};
+use super::sweep::{Drawn, Settings, at, single, sweep, together};
+use crate::model::{Beside, Document, Model, Plot, Report, Selection, ShownWhat, Study};
 use crate::results::{Failure, Results};
 use std::collections::HashMap;
 
@@ -12,6 +12,8 @@ pub struct Loader<'d> {
     threads: usize,
     /// Numbers of the studies that were run for others.
     taken: HashMap<String, Vec<(String, f64)>>,
+    /// Results of the studies that stand beside others in figures.
+    beside: HashMap<String, Results>,
 }
 
 /// Why a study has no model.
@@ -30,7 +32,7 @@ impl<'d> Loader<'d> {
     /// For a document; studies from which others take are run by so many threads.
     #[must_use]
     pub fn new(document: &'d Document, threads: usize) -> Self {
-        Self { document, threads, taken: HashMap::new() }
+        Self { document, threads, taken: HashMap::new(), beside: HashMap::new() }
     }
 
     /// The model of a selection; a study in it gets what it takes. `stop` is asked while other studies run.
@@ -55,17 +57,98 @@ impl<'d> Loader<'d> {
         Ok(model)
     }
 
+    /// The model of a selection as [`Self::model`] gives it, whose figures have the curves of the other studies that they name.
+    ///
+    /// # Errors
+    /// As [`Self::model`], and if one of these studies does not begin, or lacks a curve.
+    pub fn drawn(&mut self, selection: &Selection<'_>, stop: &(dyn Fn() -> bool + Sync)) -> Result<Model, NotLoaded> {
+        let mut model = self.model(selection, stop)?;
+        let Some(study) = &mut model.study else { return Ok(model) };
+        let place = study.place.clone();
+        for plot in &mut study.plots {
+            for other in &plot.with {
+                self.run_beside(selection, other, stop)?;
+                let lacks = |why: String| {
+                    let at = format!("{place}.plot.{}.with", plot.name);
+                    let help = Some("name the curve in a figure or in the columns of that study, too".into());
+                    NotLoaded::Wrong(Report::new(vec![self.document.diagnostic(
+                        "no-column",
+                        &at,
+                        why,
+                        "a study with the same curves",
+                        help,
+                    )]))
+                };
+                plot.beside.extend(curves(plot, &self.beside[other]).map_err(lacks)?);
+            }
+        }
+        Ok(model)
+    }
+
+    /// Runs a study that stands beside another one, unless it was run for that.
+    fn run_beside(&mut self, selection: &Selection<'_>, name: &str, stop: &(dyn Fn() -> bool + Sync)) -> Result<(), NotLoaded> {
+        if self.beside.contains_key(name) {
+            return Ok(());
+        }
+        let model = self.model(&Selection { study: Some(name), over: Vec::new(), ..selection.clone() }, stop)?;
+        let Some(study) = &model.study else { return Ok(()) };
+        let settings = Settings { threads: self.threads, drawn: Drawn::None, stop };
+        let results = if study.sweep.is_empty() {
+            let failed = |failure: Failure| NotLoaded::Failed { study: name.into(), failure };
+            single(&model, study, at(&model, study, Vec::new(), settings, None, &|_, _| {})).map_err(failed)?
+        } else {
+            let runs = sweep(&model, study, settings, Vec::new(), &|_| true, &|_, _| {});
+            together(&model, study, runs, &mut |_, _| {})
+        };
+        self.beside.insert(name.into(), results);
+        Ok(())
+    }
+
     /// Runs a study for its scalars, from which study `of` takes.
     fn numbers(&mut self, selection: &Selection<'_>, of: &str, stop: &(dyn Fn() -> bool + Sync)) -> Result<Vec<(String, f64)>, NotLoaded> {
         let model = self.model(selection, stop)?;
         let Some(study) = &model.study else { return Ok(Vec::new()) };
         let failed = |failure: Failure| NotLoaded::Failed { study: study.name.clone(), failure };
-        let outcome = at(&model, study, Vec::new(), self.threads, None, stop, &|_, _| {}).result.map_err(failed)?;
+        let settings = Settings { threads: self.threads, drawn: Drawn::None, stop };
+        let outcome = at(&model, study, Vec::new(), settings, None, &|_, _| {}).result.map_err(failed)?;
         if let Some(reason) = &outcome.stopped {
             return Err(NotLoaded::Stopped { study: of.into(), of: study.name.clone(), reason: reason.clone() });
         }
         Ok(numbers(&named(&model, study, *outcome)))
     }
+}
+
+/// The curves of a figure as another study has them.
+///
+/// # Errors
+/// Which one it has not, in words.
+fn curves(plot: &Plot, other: &Results) -> Result<Vec<Beside>, String> {
+    let column = |results: &Results, name: &str| -> Option<Vec<f64>> {
+        results
+            .column(name)
+            .ok()
+            .map(<[f64]>::to_vec)
+            .or_else(|| (results.independent.name == name).then(|| results.independent.values.clone()))
+    };
+    let of_runs = plot.all().any(|shown| !matches!(shown.what, ShownWhat::Column(_)));
+    let runs: Vec<(String, &Results)> = match &other.table.reasons {
+        Some(_) if !of_runs => other.runs.iter().filter_map(|run| Some((format!(", {}", run.label), run.results.as_deref()?))).collect(),
+        _ => vec![(String::new(), other)],
+    };
+    let mut all = Vec::new();
+    for (label, results) in runs {
+        let x = match &plot.over {
+            Some(over) => column(results, &over.name).ok_or_else(|| format!("study `{}` has no `{}`", other.study, over.name))?,
+            None if of_runs => results.table.columns.first().map(|c| c.values.clone()).unwrap_or_default(),
+            None => results.independent.values.clone(),
+        };
+        for shown in plot.show.iter().chain(plot.right.iter().flat_map(|(show, _)| show)) {
+            let y = column(results, &shown.name).ok_or_else(|| format!("study `{}` has no `{}`", other.study, shown.name))?;
+            let points = x.iter().copied().zip(y).collect();
+            all.push(Beside { label: format!("{}, {}{label}", shown.name, other.study), of: shown.name.clone(), points, measured: false });
+        }
+    }
+    Ok(all)
 }
 
 /// Gives a model what its study takes, as far as the studies that it takes from are quickly computed; none if they are not.
@@ -83,8 +166,8 @@ pub fn quickly(document: &Document, selection: &Selection<'_>) -> Result<Option<
             return Ok(None);
         }
         let hindered = |why: &str| format!("study `{}` takes a scalar of `{}`: {why}", selection.study.unwrap_or_default(), take.study);
-        let outcome =
-            at(&other, asked, Vec::new(), 1, None, &|| false, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
+        let settings = Settings { threads: 1, drawn: Drawn::None, stop: &|| false };
+        let outcome = at(&other, asked, Vec::new(), settings, None, &|_, _| {}).result.map_err(|failure| hindered(&failure.reason()))?;
         if let Some(why) = &outcome.stopped {
             return Err(hindered(why));
         }

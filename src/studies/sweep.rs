@@ -11,9 +11,14 @@ use crate::par;
 use crate::results::Failure;
 use crate::results::{self, By, Column, Finding, Results, Solution, Statistics, Table, number};
 use crate::studies::common::outcome::Outcome;
+pub use crate::studies::common::settings::{Drawn, Settings};
 use statrs::distribution::{ContinuousCDF, Normal};
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Digits of swept values in titles and legends, and all that a number has.
+const IN_TITLES: usize = 6;
+const ALL: usize = 17;
 /// Numbers of the drawings of all runs together, so that they are all kept.
 const DRAWN: usize = 2_000_000;
 
@@ -83,27 +88,29 @@ pub fn at(
     model: &Model,
     study: &Study,
     point: Vec<f64>,
-    threads: usize,
+    settings: Settings<'_>,
     rows: Option<Streamed<'_>>,
-    stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(f64, f64) + Sync),
 ) -> Run {
     let set: Vec<(usize, f64)> = study.sweep.iter().map(|s| s.parameter).zip(point.iter().copied()).collect();
     let (solved, result) = match &study.solve {
-        Some(asked) => match solve(&Task { model, study, solve: asked, set: &set, threads, stop, done }) {
+        Some(asked) => match solve(&Task { model, study, solve: asked, set: &set, settings, done }) {
             Ok((outcome, solved)) => (Some(solved), Ok(Box::new(outcome))),
             Err(failure) => (None, Err(failure)),
         },
         None => {
             let values = parameters_with(model, &set);
-            (None, run(Case { rows, ..Case::new(model, study, &values) }, stop).map(Box::new))
+            (
+                None,
+                run(Case { rows, drawn: settings.drawn != Drawn::None, ..Case::new(model, study, &values) }, settings.stop).map(Box::new),
+            )
         }
     };
     let mut run = Run { at: point, solved, result };
     if let Ok(outcome) = &mut run.result
         && !study.sweep.is_empty()
     {
-        let caption = label(model, study, &run.at);
+        let caption = label(model, study, &run.at, IN_TITLES);
         outcome.scenes.iter_mut().for_each(|(_, scene)| scene.caption.clone_from(&caption));
     }
     run
@@ -111,15 +118,14 @@ pub fn at(
 
 /// Runs of a study's sweep in the order of the grid, the same bits for any number of threads: those that `known` has, and of the others
 /// those at the places that are `wanted`. Drawings are left of all of them where these have no more than two million numbers together,
-/// else of the first one with results alone. `done` is told each of the latter with its place in the grid, from any thread. Runs that
+/// else of the first one with results alone; where that has none, or was kept without, it is computed once more. `done` is told each of the latter with its place in the grid, from any thread. Runs that
 /// begin after `stop` says so are not computed.
 pub fn sweep(
     model: &Model,
     study: &Study,
-    threads: usize,
+    settings: Settings<'_>,
     known: Vec<Option<Run>>,
     wanted: &dyn Fn(usize) -> bool,
-    stop: &(dyn Fn() -> bool + Sync),
     done: &(dyn Fn(usize, &Run) + Sync),
 ) -> Vec<Run> {
     let mut points: Vec<Option<Vec<f64>>> = grid(model, study).into_iter().map(Some).collect();
@@ -131,15 +137,16 @@ pub fn sweep(
     let first = AtomicUsize::new(runs.iter().position(|run| run.as_ref().is_some_and(|run| run.result.is_ok())).unwrap_or(usize::MAX));
     let known = runs.iter().flatten().filter_map(|run| run.result.as_ref().ok());
     let drawn = AtomicUsize::new(known.map(|outcome| numbers(outcome)).sum());
+    let of_each = Settings { threads: 1, drawn: if settings.drawn == Drawn::All { Drawn::All } else { Drawn::None }, ..settings };
     let computed = par::map(
         missing.len(),
-        threads,
+        settings.threads,
         |k| {
             let (i, point) = &missing[k];
-            if stop() {
+            if (settings.stop)() {
                 return Run { at: point.clone(), solved: None, result: Err(Failure::interrupted()) };
             }
-            let mut run = at(model, study, point.clone(), 1, None, stop, &|_, _| {});
+            let mut run = at(model, study, point.clone(), of_each, None, &|_, _| {});
             if let Ok(outcome) = &mut run.result {
                 let all = drawn.fetch_add(numbers(outcome), Ordering::Relaxed) + numbers(outcome);
                 if first.fetch_min(*i, Ordering::Relaxed) < *i && all > DRAWN {
@@ -155,10 +162,29 @@ pub fn sweep(
         runs[i] = Some(run);
     }
     let mut runs: Vec<Run> = runs.into_iter().flatten().collect();
+    if settings.drawn != Drawn::None {
+        drawn.fetch_add(draw_first(model, study, &mut runs, settings), Ordering::Relaxed);
+    }
     if drawn.load(Ordering::Relaxed) > DRAWN {
         runs.iter_mut().filter_map(|run| run.result.as_mut().ok()).skip(1).for_each(|outcome| outcome.scenes = Vec::new());
     }
     runs
+}
+
+/// Draws the first run with results if it has no drawing, by computing it again; gives the numbers of its frames.
+fn draw_first(model: &Model, study: &Study, runs: &mut [Run], settings: Settings<'_>) -> usize {
+    let Some(first) = runs.iter_mut().find(|run| run.result.is_ok()) else { return 0 };
+    if first.result.as_ref().is_ok_and(|outcome| !outcome.scenes.is_empty()) || (settings.stop)() {
+        return 0;
+    }
+    let again = at(model, study, first.at.clone(), settings, None, &|_, _| {});
+    match (&mut first.result, again.result) {
+        (Ok(outcome), Ok(again)) => {
+            outcome.scenes = again.scenes;
+            numbers(outcome)
+        }
+        _ => 0,
+    }
 }
 
 /// Numbers of the frames of a run.
@@ -178,9 +204,10 @@ pub fn single(model: &Model, study: &Study, run: Run) -> Result<Results, Failure
 /// What the runs of a sweep have come to: a table with a row for each, and the results of each. `each` gets the latter with their number
 /// from 0 as they are made, and may take from them what is of no further use.
 pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnMut(usize, &mut Results)) -> Results {
+    let labels = labels(model, study, &runs);
     let labelled = |(i, run): (usize, Run)| {
         let solution = solution(model, study, &run);
-        let label = label(model, study, &run.at);
+        let label = labels[i].clone();
         let mut results = run.result.ok().map(|outcome| Box::new(named(model, study, *outcome)));
         results.iter_mut().for_each(|results| each(i, results));
         results::Run { label, results, solution }
@@ -188,7 +215,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
     let table = table(model, study, &runs);
     let mut findings = Vec::new();
     for (i, (run, reason)) in runs.iter().zip(table.reasons.iter().flatten()).enumerate() {
-        let of = |message: &str| format!("run {} ({}): {message}", i + 1, label(model, study, &run.at));
+        let of = |message: &str| format!("run {} ({}): {message}", i + 1, labels[i]);
         if !reason.is_empty() {
             findings.push(Finding { code: "run-stopped".into(), message: of(reason), path: study.place.clone() });
         }
@@ -203,7 +230,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
         statistics: if study.samples.is_some() { statistics(&study.sweep, &table) } else { Vec::new() },
         table,
         findings,
-        plots: named::plots(study),
+        plots: named::plots(model, study),
         runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }
@@ -231,15 +258,28 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
     })
 }
 
-/// The swept values of a run: `l3 = 0.3 m`.
-fn label(model: &Model, study: &Study, at: &[f64]) -> String {
+/// The swept values of a run with some digits: `l3 = 0.3 m`.
+fn label(model: &Model, study: &Study, at: &[f64], digits: usize) -> String {
     let value = |(sweep, x): (&Sweep, &f64)| {
         let parameter = &model.parameters[sweep.parameter];
         let value = named::scalar(model, &parameter.name, parameter.dimension, *x, By::File);
         let (x, unit) = value.shown();
-        format!("{} = {} {unit}", value.name, number(x)).trim_end().to_string()
+        format!("{} = {} {unit}", value.name, number(significant(x, digits))).trim_end().to_string()
     };
     study.sweep.iter().zip(at).map(value).collect::<Vec<_>>().join(", ")
+}
+
+/// The swept values of all runs, with no more digits than tell them apart.
+fn labels(model: &Model, study: &Study, runs: &[Run]) -> Vec<String> {
+    let with = |digits: usize| runs.iter().map(|run| label(model, study, &run.at, digits)).collect::<Vec<String>>();
+    let short = with(IN_TITLES);
+    let distinct = short.iter().collect::<HashSet<_>>().len() == short.len();
+    if distinct { short } else { with(ALL) }
+}
+
+/// A number with some significant digits.
+fn significant(x: f64, digits: usize) -> f64 {
+    if digits >= ALL { x } else { format!("{x:.*e}", digits - 1).parse().unwrap_or(x) }
 }
 
 /// One row a run: swept parameters, the one that was solved for, results of the kind, scalars, and why a run is not whole.

@@ -96,7 +96,7 @@ fn one(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Opt
     let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
     let compute = |model: &mut Model, by: Integrator, steps: Steps| {
         let study = integrators::changed(model, study, forward, by, steps, Some(every));
-        run(Case::new(model, &study, parameters), stop)
+        run(Case::new(model, &study, parameters).undrawn(), stop)
     };
     let base = compute(&mut model, forward.integrator, steps)?;
     if base.stopped.is_some() {

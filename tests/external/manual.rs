@@ -38,7 +38,12 @@ fn figure(comparison: &Comparison) -> Figure {
     let given = points.iter().flat_map(|p| [vec![(p[0], p[2])], gap(p[0])].concat()).collect();
     let scale = if comparison.size > 1e-9 { comparison.size } else { 1.0 };
     let apart = points.iter().map(|p| (p[0], 1e6 * (p[1] - p[2]) / scale)).collect();
-    let curve = |label: &str, unit: Option<&str>, points| Curve { label: label.to_owned(), unit: unit.map(str::to_owned), points };
+    let curve = |label: &str, unit: Option<&str>, points| Curve {
+        label: label.to_owned(),
+        unit: unit.map(str::to_owned),
+        points,
+        ..Curve::default()
+    };
     Figure {
         title: format!("{}: {}", case.id, column.name),
         x: Axis { label: right.names[0].clone(), ..Axis::default() },

@@ -1,6 +1,6 @@
 // Arrows on a mechanism: velocities, accelerations, loads, reactions.
 
-import { column, valueAt } from './curves';
+import { column, fineOf, valueAt } from './curves';
 import type { Motion, Vector } from './motion';
 import type { Pace } from './pace';
 import type { Place, Results, Scene } from './types';
@@ -81,7 +81,7 @@ export class Arrows {
     const read = (i: number): number => {
       if (i >= dimensions) return 0;
       const own = arrow.columns[i] !== undefined ? column(this.results, arrow.columns[i]!) : undefined;
-      if (own && own.values.length > 1) return valueAt(this.results, own.values, place);
+      if (own && own.values.length > 1) return valueAt(fineOf(this.results), own.values, place);
       if (!arrow.values || arrow.values.length === 0) return NaN;
       let k = 0;
       while (k + 2 < frames.at.length && frames.at[k + 1]! <= place) k++;

@@ -19,11 +19,14 @@ export function pieces(results: Results): [number, number][] {
   return ends.map((end, i) => [ends[i - 1] ?? 0, end]);
 }
 
-/** Places of the independent variable where curves are drawn, piece by piece, with rows of each. */
-export interface Fine { x: number[]; pieces: { from: number; to: number; at: number[] }[] }
+/** A smooth piece: its rows, the places at which it is drawn, and for each of these the first row that counts and the weights of it and those behind. */
+interface Piece { from: number; to: number; at: number[]; first: Int32Array; weights: Float64Array }
+
+/** Places of the independent variable where curves are drawn, piece by piece. */
+export interface Fine { x: number[]; pieces: Piece[] }
 
 /** Places as dense as the rows that the study had. */
-export function fine(results: Results): Fine {
+function fine(results: Results): Fine {
   const x = results.independent.values.map((v) => v ?? NaN);
   const { kept } = results.rows;
   return {
@@ -35,30 +38,57 @@ export function fine(results: Results): Fine {
         const steps = i + 1 < to ? Math.min(FINEST, (kept[i + 1] ?? i + 1) - (kept[i] ?? i)) : 1;
         for (let k = 1; k < steps; k++) at.push(x[i]! + ((x[i + 1]! - x[i]!) * k) / steps);
       }
-      return { from, to, at };
+      return { from, to, at, ...weighed(x, from, to, at) };
     }),
   };
 }
 
-/** Values of a column at some places of one piece. */
-function along(values: Num[], x: number[], from: number, to: number, at: number[]): number[] {
+const known = new WeakMap<Results, Fine>();
+
+/** The places of results, which are found once. */
+export function fineOf(results: Results): Fine {
+  let found = known.get(results);
+  if (!found) known.set(results, (found = fine(results)));
+  return found;
+}
+
+/** Rows that count at a place at most. */
+const COUNT = 4;
+
+/** The rows that count at some places of one piece, and their weights: the same for all columns. */
+function weighed(x: number[], from: number, to: number, at: number[]): Pick<Piece, 'first' | 'weights'> {
   // a falling variable is looked at backwards
   const falls = x[to - 1]! < x[from]!;
-  const nodes = falls ? x.map((v) => -v) : x;
-  let row = from;
-  return at.map((place) => {
+  const nodes = falls ? x.slice(from, to).map((v) => -v) : x.slice(from, to);
+  const out = { first: new Int32Array(at.length), weights: new Float64Array(COUNT * at.length) };
+  let row = 0;
+  at.forEach((place, i) => {
     const p = falls ? -place : place;
-    while (row < to && nodes[row]! <= p) row++;
-    if (nodes[row - 1] === p) return values[row - 1] ?? NaN;
-    const { first, weights: w } = weights(nodes, p, from, to, row);
-    return w.reduce((sum, weight, k) => sum + weight * (values[first + k] ?? NaN), 0);
+    while (row < nodes.length && nodes[row]! <= p) row++;
+    const exact = nodes[row - 1] === p;
+    const found = exact ? { first: row - 1, weights: [1] } : weights(nodes, p, 0, nodes.length, row);
+    out.first[i] = from + found.first;
+    out.weights.set(found.weights, COUNT * i);
+  });
+  return out;
+}
+
+/** Values of a column at the places of one piece. */
+function along(values: Num[], { first, weights: w }: Pick<Piece, 'first' | 'weights'>): number[] {
+  return Array.from(first, (row, i) => {
+    let sum = 0;
+    for (let k = 0; k < COUNT; k++) {
+      const weight = w[COUNT * i + k]!;
+      if (weight !== 0) sum += weight * (values[row + k] ?? NaN);
+    }
+    return sum;
   });
 }
 
 /** A column at the fine places; pieces are parted by NaN. */
-export function drawn(values: Num[], { x, pieces: parts }: Fine): number[] {
-  return parts.flatMap(({ from, to, at }, i) => {
-    const y = along(values, x, from, to, at);
+export function drawn(values: Num[], { pieces: parts }: Fine): number[] {
+  return parts.flatMap((piece, i) => {
+    const y = along(values, piece);
     return i + 1 < parts.length ? [...y, NaN] : y;
   });
 }
@@ -68,12 +98,23 @@ export function places({ pieces: parts }: Fine): number[] {
   return parts.flatMap(({ at }, i) => (i + 1 < parts.length ? [...at, at[at.length - 1]!] : at));
 }
 
+/** The weights at a place of a falling variable. */
+function turned(x: number[], place: number, from: number, to: number): { first: number; weights: number[] } {
+  const found = weights(x.slice(from, to).map((v) => -v), -place);
+  return { first: from + found.first, weights: found.weights };
+}
+
 /** The value of a column at one place. */
-export function valueAt(results: Results, values: Num[], place: number): number {
-  const x = results.independent.values.map((v) => v ?? NaN);
-  for (const [from, to] of pieces(results)) {
+export function valueAt({ x, pieces: parts }: Fine, values: Num[], at: number): number {
+  // a place at an end may lie beyond it by rounding
+  const ends = [x[0] ?? NaN, x[x.length - 1] ?? NaN].sort((a, b) => a - b) as [number, number];
+  const near = 1e-9 * (ends[1] - ends[0]);
+  const place = at < ends[0] && at > ends[0] - near ? ends[0] : at > ends[1] && at < ends[1] + near ? ends[1] : at;
+  for (const { from, to } of parts) {
     const [a, b] = [x[from]!, x[to - 1]!];
-    if ((place - a) * (place - b) <= 0) return along(values, x, from, to, [place])[0]!;
+    if ((place - a) * (place - b) > 0) continue;
+    const { first, weights: w } = b < a ? turned(x, place, from, to) : weights(x, place, from, to);
+    return w.reduce((sum, weight, k) => (weight === 0 ? sum : sum + weight * (values[first + k] ?? NaN)), 0);
   }
   return NaN;
 }

@@ -21,6 +21,9 @@ declare global {
 
 const SUN = 'M8 4.5a3.5 3.5 0 1 1 0 7a3.5 3.5 0 0 1 0-7zM8 1v1.5M8 13.5V15M1 8h1.5M13.5 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1';
 
+/** Milliseconds until the text of a file that has changed is made anew. */
+const LATER = 250;
+
 /** A study in the contents. */
 export interface Entry { name: string; about: string; bad: boolean; state?: string }
 
@@ -32,6 +35,11 @@ export interface More {
   values?: HTMLElement;
   /** Is told which study is in view. */
   viewed?(name: string): void;
+}
+
+/** What the header of a page says. */
+function headOf({ model, overview, version }: Data): string {
+  return JSON.stringify([model.name, model.about, overview, version]);
 }
 
 export function entryOf(study: Study): Entry {
@@ -47,6 +55,9 @@ export class Page {
   private links: HTMLAnchorElement[] = [];
   private view: StudyView | null = null;
   private name = '';
+  /** Whether the file has another text than is shown. */
+  private stale = false;
+  private later = 0;
 
   constructor(private data: Data, private entries: Entry[], root: HTMLElement, private readonly more: More = {}) {
     this.file = source(data.model.source, data.model.path);
@@ -106,6 +117,7 @@ export class Page {
       this.show(study.study);
       return;
     }
+    if (this.view.update(study)) return;
     const focused = this.main.contains(document.activeElement) ? document.activeElement?.getAttribute('aria-label') : null;
     const [before, scrolled] = [this.view.element, scrollY];
     this.view = this.viewOf(study, this.view);
@@ -120,7 +132,9 @@ export class Page {
 
   /** Takes studies of the file, in its order. */
   setEntries(entries: Entry[]): void {
+    const same = JSON.stringify(entries) === JSON.stringify(this.entries);
     this.entries = entries;
+    if (same && this.view) return;
     this.data.studies = this.data.studies.filter((study) => entries.some((entry) => entry.name === study.study));
     this.contents();
     this.mark();
@@ -131,18 +145,37 @@ export class Page {
 
   /** Takes what is known of a model whose file has changed. */
   setModel(data: Data): void {
+    const [before, head] = [this.data.model, headOf(this.data)];
     this.data = { ...data, studies: this.data.studies };
-    const [file, header] = [source(data.model.source, data.model.path), this.top()];
+    document.title = `${this.name} – ${data.model.name}`;
+    if (headOf(this.data) !== head) {
+      const header = this.top();
+      this.header.replaceWith(header);
+      this.header = header;
+    }
+    // the text of a long file takes time, which what is in view has first
+    clearTimeout(this.later);
+    if (before.source === data.model.source && before.path === data.model.path) return;
+    this.stale = true;
+    if (this.file.element.open) this.later = window.setTimeout(() => this.current(), LATER);
+    else this.file.element.addEventListener('toggle', () => this.current(), { once: true });
+  }
+
+  /** The text of the file as it is now. */
+  private current(): Source {
+    clearTimeout(this.later);
+    if (!this.stale) return this.file;
+    this.stale = false;
+    const file = source(this.data.model.source, this.data.model.path);
     file.element.open = this.file.element.open;
     this.file.element.replaceWith(file.element);
-    this.header.replaceWith(header);
-    [this.file, this.header] = [file, header];
-    document.title = `${this.name} – ${data.model.name}`;
+    this.file = file;
+    return file;
   }
 
   /** Brings a line of the file, from 1, into view. */
   showLine(line: number): boolean {
-    return this.file.showLine(line - 1);
+    return this.current().showLine(line - 1);
   }
 
   face(): Window['grashof'] {
@@ -155,7 +188,7 @@ export class Page {
   }
 
   private viewOf(study: Study, before?: StudyView): StudyView {
-    return new StudyView(study, this.clock, (place) => this.file.show(place), before?.keep());
+    return new StudyView(study, this.clock, (place) => this.current().show(place), before?.keep());
   }
 
   private waiting(entry: Entry): HTMLElement {

@@ -10,7 +10,7 @@ import { type Pace, pace } from './pace';
 import { Plane } from './plane/plane';
 import type { Options, Renderer } from './renderer';
 import { inks } from './theme';
-import type { CodedScene, Results, Scene, Study } from './types';
+import type { CodedScene, Results, Run, Scene, Study } from './types';
 
 const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 /** A motion that takes less is slowed down to what can be followed, s. */
@@ -28,6 +28,17 @@ function sceneOf(coded: CodedScene): Scene {
   return known;
 }
 
+/** Runs that have drawings, with their numbers. */
+function drawnRuns({ runs }: Study): { run: Run; index: number }[] {
+  return runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
+}
+
+/** What there is to choose from. */
+function choicesOf(study: Study): string {
+  const names = ({ scenes }: Results) => scenes.map(([name, { dimensions }]) => `${name} ${dimensions}`);
+  return JSON.stringify([study.table.reasons !== null, names(study), drawnRuns(study).map(({ run, index }) => [index, run.label, names(run.results!)])]);
+}
+
 /** What a reader has chosen on a stage. */
 export interface StageKept { options: Options; run: string; drawing: string; dimensions: number; look: number[] }
 
@@ -43,6 +54,7 @@ export class Stage {
   private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = SPEEDS[this.speed.selectedIndex] ?? 1) }, ...SPEEDS.map((s) => h('option', {}, `${s}×`)));
   private readonly shown = h('div', { class: 'shown', role: 'group', 'aria-label': 'what is shown' });
   private readonly note = h('p', { class: 'note' });
+  private readonly drawings = h('select', { 'aria-label': 'drawing' });
   private renderer: Renderer | null = null;
   private pace: Pace | null = null;
   private results: Results;
@@ -53,7 +65,7 @@ export class Stage {
   private drawing = '';
 
   /** With what a reader has chosen on an earlier stage of the study, whose clock then goes on. */
-  constructor(private readonly study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void, private kept?: StageKept) {
+  constructor(private study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void, private kept?: StageKept) {
     this.results = study;
     if (kept) this.options = kept.options;
     this.element = h('section', { class: 'stage card', 'aria-label': 'the mechanism in motion' },
@@ -66,6 +78,17 @@ export class Stage {
   keep(): StageKept | undefined {
     const { options, run, drawing, motion, renderer } = this;
     return motion && renderer ? { options, run, drawing, dimensions: motion.scene.dimensions, look: renderer.outlook() } : this.kept;
+  }
+
+  /** Takes the study computed anew, of which the drawing in view is shown as it was; false if there are other runs or drawings. */
+  update(study: Study): boolean {
+    const [before, next] = [choicesOf(this.study), choicesOf(study)];
+    if (before !== next || !this.motion) return false;
+    const run = drawnRuns(study).find(({ run: { label } }) => label === this.run);
+    this.study = study;
+    this.kept = this.keep();
+    this.load(run?.run.results ?? study, Math.max(0, this.drawings.selectedIndex), true);
+    return true;
   }
 
   /** Draws when the browser next does. */
@@ -131,20 +154,19 @@ export class Stage {
   private choices(): HTMLElement {
     const { study } = this;
     const box = h('div', { class: 'choices' });
-    const drawings = h('select', { 'aria-label': 'drawing', change: () => this.load(results, drawings.selectedIndex) });
-    let results: Results = study;
+    const { drawings } = this;
+    drawings.addEventListener('change', () => this.load(this.results, drawings.selectedIndex));
     const fill = (next: Results) => {
-      results = next;
       drawings.replaceChildren(...next.scenes.map(([name]) => h('option', {}, name.replace(/-/g, ' '))));
       drawings.hidden = next.scenes.length < 2;
       drawings.selectedIndex = Math.max(0, next.scenes.findIndex(([name]) => name === this.kept?.drawing));
       this.load(next, Math.max(0, drawings.selectedIndex));
     };
-    const runs = study.runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
+    const runs = drawnRuns(study);
     if (study.table.reasons) {
       const select = h('select', { 'aria-label': 'run', change: () => choose(select.selectedIndex) }, ...runs.map(({ run }) => h('option', {}, pretty(run.label))));
       const choose = (k: number) => {
-        const found = runs[k];
+        const found = drawnRuns(this.study)[k];
         if (!found) return;
         this.run = found.run.label;
         fill(found.run.results!);
@@ -180,7 +202,7 @@ export class Stage {
   }
 
   /** Takes a drawing of results. */
-  private load(results: Results, index: number): void {
+  private load(results: Results, index: number, again = false): void {
     const coded = results.scenes[index]?.[1];
     this.results = results;
     this.drawing = results.scenes[index]?.[0] ?? '';
@@ -203,7 +225,7 @@ export class Stage {
     const { error } = motion.scene.frames;
     this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
     const { seconds, place } = this.pace;
-    this.pick(seconds(motion.to) - seconds(motion.from));
+    if (!again) this.pick(seconds(motion.to) - seconds(motion.from));
     this.clock.range(motion.from, motion.to, seconds, place);
     this.state();
   }

@@ -21,6 +21,15 @@ export interface Kept {
   scrolled: number[];
 }
 
+/** Milliseconds until what is out of view is made anew. */
+const REST = 20;
+
+/** What a page of a study is made of, but for numbers: while it is the same, the page stays. */
+function skeleton(study: Study): string {
+  const of = ({ independent, table, curves }: Results) => [independent.name, independent.unit, independent.values.length > 1, [...table.columns, ...curves].map(({ name, unit, shown_in }) => [name, unit, shown_in?.unit])];
+  return JSON.stringify([study.kind, of(study), study.plots, study.table.reasons !== null, study.runs.map(({ results }) => results && of(results))]);
+}
+
 const parts = (of: HTMLElement) => [...of.querySelectorAll<HTMLDetailsElement>('details.part')];
 const title = (part: HTMLDetailsElement) => part.querySelector('summary')?.textContent ?? '';
 
@@ -33,21 +42,72 @@ export class StudyView {
   private readonly own: Plot[];
   private count = 0;
 
-  constructor(private readonly study: Study, private readonly clock: Clock, show: ShowPlace, private readonly kept?: Kept) {
+  private facts: HTMLElement;
+  private readonly about = h('p', { class: 'about' });
+  /** The run whose rows are in the table. */
+  private run: number | null = null;
+  private later = 0;
+  private frame = 0;
+
+  constructor(private study: Study, private readonly clock: Clock, private readonly show: ShowPlace, private readonly kept?: Kept) {
     this.stage = new Stage(study, clock, (run) => this.choose(run), kept?.stage);
     this.own = kept?.own ?? [];
     this.count = this.own.length;
     study.plots.forEach((plot) => this.add(plot));
     this.own.forEach((plot) => this.add(plot, true));
+    this.facts = facts(study, show);
+    this.tellAbout();
     this.element = h('article', { class: 'study', 'aria-labelledby': 'study-title' },
       h('header', { class: 'title' },
         h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
         h('h2', { id: 'study-title', tabindex: -1 }, study.study),
-        study.about !== '' && h('p', { class: 'about' }, study.about)),
-      h('div', { class: 'left' }, this.stage.element, facts(study, show)),
+        this.about),
+      h('div', { class: 'left' }, this.stage.element, this.facts),
       h('div', { class: 'right' }, this.figures, this.chooser(), this.rows));
     this.tables(study.table.reasons ? null : study);
     for (const part of parts(this.element)) part.open = kept?.open.get(title(part)) ?? part.open;
+  }
+
+  /** Takes the study computed anew: what is in view at once, the rest when there is time. False if it has other parts than before. */
+  update(study: Study): boolean {
+    if (skeleton(study) !== skeleton(this.study)) return false;
+    const drawn = this.plots.map((view) => drawable(study, view.plot));
+    if (drawn.some((one) => one === null) || !this.stage.update(study)) return false;
+    this.study = study;
+    if (!this.plots.every((view, k) => view.update(drawn[k]!))) return false;
+    this.tellAbout();
+    const open = new Map(parts(this.facts).map((part) => [title(part), part.open]));
+    const next = facts(study, this.show);
+    for (const part of parts(next)) part.open = open.get(title(part)) ?? part.open;
+    this.facts.replaceWith(next);
+    this.facts = next;
+    this.after(() => this.rest());
+    return true;
+  }
+
+  /** Does something once the browser has shown what there is. */
+  private after(work: () => void): void {
+    clearTimeout(this.later);
+    cancelAnimationFrame(this.frame);
+    this.frame = requestAnimationFrame(() => (this.later = window.setTimeout(work, REST)));
+  }
+
+  /** What waits until the picture is there: rows, then figures out of view, one after the other. */
+  private rest(): void {
+    const scrolled = [...this.rows.querySelectorAll('.rows')].map((box) => box.scrollTop);
+    const { study } = this;
+    const run = this.run === null ? undefined : study.runs[this.run];
+    this.tables(study.table.reasons ? (run?.results ?? null) : study, run?.label);
+    this.rows.querySelectorAll('.rows').forEach((box, i) => (box.scrollTop = scrolled[i] ?? 0));
+    const next = () => {
+      if (this.plots.find((plot) => plot.refresh())) this.after(next);
+    };
+    this.after(next);
+  }
+
+  private tellAbout(): void {
+    this.about.textContent = this.study.about;
+    this.about.hidden = this.study.about === '';
   }
 
   /** What a reader has chosen. */
@@ -70,7 +130,7 @@ export class StudyView {
   private add(plot: Plot, own = false): void {
     const drawn = drawable(this.study, plot);
     if (!drawn) return;
-    const view: PlotView = new PlotView(drawn, this.study.study, this.clock, own ? () => {
+    const view: PlotView = new PlotView(drawn, plot, this.study.study, this.clock, own ? () => {
       this.plots.splice(this.plots.indexOf(view), 1);
       this.own.splice(this.own.indexOf(plot), 1);
       view.element.remove();
@@ -97,8 +157,8 @@ export class StudyView {
     const over = h('select', { 'aria-label': 'drawn over' }, h('option', { value: '' }, results.independent.name || runs[0]?.name || ''), ...options(of, ''));
     const draw = () => {
       const [kind, name] = [show.value.slice(0, 2), show.value.slice(2)];
-      const horizontal = kind === 'r:' || over.value === '' || !column(results, over.value) ? null : over.value;
-      const plot = { name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:' };
+      const horizontal = kind === 'r:' || over.value === '' || !column(this.source(), over.value) ? null : over.value;
+      const plot = { name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:', range: [null, null] as [null, null], y: null, right: null, beside: [] };
       this.own.push(plot);
       this.add(plot, true);
     };
@@ -106,6 +166,7 @@ export class StudyView {
   }
 
   private choose(run: number): void {
+    this.run = run;
     this.tables(this.study.runs[run]?.results ?? null, this.study.runs[run]?.label);
   }
 

@@ -28,7 +28,23 @@ export interface Scalar {
 
 export interface Extremum { value: Num; at: Num; piece: number }
 export interface Finding { code: string; message: string; path: string }
-export interface Plot { name: string; show: string[]; over: string | null; unit: [string, number] | null; of_runs: boolean }
+/** Ends of an axis, where they are given. */
+export type Ends = [Num, Num];
+export interface PlotAxis { si: string; unit: [string, number] | null; range: Ends }
+
+export interface Plot {
+  name: string;
+  show: string[];
+  over: string | null;
+  unit: [string, number] | null;
+  of_runs: boolean;
+  range: Ends;
+  /** The vertical axis of one quantity, and a second one on the right. */
+  y: PlotAxis | null;
+  right: { show: string[]; axis: PlotAxis } | null;
+  /** Curves that do not come from the study. */
+  beside: { label: string; of: string; x: Num[]; y: Num[]; measured: boolean }[];
+}
 
 /** What was left out of a table: numbers of the rows that are there, and behind which of them a smooth piece ends. */
 export interface RowsShown { kept: number[]; of: number; selected: number | null; within: number; breaks: number[] }
@@ -134,7 +150,7 @@ export interface Joint {
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';
 export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
-export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean }
+export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean; belt: boolean }
 export interface Trace { name: string; body: number; at: number[] }
 export type ArrowKind = 'load' | 'reaction' | 'torque';
 

@@ -85,7 +85,7 @@ impl Job<'_> {
             );
             return Finished::nothing(code::INPUT);
         }
-        let runs = sweep::sweep(self.model, study, self.common.threads(), known, &|_| true, &interrupted, &|_, _| {});
+        let runs = sweep::sweep(self.model, study, self.settings(), known, &|_| true, &|_, _| {});
         if interrupted() {
             return Finished::nothing(code::INTERRUPTED);
         }
@@ -120,7 +120,7 @@ impl Job<'_> {
             }
             progress.step();
         };
-        sweep::sweep(self.model, study, self.common.threads(), known, wanted, &interrupted, &done)
+        sweep::sweep(self.model, study, self.settings(), known, wanted, &done)
     }
 
     /// Judges and writes the runs of a sweep.
@@ -178,7 +178,7 @@ impl Job<'_> {
 
 /// What is still asked of a run whose files are made: curves for figures, and what the kind gives beside numbers.
 fn remaining(study: &Study, run: Results) -> Results {
-    let curves = study.plots.iter().any(|plot| plot.show.iter().chain(&plot.over).any(|shown| matches!(shown.what, ShownWhat::Column(_))));
+    let curves = study.plots.iter().any(|plot| plot.all().any(|shown| matches!(shown.what, ShownWhat::Column(_))));
     let Results { stopped, lists, shapes, linear, independent, table, curves: extra, .. } = run;
     let kept = Results { stopped, lists, shapes, linear, ..Results::default() };
     if curves { Results { independent, table, curves: extra, ..kept } } else { kept }

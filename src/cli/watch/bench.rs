@@ -11,11 +11,16 @@ use grashof::par;
 use grashof::results::{Column, Failure, Results, Sink};
 use grashof::studies::common::case::Streamed;
 use grashof::studies::loader::{Loader, NotLoaded};
-use grashof::studies::sweep::{Run, at, single, sweep, together};
+use grashof::studies::sweep::{Drawn, Run, Settings, at, single, sweep, together};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Numbers that are kept of the rows of a motion, for its figures.
 const KEPT: usize = 1_000_000;
+
+/// What a page takes to draw a study, and how often is looked meanwhile whether it is out of date.
+const DRAWING: Duration = Duration::from_millis(120);
+const LOOK: Duration = Duration::from_millis(5);
 
 /// Rows that go nowhere: the page has those that its figures need.
 struct Nowhere;
@@ -50,20 +55,30 @@ fn nothing(board: &Board, of: u64, report: &Report) {
 /// Computes studies until there is no more to be done, or all is out of date.
 fn all(board: &Board, of: u64, document: &Document) {
     let mut loader = Loader::new(document, board.common.threads());
-    let mut checked = false;
+    let mut first = true;
     while let Some(name) = board.next(of) {
         let stop = || board.is_stale(of) || interrupted();
         let computed = Bench { board, document, stop: &stop }.study(&mut loader, &name);
         board.put(of, &name, (!stop()).then(|| computed.unwrap_or_default()));
-        if !std::mem::replace(&mut checked, true)
-            && let Some(selection) = files::selection(&board.common, None)
-        {
+        if !std::mem::replace(&mut first, false) {
+            continue;
+        }
+        leave_processors(&stop);
+        if let Some(selection) = files::selection(&board.common, None) {
             board.put_findings(of, &document.check_all(&selection));
             // of a model with errors there is nothing to know
             if let Some(head) = report::model_json(document, &board.common) {
                 board.put_head(of, head);
             }
         }
+    }
+}
+
+/// Waits while a page draws the study in view, which it should not have to share the processors for.
+fn leave_processors(stop: &dyn Fn() -> bool) {
+    let until = Instant::now() + DRAWING;
+    while Instant::now() < until && !stop() {
+        std::thread::sleep(LOOK);
     }
 }
 
@@ -78,10 +93,14 @@ impl Bench<'_> {
         &self.board.common
     }
 
+    fn settings(&self) -> Settings<'_> {
+        Settings { threads: self.common().threads(), drawn: Drawn::All, stop: self.stop }
+    }
+
     /// What came of a study; none if the file has it no more.
     fn study(&self, loader: &mut Loader<'_>, name: &str) -> Option<Computed> {
         let selection = files::selection(self.common(), Some(name))?;
-        let mut model = match loader.model(&selection, self.stop) {
+        let mut model = match loader.drawn(&selection, self.stop) {
             Ok(model) => model,
             Err(why) => return Some(wrong(self.not_loaded(name, why))),
         };
@@ -109,7 +128,7 @@ impl Bench<'_> {
 
     fn single(&self, model: &Model, study: &Study) -> Computed {
         let rows = Some(Streamed { sink: &Nowhere, keep: KEPT });
-        let run = at(model, study, Vec::new(), self.common().threads(), rows, self.stop, &|_, _| {});
+        let run = at(model, study, Vec::new(), self.settings(), rows, &|_, _| {});
         match single(model, study, run) {
             Ok(results) => {
                 let json = ReportStudy::of(&results, &study.about).json().to_string();
@@ -120,7 +139,7 @@ impl Bench<'_> {
     }
 
     fn sweep(&self, model: &Model, study: &Study) -> Computed {
-        let runs = sweep(model, study, self.common().threads(), Vec::new(), &|_| true, self.stop, &|_, _| {});
+        let runs = sweep(model, study, self.settings(), Vec::new(), &|_| true, &|_, _| {});
         if let Some(failure) = none_began(&runs) {
             return wrong(explained(self.document, &study.name, failure));
         }

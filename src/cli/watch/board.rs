@@ -3,6 +3,7 @@
 use super::super::Common;
 use super::entry::{Computed, Entry, entry, shown, unknown};
 use super::look::Look;
+use super::request::Known;
 use super::values::Values;
 use grashof::model::{Document, Report};
 use serde_json::{Value, json};
@@ -229,19 +230,42 @@ impl Board {
         Arc::clone(&self.lock().head.1)
     }
 
-    /// What is on the board once it is newer than `after`, or when the time is over.
-    pub(super) fn newer(&self, after: u64, patience: Duration) -> String {
+    /// What is on the board once it is newer than what a page knows, or when the time is over.
+    pub(super) fn newer(&self, known: &Known, patience: Duration) -> String {
         let until = Instant::now() + patience;
         let mut state = self.lock();
-        while state.version <= after {
+        while state.version <= known.after {
             let Some(left) = until.checked_duration_since(Instant::now()).filter(|left| !left.is_zero()) else { break };
             state = self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0;
         }
-        state.json(self.wanted.load(Ordering::SeqCst)).to_string()
+        let mut json = state.json(self.wanted.load(Ordering::SeqCst)).to_string();
+        let (head, result) = state.more(known);
+        drop(state);
+        insert(&mut json, "head", head.map(|head| head.to_string()).as_deref());
+        insert(&mut json, "result", result.as_deref().map(String::as_str));
+        json
+    }
+}
+
+/// Adds a member to an object of JSON that has others.
+fn insert(object: &mut String, name: &str, value: Option<&str>) {
+    if let Some(value) = value {
+        object.pop();
+        object.push_str(&format!(",\"{name}\":{value}}}"));
     }
 }
 
 impl State {
+    /// What goes with an answer to a page that knows less: what there is to know of the model, and the study in view.
+    fn more(&self, known: &Known) -> (Option<Arc<Value>>, Option<Arc<String>>) {
+        let head = known.model.filter(|number| *number != self.head.0).map(|_| Arc::clone(&self.head.1));
+        let result = known.study.as_ref().and_then(|(name, has)| {
+            let entry = self.studies.iter().find(|entry| entry.name == *name)?;
+            (entry.result.0 > 0 && entry.result.0 != *has).then(|| Arc::clone(&entry.result.1))
+        });
+        (head, result)
+    }
+
     fn json(&self, wanted: u64) -> Value {
         let studies: Vec<Value> = self.studies.iter().map(|entry| entry.json(wanted)).collect();
         json!({

@@ -12,21 +12,34 @@ use std::io::{Error, ErrorKind};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
-/// Between looks.
-const EVERY: Duration = Duration::from_millis(50);
-/// A file whose time is older than this, and the same, is not read again: clocks of file systems are coarse.
+/// Between glances at the length and the time of the file, and how many of them a look at the contents takes that neither tells of: clocks of
+/// file systems are coarse, and another program may hold them.
+const EVERY: Duration = Duration::from_millis(10);
+const GLANCES: u32 = 5;
+/// A file whose time is older than this, and the same, is not read again.
 const SETTLED: Duration = Duration::from_secs(3);
 /// Looks at which a file must be away before that is said: it may be on its way.
 const AWAY: u32 = 4;
+
 /// Begins to look, in a thread of its own; `known` is what is known already.
 pub(super) fn begin(board: Arc<Board>, known: Look) -> bool {
     par::background("look-out", move || {
         let mut lookout = Lookout { known, stamp: None, doubtful: None, away: 0 };
+        let mut glances = 0;
         while !interrupted() {
             std::thread::sleep(EVERY);
-            lookout.look(&board);
+            glances += 1;
+            if glances >= GLANCES || lookout.stamp.is_some_and(|known| stamp(board.model()).is_some_and(|now| now != known)) {
+                lookout.look(&board);
+                glances = 0;
+            }
         }
     })
+}
+
+/// Length and time of a file.
+fn stamp(path: &str) -> Option<(u64, SystemTime)> {
+    std::fs::metadata(path).ok().and_then(|of: Metadata| Some((of.len(), of.modified().ok()?)))
 }
 
 struct Lookout {
@@ -70,7 +83,7 @@ impl Lookout {
 
     /// Whether the file is the one that was read last, without reading it.
     fn is_settled(&mut self, model: &str) -> bool {
-        let stamp = std::fs::metadata(model).ok().and_then(|of: Metadata| Some((of.len(), of.modified().ok()?)));
+        let stamp = stamp(model);
         let old = stamp.is_some_and(|(_, time)| SystemTime::now().duration_since(time).is_ok_and(|age| age > SETTLED));
         let same = stamp.is_some() && stamp == self.stamp && self.doubtful.is_none() && self.away == 0;
         self.stamp = stamp;

@@ -1,6 +1,6 @@
 //! `grashof watch`: the report page on the loopback address, which follows the model file and what is moved in the page.
 //!
-//! Three threads and one for each request. The look-out ([`lookout`]) reads the file and tells the board of every change; the
+//! Three threads and one for each connection. The look-out ([`lookout`]) reads the file and tells the board of every change; the
 //! bench ([`bench`]) computes the studies that are out of date, the one in view first; the server ([`server`]) answers pages. What
 //! they share is the [`board`]: the file as it was last sound, the values that were moved, and for each study its last result.
 //! Every change has a number; a page asks for what is newer than the number that it knows, and the answer waits until there is.
@@ -8,6 +8,7 @@
 mod bench;
 mod board;
 mod entry;
+mod http;
 mod look;
 mod lookout;
 mod request;

@@ -1,7 +1,18 @@
 //! What a request asks for, and whether it may.
 
+use super::http::{Refusal, Request};
 use serde_json::Value;
-use tiny_http::{Method, Request};
+
+/// What a page knows.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Known {
+    /// Number of the last change.
+    pub(super) after: u64,
+    /// Number of the model, if it wants a newer one with the answer.
+    pub(super) model: Option<u64>,
+    /// The study that it has in view, with the number of its result, if it wants a newer one with the answer.
+    pub(super) study: Option<(String, u64)>,
+}
 
 /// What a page asks for.
 #[derive(Debug, PartialEq)]
@@ -10,8 +21,8 @@ pub(super) enum Asked {
     Page,
     /// What there is to know of the model.
     Model,
-    /// What is newer than a number.
-    State(u64),
+    /// What is newer than what it knows.
+    State(Known),
     /// A study.
     Study(String),
     /// It has a study in view.
@@ -24,38 +35,29 @@ pub(super) enum Asked {
     Write,
 }
 
-/// A reason to refuse, with the code of HTTP and a sentence.
-pub(super) type Refusal = (u16, &'static str);
-
 /// What a request asks for, if it comes from a page of ours.
 pub(super) fn asked(request: &Request, port: u16, token: &str) -> Result<Asked, Refusal> {
-    let header =
-        |name: &'static str| -> Vec<&str> { request.headers().iter().filter(|h| h.field.equiv(name)).map(|h| h.value.as_str()).collect() };
     let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
-    let host = header("Host");
+    let host: Vec<&str> = request.header("Host").collect();
     if host.len() != 1 || !own.iter().any(|own| host[0].eq_ignore_ascii_case(own)) {
         return Err((403, "this address is served to 127.0.0.1 and localhost alone"));
     }
-    let is_own = |origin: &&str| origin.strip_prefix("http://").is_some_and(|host| own.iter().any(|own| host.eq_ignore_ascii_case(own)));
-    if !header("Origin").iter().all(is_own) {
+    let is_own = |origin: &str| origin.strip_prefix("http://").is_some_and(|host| own.iter().any(|own| host.eq_ignore_ascii_case(own)));
+    if !request.header("Origin").all(is_own) {
         return Err((403, "another page may not ask"));
     }
-    // pages of ours say how long a message is; what says so in two ways may be meant to be read in two ways
-    if !header("Transfer-Encoding").is_empty() {
-        return Err((400, "the length of a message is needed"));
-    }
-    route(request.method(), request.url(), token)
+    route(&request.method, &request.target, token)
 }
 
 /// What a method and an address ask for.
-fn route(method: &Method, url: &str, token: &str) -> Result<Asked, Refusal> {
+fn route(method: &str, url: &str, token: &str) -> Result<Asked, Refusal> {
     let (path, query) = url.split_once('?').unwrap_or((url, ""));
     let value = |name: &str| query.split('&').find_map(|part| part.split_once('=').filter(|(key, _)| *key == name)).map(|(_, value)| value);
     let gets = ["/", "/model", "/state", "/study"];
     let posts = ["/view", "/move", "/back", "/write"];
     match method {
-        Method::Get if gets.contains(&path) => {}
-        Method::Post if posts.contains(&path) => {}
+        "GET" if gets.contains(&path) => {}
+        "POST" if posts.contains(&path) => {}
         _ if gets.contains(&path) || posts.contains(&path) => return Err((405, "it is asked for otherwise")),
         _ => return Err((404, "there is nothing here")),
     }
@@ -65,7 +67,11 @@ fn route(method: &Method, url: &str, token: &str) -> Result<Asked, Refusal> {
     Ok(match path {
         "/" => Asked::Page,
         "/model" => Asked::Model,
-        "/state" => Asked::State(value("after").and_then(|after| after.parse().ok()).unwrap_or(0)),
+        "/state" => {
+            let number = |name: &str| value(name).and_then(|number| number.parse().ok()).unwrap_or(0);
+            let study = value("study").and_then(decoded).map(|study| (study, number("has")));
+            Asked::State(Known { after: number("after"), model: value("model").and_then(|number| number.parse().ok()), study })
+        }
         "/study" => Asked::Study(value("name").and_then(decoded).ok_or((404, "there is no such study"))?),
         "/view" => Asked::View,
         "/move" => Asked::Move,
@@ -112,15 +118,17 @@ mod tests {
 
     #[test]
     fn addresses_are_known_and_secret() {
-        let get = |url: &str| route(&Method::Get, url, "abc").map_err(|(code, _)| code);
+        let get = |url: &str| route("GET", url, "abc").map_err(|(code, _)| code);
         assert_eq!(get("/?token=abc"), Ok(Asked::Page));
-        assert_eq!(get("/state?after=7&token=abc"), Ok(Asked::State(7)));
+        assert_eq!(get("/state?after=7&token=abc"), Ok(Asked::State(Known { after: 7, ..Known::default() })));
+        let known = Known { after: 7, model: Some(3), study: Some(("a b".into(), 5)) };
+        assert_eq!(get("/state?after=7&model=3&study=a%20b&has=5&token=abc"), Ok(Asked::State(known)));
         assert_eq!(get("/study?name=a%20b%C3%BC&token=abc"), Ok(Asked::Study("a bü".into())));
         assert_eq!([get("/"), get("/?token=abd"), get("/model?token=abcd"), get("/?token=")].map(Result::err), [Some(403); 4]);
         let missing =
             ["/../etc/passwd?token=abc", "/model/..?token=abc", "/%2e%2e/x?token=abc", "//?token=abc", "/study?name=%zz&token=abc"];
         missing.iter().for_each(|url| assert_eq!(get(url), Err(404), "{url}"));
         assert_eq!(get("/move?token=abc"), Err(405));
-        assert_eq!(route(&Method::Post, "/move?token=abc", "abc"), Ok(Asked::Move));
+        assert_eq!(route("POST", "/move?token=abc", "abc"), Ok(Asked::Move));
     }
 }

@@ -2,19 +2,19 @@
 
 use super::decoder::{Decoder, Origin};
 use super::frame::Frame;
+use super::plots::{AXIS, COLUMN, DATA, RIGHT};
 use crate::expression::{Dimension, Id};
+use crate::model::data::DataFiles;
 use crate::model::fault::At;
-use crate::model::fields::{Shape, Size};
+use crate::model::fields::{Keys, Shape, Size};
+use crate::model::figure::{Plot, Shown, ShownWhat};
 use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::scope::{Allow, Local};
-use crate::model::study::{Column, Plot, Shown, ShownWhat};
+use crate::model::study::Column;
 use crate::model::suggest::clip;
 use crate::model::vocabulary::Quantity;
-
-/// What names a column.
-pub(super) const COLUMN: Shape = Shape::Name("the name of a measure or a quantity such as `rocker.tip.x`");
 
 keys! {
     /// `plot`, one figure.
@@ -22,6 +22,11 @@ keys! {
         show: need Shape::List(&COLUMN, Size::AtLeast(1)), "What is drawn.";
         over: may COLUMN, "What it is drawn over; the independent variable if omitted.";
         unit("in"): may Shape::Text, "Unit of the horizontal axis.";
+        x: may Shape::Map(&AXIS), "Unit and range of the horizontal axis.";
+        y: may Shape::Map(&AXIS), "Unit and range of the vertical axis of one quantity.";
+        right: may Shape::Map(&RIGHT), "What is drawn over a second vertical axis on the right.";
+        with: may Shape::List(&Shape::Name("a study of this file"), Size::AtLeast(1)), "Studies whose curves of the same names are drawn, too.";
+        data: may Shape::Named(Keys::Title, "measured data", &Shape::Map(&DATA)), "Measured data from files beside the model.";
     }
 }
 
@@ -59,7 +64,7 @@ impl<'n> Decoder<'n> {
         plots: &[Plot],
     ) -> Vec<Id> {
         let here = at.key(asked);
-        let shown = plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
+        let shown = plots.iter().flat_map(Plot::all);
         let curves = shown.filter_map(|s| if let ShownWhat::Column(id) = s.what { Some(id) } else { None });
         let known: Vec<Id> = columns.iter().map(|c| c.value).chain(curves).collect();
         let mut ids = Vec::new();
@@ -112,7 +117,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// The column of a path that is known to be sound.
-    fn quiet(&mut self, path: &str) -> Option<Column> {
+    pub(super) fn quiet(&mut self, path: &str) -> Option<Column> {
         if let Some(Entity::Measure(i)) = self.name_space.names.get(path) {
             let (symbol, _) = self.name_space.measures.get(*i).copied().flatten()?;
             return Some(Column { name: path.to_owned(), dimension: symbol.dimension, value: symbol.id });
@@ -203,11 +208,12 @@ impl<'n> Decoder<'n> {
         columns
     }
 
-    pub(super) fn plots(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Vec<Plot> {
+    pub(super) fn plots(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>, files: &DataFiles) -> Vec<Plot> {
         let section = at.key(asked);
         let mut plots = Vec::new();
         for (name, value) in asked.entries() {
             let here = section.key(name);
+            let faults = self.faults.len();
             let keys = PlotKeys::of(value);
             let (list, list_at) = if value.is_list() { (Some(value), here) } else { (keys.show.node, here.key(keys.show)) };
             let mut show = Vec::new();
@@ -235,7 +241,17 @@ impl<'n> Decoder<'n> {
                 None => frame.features.independent,
             };
             let unit = self.plot_unit(keys.unit, &here, axis);
-            plots.push(Plot { name: name.to_owned(), show, over, unit });
+            let x = self.plot_axis(keys.x, &here, axis.as_slice(), frame);
+            let unit = unit.or_else(|| x.as_ref().and_then(|x| x.unit.clone()));
+            let dimensions: Vec<Dimension> = show.iter().map(|s| s.dimension).collect();
+            let y = self.plot_axis(keys.y, &here, &dimensions, frame);
+            let right = self.plot_right(keys.right, &here, &show, frame);
+            let with = self.plot_with(keys.with, &here, at);
+            let mut plot = Plot { name: name.to_owned(), show, over, unit, x, y, right, with, beside: Vec::new() };
+            if self.faults.len() == faults {
+                plot.beside = self.measured(keys.data, &here, &plot, axis.unwrap_or_default(), files);
+            }
+            plots.push(plot);
         }
         plots
     }
@@ -264,7 +280,7 @@ impl<'n> Decoder<'n> {
         }
     }
 
-    fn plot_unit(&mut self, unit: Entry<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
+    pub(super) fn plot_unit(&mut self, unit: Entry<'n>, at: &At<'_, 'n>, axis: Option<Dimension>) -> Option<(String, f64)> {
         let text = unit.text()?;
         let here = at.key(unit);
         let (factor, dimension) = self.unit(text, &here)?;
@@ -277,7 +293,7 @@ impl<'n> Decoder<'n> {
     }
 
     /// What a name in a figure refers to; several where it stands for several quantities.
-    fn shown(&mut self, text: &str, at: &At<'_, 'n>, frame: &Frame<'n>) -> Vec<Shown> {
+    pub(super) fn shown(&mut self, text: &str, at: &At<'_, 'n>, frame: &Frame<'n>) -> Vec<Shown> {
         let one = |what, dimension| vec![Shown { name: text.to_owned(), what, dimension }];
         if let Some(i) = frame.scalars.iter().position(|(name, _)| name == text) {
             return one(ShownWhat::Scalar(i), frame.scalars[i].1);

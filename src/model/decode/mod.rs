@@ -17,6 +17,7 @@ mod measures;
 mod order;
 mod outside;
 mod pictures;
+mod plots;
 mod scalars;
 mod springs;
 mod start;

@@ -2,11 +2,13 @@
 
 use super::decoder::{Decoder, Origin};
 use crate::expression::{Dimension, Id, Lowered};
+use crate::model::data::DataFiles;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::MOST_RUNS;
+use crate::model::figure::{Plot, ShownWhat};
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
-use crate::model::study::{Plot, ShownWhat, Sweep, Values};
+use crate::model::study::{Sweep, Values};
 use crate::model::suggest;
 use crate::model::suggest::clip;
 use std::ops::Range;
@@ -17,6 +19,8 @@ pub(crate) struct Outside<'o> {
     pub(crate) set: &'o [(usize, Id)],
     /// Swept parameters with the texts of their values.
     pub(crate) over: &'o [(String, String)],
+    /// Measured data of figures.
+    pub(crate) files: &'o DataFiles,
 }
 
 /// An argument as it is shown, `--over l3=0.3,0.4`, and where its value begins.
@@ -233,7 +237,7 @@ pub(super) fn retarget(plots: &mut Vec<Plot>, own: &[Sweep], over: &[Sweep]) {
         plot.show.retain(|s| swept(s.what));
         let gone = plot.over.take_if(|shown| !swept(shown.what)).is_some();
         if gone || plot.over.is_none() && first(own) != first(over) {
-            plot.unit = None;
+            (plot.unit, plot.x) = (None, None);
         }
     }
     plots.retain(|plot| !plot.show.is_empty());

@@ -1,11 +1,12 @@
 //! Studies: kind, parameters, sweep and solve. Columns and figures are in `columns`, scalars and expectations in `scalars`.
 
-use super::columns::{COLUMN, PLOT};
+use super::columns::PLOT;
 use super::decoder::{Check, Decoder};
 use super::frame::Frame;
 use super::kinds::{Features, OF_KINDS};
 use super::outside::{Outside, retarget};
-use super::pictures::{TRACE, VIEW};
+use super::pictures::{SHOW, TRACE, VIEW};
+use super::plots::COLUMN;
 use super::scalars::EXPECT;
 use crate::expression::{Dimension, Id, Symbol};
 use crate::model::fault::{At, Spot};
@@ -79,6 +80,7 @@ keys! {
         plot: may Shape::Named(Keys::Title, "a figure", &Shape::Either(&[Shape::Map(&PLOT), Shape::List(&COLUMN, Size::AtLeast(1))])),
             "Figures.";
         trace: may TRACE, "Points whose paths are drawn; without it those of points that columns name, or of a few that are on no circle.";
+        show: may SHOW, "Forces that the drawing shows as arrows: loads, reactions; or each with its scale, a force per length.";
         view: may VIEW, "In space: where the drawing is seen from, a side or azimuth and elevation; isometric if omitted.";
         expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)),
             "What must come out; if not, exit code 1.";
@@ -161,7 +163,7 @@ impl<'n> Decoder<'n> {
         let columns = self.columns(keys.columns, &at, &mut frame);
         let scalars = self.scalars(keys.scalars, &at, &mut frame);
         let solve = self.solve(keys.solve, &at, &mut frame, &own);
-        let mut plots = self.plots(keys.plot, &at, &mut frame);
+        let mut plots = self.plots(keys.plot, &at, &mut frame, outside.files);
         let (sweep, samples) = if outside.over.is_empty() {
             (own, samples)
         } else {
@@ -170,6 +172,7 @@ impl<'n> Decoder<'n> {
         };
         let trace = self.trace(keys.trace, &at);
         let view = self.view(keys.view, &at);
+        let forces = self.forces(keys.show, &at, &frame);
         let expect = self.expectations(keys.expect, &at, &mut frame);
         let undefined = self.may_be_undefined(keys.undefined, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
@@ -218,6 +221,7 @@ impl<'n> Decoder<'n> {
             plots,
             trace,
             view,
+            forces,
             expect,
             place: self.place(&at),
         });

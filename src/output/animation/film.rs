@@ -99,12 +99,18 @@ impl<'a> Film<'a> {
             tip.iter().for_each(|tip| over.circle(*tip, TIP, Some(trail.color), None));
         }
         if let Some(time) = &self.shot.time {
-            let last = time.last().copied().unwrap_or_default();
-            let digits = (2.0 - last.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
-            let at = [0.5 * self.sheet.width, self.sheet.height - 19.0];
-            over.text(at, format!("{:.digits$} s", time[index]), LETTERS, Anchor::Middle);
+            over.items.push(self.clock(time[index], time.last().copied().unwrap_or_default()));
         }
         over.items
+    }
+
+    /// A time below the mechanism, with the digits that those up to the last one need, s.
+    pub(super) fn clock(&self, time: f64, last: f64) -> Item {
+        let digits = (2.0 - last.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+        let mut over = Sheet::default();
+        let at = [0.5 * self.sheet.width, self.sheet.height - 19.0];
+        over.text(at, format!("{time:.digits$} s"), LETTERS, Anchor::Middle);
+        over.items.remove(0)
     }
 }
 

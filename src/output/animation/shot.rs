@@ -69,6 +69,11 @@ impl Shot {
         Ok(Self { at, time, rate: asked.rate, seconds: steps as f64 / asked.rate, repeats: asked.repeats, steps, clock })
     }
 
+    /// The time of the motion at so many even steps, s, if it has one; shape steps + 1.
+    pub(super) fn times(&self, steps: usize) -> Option<Vec<f64>> {
+        self.clock.real.then(|| (0..=steps).map(|k| self.clock.time(k as f64 / steps as f64)).collect())
+    }
+
     /// The independent variable at so many even steps, from the beginning to the end; shape steps + 1.
     pub(super) fn places(&self, steps: usize) -> Vec<f64> {
         (0..=steps).map(|k| self.clock.place(k as f64 / steps as f64)).collect()

@@ -14,6 +14,8 @@ use std::fmt::Write;
 const RATE: f64 = 25.0;
 /// Pictures a second of a flip-book.
 const FLIPS: f64 = 12.5;
+/// Times a second.
+const READ: f64 = 10.0;
 /// Width of a path.
 const PATH: f64 = 2.4;
 
@@ -34,6 +36,7 @@ pub fn moving_svg(film: &Film<'_>, width: usize) -> String {
         None => flip_book(&mut out, film, &timing),
     }
     film.trails.iter().for_each(|trail| grow(&mut out, trail, &timing));
+    clock(&mut out, film, &timing);
     out.push_str("</svg>\n");
     out
 }
@@ -83,20 +86,37 @@ fn flip_book(out: &mut String, film: &Film<'_>, timing: &str) {
     // what returns and repeats shows its first picture once
     let count = if film.count() == film.shot().steps { steps } else { steps + 1 };
     for (k, x) in places.iter().take(count).enumerate() {
-        let [from, to] = [k, k + 1].map(|k| short_time(k as f64 / count as f64));
-        let (times, values) = match k {
-            0 => (format!("0;{to}"), "inline;none"),
-            k if k + 1 == count => (format!("0;{from}"), "none;inline"),
-            _ => (format!("0;{from};{to}"), "none;inline;none"),
-        };
-        let first = if k == 0 { "" } else { " display=\"none\"" };
-        let _ = writeln!(
-            out,
-            "<g{first}><animate attributeName=\"display\" calcMode=\"discrete\" {timing} keyTimes=\"{times}\" values=\"{values}\"/>"
-        );
-        film.mechanism(*x).iter().for_each(|item| write_item(out, item, ""));
-        out.push_str("</g>\n");
+        flip(out, &film.mechanism(*x), [k, count], timing);
     }
+}
+
+/// The time, in steps that can be read.
+fn clock(out: &mut String, film: &Film<'_>, timing: &str) {
+    let steps = (film.shot().seconds * READ.min(film.shot().rate)).round().max(1.0) as usize;
+    let Some(times) = film.shot().times(steps) else { return };
+    let last = times.last().copied().unwrap_or_default();
+    let count = if film.count() == film.shot().steps { steps } else { steps + 1 };
+    for (k, time) in times.iter().take(count).enumerate() {
+        flip(out, &[film.clock(*time, last)], [k, count], timing);
+    }
+}
+
+/// Items that are shown in the k-th of `count` even parts of the whole.
+fn flip(out: &mut String, items: &[Item], [k, count]: [usize; 2], timing: &str) {
+    let [from, to] = [k, k + 1].map(|k| short_time(k as f64 / count as f64));
+    let (times, values) = match k {
+        _ if count == 1 => ("0".into(), "inline"),
+        0 => (format!("0;{to}"), "inline;none"),
+        k if k + 1 == count => (format!("0;{from}"), "none;inline"),
+        _ => (format!("0;{from};{to}"), "none;inline;none"),
+    };
+    let first = if k == 0 { "" } else { " display=\"none\"" };
+    let _ = writeln!(
+        out,
+        "<g{first}><animate attributeName=\"display\" calcMode=\"discrete\" {timing} keyTimes=\"{times}\" values=\"{values}\"/>"
+    );
+    items.iter().for_each(|item| write_item(out, item, ""));
+    out.push_str("</g>\n");
 }
 
 fn short_time(x: f64) -> String {

@@ -1,9 +1,12 @@
-//! Springs, dampers and rods: one thin rod that is placed, turned and stretched.
+//! Springs, dampers and rods: one thin rod, and one coil, that are placed, turned and stretched.
 
 use super::mesh::{Mesh, V, cross, length, minus};
 use super::shapes::Builder;
 use crate::results::Scene;
 use crate::results::scene::LinkKind;
+
+/// Coils of a spring.
+const COILS: usize = 8;
 
 /// A link over all frames.
 #[derive(Clone, Debug)]
@@ -13,6 +16,8 @@ pub(super) struct Moving {
     /// Unit quaternions x, y, z, w.
     pub(super) turns: Vec<[f64; 4]>,
     pub(super) scales: Vec<V>,
+    /// Whether it is a coil.
+    pub(super) coil: bool,
 }
 
 /// The links that are seen.
@@ -31,7 +36,8 @@ pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
                 turns.push(if back { turn.map(|x| -x) } else { turn });
             }
             let scales = ends.iter().map(|[a, b]| [1.0, 1.0, length(minus(*b, *a)).max(1e-9)]).collect();
-            Moving { name: link.name.clone(), places: ends.iter().map(|[a, _]| *a).collect(), turns, scales }
+            let coil = matches!(link.kind, LinkKind::Spring | LinkKind::SpringDamper);
+            Moving { name: link.name.clone(), places: ends.iter().map(|[a, _]| *a).collect(), turns, scales, coil }
         })
         .collect()
 }
@@ -40,6 +46,14 @@ pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
 pub(super) fn unit(builder: &Builder<'_>) -> Mesh {
     let mut mesh = Mesh::default();
     mesh.tube([0.0; 3], [0.0, 0.0, 1.0], builder.thin());
+    mesh
+}
+
+/// The spring: a coil of 1 m along z about a thin rod.
+pub(super) fn unit_coil(builder: &Builder<'_>) -> Mesh {
+    let mut mesh = Mesh::default();
+    mesh.coil(COILS, 2.6 * builder.thin(), 0.7 * builder.thin());
+    mesh.tube([0.0; 3], [0.0, 0.0, 1.0], 0.35 * builder.thin());
     mesh
 }
 

@@ -35,12 +35,17 @@ pub fn write_gltf(model: &str, study: &str, name: &str, scene: &Scene, shot: &Sh
     let unit = file.meshes.len();
     let moving = links::moving(scene, &frames);
     if let (false, Some(first)) = (moving.is_empty(), frames.first()) {
-        file.mesh("link", &[(&links::unit(&Builder::new(scene, first)), scene.bodies.len() + 1)]);
+        let builder = Builder::new(scene, first);
+        file.mesh("link", &[(&links::unit(&builder), scene.bodies.len() + 1)]);
+        if moving.iter().any(|link| link.coil) {
+            file.mesh("spring", &[(&links::unit_coil(&builder), scene.bodies.len() + 1)]);
+        }
     }
     for link in moving {
         let tracks =
             [("translation", file.floats(&link.places)), ("rotation", file.floats(&link.turns)), ("scale", file.floats(&link.scales))];
-        let node = json!({ "name": link.name, "mesh": unit, "translation": link.places[0], "rotation": link.turns[0],
+        let mesh = unit + usize::from(link.coil);
+        let node = json!({ "name": link.name, "mesh": mesh, "translation": link.places[0], "rotation": link.turns[0],
             "scale": link.scales[0] });
         file.moving(node, times, &tracks);
     }

@@ -4,8 +4,10 @@ use super::mesh::{Mesh, V, length, minus, plus};
 use crate::output::view::across;
 use std::f64::consts::{PI, TAU};
 
-/// Faces around something round.
+/// Faces around something round, around a wire, and along one of its coils.
 const AROUND: usize = 24;
+const WIRE: usize = 6;
+const TURN: usize = 20;
 
 /// An outline in the plane.
 pub(super) type Outline = Vec<[f64; 2]>;
@@ -46,6 +48,28 @@ impl Mesh {
         }
         self.face(&(0..AROUND).map(|k| at(to, k)).collect::<Vec<_>>());
         self.face(&(0..AROUND).rev().map(|k| at(from, k)).collect::<Vec<_>>());
+    }
+
+    /// A wire wound about z from 0 to 1 m, with so many coils.
+    pub(super) fn coil(&mut self, coils: usize, radius: f64, wire: f64) {
+        let steps = coils * TURN;
+        let place = |k: usize| {
+            let (s, c) = (TAU * k as f64 / TURN as f64).sin_cos();
+            ([c, s, 0.0], [radius * c, radius * s, k as f64 / steps as f64])
+        };
+        // across the wire: outwards, and along z, as its slope is small
+        let normal = |k: usize, side: usize| {
+            let (out, _) = place(k);
+            let (s, c) = (TAU * (side % WIRE) as f64 / WIRE as f64).sin_cos();
+            [c * out[0], c * out[1], s]
+        };
+        let at = |k: usize, side: usize| plus(place(k).1, wire, normal(k, side));
+        for k in 0..steps {
+            for side in 0..WIRE {
+                let corners = [(k, side), (k + 1, side), (k + 1, side + 1), (k, side + 1)];
+                self.curved(&corners.map(|(k, side)| at(k, side)), &corners.map(|(k, side)| normal(k, side)));
+            }
+        }
     }
 
     /// A ball.

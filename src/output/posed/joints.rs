@@ -3,7 +3,7 @@
 use super::Posed;
 use crate::output::pose::{Placement, Symbol, SymbolKind};
 use crate::output::view::{across, cross, dot};
-use crate::results::scene::{Joint, Shape};
+use crate::results::scene::{Joint, Place, Shape};
 
 impl Posed<'_> {
     pub(super) fn joints(&self) -> impl Iterator<Item = Symbol> {
@@ -32,9 +32,28 @@ impl Posed<'_> {
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
             way: joint.stroke.filter(|_| slides).map(|ends| ends.map(on_way)),
             across: across(about).map(|e| self.view.flat(e)),
+            clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
             sense: if joint.driven { self.sense(joint, slides) } else { 0.0 },
             stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),
         }
+    }
+
+    /// How far the outlines of the body that slides reach from the way to its lower side, m.
+    fn clear(&self, poses: &[f64], joint: &Joint, axis: [f64; 3]) -> f64 {
+        let upright = axis[0].abs() <= 1e-6;
+        let sign = if if upright { axis[1] < 0.0 } else { axis[0] < 0.0 } { -1.0 } else { 1.0 };
+        let lower = [sign * axis[1], -sign * axis[0]];
+        let from = self.flat(poses, &joint.b);
+        let reach = |at: &[f64]| {
+            let [x, y] = self.flat(poses, &Place { body: joint.b.body, at: at.to_vec() });
+            lower[0] * (x - from[0]) + lower[1] * (y - from[1])
+        };
+        let of = |shape: &Shape| match shape {
+            Shape::Polygon { points } => points.iter().map(|p| reach(p)).fold(0.0, f64::max),
+            Shape::Disc { center, radius, .. } | Shape::Sphere { center, radius } => reach(center) + radius,
+            _ => 0.0,
+        };
+        self.scene.bodies[joint.b.body].shapes.iter().map(of).filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
     /// The direction in the plane that the second body has on a stop: from the hinge to its middle.

@@ -1,5 +1,6 @@
 //! The drawing of a scene: its shown frames in the plane of the picture.
 
+mod forces;
 mod forms;
 mod gears;
 mod joints;
@@ -18,7 +19,8 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let frames = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
     let posed = Posed { scene, view: view(scene), frames };
     let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
-    Drawing { title: title(model, study, name, &scene.caption), traces, ..posed.positions() }
+    let forces = posed.forces().collect();
+    Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
 }
 
 /// The drawing of a scene in given poses, without title and paths.
@@ -38,7 +40,8 @@ pub(super) fn view(scene: &Scene) -> View {
 /// What stands above the picture.
 pub(super) fn title(model: &str, study: &str, name: &str, caption: &str) -> String {
     let name = if name == "mechanism" { String::new() } else { name.replace('-', " ") };
-    let after: Vec<&str> = [name.as_str(), caption].into_iter().filter(|part| !part.is_empty()).collect();
+    let caption = crate::output::units::pretty(caption);
+    let after: Vec<&str> = [name.as_str(), caption.as_str()].into_iter().filter(|part| !part.is_empty()).collect();
     let before = [model, study].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ");
     if after.is_empty() { before } else { format!("{before}: {}", after.join(", ")) }
 }
@@ -60,6 +63,7 @@ impl Posed<'_> {
             links: self.links().collect(),
             gears: self.gears().collect(),
             traces: Vec::new(),
+            forces: Vec::new(),
             axes: (self.scene.dimensions == 3).then_some(axes),
         }
     }
@@ -98,6 +102,7 @@ impl Posed<'_> {
             Link {
                 name: link.name.clone(),
                 kind,
+                grounded: [&link.a, &link.b].map(|end| end.body == 0),
                 poses: self.frames.iter().map(ends).collect(),
                 turned: self.frames.iter().map(turned).collect(),
             }

@@ -99,7 +99,8 @@ impl ReportRuns {
 }
 
 fn shows(plot: &Plot, name: &str) -> bool {
-    plot.show.iter().chain(&plot.over).any(|shown| shown == name)
+    let right = plot.right.iter().flat_map(|right| &right.show);
+    plot.show.iter().chain(&plot.over).chain(right).any(|shown| shown == name)
 }
 
 fn is_spatial(scenes: &[(String, Scene)]) -> bool {

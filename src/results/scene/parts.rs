@@ -88,6 +88,8 @@ pub struct Gear {
     pub b: Wheel,
     /// Whether the second one is a rack.
     pub rack: bool,
+    /// Whether a belt joins them, so that they do not touch.
+    pub belt: bool,
 }
 
 /// A pitch circle, or the pitch line of a rack.
@@ -116,8 +118,14 @@ pub struct Arrow {
     pub at: Vec<f64>,
     /// Names of the columns with its world components, if the table has them.
     pub columns: Vec<String>,
-    /// World components for each frame, flat, N or N m; may be empty.
+    /// World components for each frame, flat, N or N m; of a torque in the plane the third one alone; may be empty.
     pub values: Vec<f64>,
+    /// The body in whose axes the force is given; 0 is the world.
+    pub frame: usize,
+    /// Unit directions in that body of the components that are given.
+    pub axes: Vec<Vec<f64>>,
+    /// Force per length with which it is drawn, N/m, if the study says so.
+    pub scale: Option<f64>,
 }
 
 /// What an arrow means.
@@ -128,7 +136,7 @@ pub enum ArrowKind {
     Load,
     /// The force in a joint.
     Reaction,
-    /// A torque.
+    /// A torque about the place.
     Torque,
 }
 

@@ -18,6 +18,8 @@ pub struct Case<'a> {
     pub integrator: Option<&'a OwnIntegrator>,
     /// Where rows go as they are computed; none: they are all kept.
     pub rows: Option<Streamed<'a>>,
+    /// Whether its drawings are wanted, whose frames take time.
+    pub drawn: bool,
 }
 
 /// Who takes the rows of a motion as they are computed, and what is kept of them.
@@ -30,10 +32,16 @@ pub struct Streamed<'a> {
 }
 
 impl<'a> Case<'a> {
-    /// A study of a model at values of its parameters, by the integrator that it names.
+    /// A study of a model at values of its parameters, by the integrator that it names, with its drawings.
     #[must_use]
     pub fn new(model: &'a Model, study: &'a Study, parameters: &'a [f64]) -> Self {
-        Case { model, study, parameters, integrator: None, rows: None }
+        Case { model, study, parameters, integrator: None, rows: None, drawn: true }
+    }
+
+    /// The same without drawings.
+    #[must_use]
+    pub fn undrawn(self) -> Self {
+        Case { drawn: false, ..self }
     }
 
     /// The value of an expression of parameters, SI.

@@ -12,6 +12,7 @@ pub(crate) mod pieces;
 pub(crate) mod recorder;
 pub(crate) mod scene;
 mod selection;
+pub mod settings;
 pub(crate) mod stops;
 pub mod switching;
 pub mod watched;

@@ -1,10 +1,11 @@
 //! An outcome with names: the [`Results`] of one run.
 
 use super::outcome::Outcome;
-use super::watched::extra_curves;
+use super::scene::fill_arrows;
+use super::watched::{extra_curves, of_pictures};
 use crate::expression::{Dimension, parse_unit};
-use crate::model::{Kind, Model, Shown, ShownWhat, Study};
-use crate::results::{By, Column, LinearSystem, Plot, Results, Scalar, ShownIn, Table};
+use crate::model::{self, Kind, Model, Shown, ShownWhat, Study};
+use crate::results::{By, Column, LinearSystem, Plot, PlotAxis, PlotBeside, PlotRight, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
 #[must_use]
@@ -12,6 +13,8 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
     let columns = study.columns.iter();
     let scalars = scalars(model, study, &outcome);
     let (table, curves) = tables(model, study, &mut outcome);
+    let columns_of = |name: &str| table.columns.iter().chain(&curves).find(|c| c.name == name).map(|c| c.values.as_slice());
+    outcome.scenes.iter_mut().for_each(|(_, scene)| fill_arrows(study, scene, &outcome.places, &columns_of));
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
@@ -34,7 +37,7 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
         certificate: outcome.certificate,
         solution: None,
         scenes: outcome.scenes,
-        plots: plots(study),
+        plots: plots(model, study),
         statistics: Vec::new(),
         runs: Vec::new(),
     }
@@ -63,15 +66,30 @@ pub(crate) fn parameters(model: &Model, values: impl Iterator<Item = f64>) -> Ve
     model.parameters.iter().zip(values).map(|(p, x)| scalar(model, &p.name, p.dimension, x, By::File)).collect()
 }
 
-/// The figures of a study.
-pub(crate) fn plots(study: &Study) -> Vec<Plot> {
+/// The figures of a study; the ends of their axes are those for the parameters of the file.
+pub(crate) fn plots(model: &Model, study: &Study) -> Vec<Plot> {
     let of_run = |s: &Shown| matches!(s.what, ShownWhat::Column(_));
-    let plot = |p: &crate::model::Plot| Plot {
+    let values = super::case::parameters(model);
+    let range = |axis: &model::PlotAxis| axis.ends.map(|end| end.map(|id| model.pool.value(id, &values)).filter(|x| x.is_finite()));
+    let axis = |axis: &model::PlotAxis| PlotAxis { si: axis.dimension.si(), unit: axis.unit.clone(), range: range(axis) };
+    let names = |show: &[Shown]| show.iter().map(|s| s.name.clone()).collect();
+    let beside = |curve: &model::Beside| PlotBeside {
+        label: curve.label.clone(),
+        of: curve.of.clone(),
+        x: curve.points.iter().map(|p| p.0).collect(),
+        y: curve.points.iter().map(|p| p.1).collect(),
+        measured: curve.measured,
+    };
+    let plot = |p: &model::Plot| Plot {
         name: p.name.clone(),
-        show: p.show.iter().map(|s| s.name.clone()).collect(),
+        show: names(&p.show),
         over: p.over.as_ref().map(|s| s.name.clone()),
         unit: p.unit.clone(),
         of_runs: !p.show.iter().chain(&p.over).all(of_run),
+        range: p.x.as_ref().map(range).unwrap_or_default(),
+        y: p.y.as_ref().map(axis),
+        right: p.right.as_ref().map(|(show, of)| PlotRight { show: names(show), axis: axis(of) }),
+        beside: p.beside.iter().map(beside).collect(),
     };
     study.plots.iter().map(plot).collect()
 }
@@ -97,13 +115,28 @@ fn tables(model: &Model, study: &Study, outcome: &mut Outcome) -> (Table, Vec<Co
     let rows = std::mem::take(&mut outcome.rows);
     let values = |k: usize| if k < rows.width() { rows.column(k).collect() } else { Vec::new() };
     let columns = study.columns.iter().enumerate().map(|(k, c)| column(model, &c.name, c.dimension, values(k))).collect();
-    let shown = study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over));
-    let named = |id| shown.clone().find(|s| s.what == ShownWhat::Column(id));
+    let named = |id| of_pictures(study).find(|s| s.what == ShownWhat::Column(id));
     let extra = extra_curves(study).into_iter().enumerate();
     let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(model, &s.name, s.dimension, values(study.columns.len() + k))));
-    let curves = curves.collect();
+    let mut curves: Vec<Column> = curves.collect();
+    curves.extend(aliases(study, &curves).into_iter().map(|(s, k)| column(model, &s.name, s.dimension, values(k))));
     let (switches, selected_from) = (std::mem::take(&mut outcome.switches), outcome.selected_from);
     (Table { columns, switches, selected_from, reasons: None }, curves)
+}
+
+/// What pictures show under another name than that of the column with its values, and where among the rows these are.
+fn aliases<'s>(study: &'s Study, curves: &[Column]) -> Vec<(&'s Shown, usize)> {
+    let mut found: Vec<(&Shown, usize)> = Vec::new();
+    let known = |name: &str| study.columns.iter().any(|c| c.name == name) || curves.iter().any(|c| c.name == name);
+    for shown in of_pictures(study) {
+        let ShownWhat::Column(id) = shown.what else { continue };
+        if known(&shown.name) || found.iter().any(|(other, _)| other.name == shown.name) {
+            continue;
+        }
+        let place = study.columns.iter().map(|c| c.value).chain(extra_curves(study)).position(|value| value == id);
+        found.extend(place.map(|place| (shown, place)));
+    }
+    found
 }
 
 /// The outputs in the state of a linearised motion, one row.

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use crate::expression::Id;
-use crate::model::{Functional, FunctionalKind, Model, Quantity, ShownWhat, Study};
+use crate::model::{Functional, FunctionalKind, Model, Plot, Quantity, Shown, ShownWhat, Study};
 use crate::numerics::extremum::Extremes;
 use crate::numerics::resolve::Resolved;
 use crate::results::Finding;
@@ -46,11 +46,16 @@ impl Watched {
     }
 }
 
-/// Expressions that only figures show, in the order in which [`Outcome::rows`](crate::studies::common::outcome::Outcome::rows) carries them behind the columns.
+/// What figures and drawings show.
+pub(crate) fn of_pictures(study: &Study) -> impl Iterator<Item = &Shown> + Clone {
+    study.plots.iter().flat_map(Plot::all).chain(study.forces.iter().flat_map(|f| &f.components))
+}
+
+/// Expressions that only figures and drawings show, in the order in which [`Outcome::rows`](crate::studies::common::outcome::Outcome::rows) carries them behind the columns.
 #[must_use]
 pub fn extra_curves(study: &Study) -> Vec<Id> {
     let mut extra = Vec::new();
-    for shown in study.plots.iter().flat_map(|p| p.show.iter().chain(&p.over)) {
+    for shown in of_pictures(study) {
         if let ShownWhat::Column(id) = shown.what
             && study.columns.iter().all(|c| c.value != id)
             && !extra.contains(&id)

@@ -27,7 +27,7 @@ use super::common::clock::Clock;
 use super::common::functional::Functionals;
 use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
-use super::common::scene::{MECHANISM, Span, Subject};
+use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
@@ -109,7 +109,7 @@ where
     let Kept { places, switches, rows, selected_from } = rows.recorded();
     let span = Span { ends: [from, to], ..Span::default() };
     let subject = Subject { case, mechanism: &phases.first().mechanism };
-    let scene = subject.over(span, &mut |t| Some((t, pose(&mut trajectory, &breaks, t)?)));
+    let scenes = scene::wanted(case, || subject.over(span, &mut |t| Some((t, pose(&mut trajectory, &breaks, t)?))));
     Ok(Outcome {
         stopped,
         undefined,
@@ -126,7 +126,7 @@ where
         findings: phases.start.findings().chain(findings).collect(),
         certificate,
         events,
-        scenes: vec![(MECHANISM.into(), scene)],
+        scenes,
         ..Outcome::default()
     })
 }

@@ -15,7 +15,7 @@ mod probe;
 use super::common::case::Case;
 use super::common::case::parameters_with;
 use super::common::numbers::Sources;
-use super::common::scene::{MECHANISM, Subject};
+use super::common::scene::{self, Subject};
 use super::dynamics::explain::massless;
 use super::statics::equilibrium;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
@@ -63,7 +63,7 @@ where
         Whole { q: start.q.clone(), v: start.v.clone(), z, modes }
     };
     let ids: Vec<Id> = study.columns.iter().map(|c| c.value).collect();
-    let scene = pose(case, &mechanism, &at);
+    let scenes = scene::wanted(case, || pose(case, &mechanism, &at));
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };
     let names = Names::new(&bench);
     let (base, reduced) = bench.linear(&lifted, &mut at, &names)?;
@@ -96,7 +96,7 @@ where
         extremes: vec![None; study.columns.len()],
         findings,
         certificate: Certificate { evaluations: 1, ..Certificate::default() },
-        scenes: vec![(MECHANISM.into(), scene)],
+        scenes,
         ..Outcome::default()
     })
 }

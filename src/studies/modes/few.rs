@@ -78,7 +78,11 @@ where
         drawn = found.iter().map(|d: &Damped| d.shape.map(|x| x.re)).collect();
     }
     let close = |phi: &[f64]| held.partition.follow(&DMatrix::from_column_slice(phi.len(), 1, phi)).as_slice().to_vec();
-    let scenes = drawn.iter().take(DRAWN).map(|x| picture::picture(case, &mechanism, pose, &(&held.partition.p * x), close)).collect();
+    let scenes = drawn
+        .iter()
+        .take(if case.drawn { DRAWN } else { 0 })
+        .map(|x| picture::picture(case, &mechanism, pose, &(&held.partition.p * x), close))
+        .collect();
     Ok(report.outcome(case, &mechanism, &frequencies, held.residual, scenes))
 }
 

@@ -88,7 +88,11 @@ where
     }
     let mut closing = pencil.closing();
     let mut close = |phi: &[f64]| closing.as_mut().map_or_else(|| vec![0.0; mechanism.nv], |kkt| Pencil::closed(kkt, phi));
-    let scenes = vectors.into_iter().take(DRAWN).map(|x| picture(case, &mechanism, pose, &DVector::from_vec(x), &mut close)).collect();
+    let scenes = vectors
+        .into_iter()
+        .take(if case.drawn { DRAWN } else { 0 })
+        .map(|x| picture(case, &mechanism, pose, &DVector::from_vec(x), &mut close))
+        .collect();
     Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
 }
 

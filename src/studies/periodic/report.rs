@@ -21,7 +21,7 @@ use crate::studies::common::functional::Functionals;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::recorder::{Recorded, Recorder};
-use crate::studies::common::scene::{MECHANISM, Span, Subject};
+use crate::studies::common::scene::{self, Span, Subject};
 use crate::studies::common::watched::{Watched, in_variable, unresolved};
 use crate::studies::dynamics::phases::Phases;
 use crate::studies::dynamics::setup::resolution;
@@ -116,12 +116,14 @@ impl<'a> Regime<'a> {
         let span = Span { ends: [times[0], times[times.len() - 1]], turns: true, ..Span::default() };
         let over = asked.over.is_some().then_some(columns.over).flatten();
         let mut out = vec![0.0; trajectory.columns()];
-        let scene = Subject { case, mechanism: &phases.mechanism }.over(span, &mut |t| {
+        let subject = Subject { case, mechanism: &phases.mechanism };
+        let mut at = |t: f64| {
             let Some([value, _]) = over else { return Some((t, pose(trajectory, &times, t)?)) };
             let piece = times.partition_point(|b| *b <= t).clamp(1, times.len() - 1) - 1;
             trajectory.row(t, piece, &mut out).ok()?;
             Some((out[value], trajectory.system(piece).dynamics.poses()))
-        });
+        };
+        let scenes = scene::wanted(case, || subject.over(span, &mut at));
         let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
@@ -149,7 +151,7 @@ impl<'a> Regime<'a> {
                 ..energy::residuals(&mut lap.trajectory, (of_rows.len(), some), lap.certificate)
             },
             events: lap.events,
-            scenes: vec![(MECHANISM.into(), scene)],
+            scenes,
             ..Outcome::default()
         })
     }

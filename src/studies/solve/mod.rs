@@ -8,6 +8,7 @@ mod search;
 mod task;
 
 use super::common::case::{Case, parameters_with};
+use super::common::settings::Drawn;
 use super::run::run;
 use crate::model::Study;
 use crate::results::{Failure, Finding};
@@ -47,14 +48,14 @@ pub struct Solved {
 pub fn solve(task: &Task<'_>) -> Result<(Outcome, Solved), Failure> {
     let trials = Trials::new(task);
     let f = |x: f64| trials.residual(x);
-    let mut search = Search::new(&f, task.threads);
+    let mut search = Search::new(&f, task.settings.threads);
     let zero = search.zero().map_err(|Interrupted| Failure::interrupted())?;
     let (jumps, gaps) = (search.jumps.first().copied(), search.gaps.first().copied());
     let words = Explain { task, log: trials.log(), place: &|x| trials.parameter(x) };
     let Some(zero) = zero else {
         // a model that is wrong for all values is told as it would be without `solve`
         if words.log.iter().all(|run| run.why.is_some()) {
-            trials.outcome(0.0)?;
+            trials.outcome(0.0, false)?;
         }
         return Err(Failure::Unsolved(words.missed(jumps, gaps)));
     };
@@ -94,24 +95,24 @@ impl<'a> Trials<'a> {
         log
     }
 
-    /// The run at a place.
-    fn outcome(&self, x: f64) -> Result<(Outcome, f64), Failure> {
+    /// The run at a place, with its drawing or without.
+    fn outcome(&self, x: f64, drawn: bool) -> Result<(Outcome, f64), Failure> {
         let Task { model, study, solve, set, .. } = *self.task;
         let set = [set, &[(solve.parameter, self.parameter(x))]].concat();
         let values = parameters_with(model, &set);
         let target = model.pool.value(solve.target.1, &values);
-        let outcome = run(Case::new(model, study, &values), self.task.stop)?;
+        let outcome = run(Case { drawn, ..Case::new(model, study, &values) }, self.task.settings.stop)?;
         Ok((outcome, target))
     }
 
     /// f at a place; NaN where there is no value.
     fn residual(&self, x: f64) -> Result<f64, Interrupted> {
-        if (self.task.stop)() {
+        if (self.task.settings.stop)() {
             return Err(Interrupted);
         }
         let name = &self.task.solve.target.0;
-        let result = self.outcome(x);
-        if (self.task.stop)() {
+        let result = self.outcome(x, false);
+        if (self.task.settings.stop)() {
             return Err(Interrupted);
         }
         let (scalar, target, why) = match &result {
@@ -140,10 +141,11 @@ impl<'a> Trials<'a> {
 
     fn solution(self, zero: &Zero) -> Result<(Outcome, Solved), Failure> {
         let log = self.log();
-        let kept = lock(&self.nearest).take().filter(|(_, x, _)| *x == zero.at);
+        let drawn = self.task.settings.drawn != Drawn::None;
+        let kept = lock(&self.nearest).take().filter(|(_, x, _)| *x == zero.at && !drawn);
         let outcome = match kept {
             Some((_, _, outcome)) => outcome,
-            None => self.outcome(zero.at)?.0,
+            None => self.outcome(zero.at, drawn)?.0,
         };
         let there = log.iter().find(|run| run.x == zero.at);
         let (found, target) = there.map_or((f64::NAN, f64::NAN), |run| (run.scalar, run.target));

@@ -1,6 +1,7 @@
 //! What is asked of a `solve`, and the runs that were made for it.
 
 use crate::model::{Model, Solve, Study};
+use crate::studies::common::settings::Settings;
 
 /// What is asked of a study, and who is told.
 pub struct Task<'a> {
@@ -12,10 +13,8 @@ pub struct Task<'a> {
     pub solve: &'a Solve,
     /// Other parameters with their values, as of a sweep.
     pub set: &'a [(usize, f64)],
-    /// Threads for runs that do not depend on each other.
-    pub threads: usize,
-    /// Whether to end early.
-    pub stop: &'a (dyn Fn() -> bool + Sync),
+    /// How runs are made; of all of them the solution alone is drawn.
+    pub settings: Settings<'a>,
     /// Is told the parameter and the scalar of each run, from any thread.
     pub done: &'a (dyn Fn(f64, f64) + Sync),
 }

@@ -415,6 +415,9 @@ where
     fn scenes(&mut self, begin: &Pose, all: &[Found]) -> Vec<(String, Scene)> {
         /// Poses in one drawing.
         const DRAWN: usize = 6;
+        if !self.case.drawn {
+            return Vec::new();
+        }
         let mut bodies = |pose: &Pose| {
             self.rest.show(pose);
             self.rest.system.dynamics.poses()

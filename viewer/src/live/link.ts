@@ -23,6 +23,9 @@ export interface State {
   moved: boolean;
   values: Movable[];
   studies: StudyState[];
+  /** What is known of the model, and the study in view, where the page has older ones. */
+  head?: Data;
+  result?: Study;
 }
 
 const token = new URLSearchParams(location.search).get('token') ?? '';
@@ -34,10 +37,11 @@ async function get<T>(path: string, query = ''): Promise<T> {
   return await answer.json() as T;
 }
 
-/** What is newer than a version; the answer waits until there is something. */
-export const state = (after: number) => get<State>('/state', `after=${after}&`);
-
-export const model = () => get<Data>('/model');
+/** What is newer than a version, with the model and the study in view if these are newer than the page has them; the answer waits until there is something. */
+export function state(after: number, model: number, name: string | undefined, has: number): Promise<State> {
+  const viewed = name === undefined ? '' : `study=${encodeURIComponent(name)}&has=${has}&`;
+  return get<State>('/state', `after=${after}&model=${model}&${viewed}`);
+}
 
 export const study = (name: string) => get<{ version: number; study: Study }>('/study', `name=${encodeURIComponent(name)}&`);
 

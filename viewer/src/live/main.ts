@@ -2,7 +2,7 @@
 
 import { h } from '../dom';
 import { Page } from '../page';
-import { type State, type StudyState, model, state, study, tell } from './link';
+import { type State, type StudyState, state, study, tell } from './link';
 import { Notices, isOld } from './notices';
 import { Values } from './values';
 
@@ -25,7 +25,8 @@ class Live {
   async follow(): Promise<never> {
     for (;;) {
       try {
-        await this.take(await state(this.known?.version ?? 0));
+        const name = this.page?.inView;
+        await this.take(await state(this.known?.version ?? 0, this.model, name, this.shown.get(name ?? '') ?? 0));
       } catch (error) {
         this.say('off', error instanceof TypeError ? 'not connected' : String(error instanceof Error ? error.message : error));
         this.known = this.known && { ...this.known, version: 0 };
@@ -36,8 +37,14 @@ class Live {
 
   private async take(next: State): Promise<void> {
     this.known = next;
-    if (next.model !== this.model && next.model > 0) {
-      const data = { ...await model(), studies: [] };
+    // first what a reader waits for
+    const { result } = next;
+    if (result && this.page) {
+      this.shown.set(result.study, next.studies.find((s) => s.name === result.study)?.version ?? 0);
+      this.page.put(result);
+    }
+    if (next.head) {
+      const data = { ...next.head, studies: [] };
       this.notices.file = data.model.path;
       if (this.page) this.page.setModel(data);
       else this.begin(next, data);

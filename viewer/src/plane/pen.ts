@@ -42,6 +42,12 @@ export class Pen {
     on.fillText(text, x, y);
   }
 
+  /** Width of a text, pixels. */
+  width(text: string, size = 12): number {
+    this.on.font = `${size}px system-ui, sans-serif`;
+    return this.on.measureText(text).width;
+  }
+
   /** An arrow with a slender head. */
   arrow(from: Point, to: Point, color: string, width = 2): void {
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);

@@ -13,6 +13,11 @@ const BAR = 15;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
+/** Left, top, right, bottom. */
+type Box = [number, number, number, number];
+const overlap = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+/** Names of one place that stand side by side. */
+const TOGETHER = 3;
 
 export class Plane implements Renderer {
   private readonly pen: Pen;
@@ -23,6 +28,8 @@ export class Plane implements Renderer {
   private shift: Point = [0, 0];
   private middle: Point = [0, 0];
   private place = 0;
+  /** On which side of their places names stand. */
+  private readonly sides = new Map<string, number>();
   private inks!: Inks;
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
@@ -65,7 +72,11 @@ export class Plane implements Renderer {
     const { scene } = this.motion;
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
-    scene.gears.forEach(({ a, b, rack }, k) => {
+    scene.gears.forEach(({ a, b, rack, belt }, k) => {
+      if (belt) {
+        signs.belt(pen, this.point(a), Math.abs(a.radius) * this.scale, this.point(b), Math.abs(b.radius) * this.scale, inks);
+        return;
+      }
       const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
       for (const wheel of rack ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, place), wheel.radius < 0, color(wheel.body), inks);
       if (rack) signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), 0.1 * width * (k + 1), inks);
@@ -74,9 +85,37 @@ export class Plane implements Renderer {
     scene.joints.forEach((joint) => this.sliding(joint));
     scene.links.forEach(({ kind, a, b }) => signs.link(pen, kind, this.point(a), this.point(b), inks));
     scene.joints.forEach((joint) => this.sign(joint));
-    if (options.names) scene.joints.forEach((joint) => joint.kind !== 'distance' && pen.text(joint.name, off(this.point(joint.b), [1, 0], 9, -8), inks.soft, inks.paper));
+    if (options.names) this.names();
     for (const kind of options.arrows) this.drawArrows(kind, options.scale * Math.min(width, height));
     this.bar(height);
+  }
+
+  /** Names of joints, one text to a place. */
+  private names(): void {
+    const places: { at: Point; names: string[] }[] = [];
+    for (const { kind, name, b } of this.motion.scene.joints) {
+      if (kind === 'distance') continue;
+      const at = this.point(b);
+      const known = places.find((place) => Math.hypot(place.at[0] - at[0], place.at[1] - at[1]) < 4);
+      if (known) known.names.push(name);
+      else places.push({ at, names: [name] });
+    }
+    const taken: Box[] = places.map(({ at: [x, y] }) => [x - 5, y - 5, x + 5, y + 5]);
+    for (const { at: [x, y], names } of places) {
+      const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
+      const width = this.pen.width(text);
+      // to the right and upwards first, where a name is looked for
+      const boxes = [[9, -8], [9, 16], [-9 - width, -8], [-9 - width, 16], [-width / 2, -14], [-width / 2, 22], [24, 4], [-24 - width, 4]]
+        .map(([dx, dy]): Box => [x + dx!, y + dy! - 10, x + dx! + width, y + dy! + 2]);
+      const free = (k: number) => !taken.some((other) => overlap(boxes[k]!, other));
+      // where it stood it stays while it can
+      const before = this.sides.get(text) ?? 0;
+      const side = free(before) ? before : Math.max(0, boxes.findIndex((_, k) => free(k)));
+      this.sides.set(text, side);
+      const box = boxes[side]!;
+      taken.push(box);
+      this.pen.text(text, [box[0], box[3] - 2], this.inks.soft, this.inks.paper);
+    }
   }
 
   private pixel(x: number, y: number): Point {

@@ -120,3 +120,14 @@ export function rack(pen: Pen, at: Point, along: Point, reach: number, inks: Ink
   for (let s = -reach, k = 0; s < reach; s += 4, k++) points.push(off(at, along, s, k % 4 < 2 ? 3 : -3));
   pen.path(points).stroke(inks.soft, 1.5);
 }
+
+/** A belt around two wheels: their outer tangents, and the arcs between these. */
+export function belt(pen: Pen, a: Point, ra: number, b: Point, rb: number, inks: Inks): void {
+  const toward = Math.atan2(b[1] - a[1], b[0] - a[0]);
+  const lean = Math.acos(Math.min(Math.max((ra - rb) / (Math.hypot(b[0] - a[0], b[1] - a[1]) || 1), -1), 1));
+  const arc = ([x, y]: Point, radius: number, from: number, to: number) => Array.from({ length: 33 }, (_, k): Point => {
+    const angle = toward + from + ((to - from) * k) / 32;
+    return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+  });
+  pen.path([...arc(a, ra, lean, 2 * Math.PI - lean), ...arc(b, rb, -lean, lean)], true).stroke(inks.soft, 2.6);
+}

@@ -19,13 +19,16 @@ const RAISED = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 /** The unit for numbers up to `largest`, with a prefix or a power of ten, and what values are multiplied by. */
 export function scaled(unit: string, largest: number): { unit: string; factor: number } {
   const plain = { unit: pretty(unit), factor: 1 };
-  if ((unit === 'deg' && largest >= 1e-2) || (largest >= 1e-2 && largest < 1e4) || largest === 0 || !Number.isFinite(largest)) return plain;
+  const symbol = /^[\p{L}]*/u.exec(plain.unit)![0];
+  const whole = !/^[²³⁻^]/.test(plain.unit.slice(symbol.length));
+  // 0.010 m are 10 mm; a power of ten is no gain there
+  const least = whole && ['N', 'J', 'W', 'Pa', 'Hz', 'm', 's'].includes(symbol) ? 0.1 : 1e-2;
+  if ((unit === 'deg' && largest >= 1e-2) || (largest >= least && largest < 1e4) || largest === 0 || !Number.isFinite(largest)) return plain;
   const power = Math.floor((Math.log10(largest) + 0.3) / 3) * 3;
   const factor = 10 ** -power;
-  const symbol = /^[\p{L}]*/u.exec(plain.unit)![0];
   const fits = ['N', 'J', 'W', 'Pa', 'Hz'].includes(symbol) || (['m', 's'].includes(symbol) && power < 0);
   const prefix = PREFIXES.find(([known]) => known === power);
-  if (fits && prefix && !/^[²³⁻^]/.test(plain.unit.slice(symbol.length))) return { unit: prefix[1] + plain.unit, factor };
+  if (fits && prefix && whole) return { unit: prefix[1] + plain.unit, factor };
   const raised = [...String(Math.abs(power))].map((c) => RAISED[Number(c)]).join('');
   return { unit: `10${power < 0 ? '⁻' : ''}${raised} ${plain.unit}`.trim(), factor };
 }

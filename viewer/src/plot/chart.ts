@@ -2,6 +2,7 @@
 
 import { s } from '../dom';
 import { heading } from '../numbers';
+import type { Ends } from '../types';
 import { type Axis, axis, over, scaled } from './axis';
 
 export interface Curve {
@@ -13,6 +14,9 @@ export interface Curve {
   color: number;
   dash: number;
   shown: boolean;
+  /** Whether it is drawn over the axis on the right, and whether by its points alone. */
+  right?: boolean;
+  dots?: boolean;
 }
 
 export interface Figure {
@@ -23,6 +27,10 @@ export interface Figure {
   breaks: number[];
   equal: boolean;
   ordered: boolean;
+  /** Ends of the axes that the study gives, as shown: across, of the curves of a unit, and on the right. */
+  range?: Ends;
+  ranges?: { unit: string; range: Ends }[];
+  right?: { label: string; unit: string; range: Ends };
 }
 
 export interface View {
@@ -33,7 +41,8 @@ export interface View {
   y: [number, number] | null;
 }
 
-export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; factor: number; unit: string }
+interface Scaled { axis: Axis; factor: number; unit: string; own: string }
+export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled }
 export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#6b6b6b'];
@@ -54,27 +63,54 @@ export function color(index: number, count: number): string {
 /** Where everything stands. */
 export function layout(figure: Figure, view: View): Layout {
   const shown = figure.curves.filter((curve) => curve.shown);
-  const units = [...new Set(figure.curves.map((curve) => curve.unit))];
+  const units = [...new Set(figure.curves.filter((curve) => !curve.right).map((curve) => curve.unit))];
   const largest = (values: Iterable<number>) => {
     let most = 0;
     for (const x of values) if (Math.abs(x) > most && Number.isFinite(x)) most = Math.abs(x);
     return most;
   };
   const horizontal = scaled(figure.x.unit, largest(all(figure.curves, 'x')));
-  const x = view.x ? over(...view.x, figure.x.unit, false, 80) : axis(all(figure.curves, 'x'), figure.x.unit, false, figure.ordered, 80);
+  const given = view.x ?? null;
+  const x = given ? over(...given, figure.x.unit, false, 80) : limited(figure.range, figure.x.unit, false, 80, axis(all(figure.curves, 'x'), figure.x.unit, false, figure.ordered, 80));
   const height = units.length > 1 ? 170 : 250;
   const panels = units.map((unit, k): Panel => {
-    const curves = shown.filter((curve) => curve.unit === unit);
-    const { unit: name, factor } = scaled(unit, largest(all(curves, 'y')));
-    const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : axis(within(curves, view.x), unit, view.log, false, 44);
-    return { curves, top: 12 + k * (height + 18), height, y: own, factor, unit: name };
+    const left = shown.filter((curve) => curve.unit === unit && !curve.right);
+    const others = k === 0 ? shown.filter((curve) => curve.right) : [];
+    const seen = view.x ?? [x.low, x.high];
+    const fitted = () => limited(figure.ranges?.find((r) => r.unit === unit)?.range, unit, view.log, 44, axis(within(left, seen), unit, view.log, false, 44));
+    const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : fitted();
+    const { unit: name, factor } = scaled(unit, Math.max(largest(all(left, 'y')), figure.ranges?.some((r) => r.unit === unit) ? Math.abs(own.high) : 0));
+    const right = k === 0 && figure.right ? scaledRight(figure.right, others, seen) : undefined;
+    return { curves: [...left, ...others], top: 12 + k * (height + 18), height, y: own, factor, unit: name, ...(right && { right }) };
   });
   const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
+  const beside = panels.flatMap(({ right, height: room }) => (right ? scaledTicks(right.axis, right.factor, right.own, room).map((tick) => tick.text.length) : []));
+  const aside = beside.length > 0 ? 34 + LETTER * Math.max(1, ...beside) : 14;
   const left = Math.min(34 + LETTER * Math.max(1, ...labels), view.width / 3);
   const bottom = panels[panels.length - 1];
-  const out: Layout = { left, right: view.width - 14, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, xFactor: horizontal.factor, panels };
+  const out: Layout = { left, right: view.width - aside, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, xFactor: horizontal.factor, panels };
   if (figure.equal && panels.length === 1) equalise(out, panels[0]!, figure, view);
   return out;
+}
+
+/** An axis with the ends that are given. */
+function limited(range: Ends | undefined, unit: string, log: boolean, gap: number, fitted: Axis): Axis {
+  const [low, high] = range ?? [null, null];
+  if (low === null && high === null) return fitted;
+  const ends = [low ?? fitted.low, high ?? fitted.high].sort((a, b) => a - b) as [number, number];
+  return over(...ends, unit, log, gap);
+}
+
+/** The axis on the right for its curves. */
+function scaledRight({ unit, range }: { unit: string; range: Ends }, curves: Curve[], seen: [number, number]): Scaled {
+  const fitted = limited(range, unit, false, 44, axis(within(curves, seen), unit, false, false, 44));
+  const { unit: name, factor } = scaled(unit, Math.max(Math.abs(fitted.low), Math.abs(fitted.high)));
+  return { axis: fitted, factor, unit: name, own: unit };
+}
+
+/** The vertical axis of a curve. */
+export function axisOf(panel: Panel, curve: Curve): { axis: Axis } {
+  return curve.right && panel.right ? panel.right : { axis: panel.y };
 }
 
 /** Ticks in the unit that is shown. */
@@ -109,7 +145,10 @@ function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
 }
 
 /** The line of a curve; points that cannot be told apart are left out. */
-function path({ x, y }: Curve, { left, right, x: across }: Layout, { top, height, y: up }: Panel): string {
+function path(curve: Curve, { left, right, x: across }: Layout, panel: Panel): string {
+  const { x, y } = curve;
+  const { top, height } = panel;
+  const up = axisOf(panel, curve).axis;
   let [out, pen, px, py] = ['', false, NaN, NaN];
   const n = x.length;
   for (let i = 0; i < n; i++) {
@@ -117,6 +156,10 @@ function path({ x, y }: Curve, { left, right, x: across }: Layout, { top, height
     const v = top + (1 - up.part(y[i]!)) * height;
     if (!Number.isFinite(u + v)) {
       pen = false;
+      continue;
+    }
+    if (curve.dots) {
+      out += `M${clamp(u)} ${clamp(v)}h0`;
       continue;
     }
     if (pen && Math.abs(u - px) + Math.abs(v - py) < 0.4 && i + 1 < n && Number.isFinite(y[i + 1]!)) continue;
@@ -157,13 +200,22 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
     }
     svg.append(s('path', { d: `M${left} ${top}V${top + height}H${right}`, fill: 'none', stroke: 'var(--line)' }));
     const lines = panel.curves.map((curve) =>
-      s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': 1.8, 'stroke-linejoin': 'round', 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
+      s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': curve.dots ? 5 : 1.8, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt', 'stroke-dasharray': (!curve.dots && DASHES[curve.dash % DASHES.length]) || 'none' }));
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
-    const name = figure.y || (panel.curves.length === 1 ? panel.curves[0]!.label : '');
+    const own = panel.curves.filter((curve) => !curve.right);
+    const name = figure.y || (own.length === 1 ? own[0]!.label : '');
     const text = heading(name, panel.unit) || '';
     const upright = label(text, 0, 0, 'middle');
     upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);
     svg.append(upright);
+    if (panel.right && figure.right) {
+      const { axis: of, factor, unit, own: plain } = panel.right;
+      for (const { at, text: tick } of scaledTicks(of, factor, plain, height)) svg.append(label(tick, right + 7, top + (1 - of.part(at)) * height + 4, 'start'));
+      svg.append(s('path', { d: `M${right} ${top}V${top + height}`, stroke: 'var(--line)' }));
+      const side = label(heading(figure.right.label, unit), 0, 0, 'middle');
+      side.setAttribute('transform', `translate(${out.width - 4} ${top + height / 2}) rotate(-90)`);
+      svg.append(side);
+    }
   }
   const unit = scaled(figure.x.unit, figure.x.unit === '' ? 1 : 1 / out.xFactor).unit;
   svg.append(label(heading(figure.x.label, unit), (left + right) / 2, out.height - 8, 'middle'));

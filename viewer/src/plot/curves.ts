@@ -1,8 +1,8 @@
 // Which curves a figure has, from the results of a study.
 
-import { type Fine, column, drawn, fine, places, valueAt } from '../curves';
+import { column, drawn, fineOf, places, valueAt } from '../curves';
 import { pretty, shownIn } from '../numbers';
-import type { Column, Plot, Results, Study } from '../types';
+import type { Column, Ends, Num, Plot, PlotAxis, Results, Study } from '../types';
 import type { Curve, Figure } from './chart';
 
 /** Switches that are marked by lines in a figure, at most. */
@@ -21,18 +21,67 @@ export interface Drawable {
   runs: number[];
 }
 
-const resolved = new WeakMap<Results, Fine>();
+/** A curve whose points are computed when they are first asked for. */
+class Later implements Curve {
+  shown = true;
+  private points: { x: number[]; y: number[] } | null = null;
 
-function fineOf(results: Results): Fine {
-  let known = resolved.get(results);
-  if (!known) resolved.set(results, (known = fine(results)));
-  return known;
+  constructor(readonly label: string, readonly unit: string, readonly color: number, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
+
+  get dash(): number {
+    return this.color;
+  }
+
+  get x(): number[] {
+    return (this.points ??= this.make()).x;
+  }
+
+  get y(): number[] {
+    return (this.points ??= this.make()).y;
+  }
 }
 
 /** Runs with their labels; of a study of one run that one. */
 function runsOf(study: Study): { label: string; results: Results; index: number }[] {
   if (!study.table.reasons) return [{ label: '', results: study, index: 0 }];
   return study.runs.flatMap(({ label, results }, index) => (results && results.independent.values.length > 0 ? [{ label, results, index }] : []));
+}
+
+/** Names that a figure shows, and whether over the axis on the right. */
+function sides({ show, right }: Plot): { name: string; right: boolean }[] {
+  return [...show.map((name) => ({ name, right: false })), ...(right?.show ?? []).map((name) => ({ name, right: true }))];
+}
+
+/** The unit of a column: that of an axis for its quantity, else as columns are shown. */
+function unitOf(of: Pick<Column, 'unit' | 'shown_in'>, axis: PlotAxis | null): { unit: string; size: number } {
+  if (axis?.unit && axis.si === of.unit) return { unit: axis.unit[0], size: axis.unit[1] };
+  return shownIn(of);
+}
+
+/** Adds curves that do not come from the study. */
+function beside(plot: Plot, size: number, found: (name: string) => Column | undefined, curves: Curve[]): void {
+  for (const { label, of, x, y, measured } of plot.beside) {
+    const like = found(of);
+    if (!like) continue;
+    const right = plot.right?.show.includes(of) ?? false;
+    const { unit, size: high } = unitOf(like, right ? plot.right!.axis : plot.y);
+    const by = (values: Num[], part: number) => values.map((v) => (v ?? NaN) / part);
+    curves.push(new Later(label, unit, curves.length, () => ({ x: by(x, size), y: by(y, high) }), right, measured));
+  }
+}
+
+/** Ends of axes, as shown. */
+function ranges(plot: Plot, size: number, found: (name: string) => Column | undefined): Pick<Figure, 'range' | 'ranges' | 'right'> {
+  const ends = (range: Ends, by: number) => range.map((end) => (end === null ? null : end / by)) as Ends;
+  const { y, right } = plot;
+  const own = y && unitOf({ unit: y.si, shown_in: plot.show.map(found).find((c) => c?.unit === y.si)?.shown_in ?? null }, y);
+  const other = right && found(right.show[0] ?? '');
+  const of = other ? unitOf(other, right.axis) : null;
+  return {
+    range: ends(plot.range, size),
+    ranges: y && own ? [{ unit: own.unit, range: ends(y.range, own.size) }] : [],
+    ...(right && of && { right: { label: right.show.length === 1 ? right.show[0]! : right.show.join(', '), unit: of.unit, range: ends(right.axis.range, of.size) } }),
+  };
 }
 
 /** A figure that a study asks for, or a reader; none if nothing of it is there. */
@@ -50,31 +99,34 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
     if (!horizontal) continue;
     over ??= horizontal;
     const size = plot.unit?.[1] ?? shownIn(horizontal).size;
-    const grid = fineOf(results);
-    const x = (plot.over ? drawn(horizontal.values, grid) : places(grid)).map((v) => v / size);
-    for (const name of plot.show) {
+    let x: number[] | null = null;
+    const across = () => (x ??= (plot.over ? drawn(horizontal.values, fineOf(results)) : places(fineOf(results))).map((v) => v / size));
+    const value = (values: Column['values'], at: number) => valueAt(fineOf(results), values, at);
+    for (const { name, right } of sides(plot)) {
       const vertical = column(results, name);
       if (!vertical) continue;
-      const { unit, size: high } = shownIn(vertical);
-      const y = drawn(vertical.values, grid).map((v) => v / high);
-      const text = !several ? name : plot.show.length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
-      curves.push({ label: text, unit, x, y, color: curves.length, dash: curves.length, shown: true });
-      points.push((at) => [(plot.over ? valueAt(results, horizontal.values, at) : at) / size, valueAt(results, vertical.values, at) / high]);
+      const { unit, size: high } = unitOf(vertical, right ? plot.right!.axis : plot.y);
+      const text = !several ? name : sides(plot).length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
+      curves.push(new Later(text, unit, curves.length, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
+      points.push((at) => [(plot.over ? value(horizontal.values, at) : at) / size, value(vertical.values, at) / high]);
       numbers.push(index);
     }
   }
   if (!over || curves.length === 0) return null;
   const [unit, size] = plot.unit ?? [shownIn(over).unit, shownIn(over).size];
+  beside(plot, size, (name) => column(runs[0]!.results, name), curves);
   const first = runs[0]!.results;
   const marked = !several && !plot.over && first.table.switches.length <= MOST_MARKED;
-  const plane = plot.over !== null && over.unit === 'm' && curves.every((curve) => curve.unit === unit);
+  const free = !plot.right && !plot.y?.range.some((end) => end !== null) && !plot.range.some((end) => end !== null);
+  const plane = free && plot.over !== null && over.unit === 'm' && curves.every((curve) => curve.unit === unit);
   const figure: Figure = {
     x: { label: over.name, unit },
-    y: several && plot.show.length === 1 ? plot.show[0]! : '',
+    y: (several || plot.beside.length > 0) && plot.show.length === 1 ? plot.show[0]! : '',
     curves,
     breaks: marked ? first.table.switches.map((row) => (first.independent.values[row] ?? NaN) / size) : [],
     equal: plane,
     ordered: plot.over === null,
+    ...ranges(plot, size, (name) => column(first, name)),
   };
   return { name: plot.name, figure, moves: plot.over === null, size, points, runs: numbers };
 }
@@ -85,12 +137,14 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
   if (!over) return null;
   const [unit, size] = plot.unit ?? [shownIn(over).unit, shownIn(over).size];
   const x = over.values.map((v) => (v ?? NaN) / size);
-  const shown = plot.show.flatMap((name) => columns.find((c) => c.name === name) ?? []);
-  const curves = shown.map((c, k): Curve => {
-    const { unit: own, size: high } = shownIn(c);
-    return { label: c.name, unit: own, x, y: c.values.map((v) => (v ?? NaN) / high), color: k, dash: k, shown: true };
+  const found = (name: string) => columns.find((c) => c.name === name);
+  const shown = sides(plot).flatMap(({ name, right }) => (found(name) ? [{ c: found(name)!, right }] : []));
+  const curves: Curve[] = shown.map(({ c, right }, k): Curve => {
+    const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
+    return new Later(c.name, own, k, () => ({ x, y: c.values.map((v) => (v ?? NaN) / high) }), right);
   });
   if (curves.length === 0) return null;
-  const figure: Figure = { x: { label: over.name, unit }, y: '', curves, breaks: [], equal: false, ordered: true };
+  beside(plot, size, found, curves);
+  const figure: Figure = { x: { label: over.name, unit }, y: '', curves, breaks: [], equal: false, ordered: true, ...ranges(plot, size, found) };
   return { name: plot.name, figure, moves: false, size, points: [], runs: [] };
 }

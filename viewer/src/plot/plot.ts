@@ -3,7 +3,8 @@
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
 import { digits, heading, words } from '../numbers';
-import { type Layout, type View, DASHES, color, draw, layout } from './chart';
+import { type Curve, type Layout, type View, DASHES, axisOf, color, draw, layout } from './chart';
+import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
 
@@ -23,8 +24,16 @@ export class PlotView {
   /** A place on the horizontal axis at which the values are shown; none: at the time of the motion. */
   private cursor: number | null = null;
 
-  constructor(private readonly of: Drawable, private readonly study: string, private readonly clock: Clock, remove?: () => void, kept?: PlotKept) {
+  /** Whether what is drawn is out of date, and whether it is in view or near. */
+  private stale = false;
+  private near = true;
+
+  constructor(private of: Drawable, readonly plot: Plot, private readonly study: string, private readonly clock: Clock, remove?: () => void, kept?: PlotKept) {
     const { figure, name } = of;
+    const keeper = new IntersectionObserver(([seen]) => {
+      this.near = seen?.isIntersecting ?? true;
+      if (this.near) this.refresh();
+    }, { rootMargin: '200px' });
     if (kept) this.view = { ...kept.view, width: 0 };
     for (const curve of figure.curves) if (kept?.hidden.includes(curve.label)) curve.shown = false;
     const title = words(name);
@@ -37,13 +46,33 @@ export class PlotView {
     const tools = h('div', { class: 'tools' },
       log,
       button('whole', `${title}: whole range`, () => this.reset()),
-      button('SVG', `${title}: save as SVG`, () => saveSvg(file, this.title(), figure, this.view)),
-      button('CSV', `${title}: save as CSV`, () => saveCsv(file, figure)),
+      button('SVG', `${title}: save as SVG`, () => saveSvg(file, this.title(), this.of.figure, this.view)),
+      button('CSV', `${title}: save as CSV`, () => saveCsv(file, this.of.figure)),
       remove && button(icon('M4 4l8 8M12 4l-8 8'), `${title}: remove`, remove));
     this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage);
     this.stage.setAttribute('aria-label', `${title}; arrow keys move the cursor, + and − zoom, escape shows the whole range`);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.stage);
+    keeper.observe(this.element);
+  }
+
+  /** Takes the figure computed anew, and draws it if it is in view; false if it has other curves. */
+  update(of: Drawable): boolean {
+    const same = (a: Curve, b: Curve | undefined) => a.label === b?.label && a.unit === b.unit;
+    const [before, next] = [this.of.figure.curves, of.figure.curves];
+    if (before.length !== next.length || !before.every((curve, k) => same(curve, next[k]))) return false;
+    next.forEach((curve, k) => (curve.shown = before[k]!.shown));
+    this.of = of;
+    this.stale = true;
+    if (this.near) this.refresh();
+    return true;
+  }
+
+  /** Draws what is out of date; tells whether there was anything to draw. */
+  refresh(): boolean {
+    const { stale } = this;
+    if (stale) this.draw();
+    return stale;
   }
 
   /** The name of the figure, and what a reader has chosen in it. */
@@ -54,7 +83,7 @@ export class PlotView {
 
   /** Draws the time of the motion. */
   tick(): void {
-    if (this.overlay && this.cursor === null) this.mark();
+    if (this.overlay && !this.stale && this.cursor === null) this.mark();
   }
 
   private title(): string {
@@ -67,12 +96,13 @@ export class PlotView {
       const value = h('output', { class: 'value' });
       this.values.push(value);
       const line = s('svg', { width: 22, height: 8, 'aria-hidden': 'true' },
-        s('path', { d: 'M1 4h20', stroke: color(k, curves.length), 'stroke-width': 2.4, 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
+        curve.dots ? s('path', { d: 'M4 4h0M11 4h0M18 4h0', stroke: color(k, curves.length), 'stroke-width': 5, 'stroke-linecap': 'round' }) : s('path', { d: 'M1 4h20', stroke: color(k, curves.length), 'stroke-width': 2.4, 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
       const entry = h('button', { type: 'button', 'aria-pressed': String(curve.shown), title: 'show or hide', click: () => {
-        curve.shown = !curve.shown;
-        entry.setAttribute('aria-pressed', String(curve.shown));
+        const own = this.of.figure.curves[k]!;
+        own.shown = !own.shown;
+        entry.setAttribute('aria-pressed', String(own.shown));
         this.draw();
-      } }, line, h('span', {}, curve.label), value);
+      } }, line, h('span', {}, curve.right ? `${curve.label} (right)` : curve.label), value);
       return entry;
     });
     return h('div', { class: 'legend' }, ...entries);
@@ -88,6 +118,7 @@ export class PlotView {
 
   private draw(): void {
     if (this.view.width === 0) return;
+    this.stale = false;
     this.place = layout(this.of.figure, this.view);
     const svg = draw(this.of.figure, this.view, this.place, this.title());
     this.overlay = s('g', { class: 'overlay' });
@@ -119,7 +150,7 @@ export class PlotView {
       const panel = panels.find((p) => p.curves.includes(curve));
       this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${heading('', curve.unit).replace(/^ \[|\]$/g, '')}`.trim() : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
-      const [px, py] = [across.part(point[0]), panel.y.part(point[1])];
+      const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
       if (px < -1e-9 || px > 1 + 1e-9 || py < 0 || py > 1) return;
       this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve.color, figure.curves.length), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });

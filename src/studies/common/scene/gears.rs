@@ -2,11 +2,11 @@
 //!
 //! With both hinges on one carrier, at a distance d, and wheels that turn relative to it by φ_b = ρ φ_a: teeth that run on each other
 //! turn outer gears against each other, ρ < 0, r_a + r_b = d; one with inner teeth turns like the other, ρ > 0, |r_a − r_b| = d; in
-//! both |ρ| = r_a/r_b.
+//! both |ρ| = r_a/r_b. Wheels that turn alike and whose outlines stand apart are joined by a belt, r_a = ρ r_b.
 
 use super::places::numbers;
 use crate::geometry::Space;
-use crate::mechanism::{Joint, Mechanism, RowKind, RowOwner};
+use crate::mechanism::{Joint, Mechanism, Outline, RowKind, RowOwner};
 use crate::results::Scene;
 use crate::results::scene::{Gear, Wheel};
 
@@ -18,7 +18,7 @@ pub(super) fn gears<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene) 
         let of_gauge = |gauge: usize| mechanism.joints.iter().find(|joint| joint.slots.first() == Some(&gauge));
         let (first, second) = (of_gauge(first)?, of_gauge(second)?);
         match (first.kind, second.kind) {
-            ("revolute", "revolute") => pair(&row.label, first, second, ratio),
+            ("revolute", "revolute") => pair(mechanism, &row.label, first, second, ratio),
             ("revolute", "slider") => rack(&row.label, first, second, ratio, scene),
             _ => None,
         }
@@ -51,7 +51,7 @@ impl<G: Space<S = f64>> Hung<G> {
 }
 
 /// Two gears.
-fn pair<G: Space<S = f64>>(name: &str, first: &Joint<G>, second: &Joint<G>, ratio: f64) -> Option<Gear> {
+fn pair<G: Space<S = f64>>(mechanism: &Mechanism<G>, name: &str, first: &Joint<G>, second: &Joint<G>, ratio: f64) -> Option<Gear> {
     let carrier = [first.a.0, first.b.0].into_iter().find(|body| *body == second.a.0 || *body == second.b.0)?;
     let (a, b) = (Hung::on(first, carrier)?, Hung::on(second, carrier)?);
     // in space the axes of both are told in the carrier only if it is the first body of both
@@ -63,8 +63,29 @@ fn pair<G: Space<S = f64>>(name: &str, first: &Joint<G>, second: &Joint<G>, rati
     let along = if G::VECTOR == 3 { G::dot(apart, G::vector(&first.axis)) } else { 0.0 };
     let distance = (G::dot(apart, apart) - along * along).max(0.0).sqrt();
     let turned = ratio * a.sign * b.sign * facing.signum();
+    let reaches = [a.wheel, b.wheel].map(|(body, hinge)| reach(mechanism, body, hinge));
+    if let Some([ra, rb]) = belted(turned, distance, reaches) {
+        return Some(Gear { name: name.into(), a: a.circle(first, ra), b: b.circle(second, rb), rack: false, belt: true });
+    }
     let [ra, rb] = radii(turned, distance)?;
-    Some(Gear { name: name.into(), a: a.circle(first, ra), b: b.circle(second, rb), rack: false })
+    Some(Gear { name: name.into(), a: a.circle(first, ra), b: b.circle(second, rb), rack: false, belt: false })
+}
+
+/// How far the outline of a wheel reaches from its hinge, m; 0 if it has none.
+fn reach<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize, hinge: G::Vector) -> f64 {
+    let body = &mechanism.bodies[body];
+    let round = match body.outline {
+        Some(Outline::Disc { radius, .. }) => radius,
+        _ => 0.0,
+    };
+    body.drawn.iter().map(|at| G::dot(*at - hinge, *at - hinge).sqrt()).fold(round, f64::max)
+}
+
+/// Radii of two wheels under a belt, within their outlines: wheels that turn alike, of which neither is within the other.
+fn belted(ratio: f64, distance: f64, [a, b]: [f64; 2]) -> Option<[f64; 2]> {
+    let apart = ratio > 0.0 && a > 0.0 && b > 0.0 && a + b < distance;
+    let rb = b.min(a / ratio);
+    (apart && rb > 0.0 && rb.is_finite()).then_some([ratio * rb, rb])
 }
 
 /// Radii of two gears, the one with inner teeth negative.
@@ -97,7 +118,7 @@ fn rack<G: Space<S = f64>>(name: &str, pinion: &Joint<G>, slide: &Joint<G>, radi
     let [ex, ey] = [[1.0, 0.0], [0.0, 1.0]].map(|e| scene.direction(poses, moved.wheel.0, &e));
     let own = |v: [f64; 3]| vec![ex[0] * v[0] + ex[1] * v[1], ey[0] * v[0] + ey[1] * v[1]];
     let line = Wheel { body: moved.wheel.0, at: own(std::array::from_fn(|i| touched[i] - origin[i])), radius: 0.0, axis: own(axis) };
-    Some(Gear { name: name.into(), a: wheel.circle(pinion, radius.abs()), b: line, rack: true })
+    Some(Gear { name: name.into(), a: wheel.circle(pinion, radius.abs()), b: line, rack: true, belt: false })
 }
 
 #[cfg(test)]
@@ -111,5 +132,8 @@ mod tests {
         assert_eq!(radii(0.5, 1.0), Some([1.0, -2.0]));
         assert_eq!(radii(1.0, 1.0), None);
         assert_eq!(radii(-1.0, 0.0), None);
+        // a belt: the smaller wheel turns four times as fast
+        assert_eq!(belted(0.25, 0.5, [0.05, 0.16]), Some([0.04, 0.16]));
+        assert_eq!((belted(0.25, 0.1, [0.04, 0.16]), belted(-1.0, 1.0, [0.1, 0.1]), belted(1.0, 1.0, [0.0, 0.1])), (None, None, None));
     }
 }

@@ -1,5 +1,6 @@
 //! The scene of a study: what is drawn of its mechanism, and the poses of its motion.
 
+mod arrows;
 mod frames;
 mod gears;
 mod joints;
@@ -8,6 +9,7 @@ mod places;
 mod shapes;
 mod traces;
 
+pub(crate) use arrows::fill_arrows;
 pub(crate) use frames::Span;
 pub(crate) use places::extent;
 
@@ -21,6 +23,12 @@ use crate::results::scene::Frames;
 
 /// Name of the drawing of a motion.
 pub(crate) const MECHANISM: &str = "mechanism";
+
+/// The drawing of a study, if drawings are wanted of it.
+#[must_use]
+pub(crate) fn wanted(case: Case<'_>, scene: impl FnOnce() -> Scene) -> Vec<(String, Scene)> {
+    if case.drawn { vec![(MECHANISM.into(), scene())] } else { Vec::new() }
+}
 
 /// What is drawn: the mechanism of a run.
 #[derive(Clone, Copy)]
@@ -57,6 +65,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
             ..Scene::default()
         };
         scene.joints = joints::joints(case, mechanism, &scene);
+        scene.arrows = arrows::arrows(case, mechanism);
         scene.gears = gears::gears(mechanism, &scene);
         scene.traces = traces::traces(case, mechanism, &scene);
         scene

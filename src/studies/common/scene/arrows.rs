@@ -1,0 +1,90 @@
+//! Forces that a drawing shows: where they act and in which axes they are given; and their values along the motion.
+
+use super::places::numbers;
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, PointLoad};
+use crate::model::{ForceOn, LoadOn, Shown, ShownForce, Study};
+use crate::results::Scene;
+use crate::results::scene::{Arrow, ArrowKind};
+use crate::studies::common::case::Case;
+
+/// The forces that a study shows, in its order, without values.
+pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Vec<Arrow> {
+    let arrow = |force: &ShownForce| {
+        let scale = force.scale.map(|id| case.value(id));
+        let (kind, (body, at), frame, axes) = match force.on {
+            ForceOn::Reaction(joint) => (ArrowKind::Reaction, mechanism.joints[joint].b, 0, world(G::VECTOR)),
+            ForceOn::Load(load) => {
+                let (place, frame, axes) = load_of(case, mechanism, load);
+                (ArrowKind::Load, place, frame, axes)
+            }
+            ForceOn::Torque(load) => {
+                let (place, frame, axes) = load_of(case, mechanism, load);
+                (ArrowKind::Torque, place, frame, axes)
+            }
+        };
+        // a torque in the plane is about the third axis, which is the same in all bodies
+        let (frame, axes) = if kind == ArrowKind::Torque && G::VECTOR == 2 { (0, vec![vec![0.0, 0.0, 1.0]]) } else { (frame, axes) };
+        let columns =
+            if matches!(force.on, ForceOn::Reaction(_)) { force.components.iter().map(|c| c.name.clone()).collect() } else { Vec::new() };
+        Arrow { name: force.name.clone(), kind, body, at: numbers::<G>(at), columns, values: Vec::new(), frame, axes, scale }
+    };
+    case.study.forces.iter().map(arrow).collect()
+}
+
+/// Where a load acts, the body of its axes, and these in it.
+fn load_of<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, load: usize) -> ((usize, G::Vector), usize, Vec<Vec<f64>>) {
+    let at_points = |loads: &[crate::model::Load]| loads.iter().filter(|load| matches!(load.on, LoadOn::Point { .. })).count();
+    match case.model.loads[load].on {
+        LoadOn::Joint { joint, .. } => {
+            let joint = &mechanism.joints[joint];
+            (joint.b, joint.a.0, vec![joint.axis[..G::VECTOR].to_vec()])
+        }
+        LoadOn::Point { .. } => {
+            // those at points come first, in the order of the file
+            let PointLoad { body, at, frame, axes, .. } = &mechanism.point_loads[at_points(&case.model.loads[..load])];
+            let turned = |axis: Vec<f64>| axes.map_or(axis.clone(), |r| numbers::<G>(G::rotate(r, G::vector(&axis))));
+            ((*body, *at), *frame, world(G::VECTOR).into_iter().map(turned).collect())
+        }
+    }
+}
+
+/// Unit directions of the axes.
+fn world(dimensions: usize) -> Vec<Vec<f64>> {
+    (0..dimensions).map(|i| (0..dimensions).map(|k| f64::from(u8::from(i == k))).collect()).collect()
+}
+
+/// Gives the arrows of a scene their values at its frames: those of the rows at `places`, between rows on straight lines.
+pub(crate) fn fill_arrows<'c>(study: &Study, scene: &mut Scene, places: &[f64], column: &dyn Fn(&str) -> Option<&'c [f64]>) {
+    let mut arrows = std::mem::take(&mut scene.arrows);
+    for (arrow, force) in arrows.iter_mut().zip(&study.forces) {
+        let columns: Option<Vec<&[f64]>> = force.components.iter().map(|Shown { name, .. }| column(name)).collect();
+        let Some(columns) = columns.filter(|columns| !places.is_empty() && columns.iter().all(|c| c.len() == places.len())) else {
+            continue;
+        };
+        let planar_torque = arrow.kind == ArrowKind::Torque && scene.dimensions == 2;
+        let components = if planar_torque { 2..3 } else { 0..scene.dimensions };
+        arrow.values = (0..scene.frames.count())
+            .flat_map(|index| {
+                let poses = scene.frame(index);
+                let mut sum = [0.0; 3];
+                for (values, axis) in columns.iter().zip(&arrow.axes) {
+                    let (value, along) = (between(places, values, scene.frames.at[index]), scene.direction(poses, arrow.frame, axis));
+                    (0..3).for_each(|i| sum[i] += value * along[i]);
+                }
+                sum[components.clone()].to_vec()
+            })
+            .collect();
+    }
+    scene.arrows = arrows;
+}
+
+/// A value between rows at places that rise or fall; beyond them that of the end.
+fn between(places: &[f64], values: &[f64], x: f64) -> f64 {
+    let falls = places.len() > 1 && places[places.len() - 1] < places[0];
+    let sign = if falls { -1.0 } else { 1.0 };
+    let above = places.partition_point(|place| sign * place <= sign * x);
+    let (low, high) = (above.saturating_sub(1), above.min(places.len() - 1));
+    let width = places[high] - places[low];
+    if width == 0.0 { values[low] } else { values[low] + (values[high] - values[low]) * (x - places[low]) / width }
+}

@@ -1,0 +1,112 @@
+//! Figures: their axes, and what they show beside the curves of their study.
+
+use grashof::model::{Document, Report, Selection};
+use grashof::output::{Figure, figures, render_figure};
+use grashof::results::Results;
+use grashof::studies::loader::{Loader, NotLoaded};
+use grashof::studies::sweep::{Drawn, Settings, at, single};
+
+const PRESS: &str = "grashof: 1
+name: press
+space: planar
+gravity: none
+ground: { O: [0, 0] }
+bodies: { crank: { bar: { length: 4 cm, mass: 1 kg } }, rod: { bar: { length: 16 cm, mass: 1 kg } }, ram: {} }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, rod.start] }
+  B: { revolute: [rod.end, ram.origin] }
+  W: { slider: [ground.O, ram.origin], axis: [0, -1] }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 90 deg, rod.angle: ~-90 deg }
+measures: { depth: W.position - 12 cm, rise: depth }
+variants: { fast: { drivers: { drive: { speed: 120 rpm } } } }
+studies:
+  slow:
+    inverse: { over: 1 turn, samples: 36 }
+    columns: [depth, W.velocity]
+    plot: { stroke: PLOT }
+  fast: { variant: fast, inverse: { over: 1 turn, samples: 36 }, columns: [depth, W.velocity] }
+";
+
+/// The text with a figure, read with one file beside it.
+fn document(plot: &str) -> Result<Document, Report> {
+    let files = |path: &str| match path {
+        "lift.csv" => Ok((path.to_owned(), b"angle;lift\n90;0\n270;80\n".to_vec())),
+        _ => Err("there is no such file".to_owned()),
+    };
+    Document::with_files(PRESS.replace("PLOT", plot).as_bytes(), "press.yaml", &files)
+}
+
+fn results(plot: &str) -> Results {
+    let document = document(plot).expect("a model");
+    let selection = Selection { study: Some("slow"), ..Selection::default() };
+    let model = Loader::new(&document, 1).drawn(&selection, &|| false).unwrap_or_else(|why| panic!("{why:?}"));
+    let study = model.study.as_ref().expect("a study");
+    let settings = Settings { threads: 1, drawn: Drawn::None, stop: &|| false };
+    single(&model, study, at(&model, study, Vec::new(), settings, None, &|_, _| {})).unwrap_or_else(|failure| panic!("{failure:?}"))
+}
+
+fn figure(plot: &str) -> Figure {
+    let (_, figure) = figures(&results(plot)).remove(0);
+    render_figure(&figure).expect("a picture");
+    figure
+}
+
+#[test]
+fn axes_have_the_units_and_ends_that_are_asked_for() {
+    let figure = figure(
+        "{ show: [depth], x: { in: deg, from: 0 deg, to: 360 deg }, y: { in: mm, to: 100 mm }, right: { show: [W.velocity], in: mm/s } }",
+    );
+    assert_eq!((figure.x.unit.as_str(), figure.x.range), ("deg", [Some(0.0), Some(360.0)]));
+    assert_eq!(figure.ranges, [("mm".to_owned(), [None, Some(100.0)])]);
+    assert_eq!(figure.right.as_ref().map(|axis| (axis.label.as_str(), axis.unit.as_str())), Some(("W.velocity", "mm/s")));
+    let [depth, velocity] = &figure.curves[..] else { panic!("two curves") };
+    let most = depth.points.iter().map(|p| p.1).fold(0.0, f64::max);
+    assert!((most - 80.0).abs() < 1e-6 && !depth.right && velocity.right, "{most}");
+}
+
+#[test]
+fn other_studies_and_measured_data_stand_beside() {
+    let figure = figure("{ show: [depth], with: [fast], data: { measured: { file: lift.csv, x: angle, y: lift, in: [deg, mm] } } }");
+    let labels: Vec<&str> = figure.curves.iter().map(|curve| curve.label.as_str()).collect();
+    assert_eq!(labels, ["depth", "measured", "depth, fast"]);
+    assert_eq!(figure.curves.iter().map(|curve| curve.dots).collect::<Vec<_>>(), [false, true, false]);
+    // in the unit of the curve whose quantity it is
+    assert!((figure.curves[1].points[1].0 - 270.0).abs() < 1e-9 && (figure.curves[1].points[1].1 - 0.08).abs() < 1e-12);
+    assert_eq!(figure.curves[2].points.len(), 37);
+}
+
+#[test]
+fn a_second_name_of_a_column_is_drawn() {
+    let figure = figure("{ show: [rise], over: W.velocity }");
+    assert_eq!((figure.curves.len(), figure.curves[0].points.len()), (1, 37));
+}
+
+#[test]
+fn faults_of_figures_have_their_places() {
+    let code = |plot: &str| {
+        let document = document(plot).expect("a model");
+        match Loader::new(&document, 1).drawn(&Selection { study: Some("slow"), ..Selection::default() }, &|| false) {
+            Err(NotLoaded::Wrong(report)) => (report.diagnostics[0].code.to_owned(), report.diagnostics[0].line()),
+            other => panic!("{plot}: {:?}", other.map(|_| ())),
+        }
+    };
+    let wanted = [
+        ("{ show: [depth], y: { in: deg } }", "wrong-dimension"),
+        ("{ show: [depth], y: { from: 1 mm, to: 1 mm } }", "equal"),
+        ("{ show: [depth], x: { from: 1 mm } }", "wrong-dimension"),
+        ("{ show: [depth, W.velocity], right: { show: [drive.torque] } }", "wrong-plot"),
+        ("{ show: [depth], with: [slow] }", "unknown-study"),
+        ("{ show: [drive.torque], with: [fast] }", "no-column"),
+        ("{ show: [depth], data: { m: { file: lost.csv } } }", "no-file"),
+        ("{ show: [depth], data: { m: { file: lift.csv, y: force } } }", "no-column"),
+        ("{ show: [depth], data: { m: { file: lift.csv, in: [mm, mm] } } }", "wrong-dimension"),
+        ("{ show: [depth], data: { m: { file: lift.csv, of: rise } } }", "wrong-plot"),
+    ];
+    for (plot, wanted) in wanted {
+        let (found, line) = code(plot);
+        assert_eq!(line, 20, "{plot}: {found}");
+        assert!(found == wanted || wanted == "equal", "{plot}: {found}");
+    }
+}
