@@ -3,7 +3,7 @@
 import { type Child, h } from './dom';
 import { digits, heading, shownIn, valued } from './numbers';
 import { plain } from './table';
-import type { Certificate, Column, Results, Scalar, Solution, Study } from './types';
+import type { Certificate, Column, Results, Scalar, Solution, Statistics, Study } from './types';
 
 export type ShowPlace = (place: string) => void;
 
@@ -87,6 +87,23 @@ function certificate(c: Certificate, results: Results): HTMLElement | null {
   return entries.length === 0 ? null : list(entries);
 }
 
+/** How the numbers of drawn runs are distributed, and what has a part in their variance. */
+function distributions(study: Study): Child[] {
+  const row = (s: Statistics) => {
+    const { unit, size } = shownIn(s);
+    const values = [s.mean, s.deviation, ...s.percentiles, ...s.range];
+    return [heading(s.name, unit), ...values.map((x) => digits(x === null ? null : x / size, 6))];
+  };
+  const varied = study.statistics.filter((s) => s.parts.length > 0);
+  const parameters = varied[0]?.parts.map((p) => p.parameter) ?? [];
+  const share = (x: number | null) => (x === null ? '' : `${digits(100 * x, 3)} %`);
+  return [
+    study.statistics.length === 0 ? null : plain(['', 'mean', 'deviation', '5 %', '25 %', '50 %', '75 %', '95 %', 'least', 'most'], study.statistics.map(row)),
+    varied.length === 0 ? null : h('h4', {}, 'Shares of the variance'),
+    varied.length === 0 ? null : plain(['', ...parameters], varied.map((s) => [s.name, ...s.parts.map((p) => share(p.share))])),
+  ];
+}
+
 function lists(results: Results): Child[] {
   const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), values.map((v) => digits(v, 8)).join(',  ')]);
   const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
@@ -119,6 +136,7 @@ export function facts(study: Study, show: ShowPlace): HTMLElement {
     solution(study.solution),
     scalars(own),
     found && h('div', {}, h('h3', {}, 'Findings'), found),
+    part('Distribution', true, ...distributions(study)),
     part('Modes', true, ...lists(study)),
     part('Results of the kind', false, scalars(rest)),
     part('Matrices', true, ...matrices(study)),

@@ -115,7 +115,21 @@ export interface Results {
   solution: Solution | null;
   scenes: [string, CodedScene][];
   plots: Plot[];
+  statistics: Statistics[];
   rows: RowsShown;
+}
+
+/** How a number is distributed over the runs of a sweep whose values are drawn; percentiles 5, 25, 50, 75, 95. */
+export interface Statistics {
+  name: string;
+  unit: string;
+  shown_in: Column['shown_in'];
+  runs: number;
+  mean: Num;
+  deviation: Num;
+  range: [Num, Num];
+  percentiles: Num[];
+  parts: { parameter: string; slope: Num; share: Num }[];
 }
 
 export interface Run { label: string; results: Results | null; solution: Solution | null }
