@@ -4,14 +4,14 @@
 //! be made than a few states take, so one is kept, in a thread of its own, since it borrows the mechanism; many states have their own.
 
 use crate::errors::raised;
-use crate::interrupt::{Flag, awaited, away};
+use crate::interrupt::{Flag, awaited, away, begin};
 use grashof::api::{Evaluator, Mechanism};
 use grashof::{Error, solvers};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// States for which the evaluator that is kept serves, at most: others wait meanwhile.
 const FEW: usize = 64;
@@ -28,12 +28,12 @@ type Work = Box<dyn FnOnce(&mut Evaluator<'_>) + Send>;
 pub(crate) struct Dynamics {
     mechanism: Arc<Mechanism>,
     /// Where the evaluator that is kept takes its work.
-    kept: OnceLock<Mutex<Sender<Work>>>,
+    kept: Mutex<Option<Sender<Work>>>,
 }
 
 impl Dynamics {
     pub(crate) fn new(mechanism: Mechanism) -> Self {
-        Self { mechanism: Arc::new(mechanism), kept: OnceLock::new() }
+        Self { mechanism: Arc::new(mechanism), kept: Mutex::default() }
     }
 
     /// Evaluates something of each state, `width` numbers, without the lock of the interpreter.
@@ -55,25 +55,30 @@ impl Dynamics {
             let (sender, receiver) = channel();
             let flag = Flag::default();
             let own = Arc::clone(&flag);
-            self.give(Box::new(move |evaluator| drop(sender.send(all(evaluator, &own)))));
+            self.give(Box::new(move |evaluator| drop(sender.send(all(evaluator, &own)))))?;
             awaited(py, receiver, &flag)?
         };
         PyArray1::from_vec(py, done.map_err(|error| raised(py, &error))?).reshape([count, width])
     }
 
-    /// Gives work to the evaluator that is kept.
-    fn give(&self, work: Work) {
-        let kept = self.kept.get_or_init(|| {
-            let (sender, receiver) = channel::<Work>();
-            let mechanism = Arc::clone(&self.mechanism);
-            std::thread::spawn(move || {
-                let mut evaluator = mechanism.evaluator();
-                receiver.iter().for_each(|work| work(&mut evaluator));
-            });
-            Mutex::new(sender)
-        });
+    /// Gives work to the evaluator that is kept; it is made when it is needed first.
+    fn give(&self, work: Work) -> PyResult<()> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let sender = match &mut *kept {
+            Some(sender) => sender,
+            none => {
+                let (sender, receiver) = channel::<Work>();
+                let mechanism = Arc::clone(&self.mechanism);
+                begin(move || {
+                    let mut evaluator = mechanism.evaluator();
+                    receiver.iter().for_each(|work| work(&mut evaluator));
+                })?;
+                none.insert(sender)
+            }
+        };
         // it takes work as long as it is kept
-        let _ = kept.lock().unwrap_or_else(PoisonError::into_inner).send(work);
+        let _ = sender.send(work);
+        Ok(())
     }
 }
 

@@ -12,6 +12,9 @@ const LOOK: Duration = Duration::from_millis(40);
 /// How long a computation that was told to end is waited for.
 const GRACE: Duration = Duration::from_millis(30);
 
+/// Stack of a thread, bytes: as much as that of the program.
+const STACK: usize = 8 << 20;
+
 /// Tells a computation to end.
 pub(crate) type Flag = Arc<AtomicBool>;
 
@@ -24,11 +27,19 @@ pub(crate) fn away<T: Send + 'static>(py: Python<'_>, work: impl FnOnce(&Flag) -
     let flag = Flag::default();
     let (sender, receiver) = channel();
     let own = Arc::clone(&flag);
-    std::thread::spawn(move || {
+    begin(move || {
         // nobody listens any more to what was given up
         let _ = sender.send(work(&own));
-    });
+    })?;
     awaited(py, receiver, &flag)
+}
+
+/// Begins a thread.
+///
+/// # Errors
+/// If the system gives none.
+pub(crate) fn begin(work: impl FnOnce() + Send + 'static) -> std::io::Result<()> {
+    std::thread::Builder::new().stack_size(STACK).spawn(work).map(drop)
 }
 
 /// What comes through a channel; a signal sets the flag.

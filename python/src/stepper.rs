@@ -1,7 +1,7 @@
 //! A motion that is advanced from outside. It lives in a thread of its own, to which calls are sent.
 
 use crate::errors::{raised, refused};
-use crate::interrupt::{Flag, awaited};
+use crate::interrupt::{self, Flag, awaited};
 use grashof::Error;
 use grashof::api::{Stepper as Motion, Stepping};
 use grashof::solvers::State;
@@ -58,13 +58,13 @@ impl Stepper {
         let (begun, begin) = channel();
         let flag = Flag::default();
         let own = Arc::clone(&flag);
-        std::thread::spawn(move || match model.stepping(&study) {
+        interrupt::begin(move || match model.stepping(&study) {
             Ok(stepping) => {
                 let columns = stepping.columns();
                 serve(stepping, &own, &asked, Waiting::First(begun, columns));
             }
             Err(error) => drop(begun.send(Err(error))),
-        });
+        })?;
         let (present, columns) = awaited(py, begin, &flag)?.map_err(|error| raised(py, &error))?;
         Ok(Self { calls: Mutex::new(calls), present: Mutex::new(present), columns, flag })
     }
