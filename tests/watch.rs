@@ -337,3 +337,45 @@ fn it_ends_at_once_and_ports_are_its_own() {
     assert_eq!(status.code(), Some(130));
     assert!(sent.elapsed() < PATIENCE, "{:?}", sent.elapsed());
 }
+
+#[test]
+fn answers_bring_what_a_page_lacks_over_one_connection() {
+    let watch = Watch::new("brings", &["--study", "swing"]);
+    let state = watch.until_done();
+    let (model, swing) = (state["model"].as_u64().unwrap(), study(&state, "swing")["version"].as_u64().unwrap());
+    let mut stream = TcpStream::connect(("127.0.0.1", watch.port)).unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    let mut reader = BufReader::new(stream.try_clone().unwrap());
+    let mut asked = |model: u64, swing: u64| -> Value {
+        let target = watch.with_token(&format!("/state?after=0&model={model}&study=swing&has={swing}"));
+        write!(stream, "GET {target} HTTP/1.1\r\n{}\r\n\r\n", watch.own()).unwrap();
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            reader.read_line(&mut line).unwrap();
+            if let Some(value) = line.to_lowercase().strip_prefix("content-length:") {
+                length = value.trim().parse().unwrap();
+            }
+            if line.trim().is_empty() {
+                break;
+            }
+        }
+        let mut body = vec![0; length];
+        reader.read_exact(&mut body).unwrap();
+        serde_json::from_slice(&body).unwrap()
+    };
+    let all = asked(0, 0);
+    assert_eq!((&all["result"]["study"], &all["head"]["model"]["source"]), (&json!("swing"), &json!(MODEL)));
+    let none = asked(model, swing);
+    assert!(none.get("result").is_none() && none.get("head").is_none(), "{none}");
+}
+
+#[test]
+fn requests_that_could_be_read_in_two_ways_are_refused() {
+    let watch = Watch::new("two-ways", &[]);
+    let (own, target) = (watch.own(), watch.with_token("/back"));
+    for line in ["Content-Length: 2", "Content-Length: 3", "Transfer-Encoding: chunked", "Content-Length : 2"] {
+        assert_eq!(watch.raw("POST", &target, &[&own, line], "{}").0, 400, "{line}");
+    }
+    assert_eq!(watch.raw("GET", &watch.with_token("/model"), &[&own, &format!("X: {}", "a".repeat(20_000))], "").0, 431);
+}

@@ -41,9 +41,12 @@ pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) 
     springs.chain(rods).collect()
 }
 
+/// Two bodies with a place on each.
+type Ends<G> = [(usize, <G as Space>::Vector); 2];
+
 /// The two places between which an expression measures, if its coordinates are those of two points, or of a point and the ground; or
 /// the hinge about which it measures the angle between two bodies.
-fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, id: Id) -> Option<(LinkKind, [(usize, G::Vector); 2])> {
+fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, id: Id) -> Option<(LinkKind, Ends<G>)> {
     let mut points: Vec<PointRef> = Vec::new();
     let mut turned: Vec<usize> = Vec::new();
     for input in model.pool.inputs_of(&[id]) {
@@ -62,7 +65,7 @@ fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, id: Id)
 }
 
 /// Where two bodies turn about one point: a hinge between them, or one of each on a third body.
-fn hinge<G: Space<S = f64>>(mechanism: &Mechanism<G>, a: usize, b: usize) -> Option<[(usize, G::Vector); 2]> {
+fn hinge<G: Space<S = f64>>(mechanism: &Mechanism<G>, a: usize, b: usize) -> Option<Ends<G>> {
     let hinges = || mechanism.joints.iter().filter(|joint| joint.kind == "revolute");
     // the side of a body at a hinge, and the other side
     let sides = |body: usize| hinges().flat_map(|joint| [(joint.a, joint.b), (joint.b, joint.a)]).filter(move |(own, _)| own.0 == body);
