@@ -9,17 +9,17 @@ grashof: 1
 name: slider-crank
 space: planar
 gravity: none
-parameters: { crank: 10 cm, rod: 30 cm, rate: 1 rad/s }
+parameters: { crank: 10 cm, reach: 30 cm }
 bodies:
   wheel: { bar: { length: crank } }
-  rod: { bar: { length: rod } }
+  rod: { bar: { length: reach } }
   piston: { mass: 1 kg, inertia: 1e-3 kg m^2 }
 joints:
   O: { revolute: [ground, wheel.start] }
   A: { revolute: [wheel.end, rod.start] }
   B: { revolute: [rod.end, piston.origin] }
   S: { slider: [ground, piston], axis: [1, 0] }
-drivers: { drive: { joint: O, speed: rate } }
+drivers: { drive: { joint: O, speed: 1 rad/s } }
 start: { O.angle: 10 deg, rod.angle: ~-5 deg, S.position: ~0.4 m }
 studies:
   turn:
@@ -44,7 +44,7 @@ fn column<'r>(results: &'r Results, name: &str) -> &'r [f64] {
 
 #[test]
 fn moments_and_percentiles_are_those_of_the_sum() {
-    let found = swept("{ crank: { normal: [10 cm, 1 mm] }, rod: { uniform: [29 cm, 31 cm] }, samples: 512, seed: 3 }", 2);
+    let found = swept("{ crank: { normal: [10 cm, 1 mm] }, reach: { uniform: [29 cm, 31 cm] }, samples: 512, seed: 3 }", 2);
     assert_eq!(found.runs.len(), 512);
     // twice a normal number
     let stroke = of(&found, "stroke");
@@ -55,7 +55,7 @@ fn moments_and_percentiles_are_those_of_the_sum() {
     // with another one from between two values: variances add up
     let far = of(&found, "far");
     assert!((far.mean - 0.4).abs() < 2e-5 && (far.deviation - (1e-6 + 4e-4_f64 / 12.0).sqrt()).abs() < 3e-5, "{far:?}");
-    assert!(column(&found, "rod").iter().all(|x| (0.29..=0.31).contains(x)));
+    assert!(column(&found, "reach").iter().all(|x| (0.29..=0.31).contains(x)));
     // shares of the variance, and slopes
     assert!((stroke.parts[0].slope - 2.0).abs() < 1e-6 && stroke.parts[0].share > 1.0 - 1e-6, "{stroke:?}");
     let share = 1e-6 / (1e-6 + 4e-4 / 12.0);
@@ -74,9 +74,9 @@ fn a_seed_decides_on_the_runs_and_nothing_else_does() {
 
 #[test]
 fn what_is_drawn_is_the_same_at_each_point_of_the_grid() {
-    let found = swept("{ rod: [30 cm, 35 cm], crank: { uniform: [9 cm, 11 cm] }, samples: 16 }", 2);
+    let found = swept("{ reach: [30 cm, 35 cm], crank: { uniform: [9 cm, 11 cm] }, samples: 16 }", 2);
     let (first, second) = column(&found, "crank").split_at(16);
     assert_eq!(first, second);
     assert!(of(&found, "stroke").parts.is_empty());
-    assert!(column(&found, "rod")[..16].iter().all(|x| *x == 0.3) && column(&found, "rod")[16..].iter().all(|x| *x == 0.35));
+    assert!(column(&found, "reach")[..16].iter().all(|x| *x == 0.3) && column(&found, "reach")[16..].iter().all(|x| *x == 0.35));
 }

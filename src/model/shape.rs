@@ -103,7 +103,7 @@ impl Shapes<'_> {
                 }
             }
             (Shape::CountOf(_, most), Node::Plain(Value::Number(n))) => {
-                if !n.as_u64().is_some_and(|n| n <= *most) {
+                if n.as_u64().is_none_or(|n| n > *most) {
                     self.fault("bad-count", at, format!("found {n}"), outer.expected()).help =
                         Some(format!("write a whole number up to {most}"));
                 }

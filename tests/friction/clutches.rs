@@ -19,7 +19,7 @@ loads: {{ hill: {{ joint: B, torque: \"if(t < 4 s, 0 N m, -60 N m)\" }} }}
 start: {{ A.omega: 40 rad/s, B.omega: 0 rad/s }}
 studies:
   run: {{ dynamics: {{ until: 5 s, every: 10 ms, {settings} }}, columns: [time, A.omega, B.omega, main.torque, main.slip],
-    scalars: {{ nearly: \"first(time > 1 s and main.slip < 0.1 rad/s)\" }} }}
+    scalars: {{ nearly: \"first(time > 1 s and A.omega - B.omega < 0.1 rad/s)\" }} }}
 "
         )
     };

@@ -23,6 +23,7 @@ mod springs;
 mod start;
 mod stops;
 mod studies;
+mod sweeps;
 mod units;
 mod values;
 

@@ -18,6 +18,7 @@
 
 mod ahead;
 mod contact;
+mod evaluate;
 mod events;
 mod power;
 mod root;
@@ -29,7 +30,7 @@ use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, friction_pa
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
 use crate::scalar::Dual;
-use crate::studies::common::observe::{Needs, Observer};
+use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
 use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
@@ -224,84 +225,6 @@ where
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
         &modes[..m.switches + m.windings]
-    }
-
-    /// Evaluates positions and velocities of a state.
-    pub(crate) fn kinematics(&mut self, at: &At<'_>) {
-        self.stand(at, true);
-        self.velocities(at);
-    }
-
-    /// Evaluates positions of a state, with G if that is asked for; what stands there already is not evaluated again.
-    fn stand(&mut self, at: &At<'_>, rows: bool) {
-        self.dynamics.work.z.copy_from_slice(at.z);
-        if !self.seen.is_placed(at, rows) {
-            self.dynamics.work.held.copy_from_slice(at.live);
-            self.dynamics.time(at.t, at.modes);
-            self.dynamics.position(at.q, at.modes);
-            self.seen.place(at);
-        }
-    }
-
-    /// Evaluates velocities of a state whose positions are there.
-    fn velocities(&mut self, at: &At<'_>) {
-        if !self.seen.is_moving(at) {
-            self.dynamics.velocity(at.v, at.modes);
-            self.seen.moves(at);
-        }
-    }
-
-    /// [`Mechanical::kinematics`] without G.
-    fn motion(&mut self, at: &At<'_>) {
-        self.stand(at, false);
-        self.velocities(at);
-    }
-
-    /// Evaluates the forces of a state whose positions and velocities are there, for whoever may change them after.
-    fn loads(&mut self, at: &At<'_>) {
-        if !self.seen.takes_loads(at) {
-            self.dynamics.loads(at.modes);
-        }
-    }
-
-    /// Evaluates a state with its accelerations and reads the columns' quantities.
-    pub(crate) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
-        self.motion(at);
-        self.loads(at);
-        self.dynamics.react(a, lambda, &mut self.reactions);
-        let own = self.own(at.modes);
-        self.observer.read(&mut self.dynamics, [at.q, at.v, a], &self.reactions, own);
-    }
-
-    /// Columns and event functions at the state observed last.
-    pub(crate) fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
-        self.observer.columns(modes, out);
-    }
-
-    /// Evaluates a state without accelerations and reads the columns' quantities, of which none needs them.
-    pub(crate) fn glance(&mut self, at: &At<'_>) {
-        self.motion(at);
-        if self.observer.needs() == Needs::Inertias {
-            self.loads(at);
-        }
-        self.seen.takes_loads(at);
-        let own = self.own(at.modes);
-        let Self { dynamics, observer, reactions, a, .. } = self;
-        observer.read(dynamics, [at.q, at.v, a], reactions, own);
-    }
-
-    /// The observer's inputs at a state; accelerations only if they are needed, by an own solution where none are given.
-    fn look(&mut self, at: &At<'_>, given: Option<(&[f64], &[f64])>) {
-        if !self.pattern.roots_by_reactions {
-            return self.glance(at);
-        }
-        if let Some((a, lambda)) = given {
-            return self.observe(at, a, lambda);
-        }
-        self.accelerate(at);
-        let (a, lambda) = (std::mem::take(&mut self.a), std::mem::take(&mut self.lambda));
-        self.observe(at, &a, &lambda);
-        (self.a, self.lambda) = (a, lambda);
     }
 
     /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.

@@ -3,15 +3,15 @@
 //! Work W with Ẇ = P(t, y, λ) is one more equation that no other depends on. Its stages are the powers at those of the step, where forces
 //! stand evaluated already, so that it costs next to nothing, and its error estimates those of orders 5 and 3.
 
-use super::LAST;
 use super::coefficients::{B, B3, E5};
 use crate::engine::Node;
 use crate::schemes::explicit::rows;
 use crate::settings::Settings;
 use crate::{At, Power, System};
 
-/// First of the stages that have a weight, but for stage 0.
+/// First of the stages that have a weight, but for stage 0, and the one behind the last.
 const FIRST: usize = B[1].0;
+const END: usize = B[B.len() - 1].0 + 1;
 
 /// Powers at the stages of a step.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Work {
     pub(super) fn new(settings: Settings, system: &dyn System) -> Self {
         let asked = settings.balance && system.pattern().power != Power::Zero;
         let count = if asked { system.dims().work } else { 0 };
-        Self { count, powers: vec![0.0; LAST * count], begun: false, whole: false }
+        Self { count, powers: vec![0.0; END * count], begun: false, whole: false }
     }
 
     /// A step is tried from a node; stages that are `projected` lie off those of the method, and have no weights.
@@ -54,7 +54,7 @@ impl Work {
 
     /// Whether a stage is wanted.
     pub(super) fn wants(&self, stage: usize) -> bool {
-        self.whole && (FIRST..LAST).contains(&stage)
+        self.whole && (FIRST..END).contains(&stage)
     }
 
     /// Takes the powers of a stage, whose accelerations were evaluated last.
