@@ -50,7 +50,7 @@ fn moments_and_percentiles_are_those_of_the_sum() {
     let stroke = of(&found, "stroke");
     assert!((stroke.mean - 0.2).abs() < 1e-5 && (stroke.deviation - 2e-3).abs() < 2e-5, "{stroke:?}");
     for (x, normal) in stroke.percentiles.into_iter().zip([-1.644853627, -0.67448975, 0.0, 0.67448975, 1.644853627]) {
-        assert!((x - 0.2 - 2e-3 * normal).abs() < 2e-5, "{stroke:?}");
+        assert!((x - 0.2 - 2e-3 * normal).abs() < 5e-5, "{stroke:?}");
     }
     // with another one from between two values: variances add up
     let far = of(&found, "far");
@@ -59,7 +59,7 @@ fn moments_and_percentiles_are_those_of_the_sum() {
     // shares of the variance, and slopes
     assert!((stroke.parts[0].slope - 2.0).abs() < 1e-6 && stroke.parts[0].share > 1.0 - 1e-6, "{stroke:?}");
     let share = 1e-6 / (1e-6 + 4e-4 / 12.0);
-    assert!((far.parts[0].share - share).abs() < 2e-3 && (far.parts[0].share + far.parts[1].share - 1.0).abs() < 2e-2, "{far:?}");
+    assert!((far.parts[0].share - share).abs() < 2e-3 && (far.parts[0].share + far.parts[1].share - 1.0).abs() < 1e-12, "{far:?}");
 }
 
 #[test]

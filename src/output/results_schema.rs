@@ -103,7 +103,7 @@ pub fn results_schema() -> Value {
                             "description": "What each parameter that is drawn has to do with it, by the plane of least squares through the runs.",
                             "additionalProperties": {
                                 "type": "object",
-                                "properties": { "slope": number("Change of the number with the parameter, SI."), "share": number("Share of the variance, 0 to 1.") },
+                                "properties": { "slope": number("Change of the number with the parameter, SI."), "share": number("Share of the variance: all together are 1 for a number that is linear in the parameters.") },
                                 "additionalProperties": false,
                             },
                         },

@@ -38,7 +38,8 @@ pub struct Part {
     pub parameter: String,
     /// How much the number changes with it, SI.
     pub slope: f64,
-    /// Its share of the variance, 0 to 1. What is lacking in the sum of all is no plane.
+    /// Its share of the variance: all of them together are what the plane has of it, 1 for a number that is linear in the parameters (Pratt,
+    /// Proc. Second Tampere Conference in Statistics (1987) 245-260).
     pub share: f64,
 }
 
@@ -75,7 +76,7 @@ impl Statistics {
     #[must_use]
     pub fn with_parts(self, column: &Column, drawn: &[&Column]) -> Self {
         let rows: Vec<usize> = (0..column.values.len()).filter(|&i| column.values[i].is_finite()).collect();
-        let varies = self.deviation > 0.0 && rows.len() > 2 * drawn.len() + 1;
+        let varies = !drawn.is_empty() && self.deviation > 0.0 && rows.len() > 2 * drawn.len() + 1;
         let parts = if varies { parts(&rows, column, drawn) } else { None };
         Self { parts: parts.unwrap_or_default(), ..self }
     }
@@ -98,13 +99,11 @@ fn parts(rows: &[usize], column: &Column, drawn: &[&Column]) -> Option<Vec<Part>
     let sizes: Vec<f64> = x.iter().map(DVector::norm).collect();
     x.iter_mut().zip(&sizes).for_each(|(x, size)| *x /= *size);
     let x = DMatrix::from_columns(&x);
-    let slopes = (x.transpose() * &x).cholesky()?.solve(&(x.transpose() * &y));
-    let part = |((column, slope), size): ((&&Column, &f64), &f64)| Part {
-        parameter: column.name.clone(),
-        slope: slope / size,
-        share: (slope / y.norm()).powi(2),
-    };
-    Some(drawn.iter().zip(slopes.iter()).zip(&sizes).map(part).collect())
+    let along = x.transpose() * &y;
+    let slopes = (x.transpose() * &x).cholesky()?.solve(&along);
+    let part =
+        |i: usize| Part { parameter: drawn[i].name.clone(), slope: slopes[i] / sizes[i], share: slopes[i] * along[i] / y.norm_squared() };
+    Some((0..drawn.len()).map(part).collect())
 }
 
 #[cfg(test)]
