@@ -73,6 +73,16 @@ fn a_seed_decides_on_the_runs_and_nothing_else_does() {
 }
 
 #[test]
+fn what_is_drawn_from_outside_is_what_the_file_would_draw() {
+    let own = swept("{ crank: { normal: [10 cm, 1 mm] }, reach: { uniform: [0.29, 0.31] }, samples: 12, seed: 5 }", 2);
+    let model = Model::parse(&SLIDER_CRANK.replace("    sweep: {}\n", "")).unwrap();
+    let study = model.study("turn").unwrap().over("crank", "normal(10 cm, 1 mm)").over("reach", " uniform( 29 cm, 0.31 )").samples(12, 5);
+    let outside = study.run().unwrap();
+    assert_eq!(own.statistics, outside.statistics);
+    assert_eq!(own.table, outside.table);
+}
+
+#[test]
 fn what_is_drawn_is_the_same_at_each_point_of_the_grid() {
     let found = swept("{ reach: [30 cm, 35 cm], crank: { uniform: [9 cm, 11 cm] }, samples: 16 }", 2);
     let (first, second) = column(&found, "crank").split_at(16);

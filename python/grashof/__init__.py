@@ -11,12 +11,13 @@ All numbers are SI and radians.
 from . import _grashof as _core
 from .builder import Model
 from .compared import Compared, ComparedRun
+from .distributions import Distribution, normal, uniform
 from .dynamics import Dynamics, Pose
 from .errors import Error, Fault, Interrupted, ModelError, Refused, StudyError, UnknownName
 from .linear import Linear
 from .model import LoadedModel, Study, load, parse
 from .page import Animation, Page
-from .records import Checked, Event, Extreme, Extremes, Finding, Solution
+from .records import Checked, Event, Extreme, Extremes, Finding, Part, Solution, Statistics
 from .results import Results, Runs
 from .stepper import State, Stepper
 
@@ -28,6 +29,7 @@ __all__ = [
     "Checked",
     "Compared",
     "ComparedRun",
+    "Distribution",
     "Dynamics",
     "Error",
     "Event",
@@ -41,16 +43,20 @@ __all__ = [
     "Model",
     "ModelError",
     "Page",
+    "Part",
     "Pose",
     "Refused",
     "Results",
     "Runs",
     "Solution",
     "State",
+    "Statistics",
     "Stepper",
     "Study",
     "StudyError",
     "UnknownName",
     "load",
+    "normal",
     "parse",
+    "uniform",
 ]

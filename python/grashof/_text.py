@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import numbers
 import os
-from typing import Any, Iterable, List, Mapping, Tuple, Union
+from typing import Any, Iterable, List, Mapping, NamedTuple, Tuple, Union
 
 import numpy as np
 
@@ -15,6 +15,15 @@ from . import _grashof
 Value = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Any]
 #: A path of a file.
 Path = Union[str, "os.PathLike[str]"]
+
+
+class Distribution(NamedTuple):
+    """What the values of a parameter are drawn from, as the program takes it."""
+
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
 
 
 def value(x: Value) -> str:
@@ -34,8 +43,10 @@ def settings(first: Mapping[str, Value] | None, more: Mapping[str, Value]) -> Li
 
 
 def values(x: Any) -> str:
-    """The values of a swept parameter: a list, or text as the program takes it (``"0.3..0.8:26"``, ``"30 cm, 40 cm"``)."""
-    return x if isinstance(x, str) else ",".join(value(each) for each in _each(x))
+    """The values of a swept parameter: a list, a distribution, or text as the program takes it (``"0.3..0.8:26"``, ``"30 cm, 40 cm"``)."""
+    if isinstance(x, (str, Distribution)):
+        return str(x)
+    return ",".join(value(each) for each in _each(x))
 
 
 def _each(x: Any) -> Iterable[Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _grashof, _text
 from .builder import Model
@@ -107,6 +107,8 @@ class LoadedModel:
         *,
         workers: Optional[int] = None,
         values: Optional[Mapping[str, _text.Value]] = None,
+        samples: Optional[int] = None,
+        seed: int = 1,
     ) -> Results:
         """Runs a study for all combinations of values of parameters; the last parameter goes fastest.
 
@@ -114,13 +116,25 @@ class LoadedModel:
         scalars of the study. ``workers`` are threads, all processors if omitted; the numbers are the same for any.
 
         >>> m.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 31), "load_max": [0, 3000]})
-        """
-        return self._run(study, over, workers, _text.settings(values, {}))
 
-    def _run(self, study: str, over: Mapping[str, Any], workers: Optional[int], settings: Any) -> Results:
+        Values may be drawn: ``samples`` points, all parameters with a distribution at once, on which ``seed`` decides;
+        :attr:`Results.statistics` says how the scalars are distributed.
+
+        >>> m.sweep("one-turn", over={"l3": grashof.normal("55 cm", "1 mm")}, samples=1000)
+        """
+        return self._run(study, over, workers, _text.settings(values, {}), samples and (samples, seed))
+
+    def _run(
+        self,
+        study: str,
+        over: Mapping[str, Any],
+        workers: Optional[int],
+        settings: Any,
+        samples: Optional[Tuple[int, int]] = None,
+    ) -> Results:
         model = LoadedModel(self._core.set(settings)) if settings else self
         axes = [(name, _text.values(values)) for name, values in over.items()]
-        return Results(model._core.run(study, axes, workers), model._core)
+        return Results(model._core.run(study, axes, workers, samples), model._core)
 
     def solve(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
         """Runs a study with a section ``solve``; :attr:`Results.solution` is the value of the parameter that meets the target."""
@@ -209,6 +223,8 @@ class Study:
         """:meth:`LoadedModel.run` of this study."""
         return self.model.run(self.name, values, **named)
 
-    def sweep(self, over: Mapping[str, Any], *, workers: Optional[int] = None) -> Results:
+    def sweep(
+        self, over: Mapping[str, Any], *, workers: Optional[int] = None, samples: Optional[int] = None, seed: int = 1
+    ) -> Results:
         """:meth:`LoadedModel.sweep` of this study."""
-        return self.model.sweep(self.name, over, workers=workers)
+        return self.model.sweep(self.name, over, workers=workers, samples=samples, seed=seed)

@@ -51,21 +51,22 @@ def plot(results: Results, names: Sequence[str], over: Optional[str]) -> matplot
 def _panels(figure: Dict[str, Any]) -> List[Tuple[Optional[str], List[Any]]]:
     """The curves of each unit, or all of them where these are too many."""
     units: Dict[str, List[Any]] = {}
-    for curve in figure["curves"]:
+    curves = [(*curve, style) for curve, style in zip(figure["curves"], figure["styles"])]
+    for curve in curves:
         units.setdefault(curve[1], []).append(curve)
-    return list(units.items()) if 0 < len(units) <= MOST_PANELS else [(None, figure["curves"])]
+    return list(units.items()) if 0 < len(units) <= MOST_PANELS else [(None, curves)]
 
 
 def _draw(ax: matplotlib.axes.Axes, figure: Dict[str, Any], unit: Optional[str], curves: List[Any], title: bool) -> None:
-    styles = figure["styles"][len(curves) - 1] if curves else []
-    for (label, own, points), (color, dash) in zip(curves, styles):
+    for label, own, points, (color, dash, dots) in curves:
         shown = f"{label} in {pretty(own)}" if unit is None and own else label
-        style: Any = (0, [length / STROKE for length in dash]) if dash else "-"
+        style: Any = "none" if dots else (0, [length / STROKE for length in dash]) if dash else "-"
         x, y = _parted(points).T
-        ax.plot(x, y, label=shown, color=[c / 255 for c in color], linestyle=style, linewidth=LINE)
+        marker = "." if dots else None
+        ax.plot(x, y, label=shown, color=[c / 255 for c in color], linestyle=style, linewidth=LINE, marker=marker)
     for at in figure["breaks"]:
         ax.axvline(at, color=GREY, linewidth=0.6, linestyle=(0, (4, 4)))
-    names = [label for label, _, _ in curves]
+    names = [curve[0] for curve in curves]
     name = figure["y"][0] or (", ".join(names) if len(names) <= 3 else "")
     if name:
         ax.set_ylabel(_axis(name, unit or ""), color=INK)

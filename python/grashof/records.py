@@ -6,7 +6,7 @@ from typing import Any, Dict, Mapping, NamedTuple, Sequence
 
 from .errors import UnknownName
 
-__all__ = ["Checked", "Event", "Extreme", "Extremes", "Finding", "Solution"]
+__all__ = ["Checked", "Event", "Extreme", "Extremes", "Finding", "Part", "Solution", "Statistics"]
 
 
 class Extreme(NamedTuple):
@@ -65,6 +65,31 @@ class Solution(NamedTuple):
     target: float
 
 
+class Part(NamedTuple):
+    """What a parameter with a distribution has to do with a number, by the plane of least squares through the runs."""
+
+    #: Change of the number with the parameter, SI.
+    slope: float
+    #: Share of the variance; all together are 1 for a number that is linear in the parameters.
+    share: float
+
+
+class Statistics(NamedTuple):
+    """How a number is distributed over runs whose values are drawn, SI."""
+
+    #: Runs that have the number.
+    runs: int
+    mean: float
+    #: Standard deviation of the sample.
+    deviation: float
+    least: float
+    most: float
+    #: By percentage: 5, 25, 50, 75, 95.
+    percentiles: Dict[int, float]
+    #: By parameter; empty where there are too few runs, or other parameters vary as well.
+    parts: Dict[str, Part]
+
+
 class Named(Dict[str, Any]):
     """What is known by names; says which there are where one is not."""
 
@@ -81,6 +106,13 @@ def unknown(what: str, name: object, known: Sequence[str]) -> UnknownName:
     listed = ", ".join(f"`{each}`" for each in known)
     there = f"there are {listed}" if known else "there is none"
     return UnknownName(f"there is no {what} `{name}`: {there}", code="unknown", help=there)
+
+
+def statistics_of(facts: Mapping[str, Any]) -> Statistics:
+    """Statistics from what the library gives."""
+    parts = {part["parameter"]: Part(part["slope"], part["share"]) for part in facts["parts"]}
+    percentiles = dict(zip((5, 25, 50, 75, 95), facts["percentiles"]))
+    return Statistics(facts["runs"], facts["mean"], facts["deviation"], *facts["range"], percentiles, parts)
 
 
 def extremes_of(facts: Mapping[str, Any]) -> Extremes:

@@ -13,7 +13,7 @@ from . import _grashof, _text
 from .errors import StudyError
 from .linear import Linear
 from .page import Animation, Page
-from .records import Checked, Event, Extremes, Finding, Named, Solution, extremes_of, unknown
+from .records import Checked, Event, Extremes, Finding, Named, Solution, Statistics, extremes_of, statistics_of, unknown
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -130,6 +130,11 @@ class Results:
     def extremes(self) -> Dict[str, Optional[Extremes]]:
         """Extremes of each column over the continuous motion, not over the rows; none where a column has no value."""
         return Named("column", {name: extremes and extremes_of(extremes) for name, extremes in self._facts["extremes"]})
+
+    @cached_property
+    def statistics(self) -> Dict[str, Statistics]:
+        """Of a sweep whose values are drawn: how each number of its table is distributed over the runs."""
+        return Named("number", {each["name"]: statistics_of(each) for each in self._facts["statistics"]})
 
     @property
     def lists(self) -> Dict[str, Array]:

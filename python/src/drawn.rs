@@ -2,7 +2,7 @@
 
 use crate::errors::raised;
 use grashof::Error;
-use grashof::output::{self, Curve, Figure, Film, Pace, Shot, ShotOptions, line_style, moving_svg, render_figure};
+use grashof::output::{self, Curve, Figure, Film, Pace, Shot, ShotOptions, curve_style, moving_svg, render_figure};
 use grashof::results::{Plot, Results, Unknown};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -38,7 +38,7 @@ fn asked(results: &Results, names: &[String], over: Option<String>) -> Result<Ve
             return Err(Unknown { what: "figure or column", name: name.clone(), known });
         }
     }
-    Ok(vec![Plot { name: names.join(", "), show: names.to_vec(), over, unit: None, of_runs }])
+    Ok(vec![Plot { name: names.join(", "), show: names.to_vec(), over, of_runs, ..Plot::default() }])
 }
 
 /// A figure as a dictionary, its curves as arrays.
@@ -52,9 +52,14 @@ fn dictionary<'py>(py: Python<'py>, name: &str, figure: &Figure) -> PyResult<Bou
     made.set_item("breaks", figure.breaks.clone())?;
     let curves = figure.curves.iter().map(|curve| curve_of(py, curve, &figure.y.unit)).collect::<PyResult<Vec<_>>>()?;
     made.set_item("curves", curves)?;
-    let styles = |count: usize| (0..count).map(|index| line_style(index, count)).collect::<Vec<_>>();
-    // curves of one unit share a panel, in which they are told apart
-    made.set_item("styles", (1..=figure.curves.len()).map(styles).collect::<Vec<_>>())?;
+    // curves of one unit share a panel
+    let style = |index: usize| {
+        let beside: Vec<usize> = (0..figure.curves.len()).filter(|k| figure.curves[*k].unit == figure.curves[index].unit).collect();
+        let place = beside.iter().position(|k| *k == index).unwrap_or(0);
+        let (color, dash) = curve_style([index, figure.curves.len()], [place, beside.len()]);
+        (color, dash, figure.curves[index].dots)
+    };
+    made.set_item("styles", (0..figure.curves.len()).map(style).collect::<Vec<_>>())?;
     Ok(made)
 }
 

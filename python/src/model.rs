@@ -105,12 +105,20 @@ impl Model {
     }
 
     /// Runs a study with settings, for all combinations of swept values.
-    #[pyo3(signature = (study, over, threads=None))]
-    fn run(&self, py: Python<'_>, study: String, over: Settings, threads: Option<usize>) -> PyResult<Results> {
+    #[pyo3(signature = (study, over, threads=None, samples=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        study: String,
+        over: Settings,
+        threads: Option<usize>,
+        samples: Option<(usize, u64)>,
+    ) -> PyResult<Results> {
         let model = Arc::clone(&self.model);
         let run = away(py, move |flag| {
             let mut asked = model.study(&study)?;
             asked = threads.into_iter().fold(asked, grashof::Study::threads);
+            asked = samples.into_iter().fold(asked, |asked, (count, seed)| asked.samples(count, seed));
             asked = over.iter().fold(asked, |asked, (parameter, values)| asked.over(parameter, values));
             asked.stop_if(|| flag.load(Ordering::Relaxed)).run()
         })?;

@@ -28,6 +28,24 @@ def test_a_sweep_has_a_row_a_run() -> None:
     assert sweep.to_xarray()["mean_power"].dims == ("run",)
 
 
+def test_values_are_drawn_from_distributions() -> None:
+    model = grashof.load(CRANK_ROCKER)
+    over = {"l3": grashof.normal("55 cm", "1 mm"), "load_max": grashof.uniform(2900, 3100)}
+    sweep = model.sweep("one-turn", over=over, samples=32, seed=3)
+    assert len(sweep) == 32
+    power = sweep.statistics["mean_power"]
+    assert power.runs == 32 and power.least < power.percentiles[50] < power.most
+    assert power.mean == pytest.approx(np.mean(sweep["mean_power"]), rel=1e-12)
+    assert power.deviation == pytest.approx(np.std(sweep["mean_power"], ddof=1), rel=1e-12)
+    assert power.percentiles[95] == pytest.approx(np.percentile(sweep["mean_power"], 95), rel=1e-12)
+    assert set(power.parts) == set(over) and power.parts["load_max"].share > 0.5
+    again = model.study("one-turn").sweep(over, samples=32, seed=3)
+    assert np.array_equal(again.table, sweep.table)
+    with pytest.raises(grashof.ModelError) as wrong:
+        model.sweep("one-turn", over=over)
+    assert wrong.value.code == "missing-samples"
+
+
 def test_workers_do_not_change_bits() -> None:
     model = grashof.load(CRANK_ROCKER)
     sweeps = [model.sweep("one-turn", over={"l3": "0.5..0.6:3"}, workers=workers) for workers in (1, 2)]

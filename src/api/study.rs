@@ -59,10 +59,18 @@ impl<'a> Study<'a> {
         self
     }
 
-    /// Runs the study for many values of a parameter: `0.3..0.8:26`, or a list, `30 cm,40 cm`; several: all combinations.
+    /// Runs the study for many values of a parameter: `0.3..0.8:26`, or a list, `30 cm,40 cm`; several: all combinations. With
+    /// [`Self::samples`] also a distribution, `normal(55 cm, 1 mm)` or `uniform(54 cm, 56 cm)`.
     #[must_use]
     pub fn over(mut self, parameter: &str, values: &str) -> Self {
         self.selection.over.push((parameter.into(), values.into()));
+        self
+    }
+
+    /// How many points are drawn from the distributions of [`Self::over`], all parameters at once; the seed decides which.
+    #[must_use]
+    pub fn samples(mut self, count: usize, seed: u64) -> Self {
+        self.selection.samples = Some(model::Samples { count: count.max(1), seed });
         self
     }
 

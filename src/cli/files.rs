@@ -195,7 +195,7 @@ pub(super) fn selection<'a>(common: &Common, study: Option<&'a str>) -> Option<S
             }
         }
     }
-    Some(Selection { study, variants: common.variant.clone(), sets, over: Vec::new() })
+    Some(Selection { study, variants: common.variant.clone(), sets, ..Selection::default() })
 }
 
 /// Where results go; none if the name of the model makes no directory, which was reported.

@@ -3,7 +3,7 @@
 use super::Common;
 use super::run::Wanted;
 use super::shard::Part;
-use super::sweep::{Asked, computed};
+use super::sweep::{Asked, Drawn, computed};
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -16,6 +16,8 @@ pub(super) struct Arguments {
     /// Values of a parameter, as the shards were given them
     #[arg(long, value_name = "NAME=VALUES")]
     over: Vec<String>,
+    #[command(flatten)]
+    drawn: Drawn,
     /// A further directory with shards, beside that of the results (repeatable)
     #[arg(long, value_name = "DIR")]
     from: Vec<PathBuf>,
@@ -27,5 +29,5 @@ pub(super) struct Arguments {
 pub(super) fn gather(arguments: &Arguments, common: &Common) -> u8 {
     let part = Part::Gathered(arguments.from.clone());
     let (model, study) = (arguments.model.as_str(), arguments.study.as_deref());
-    computed(&Asked { model, study, over: &arguments.over, wanted: &arguments.wanted, part }, common)
+    computed(&Asked { model, study, over: &arguments.over, drawn: &arguments.drawn, wanted: &arguments.wanted, part }, common)
 }

@@ -5,7 +5,7 @@ use super::run::{Request, Wanted, conflict, load, refused};
 use super::shard::{Part, Shard};
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_error, print_out};
-use grashof::model::{Plot, Selection, Shown, ShownWhat, Study};
+use grashof::model::{Plot, Samples, Selection, Shown, ShownWhat, Study};
 use grashof::studies::loader::Loader;
 
 /// The figure of scalars over the swept parameter, where the study has none of its own.
@@ -19,14 +19,34 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S")]
     study: Option<String>,
     /// Values of a parameter: a range with the number of values, as `l3=0.3..0.8:26` (with `:log` at the end for equal ratios), or a
-    /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest)
+    /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest); or a distribution, as
+    /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     over: Vec<String>,
+    #[command(flatten)]
+    drawn: Drawn,
     /// Compute one part of the sweep alone, the K-th of N, and keep it for `grashof gather`
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
     #[command(flatten)]
     wanted: Wanted,
+}
+
+/// How many points are drawn from distributions.
+#[derive(clap::Args)]
+pub(super) struct Drawn {
+    /// How many points are drawn from the distributions, all parameters at once
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    samples: Option<u32>,
+    /// Decides which points are drawn
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u32,
+}
+
+impl Drawn {
+    fn samples(&self) -> Option<Samples> {
+        self.samples.map(|count| Samples { count: count as usize, seed: self.seed.into() })
+    }
 }
 
 /// A sweep as it is asked for.
@@ -35,6 +55,7 @@ pub(super) struct Asked<'a> {
     pub(super) study: Option<&'a str>,
     /// Values of parameters; none if the study has a sweep of its own.
     pub(super) over: &'a [String],
+    pub(super) drawn: &'a Drawn,
     pub(super) wanted: &'a Wanted,
     pub(super) part: Part,
 }
@@ -43,7 +64,7 @@ pub(super) struct Asked<'a> {
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
     let part = arguments.shard.map_or(Part::Whole, Part::Shard);
     let (model, study) = (arguments.model.as_str(), arguments.study.as_deref());
-    computed(&Asked { model, study, over: &arguments.over, wanted: &arguments.wanted, part }, common)
+    computed(&Asked { model, study, over: &arguments.over, drawn: &arguments.drawn, wanted: &arguments.wanted, part }, common)
 }
 
 /// Computes a sweep, or a part of it, or gathers its parts.
@@ -56,7 +77,7 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     let names: Vec<&str> = over.iter().map(|(name, _)| name.as_str()).collect();
     let (stem, swept) =
         if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
-    let selection = Selection { study: Some(study), over, ..selection };
+    let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };
     let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
         Err(_) if interrupted() => return code::INTERRUPTED,

@@ -9,6 +9,7 @@ use super::included::{Included, find};
 use super::merge::Node;
 use super::reading::{report, shown, text_of};
 use super::spans::Spans;
+use super::study::Samples;
 use super::suggest;
 use super::yaml;
 use serde_yaml::{Mapping, Value};
@@ -22,8 +23,11 @@ pub struct Selection<'a> {
     pub variants: Vec<String>,
     /// Parameters from outside, as name and value; over everything.
     pub sets: Vec<(String, String)>,
-    /// Sweeps from outside, in place of the study's own: parameter, and `FROM..TO:COUNT` (with `:log` for equal ratios) or a list.
+    /// Sweeps from outside, in place of the study's own: parameter, and `FROM..TO:COUNT` (with `:log` for equal ratios), a list, or a
+    /// distribution, `normal(MEAN, DEVIATION)` or `uniform(FROM, TO)`.
     pub over: Vec<(String, String)>,
+    /// How many points are drawn from the distributions in `over`.
+    pub samples: Option<Samples>,
 }
 
 /// A model file.

@@ -208,7 +208,8 @@ impl<'d, 's> Inquiry<'d, 's> {
             let (decoder, outside) = &mut decoders[base];
             decoder.parsed = parsed;
             let taken = |study: &str| self.taken(&scalars, study);
-            let decoded = decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], files: &self.document.data });
+            let decoded =
+                decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], samples: None, files: &self.document.data });
             scalars.insert(name, decoded.scalars);
             parsed = std::mem::take(&mut decoder.parsed);
         }
@@ -269,13 +270,15 @@ impl<'d, 's> Inquiry<'d, 's> {
             if i < last {
                 if let Some((decoder, outside)) = &mut decoders[base] {
                     decoder.parsed = std::mem::take(&mut parsed);
-                    let decoded = decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], files: &self.document.data });
+                    let decoded =
+                        decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], samples: None, files: &self.document.data });
                     scalars.insert(name, decoded.scalars);
                     parsed = std::mem::take(&mut decoder.parsed);
                 }
             } else if let Some((mut decoder, outside)) = decoders[base].take() {
                 decoder.parsed = std::mem::take(&mut parsed);
-                let given = Outside { set: &outside, over: &self.selection.over, files: &self.document.data };
+                let given =
+                    Outside { set: &outside, over: &self.selection.over, samples: self.selection.samples, files: &self.document.data };
                 let decoded = node.is_map().then(|| decoder.study(name, *node, &taken, &given));
                 faults.extend(once(std::iter::once((std::mem::take(&mut decoder.faults), &bases[base].variants[..]))));
                 let mut made = decoder.into_model(decoded.as_ref().map_or(&[], |decoded| &decoded.checks));

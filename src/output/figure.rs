@@ -5,7 +5,7 @@ use super::panel::{Line, Panel, Ruler};
 use super::picture::Picture;
 use super::plot::{Curve, Figure, Scale};
 use super::raster::RenderError;
-use super::scene::{Rect, Scene, line_style};
+use super::scene::{Rect, Scene, curve_style};
 use super::{font, thin};
 
 const WIDTH: f64 = 1000.0;
@@ -121,9 +121,7 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         ruler
     });
     let line = |(place, &index): (usize, &usize)| {
-        // no two curves of a picture are alike, in whatever panel
-        let (place, count) = if figure.curves.len() > 7 { (place, indices.len()) } else { (index, figure.curves.len()) };
-        let (color, dash) = line_style(place, count);
+        let (color, dash) = curve_style([index, figure.curves.len()], [place, indices.len()]);
         let Curve { points, right, dots, .. } = figure.curves[index].clone();
         Line { ordered: thin::is_ordered(&points), points, color, dash, right, dots }
     };

@@ -174,9 +174,15 @@ fn curve_color(index: usize, count: usize) -> Color {
 /// How curve `index` of a panel with `count` curves is drawn: its colour (red, green, blue), and lengths of dash, gap, dash...; empty for
 /// a solid line.
 #[must_use]
-pub fn line_style(index: usize, count: usize) -> ([u8; 3], &'static [f64]) {
+fn line_style(index: usize, count: usize) -> ([u8; 3], &'static [f64]) {
     // colours of a scale are told apart by their order
     (curve_color(index, count), if count > PALETTE.len() { &[] } else { curve_dash(index) })
+}
+
+/// Colour and dashes of a curve by its number and the number of curves, in the figure and in its panel: no two curves of a figure are alike,
+/// in whatever panel; where these are too many, no two of a panel.
+pub fn curve_style([index, all]: [usize; 2], [place, count]: [usize; 2]) -> ([u8; 3], &'static [f64]) {
+    if all > PALETTE.len() { line_style(place, count) } else { line_style(index, all) }
 }
 
 /// The dashes of curve `index`: with them curves differ in print without colour, too.

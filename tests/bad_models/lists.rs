@@ -243,6 +243,17 @@ pub(super) const ARGUMENTS: &[(&str, &[&str], i32)] = &[
     ("argument-compare-solve", &["compare", "solve.yaml", "-o", "OUT", "--study", "fall"], 2),
     ("argument-sweep-without-study", &["sweep", "base.yaml", "-o", "OUT", "--over", "l3=0.3..0.8:5"], 2),
     ("argument-sweep-unknown-study", &["sweep", "base.yaml", "-o", "OUT", "--study", "trun", "--over", "l3=0.3..0.8:5"], 2),
+    ("argument-over-drawn-without-samples", &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--over", "l3=normal(55 cm, 1 mm)"], 2),
+    (
+        "argument-over-one-value-drawn",
+        &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--samples", "9", "--over", "l3=normal(55 cm)"],
+        2,
+    ),
+    (
+        "argument-over-samples-of-nothing",
+        &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--samples", "9", "--over", "l3=50 cm,55 cm"],
+        2,
+    ),
     ("argument-over-without-sign", &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--over", "l3"], 2),
     ("argument-over-unknown", &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--over", "l9=0.3..0.8:5"], 2),
     ("argument-over-without-values", &["sweep", "base.yaml", "-o", "OUT", "--study", "turn", "--over", "l3="], 2),

@@ -8,7 +8,7 @@ use crate::model::fields::MOST_RUNS;
 use crate::model::figure::{Plot, ShownWhat};
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
-use crate::model::study::{Sweep, Values};
+use crate::model::study::{Samples, Sweep, Values};
 use crate::model::suggest;
 use crate::model::suggest::clip;
 use std::ops::Range;
@@ -19,6 +19,8 @@ pub(crate) struct Outside<'o> {
     pub(crate) set: &'o [(usize, Id)],
     /// Swept parameters with the texts of their values.
     pub(crate) over: &'o [(String, String)],
+    /// How many points are drawn from their distributions.
+    pub(crate) samples: Option<Samples>,
     /// Measured data of figures.
     pub(crate) files: &'o DataFiles,
 }
@@ -104,10 +106,10 @@ impl<'n> Decoder<'n> {
     }
 
     /// Sweeps given from outside.
-    pub(super) fn over(&mut self, over: &[(String, String)], solved: Option<&str>, local: &mut Local<'n>) -> Vec<Sweep> {
+    pub(super) fn over(&mut self, outside: &Outside<'_>, solved: Option<&str>, local: &mut Local<'n>) -> Vec<Sweep> {
         let mut sweeps: Vec<Sweep> = Vec::new();
-        let mut runs: u64 = 1;
-        for (name, value) in over {
+        let mut runs: u64 = outside.samples.map_or(1, |samples| samples.count as u64);
+        for (name, value) in outside.over {
             let argument = Argument::new("--over", name, value);
             let Some((parameter, wanted)) = self.named_outside(name, &argument) else { continue };
             let twice = sweeps.iter().any(|s| s.parameter == parameter);
@@ -119,9 +121,13 @@ impl<'n> Decoder<'n> {
                 continue;
             }
             let Some(wanted) = wanted else { continue };
-            let (values, count) = match value.find("..") {
-                Some(dots) => self.span(name, value, dots, &argument, wanted, local),
-                None => self.list(name, value, &argument, wanted, local),
+            let (values, count) = match (distribution(value), value.find("..")) {
+                (Some(of), _) => {
+                    self.samples_of(outside, &argument, value);
+                    (self.drawn(name, value, of, &argument, wanted, local), 1)
+                }
+                (None, Some(dots)) => self.span(name, value, dots, &argument, wanted, local),
+                (None, None) => self.list(name, value, &argument, wanted, local),
             };
             runs = runs.saturating_mul(count as u64);
             if runs > MOST_RUNS {
@@ -131,7 +137,53 @@ impl<'n> Decoder<'n> {
             }
             sweeps.extend(values.map(|values| Sweep { parameter, values, place: String::new() }));
         }
+        if let (Some(samples), Some((name, value))) = (outside.samples, outside.over.last())
+            && outside.over.iter().all(|(_, value)| distribution(value).is_none())
+        {
+            let fault = self.fault("nothing-drawn", &At::ROOT, "no parameter has a distribution", "`--over NAME=normal(MEAN, DEVIATION)`");
+            fault.spot = Argument::new("--over", name, value).spot(0..value.len());
+            fault.help = Some(format!("leave `--samples {}` out", samples.count));
+        }
         sweeps
+    }
+
+    /// That nothing says how many values are drawn.
+    fn samples_of(&mut self, outside: &Outside<'_>, argument: &Argument, value: &str) {
+        if outside.samples.is_none() {
+            let message = "values are drawn from a distribution, and nothing says how many";
+            let fault = self.fault("missing-samples", &At::ROOT, message, "`--samples`");
+            (fault.spot, fault.help) = (argument.spot(0..value.len()), Some("add `--samples 200`".to_owned()));
+        }
+    }
+
+    /// A distribution with its two values.
+    fn drawn(
+        &mut self,
+        name: &str,
+        value: &str,
+        (normal, inner): (bool, Range<usize>),
+        argument: &Argument,
+        wanted: Dimension,
+        local: &mut Local<'n>,
+    ) -> Option<Values> {
+        let parts = between_commas(&value[inner.clone()]);
+        let [first, second] = &parts[..] else {
+            let form = if normal { "normal(MEAN, DEVIATION)" } else { "uniform(FROM, TO)" };
+            let fault = self.fault("bad-range", &At::ROOT, format!("a distribution of {} values", parts.len()), form);
+            (fault.spot, fault.help) = (argument.spot(inner), Some(format!("write two values, as `--over \"{name}=normal(1, 0.01)\"`")));
+            return None;
+        };
+        let part = |of: &Range<usize>| of.start + inner.start..of.end + inner.start;
+        let [first, second] =
+            [part(first), part(second)].map(|part| self.given(name, value, part, argument, wanted, Self::over_allow(), local));
+        let (first, second) = (first?, second?);
+        if !normal {
+            return Some(Values::Uniform { from: first, to: second });
+        }
+        if self.pool.inputs_of(&[second]).is_empty() {
+            self.check_once(Rule::NotNegative("a standard deviation"), &[second], &At::ROOT);
+        }
+        Some(Values::Normal { mean: first, deviation: second })
     }
 
     /// `FROM..TO:COUNT`, with `:log` for equal ratios; and how many values it stands for.
@@ -205,6 +257,15 @@ impl<'n> Decoder<'n> {
             fault.spot = Spot::Outside(shown.clone(), 0..shown.len());
         }
     }
+}
+
+/// Whether a text is a normal distribution or one between two values, and where these stand in it.
+fn distribution(text: &str) -> Option<(bool, Range<usize>)> {
+    let end = text.trim_end().strip_suffix(')')?.len();
+    let begin = text.len() - text.trim_start().len();
+    [("normal(", true), ("uniform(", false)]
+        .into_iter()
+        .find_map(|(word, normal)| text[begin..].starts_with(word).then(|| (normal, begin + word.len()..end)))
 }
 
 /// Parts of a text between commas that stand in no parentheses.

@@ -118,7 +118,7 @@ impl<'n> Decoder<'n> {
         }
         let solved = keys.solve.node.and_then(|solve| SolveKeys::of(solve).vary.text());
         let (own, samples) = self.sweep(keys.sweep, &at, &mut local);
-        let over = self.over(outside.over, solved, &mut local);
+        let over = self.over(outside, solved, &mut local);
         let first = if own.is_empty() { &over } else { &own };
         let swept = first.iter().map(|s| s.parameter).collect();
         let mut frame = Frame { local, word, features, swept, scalars: Vec::new(), results: Vec::new() };
@@ -133,7 +133,8 @@ impl<'n> Decoder<'n> {
             (own, samples)
         } else {
             retarget(&mut plots, &own, &over);
-            (over, None)
+            let samples = outside.samples.filter(|_| over.iter().any(|sweep| sweep.values.are_drawn()));
+            (over, samples)
         };
         let trace = self.trace(keys.trace, &at);
         let view = self.view(keys.view, &at);
