@@ -122,7 +122,7 @@ class LoadedModel:
 
         >>> m.sweep("one-turn", over={"l3": grashof.normal("55 cm", "1 mm")}, samples=1000)
         """
-        return self._run(study, over, workers, _text.settings(values, {}), samples and (samples, seed))
+        return self._run(study, over, workers, _text.settings(values, {}), None if samples is None else (samples, seed))
 
     def _run(
         self,

@@ -112,7 +112,8 @@ def statistics_of(facts: Mapping[str, Any]) -> Statistics:
     """Statistics from what the library gives."""
     parts = {part["parameter"]: Part(part["slope"], part["share"]) for part in facts["parts"]}
     percentiles = dict(zip((5, 25, 50, 75, 95), facts["percentiles"]))
-    return Statistics(facts["runs"], facts["mean"], facts["deviation"], *facts["range"], percentiles, parts)
+    least, most = facts["range"]
+    return Statistics(facts["runs"], facts["mean"], facts["deviation"], least, most, percentiles, parts)
 
 
 def extremes_of(facts: Mapping[str, Any]) -> Extremes:
