@@ -96,7 +96,7 @@ function distributions(study: Study): Child[] {
   };
   const varied = study.statistics.filter((s) => s.parts.length > 0);
   const parameters = varied[0]?.parts.map((p) => p.parameter) ?? [];
-  const share = (x: number | null) => (x === null ? '' : `${digits(100 * x, 3)} %`);
+  const share = (x: number | null) => (x === null ? '' : `${digits(Math.round(1000 * x) / 10 + 0, 4)} %`);
   return [
     study.statistics.length === 0 ? null : plain(['', 'mean', 'deviation', '5 %', '25 %', '50 %', '75 %', '95 %', 'least', 'most'], study.statistics.map(row)),
     varied.length === 0 ? null : h('h4', {}, 'Shares of the variance'),
