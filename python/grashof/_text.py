@@ -13,13 +13,14 @@ from . import _grashof
 
 #: A value of a parameter: text as in a model file (``"60 cm"``, ``"l1/2"``), a number in SI, or a quantity of pint.
 Value = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Any]
-#: A path of a file.
+#: The path of a file.
 Path = Union[str, "os.PathLike[str]"]
 
 
 class Distribution(NamedTuple):
     """What the values of a parameter are drawn from, as the program takes it."""
 
+    #: As the program takes it: ``normal(0.15, 0.0001)``.
     text: str
 
     def __str__(self) -> str:

@@ -22,12 +22,13 @@ class Model:
     >>> model.joints["P"] = {"revolute": ["ground", "rod.start"]}
     >>> model.save("pendulum.yaml")
 
-    What keys there are, and what they may hold, the library says when it is asked to :meth:`load` the model.
+    Nothing is checked before :meth:`Model.load`, which says what is wrong and which keys there are.
     """
 
     _sections: Dict[str, Any]
 
     def __init__(self, **sections: Any) -> None:
+        """A mechanism with these sections."""
         self.__dict__["_sections"] = {"grashof": 1, **sections}
 
     def __getattr__(self, key: str) -> Any:

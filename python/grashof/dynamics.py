@@ -40,7 +40,13 @@ class Dynamics:
 
     def __init__(self, core: _grashof.Dynamics) -> None:
         self._core = core
-        self.nq, self.nv, self.m = core.sizes
+        nq, nv, m = core.sizes
+        #: Number of coordinates.
+        self.nq: int = nq
+        #: Number of velocities.
+        self.nv: int = nv
+        #: Number of rows of constraints.
+        self.m: int = m
 
     def __repr__(self) -> str:
         return f"<mechanism with {self.nq} coordinates, {self.nv} velocities and {self.m} constraints>"
@@ -63,7 +69,7 @@ class Dynamics:
         return self._position("constraints", t, q, (self.m,))
 
     def jacobian(self, q: ArrayLike, t: ArrayLike = 0.0) -> Array:
-        """G (..., m, nv), the derivative of Φ along the velocities."""
+        """G (..., m, nv), the derivative of Φ along the velocities: numbers, m, and 1/m."""
         return self._position("jacobian", t, q, (self.m, self.nv))
 
     def _position(self, term: str, t: ArrayLike, q: ArrayLike, shape: Tuple[int, ...]) -> Array:
@@ -84,7 +90,8 @@ class Dynamics:
         return self.solve(t, q, v)[0]
 
     def solve(self, t: ArrayLike, q: ArrayLike, v: ArrayLike) -> Tuple[Array, Array]:
-        """Accelerations a (..., nv) and multipliers λ (..., m); the reactions of the constraints are −Gᵀλ."""
+        """Accelerations a (..., nv), m/s^2 and rad/s^2, and multipliers λ (..., m), N and N m; the reactions of the constraints are
+        −Gᵀλ."""
         lead, (time, at, along) = self._states(t, (q, self.nq, "coordinates"), (v, self.nv, "velocities"))
         both = self._core.accelerations(time, at, along)
         return both[:, : self.nv].reshape(lead + (self.nv,)), both[:, self.nv :].reshape(lead + (self.m,))
@@ -103,7 +110,7 @@ class Dynamics:
         return self._core.inverse(time, (at, along), (wanted, lagrange)).reshape(lead + (self.nv,))
 
     def pose(self, body: str, q: ArrayLike) -> Pose:
-        """Where a body is."""
+        """Where a body of the file is, for coordinates ``q`` (..., nq)."""
         lead, (_, at) = self._states(0.0, (q, self.nq, "coordinates"))
         placed = self._core.pose(body, at)
         return Pose(placed[:, :3].reshape(lead + (3,)), placed[:, 3:].reshape(lead + (3, 3)))

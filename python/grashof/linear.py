@@ -20,51 +20,61 @@ class Linear:
     """A linear system of small deviations from a state: ẋ = A x + B u, y = C x + D u, and M ü + C u̇ + K u = 0 of mechanics."""
 
     def __init__(self, facts: Mapping[str, Any]) -> None:
-        #: Names of x, u and y, and of the independent coordinates.
+        #: Names of x.
         self.states: List[str] = facts["states"]
+        #: Names of u.
         self.inputs: List[str] = facts["inputs"]
+        #: Names of y.
         self.outputs: List[str] = facts["outputs"]
+        #: Names of the independent coordinates.
         self.coordinates: List[str] = facts["coordinates"]
         self._matrices = {name: np.array(rows, dtype=np.float64) for name, rows in facts["matrices"]}
-        #: Values of x, ẋ, u and y in the state, SI.
-        self.x, self.rates, self.u, self.y = (np.array(values, dtype=np.float64) for values in facts["values"])
+        x, rates, u, y = (np.array(values, dtype=np.float64) for values in facts["values"])
+        #: Values of x in the state, SI.
+        self.x: Array = x
+        #: Values of ẋ in the state, SI; 0 in an equilibrium.
+        self.rates: Array = rates
+        #: Values of u in the state, SI.
+        self.u: Array = u
+        #: Values of y in the state, SI.
+        self.y: Array = y
 
     def _matrix(self, name: str, rows: Sequence[str], columns: Sequence[str]) -> Array:
         return self._matrices[name].reshape(len(rows), len(columns))
 
     @property
     def A(self) -> Array:
-        """A (states × states)."""
+        """A (states × states), SI."""
         return self._matrix("A", self.states, self.states)
 
     @property
     def B(self) -> Array:
-        """B (states × inputs)."""
+        """B (states × inputs), SI."""
         return self._matrix("B", self.states, self.inputs)
 
     @property
     def C(self) -> Array:
-        """C (outputs × states)."""
+        """C (outputs × states), SI."""
         return self._matrix("C", self.outputs, self.states)
 
     @property
     def D(self) -> Array:
-        """D (outputs × inputs)."""
+        """D (outputs × inputs), SI."""
         return self._matrix("D", self.outputs, self.inputs)
 
     @property
     def mass(self) -> Array:
-        """M on the independent coordinates."""
+        """M on the independent coordinates: kg, kg m and kg m^2."""
         return self._matrix("mass", self.coordinates, self.coordinates)
 
     @property
     def damping(self) -> Array:
-        """C of mechanics on the independent coordinates."""
+        """C of mechanics on the independent coordinates: forces by their rates, SI."""
         return self._matrix("damping", self.coordinates, self.coordinates)
 
     @property
     def stiffness(self) -> Array:
-        """K on the independent coordinates."""
+        """K on the independent coordinates: forces by displacements, SI."""
         return self._matrix("stiffness", self.coordinates, self.coordinates)
 
     def to_control(self) -> control.StateSpace:

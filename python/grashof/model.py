@@ -31,7 +31,7 @@ def load(source: Union[_text.Path, Mapping[str, Any], Model]) -> LoadedModel:
 
 
 def parse(text: str) -> LoadedModel:
-    """A model that stands in a text and includes no files."""
+    """A model that stands in a text and includes no files; raises :class:`ModelError` if it is none."""
     return LoadedModel(_grashof.parse(text))
 
 
@@ -78,7 +78,7 @@ class LoadedModel:
         return LoadedModel(self._core.set(_text.settings(values, named)))
 
     def variant(self, *names: str) -> LoadedModel:
-        """A new model with variants of the file, behind those of its studies."""
+        """A new model with variants of the file; a study applies its own first."""
         core = self._core
         for name in names:
             core = core.variant(name)
@@ -89,11 +89,12 @@ class LoadedModel:
         return self._core.check()
 
     def study(self, name: str) -> Study:
-        """A study of the file."""
+        """A study by its name."""
         return Study(self, name)
 
     def run(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
-        """Runs a study, with parameters at other values, and first those from which it takes scalars.
+        """Runs a study, with parameters at other values, and first those from which it takes scalars. Values are given by keyword, or
+        as a mapping.
 
         A motion that stops on its way has results up to there, with :attr:`Results.stopped`; so has a sweep of which runs fail.
         Raises :class:`StudyError` if the study does not begin.
@@ -186,18 +187,25 @@ class LoadedModel:
         *,
         steps: Optional[Sequence[float]] = None,
     ) -> Compared:
-        """Computes a motion in time by several integrators, at several tolerances or with fixed steps of several sizes, s."""
+        """Computes a motion in time by several integrators, at several tolerances or with fixed steps of several sizes, s: errors,
+        times and counts of each.
+
+        >>> m.compare("start-up", integrators=["dop853", "radau5"], tolerances=[1e-6, 1e-9]).to_pandas()
+        """
         if (tolerances is None) == (steps is None):
             raise TypeError("give either `tolerances` or `steps`")
         sizes = [float(size) for size in (tolerances if steps is None else steps) or ()]
         return Compared(self._core.compare(study, list(integrators), sizes, steps is not None))
 
     def dynamics(self) -> Dynamics:
-        """The mechanism, assembled at its start, to be evaluated by hand."""
+        """The equations of motion of the mechanism, assembled at its start."""
         return Dynamics(self._core.dynamics())
 
     def stepper(self, study: str) -> Stepper:
-        """The motion of a study of the kind ``dynamics``, to be advanced step by step by the integrator of the study."""
+        """The motion of a study of the kind ``dynamics``, to be advanced step by step by the integrator of the study.
+
+        Raises :class:`Refused` for a mechanism with events, rigid stops or exact friction.
+        """
         return Stepper(self._core.stepper(study))
 
     def report(self, *results: Results) -> Page:
@@ -209,8 +217,10 @@ class Study:
     """A study of a model file."""
 
     def __init__(self, model: LoadedModel, name: str) -> None:
-        self.model = model
-        self.name = name
+        #: The model.
+        self.model: LoadedModel = model
+        #: Name of the study.
+        self.name: str = name
 
     def __repr__(self) -> str:
         return f"<study {self.name}>"

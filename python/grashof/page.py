@@ -16,9 +16,9 @@ class Page:
 
     def __init__(self, text: str, height: int = 720) -> None:
         #: The text of the page.
-        self.text = text
+        self.text: str = text
         #: How high a notebook shows it, pixels.
-        self.height = height
+        self.height: int = height
 
     def __repr__(self) -> str:
         return f"<page of {len(self.text) // 1024} KiB; save(path) writes it>"
@@ -37,7 +37,7 @@ class Animation:
 
     def __init__(self, svg: str) -> None:
         #: The text of the SVG.
-        self.svg = svg
+        self.svg: str = svg
 
     def __repr__(self) -> str:
         return f"<animation of {len(self.svg) // 1024} KiB; save(path) writes it>"

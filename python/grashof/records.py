@@ -21,7 +21,9 @@ class Extreme(NamedTuple):
 class Extremes(NamedTuple):
     """The extremes of a column."""
 
+    #: The least value.
     min: Extreme
+    #: The largest value.
     max: Extreme
 
 
@@ -30,6 +32,7 @@ class Finding(NamedTuple):
 
     #: Its kind, a word to search for.
     code: str
+    #: What it is.
     message: str
     #: Path of keys in the file.
     path: str
@@ -38,6 +41,7 @@ class Finding(NamedTuple):
 class Event(NamedTuple):
     """An event of the model that happened."""
 
+    #: Name of the event.
     name: str
     #: When, s.
     at: float
@@ -48,20 +52,28 @@ class Checked(NamedTuple):
 
     #: As written.
     text: str
+    #: What was found, SI.
     found: float
+    #: What the file expects, SI.
     wanted: float
+    #: How far they may be apart, SI.
     tolerance: float
+    #: Whether they are as near.
     met: bool
 
 
 class Solution(NamedTuple):
     """A value of a parameter for which a scalar meets its target, SI."""
 
+    #: Name of the parameter.
     parameter: str
+    #: Its value.
     value: float
     #: Name of the scalar.
     of: str
+    #: The scalar with this value.
     found: float
+    #: What it should be.
     target: float
 
 
@@ -79,10 +91,13 @@ class Statistics(NamedTuple):
 
     #: Runs that have the number.
     runs: int
+    #: Mean.
     mean: float
     #: Standard deviation of the sample.
     deviation: float
+    #: Least value.
     least: float
+    #: Largest value.
     most: float
     #: By percentage: 5, 25, 50, 75, 95.
     percentiles: Dict[int, float]

@@ -52,12 +52,12 @@ class Results:
 
     @property
     def kind(self) -> str:
-        """Kind of the study: ``dynamics``."""
+        """Kind of the study: ``kinematics``, ``inverse``, ``dynamics``, ``statics``, ``modes``, ..."""
         return str(self._facts["kind"])
 
     @property
     def stopped(self) -> Optional[str]:
-        """Why it stopped on its way, if it did; what was computed up to there is kept."""
+        """Why it stopped on its way; ``None`` if it did not. What was computed up to there is kept."""
         stopped: Optional[str] = self._facts["stopped"]
         return stopped
 
@@ -68,12 +68,12 @@ class Results:
 
     @property
     def table(self) -> Array:
-        """The columns as one array, rows × columns; it cannot be written to."""
+        """The columns as one array, rows × columns, SI; it cannot be written to."""
         return self._core.table.T
 
     @property
     def independent(self) -> Array:
-        """The independent variable of each row; two rows at the same place are the two sides of a switch."""
+        """The independent variable of each row, SI; two rows at the same place are the two sides of a switch."""
         independent: Array = self._core.independent[0]
         return independent
 
@@ -128,7 +128,7 @@ class Results:
 
     @cached_property
     def extremes(self) -> Dict[str, Optional[Extremes]]:
-        """Extremes of each column over the continuous motion, not over the rows; none where a column has no value."""
+        """Extremes of each column over the continuous motion, not over the rows; ``None`` where a column has no value."""
         return Named("column", {name: extremes and extremes_of(extremes) for name, extremes in self._facts["extremes"]})
 
     @cached_property
@@ -143,12 +143,13 @@ class Results:
 
     @property
     def shapes(self) -> List[Dict[str, float]]:
-        """Shapes of modes, each by the names of its coordinates."""
+        """Shapes of modes: displacements by the names of the coordinates. Undamped ones have xᵀ M x = 1; of damped ones the
+        largest amplitude is 1, and ``P.angle.phase`` is the phase of ``P.angle``, rad."""
         return [dict(shape) for shape in self._facts["shapes"]]
 
     @cached_property
     def linear(self) -> Optional[Linear]:
-        """The linear system of a study ``linearize``."""
+        """The linear system of a study ``linearize``; of others ``None``."""
         return Linear(self._facts["linear"]) if self._facts["linear"] else None
 
     @property
@@ -168,13 +169,13 @@ class Results:
 
     @cached_property
     def certificate(self) -> Dict[str, Any]:
-        """How far to trust it: residuals, balances and counts, by the names of the JSON file."""
+        """How far the results can be trusted: residuals, balances and counts, by the names of the JSON file."""
         certificate: Dict[str, Any] = json.loads(self._core.json())["certificate"]
         return certificate
 
     @property
     def solution(self) -> Optional[Solution]:
-        """What a ``solve`` has found."""
+        """What a ``solve`` has found; ``None`` without one."""
         found = self._facts["solution"]
         if not found:
             return None
@@ -182,7 +183,7 @@ class Results:
 
     @property
     def reasons(self) -> List[str]:
-        """Of a sweep, why each run has no whole result; empty where it has."""
+        """Of a sweep, why each run has no whole result, a text a run, empty where it has one; without a sweep an empty list."""
         return list(self._facts["table"]["reasons"] or ())
 
     @cached_property

@@ -64,7 +64,7 @@ class Stepper:
 
     @property
     def state(self) -> State:
-        """The present state."""
+        """The present state: time, coordinates, velocities and first-order states."""
         q, v, z = self._core.state()
         return State(self.time, q, v, z)
 
@@ -74,6 +74,7 @@ class Stepper:
         return dict(zip(self._core.column_names, self._core.columns().tolist()))
 
     def __getitem__(self, name: str) -> float:
+        """A column of the study in the present state, SI."""
         columns = self.columns
         if name not in columns:
             from .errors import UnknownName
