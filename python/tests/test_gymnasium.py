@@ -88,15 +88,15 @@ def test_what_is_asked_too_early_is_refused() -> None:
         env.render()
 
 
-def test_a_step_takes_less_than_two_milliseconds() -> None:
+def test_a_step_takes_less_than_two_milliseconds_of_the_processor() -> None:
     env = made()
     env.reset(seed=0)
 
     def step_time() -> float:
-        begin = time.perf_counter()
+        begin = time.process_time()
         for _ in range(20):
             env.step(np.zeros(1, dtype=np.float32))
-        return (time.perf_counter() - begin) / 20
+        return (time.process_time() - begin) / 20
 
     env.unwrapped.largest_lean = np.inf
     assert min(step_time() for _ in range(10)) < 2e-3
