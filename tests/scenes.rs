@@ -200,14 +200,15 @@ fn pitch_circles_follow_from_the_ratio() {
 
 #[test]
 fn a_rope_ends_at_what_it_moves() {
-    let text = GEARS.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");
+    let racked = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
+    let text = racked.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");
     let outcome = study(&text, "turn", Coordinates::Joint);
     let scene = &outcome.scenes[0].1;
     let [_, rope] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
     assert!(rope.kind == GearKind::Rope && (rope.a.radius - 0.1).abs() < 1e-12, "{rope:?}");
     assert_eq!((&rope.b.at, &rope.b.axis), (&vec![0.0, 0.0], &vec![-1.0, 0.0]));
     // it moves as a rack does
-    let rack = study(GEARS, "turn", Coordinates::Joint);
+    let rack = study(&racked, "turn", Coordinates::Joint);
     assert_eq!(scene.frames, rack.scenes[0].1.frames);
 }
 
@@ -338,13 +339,14 @@ joints: { O: { revolute: [ground, a.start] }, P: { revolute: [ground, b.start] }
 springs:
   shaft: { stretch: b.angle - a.angle, stiffness: 10 N m }
   rope: { stretch: \"hypot(b.end.x - a.end.x, b.end.y - a.end.y) - 10 cm\", stiffness: 10 N/m }
-  odd: { stretch: a.end.y, stiffness: 10 N/m }
+  foot: { stretch: a.end.y, stiffness: 10 N/m }
+  odd: { stretch: a.end.y*b.angle, stiffness: 10 N/rad }
 start: { a.angle: 0 deg, b.angle: 60 deg }
 studies: { still: { statics: { from: start } } }
 ";
     let scene = scenes_of(text, "still").remove(0).1;
     let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind)).collect();
-    assert_eq!(kinds, [("shaft", LinkKind::Torsion), ("rope", LinkKind::Spring)]);
+    assert_eq!(kinds, [("shaft", LinkKind::Torsion), ("rope", LinkKind::Spring), ("foot", LinkKind::Spring)]);
     let mut bodies = [scene.links[1].a.body, scene.links[1].b.body];
     bodies.sort_unstable();
     assert_eq!((bodies, &scene.links[1].a.at), ([1, 2], &vec![1.0, 0.0]));

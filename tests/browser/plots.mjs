@@ -42,7 +42,7 @@ export async function a_click_in_a_figure_sets_the_time(open) {
 export async function dragging_zooms_and_a_double_click_ends_it(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const stage = plot(tab, 'rates').locator('.plot-stage');
-  const labels = () => stage.locator('text').allInnerTexts();
+  const labels = () => stage.locator('text').allTextContents();
   const before = await labels();
   await stage.scrollIntoViewIfNeeded();
   const box = await stage.boundingBox();
@@ -112,7 +112,7 @@ export async function a_second_axis_has_its_own_unit(open) {
   const { tab, directory } = await open('winch');
   const { time: seconds, speed } = csv(`${directory}/fall.csv`);
   const figure = plot(tab, 'height');
-  const texts = await figure.locator('svg.chart text').allInnerTexts();
+  const texts = await figure.locator('svg.chart text').allTextContents();
   assert.ok(texts.includes('speed [mm/s]'), texts.join());
   assert.match(await figure.locator('.legend').innerText(), /speed \(right\)/);
   await seek(tab, seconds[60]);

@@ -89,7 +89,7 @@ export async function view_and_zoom_stay_over_a_save(browser, program) {
     const figure = tab.locator('.plot-stage').first();
     await figure.focus();
     for (const _ of [1, 2]) await tab.keyboard.press('+');
-    const across = () => figure.locator('svg.chart text[text-anchor=middle]').allInnerTexts();
+    const across = () => figure.locator('svg.chart text[text-anchor=middle]').allTextContents();
     const [look, ticks] = [await tab.evaluate(() => grashof.look()), await across()];
     assert.ok(look[0] > 1 && look[1] !== 0, look.join());
     await tab.evaluate(() => document.querySelectorAll('.stage canvas, .plot-stage, .legend button').forEach((one) => (one.before = true)));

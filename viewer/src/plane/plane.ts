@@ -75,8 +75,10 @@ export class Plane implements Renderer {
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
     scene.gears.forEach((gear, k) => this.toothed(gear, 0.1 * width * (k + 1)));
+    // boxes lie under the bodies that slide, slots on those that they are cut into
+    scene.joints.forEach((joint) => this.box(joint));
     scene.bodies.forEach((body, index) => body.shapes.forEach((shape) => this.shape(index, shape)));
-    scene.joints.forEach((joint) => this.sliding(joint));
+    scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.forEach((link) => this.link(link));
     scene.joints.forEach((joint) => this.sign(joint));
@@ -108,7 +110,7 @@ export class Plane implements Renderer {
       signs.spiral(this.pen, from, this.motion.angle(a.body, this.place), this.motion.angle(b.body, this.place), this.inks);
       return;
     }
-    const bearings = this.motion.scene.joints.filter((joint) => joint.a.body === 0 || joint.b.body === 0).map((joint) => this.point(joint.a));
+    const bearings = this.motion.scene.joints.filter(({ kind, a, b }) => kind === 'revolute' && (a.body === 0 || b.body === 0)).map((joint) => this.point(joint.a));
     for (const [end, other, body] of [[from, to, a.body], [to, from, b.body]] as const) {
       if (kind !== 'rod' && body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
     }
@@ -266,9 +268,12 @@ export class Plane implements Renderer {
     else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
   }
 
-  private sliding(joint: Joint): void {
+  private slot(joint: Joint): void {
     if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), this.colors(joint.a.body).edge, this.inks);
-    else if (this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
+  }
+
+  private box(joint: Joint): void {
+    if (joint.kind !== 'pin-in-slot' && this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
   }
 
   private sign({ kind, a, b, driven }: Joint): void {
