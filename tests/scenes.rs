@@ -340,7 +340,7 @@ springs:
   shaft: { stretch: b.angle - a.angle, stiffness: 10 N m }
   rope: { stretch: \"hypot(b.end.x - a.end.x, b.end.y - a.end.y) - 10 cm\", stiffness: 10 N/m }
   foot: { stretch: a.end.y, stiffness: 10 N/m }
-  odd: { stretch: a.end.y*b.angle, stiffness: 10 N/rad }
+  odd: { stretch: a.end.y*b.angle, stiffness: 10 N/m }
 start: { a.angle: 0 deg, b.angle: 60 deg }
 studies: { still: { statics: { from: start } } }
 ";
