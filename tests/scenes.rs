@@ -4,7 +4,7 @@ use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Selection};
 use grashof::results::Scene;
-use grashof::results::scene::{LinkKind, Place, Shape, Trace};
+use grashof::results::scene::{GearKind, LinkKind, Place, Shape, Trace};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
 use grashof::studies::sweep::{Drawn, Run, Settings, sweep};
@@ -193,9 +193,42 @@ fn pitch_circles_follow_from_the_ratio() {
     let [mesh, rack] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
     assert!((mesh.a.radius - 0.1).abs() < 1e-12 && (mesh.b.radius - 0.2).abs() < 1e-12, "{mesh:?}");
     let touched = scene.world(scene.frame(0), &Place { body: rack.b.body, at: rack.b.at.clone() });
-    assert!(rack.rack && (rack.a.radius - 0.1).abs() < 1e-12, "{rack:?}");
+    assert!(rack.kind == GearKind::Rack && (rack.a.radius - 0.1).abs() < 1e-12, "{rack:?}");
     // the lowest point of a wheel that turns counter-clockwise moves to the right: with a radius below 0 the rack moves to the left
     assert!((touched[0]).abs() < 1e-12 && (touched[1] - 0.1).abs() < 1e-12, "{touched:?}");
+}
+
+#[test]
+fn a_rope_ends_at_what_it_moves() {
+    let racked = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
+    let text = racked.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");
+    let outcome = study(&text, "turn", Coordinates::Joint);
+    let scene = &outcome.scenes[0].1;
+    let [_, rope] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
+    assert!(rope.kind == GearKind::Rope && (rope.a.radius - 0.1).abs() < 1e-12, "{rope:?}");
+    assert_eq!((&rope.b.at, &rope.b.axis), (&vec![0.0, 0.0], &vec![-1.0, 0.0]));
+    // it moves as a rack does
+    let rack = study(&racked, "turn", Coordinates::Joint);
+    assert_eq!(scene.frames, rack.scenes[0].1.frames);
+}
+
+#[test]
+fn springs_over_one_coordinate_have_a_place() {
+    let springs = "springs: { j: { joint: W, stiffness: 5 N/m }, p: { stretch: block.y - 1 cm, stiffness: 5 N/m }, q: { stretch: W.position^2, \
+                   stiffness: 1 N/m^3 }, c: { stretch: crank.angle, stiffness: 1 N m/rad }, r: { stretch: rod.angle, stiffness: 1 N m/rad } }";
+    let outcome = study(&SLIDER_CRANK.replace("start:", &format!("{springs}\nstart:")), "turn", Coordinates::Joint);
+    let scene = &outcome.scenes[0].1;
+    let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind)).collect();
+    // the rod has no hinge on the ground
+    let expected = [("j", LinkKind::Spring), ("p", LinkKind::Spring), ("q", LinkKind::Spring), ("c", LinkKind::Torsion)];
+    assert_eq!(kinds, expected);
+    for link in &scene.links[..3] {
+        let lengths = (0..scene.frames.count()).map(|i| {
+            let [a, b] = [&link.a, &link.b].map(|end| scene.world(scene.frame(i), end));
+            (b[0] - a[0]).hypot(b[1] - a[1])
+        });
+        assert!(lengths.fold(f64::INFINITY, f64::min) > 0.01, "{link:?}");
+    }
 }
 
 #[test]
@@ -306,13 +339,14 @@ joints: { O: { revolute: [ground, a.start] }, P: { revolute: [ground, b.start] }
 springs:
   shaft: { stretch: b.angle - a.angle, stiffness: 10 N m }
   rope: { stretch: \"hypot(b.end.x - a.end.x, b.end.y - a.end.y) - 10 cm\", stiffness: 10 N/m }
-  odd: { stretch: a.end.y, stiffness: 10 N/m }
+  foot: { stretch: a.end.y, stiffness: 10 N/m }
+  odd: { stretch: a.end.y*b.angle, stiffness: 10 N/m }
 start: { a.angle: 0 deg, b.angle: 60 deg }
 studies: { still: { statics: { from: start } } }
 ";
     let scene = scenes_of(text, "still").remove(0).1;
     let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind)).collect();
-    assert_eq!(kinds, [("shaft", LinkKind::Torsion), ("rope", LinkKind::Spring)]);
+    assert_eq!(kinds, [("shaft", LinkKind::Torsion), ("rope", LinkKind::Spring), ("foot", LinkKind::Spring)]);
     let mut bodies = [scene.links[1].a.body, scene.links[1].b.body];
     bodies.sort_unstable();
     assert_eq!((bodies, &scene.links[1].a.at), ([1, 2], &vec![1.0, 0.0]));

@@ -2,7 +2,7 @@
 
 use crate::errors::raised;
 use grashof::Error;
-use grashof::output::{self, Curve, Figure, Film, Pace, Shot, ShotOptions, curve_style, moving_svg, render_figure};
+use grashof::output::{self, Curve, Figure, Film, Pace, Shot, ShotOptions, moving_svg, render_figure};
 use grashof::results::{Plot, Results, Unknown};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -52,14 +52,8 @@ fn dictionary<'py>(py: Python<'py>, name: &str, figure: &Figure) -> PyResult<Bou
     made.set_item("breaks", figure.breaks.clone())?;
     let curves = figure.curves.iter().map(|curve| curve_of(py, curve, &figure.y.unit)).collect::<PyResult<Vec<_>>>()?;
     made.set_item("curves", curves)?;
-    // curves of one unit share a panel
-    let style = |index: usize| {
-        let beside: Vec<usize> = (0..figure.curves.len()).filter(|k| figure.curves[*k].unit == figure.curves[index].unit).collect();
-        let place = beside.iter().position(|k| *k == index).unwrap_or(0);
-        let (color, dash) = curve_style([index, figure.curves.len()], [place, beside.len()]);
-        (color, dash, figure.curves[index].dots)
-    };
-    made.set_item("styles", (0..figure.curves.len()).map(style).collect::<Vec<_>>())?;
+    let styles = figure.styles().into_iter().zip(&figure.curves).map(|((color, dash), curve)| (color, dash, curve.dots));
+    made.set_item("styles", styles.collect::<Vec<_>>())?;
     Ok(made)
 }
 

@@ -149,8 +149,8 @@ pub struct Coupling {
 pub enum CouplingKind {
     /// Joint `b` turns `ratio` times as far as joint `a` (from the start position).
     Gear { a: usize, b: usize, ratio: Id },
-    /// `slide` moves `radius` times as far as `pinion` turns (from the start position), m.
-    Rack { pinion: usize, slide: usize, radius: Id },
+    /// `slide` moves `radius` times as far as `pinion` turns (from the start position), m; by teeth or by a `rope` on a drum.
+    Rack { pinion: usize, slide: usize, radius: Id, rope: bool },
     /// An expression of position-level quantities that stays 0.
     Zero(Id),
 }

@@ -78,12 +78,13 @@ pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
     }
 }
 
-/// The first position of a drawing by a plan, without names and paths.
+/// The first position of a drawing by a plan with its forces, without names and paths.
 pub(super) fn position(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
     let letters = Lettering::new(Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: plan.height });
     let scene = Scene { width: WIDTH, height: plan.height, ..Scene::default() };
     let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters, scene };
     pen.pose(0, 1.0);
+    forces::draw_all(drawing, &plan.sheet, plan.signs, plan.forces, &mut pen.scene);
     pen.scene.items
 }
 
@@ -327,7 +328,13 @@ mod tests {
             let body = named("b", vec![plate(vec![at]), vec![round], plate(vec![at, at, at])]);
             let trace = Trace { name: "p".into(), points: vec![at, [0.5, 0.5], [nan, nan]] };
             let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
-            let gear = super::super::pose::Gear { circles: vec![vec![at; 3]], line: Some([at; 2]), mesh: Some(at), belt: vec![at; 3] };
+            let gear = super::super::pose::Gear {
+                circles: vec![vec![at; 3]],
+                line: Some([at; 2]),
+                mesh: Some(at),
+                belt: vec![at; 3],
+                rope: Some([at; 2]),
+            };
             let (joints, gears) = (vec![symbol(at)], vec![gear]);
             let drawing = Drawing { bodies: vec![body], joints, traces: vec![trace], links: vec![link], gears, ..Drawing::default() };
             let svg = super::super::svg::write_svg(&layout(&drawing));

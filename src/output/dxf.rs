@@ -70,7 +70,8 @@ pub fn write_dxf(drawing: &Drawing) -> String {
     }
     for gear in drawing.gears.iter().map(|gear| sheet.gear(gear)) {
         gear.circles.iter().for_each(|circle| out.path(Layer::Gears, &circle.iter().copied().map(back).collect::<Vec<_>>(), false));
-        gear.line.iter().for_each(|line| out.path(Layer::Gears, &line.map(back), false));
+        gear.line.iter().chain(&gear.rope).for_each(|line| out.path(Layer::Gears, &line.map(back), false));
+        out.path(Layer::Gears, &gear.belt.iter().copied().map(back).collect::<Vec<_>>(), true);
     }
     for trace in &drawing.traces {
         for piece in trace.points.split(|point| !is_usable(point)) {

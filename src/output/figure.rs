@@ -5,7 +5,7 @@ use super::panel::{Line, Panel, Ruler};
 use super::picture::Picture;
 use super::plot::{Curve, Figure, Scale};
 use super::raster::RenderError;
-use super::scene::{Rect, Scene, curve_style};
+use super::scene::{Rect, Scene};
 use super::{font, thin};
 
 const WIDTH: f64 = 1000.0;
@@ -120,12 +120,13 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         ruler.limit(axis.range);
         ruler
     });
-    let line = |(place, &index): (usize, &usize)| {
-        let (color, dash) = curve_style([index, figure.curves.len()], [place, indices.len()]);
+    let styles = figure.styles();
+    let line = |&index: &usize| {
+        let (color, dash) = styles[index];
         let Curve { points, right, dots, .. } = figure.curves[index].clone();
         Line { ordered: thin::is_ordered(&points), points, color, dash, right, dots }
     };
-    let lines: Vec<_> = indices.iter().enumerate().map(line).collect();
+    let lines: Vec<_> = indices.iter().map(line).collect();
     let label = |curve: &Curve| match curve.unit.as_ref().unwrap_or(&figure.y.unit) {
         unit if mixed && !unit.is_empty() => format!("{} in {}", curve.label, super::units::pretty(unit)),
         _ => curve.label.clone(),

@@ -4,9 +4,9 @@ use super::font;
 use super::lettering::{Lettering, Obstacle};
 use super::pose::{Drawing, Force, ForceKind};
 use super::scalars::significant;
-use super::scene::{Anchor, Color, PALETTE, Scene, Stroke};
+use super::scene::{Anchor, Color, PALETTE, Scene};
 use super::sheet::{Sheet, is_usable};
-use super::symbols::{Signs, off};
+use super::symbols::{Signs, direction, off};
 use super::thin::Point;
 use std::f64::consts::TAU;
 
@@ -16,6 +16,8 @@ const LONGEST: f64 = 0.25;
 const SAMPLE: f64 = 110.0;
 /// Shorter arrows are not seen, pixels.
 const SEEN: f64 = 3.0;
+/// Length of the head of an arrow, pixels.
+const HEAD: f64 = 13.0;
 
 const KINDS: [(ForceKind, &str); 2] = [(ForceKind::Load, "loads"), (ForceKind::Reaction, "reactions")];
 
@@ -50,39 +52,64 @@ pub(super) fn tips<'d>(drawing: &'d Drawing, scales: [f64; 2]) -> impl Iterator<
     })
 }
 
-/// Draws the arrows of a drawing, of which names keep clear.
+/// Draws the arrows of a drawing that are seen, of which names keep clear.
 pub(super) fn draw(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: [f64; 2], scene: &mut Scene, letters: &mut Lettering) {
     for (force, tip) in drawing.forces.iter().zip(tips(drawing, scales)) {
-        if !is_usable(&force.at) || !is_usable(&tip) {
+        let Some((from, to)) = ends(force, tip, sheet) else { continue };
+        if force.turning.is_some_and(|turning| turning != 0.0) {
+            letters.avoid(from, [30.0 * signs.size; 2], [0.0; 2]);
+        } else if force.turning.is_none() && direction(from, to).1 >= SEEN {
+            letters.avoid_line(&[from, to], Obstacle::Body);
+        } else {
             continue;
         }
-        let (from, to, color) = (sheet.point(force.at), sheet.point(tip), color(force.kind));
-        if force.turning != 0.0 {
-            turned(scene, signs, from, force.turning.signum(), color);
-            letters.avoid(from, [30.0 * signs.size; 2], [0.0; 2]);
-        } else if (to[0] - from[0]).hypot(to[1] - from[1]) >= SEEN {
-            arrow(scene, signs, [from, to], color);
-            letters.avoid_line(&[from, to], Obstacle::Body);
+        scene.shape(outline(force, signs, [from, to]), Some(color(force.kind)), None);
+    }
+}
+
+/// The arrows of all forces of a drawing, each as one item with a number of points that does not change with the force, so that it can be
+/// followed from picture to picture; one of no force has no area.
+pub(super) fn draw_all(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: [f64; 2], scene: &mut Scene) {
+    for (force, tip) in drawing.forces.iter().zip(tips(drawing, scales)) {
+        if let Some((from, to)) = ends(force, tip, sheet) {
+            scene.shape(outline(force, signs, [from, to]), Some(color(force.kind)), None);
         }
     }
 }
 
-fn arrow(scene: &mut Scene, signs: Signs, [from, to]: [Point; 2], color: Color) {
-    scene.line(vec![from, to], Stroke::solid(color, signs.pen(3.4)));
-    signs.head(scene, &[from, to], color);
+/// Where an arrow begins and ends, pixels, if it can be drawn.
+fn ends(force: &Force, tip: [f64; 2], sheet: &Sheet) -> Option<(Point, Point)> {
+    (is_usable(&force.at) && is_usable(&tip)).then(|| (sheet.point(force.at), sheet.point(tip)))
 }
 
-/// A torque: three quarters of a turn about its place, counter-clockwise for a positive one.
-fn turned(scene: &mut Scene, signs: Signs, at: Point, sense: f64, color: Color) {
-    let radius = 27.0 * signs.size;
-    let points: Vec<Point> = (0..=30)
-        .map(|k| {
-            let angle = 0.6 * TAU - sense * 0.7 * TAU * f64::from(k) / 30.0;
-            off(at, [angle.cos(), angle.sin()], radius, 0.0)
-        })
-        .collect();
-    scene.line(points.clone(), Stroke::solid(color, signs.pen(3.0)));
-    signs.head(scene, &points, color);
+fn outline(force: &Force, signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
+    match force.turning {
+        Some(turning) => turned(signs, from, turning),
+        None => arrow(signs, [from, to]),
+    }
+}
+
+/// An arrow; one that is shorter than its head is a smaller one.
+fn arrow(signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
+    let (along, length) = direction(from, to);
+    let size = HEAD * signs.size.max(0.6);
+    let part = (length / (2.0 * size)).min(1.0);
+    let (base, shaft, wing) = (length - part * size, part * 0.5 * signs.pen(3.4), part * 0.5 * size);
+    let at = |s: f64, t: f64| off(from, along, s, t);
+    vec![at(0.0, -shaft), at(base, -shaft), at(base, -wing), to, at(base, wing), at(base, shaft), at(0.0, shaft)]
+}
+
+/// A torque: an arrow of seven tenths of a turn about its place, counter-clockwise for a positive one.
+fn turned(signs: Signs, at: Point, turning: f64) -> Vec<Point> {
+    const STEPS: u32 = 30;
+    let sense = if turning == 0.0 { 0.0 } else { turning.signum() };
+    let (radius, half, head) = (27.0 * signs.size, 0.5 * signs.pen(3.0), HEAD * signs.size.max(0.6));
+    let point = |angle: f64, radius: f64| off(at, [angle.cos(), angle.sin()], sense.abs() * radius, 0.0);
+    let angle = |k: u32| 0.6 * TAU - sense * 0.7 * TAU * f64::from(k) / f64::from(STEPS);
+    let (end, tip) = (angle(STEPS), angle(STEPS) - sense * head / radius);
+    let outer = (0..=STEPS).map(|k| point(angle(k), radius + half));
+    let head = [point(end, radius + 0.5 * head), point(tip, radius), point(end, radius - 0.5 * head)];
+    outer.chain(head).chain((0..=STEPS).rev().map(|k| point(angle(k), radius - half))).collect()
 }
 
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
@@ -95,7 +122,7 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: [f64; 2], scene: &m
         let most = SAMPLE * scales[kind as usize] / pixels;
         let value = round_above(0.4 * most);
         let to = x + value * pixels / scales[kind as usize];
-        arrow(scene, Signs { size: 0.8 }, [[x, y], [to, y]], color(kind));
+        scene.shape(arrow(Signs { size: 0.8 }, [[x, y], [to, y]]), Some(color(kind)), None);
         let (shown, unit) = if value >= 1e3 { (value / 1e3, "kN") } else { (value, "N") };
         let text = format!("{name}: {} {unit}", significant(shown, 4));
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
@@ -106,6 +133,19 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: [f64; 2], scene: &m
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn arrows_keep_their_number_of_points_and_end_at_their_tips() {
+        let signs = Signs { size: 1.0 };
+        for to in [[80.0, 0.0], [1.0, 1.0], [0.0, 0.0]] {
+            let points = arrow(signs, [[0.0; 2], to]);
+            assert_eq!((points.len(), points[3]), (7, to));
+        }
+        assert!(arrow(signs, [[5.0; 2]; 2]).iter().all(|p| *p == [5.0; 2]));
+        let counts = [2.0, -1.0, 0.0].map(|turning| turned(signs, [0.0; 2], turning).len());
+        assert!(counts.iter().all(|count| *count == counts[0]));
+        assert!(turned(signs, [5.0; 2], 0.0).iter().all(|p| *p == [5.0; 2]));
+    }
 
     #[test]
     fn scales_are_round_and_those_that_are_asked_for() {

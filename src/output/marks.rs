@@ -13,7 +13,7 @@ pub(super) const RUST: Color = [150, 60, 20];
 const DRIVE: Color = [0, 112, 84];
 /// Of stops.
 const STOP: Color = [176, 20, 40];
-/// Of belts.
+/// Of belts and ropes.
 const BELT: Color = [70, 70, 76];
 /// A centre line: long, short.
 const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
@@ -132,7 +132,7 @@ impl Signs {
         }
     }
 
-    /// Pitch circles and lines, and where they touch.
+    /// Pitch circles and lines, and where they touch; belts and ropes.
     pub(super) fn gear(self, scene: &mut Scene, gear: &Gear) {
         let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
         gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
@@ -140,6 +140,7 @@ impl Signs {
         if !gear.belt.is_empty() {
             scene.shape(gear.belt.clone(), None, Some(Stroke::solid(BELT, self.pen(4.0))));
         }
+        gear.rope.iter().for_each(|rope| scene.line(rope.to_vec(), Stroke::solid(BELT, self.pen(4.0))));
         gear.mesh.iter().for_each(|at| scene.circle(*at, 4.5 * self.size.max(0.6), Some(DRIVE), None));
     }
 }

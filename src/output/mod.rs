@@ -77,7 +77,6 @@ pub use report::{LIVE_POLICY, Report, ReportModel, ReportRuns, ReportStudy, live
 pub use results_schema::results_schema;
 pub use row_files::RowFiles;
 pub use scalars::ten_digits;
-pub use scene::curve_style;
 pub use staging::{Staging, Written, prepare};
 pub use text::summary;
 pub use write_error::WriteError;

@@ -181,6 +181,7 @@ impl Ruler {
         };
         let unit = match (self.shown.unit.as_str(), self.name.is_empty()) {
             ("", _) => String::new(),
+            (unit, true) if offset.is_empty() => unit.to_owned(),
             (unit, true) => format!("in {unit}"),
             (unit, false) => format!(" in {unit}"),
         };

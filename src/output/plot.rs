@@ -1,5 +1,7 @@
 //! What a figure of curves shows.
 
+use super::scene::curve_style;
+
 /// Curves over an axis.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
@@ -24,6 +26,24 @@ pub struct Figure {
     pub ranges: Vec<(String, [Option<f64>; 2])>,
     /// A second vertical axis on the right of the first panel, for the curves that are drawn over it.
     pub right: Option<Axis>,
+}
+
+impl Figure {
+    /// How each curve is drawn: its colour (red, green, blue), and lengths of dash, gap, dash...; empty for a solid line. No two are alike,
+    /// but for curves of one name in panels of different units.
+    #[must_use]
+    pub fn styles(&self) -> Vec<([u8; 3], &'static [f64])> {
+        let mut places: Vec<usize> = Vec::with_capacity(self.curves.len());
+        let mut count = 0;
+        for (index, curve) in self.curves.iter().enumerate() {
+            let one = |other: &&Curve| !curve.label.is_empty() && other.label == curve.label;
+            let known = self.curves[..index].iter().position(|other| one(&other) && other.unit != curve.unit);
+            let taken = self.curves[..index].iter().any(|other| one(&other) && other.unit == curve.unit);
+            places.push(known.filter(|_| !taken).map_or(count, |known| places[known]));
+            count = count.max(places[index] + 1);
+        }
+        places.into_iter().map(|place| curve_style(place, count)).collect()
+    }
 }
 
 /// What an axis says and how it runs.
@@ -73,4 +93,21 @@ pub struct Mark {
     pub curve: usize,
     /// Where, in SI units.
     pub at: (f64, f64),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figure(names: &[(&str, &str)]) -> Figure {
+        let curve = |(label, unit): &(&str, &str)| Curve { label: (*label).into(), unit: Some((*unit).into()), ..Curve::default() };
+        Figure { curves: names.iter().map(curve).collect(), ..Figure::default() }
+    }
+
+    #[test]
+    fn curves_of_one_name_are_alike_in_panels_of_different_units_alone() {
+        let styles = figure(&[("rk4", "s"), ("bdf", "s"), ("rk4", ""), ("bdf", ""), ("rk4", "")]).styles();
+        assert_eq!((styles[0], styles[1]), (styles[2], styles[3]));
+        assert!(styles[4] != styles[0] && styles[4] != styles[1] && styles[0] != styles[1]);
+    }
 }

@@ -18,7 +18,7 @@ pub struct Drawing {
     pub gears: Vec<Gear>,
     /// The paths of points.
     pub traces: Vec<Trace>,
-    /// Forces in the first position.
+    /// Forces in the first position; of a motion those of all its pictures, picture after picture.
     pub forces: Vec<Force>,
     /// The three axes of space as they are seen, each of length 1 in space; none in the plane.
     pub axes: Option<[[f64; 2]; 3]>,
@@ -141,7 +141,7 @@ pub enum LinkKind {
     Torsion,
 }
 
-/// Gears, or a pinion and its rack, in the first position.
+/// Gears, a pinion and its rack, wheels under a belt, or a rope on its drum, in the first position.
 #[derive(Clone, Debug, Default)]
 pub struct Gear {
     /// Pitch circles, as closed lines.
@@ -150,8 +150,10 @@ pub struct Gear {
     pub line: Option<[[f64; 2]; 2]>,
     /// Where they touch.
     pub mesh: Option<[f64; 2]>,
-    /// A belt around both, as a closed line.
+    /// A belt around both, or what of a rope lies on its drum, as a closed line.
     pub belt: Vec<[f64; 2]>,
+    /// A rope from where it leaves its drum to its end.
+    pub rope: Option<[[f64; 2]; 2]>,
 }
 
 /// A force or torque in the first position.
@@ -163,8 +165,8 @@ pub struct Force {
     pub at: [f64; 2],
     /// As it is seen, N; of a torque nothing.
     pub along: [f64; 2],
-    /// Of a torque its part about the direction to the eye, N m.
-    pub turning: f64,
+    /// Of a torque its part about the direction to the eye, N m; none of a force.
+    pub turning: Option<f64>,
     /// Force per length of its arrow, N/m; none for one that suits the picture.
     pub scale: Option<f64>,
 }

@@ -171,23 +171,29 @@ fn curve_color(index: usize, count: usize) -> Color {
     [channel(0), channel(1), channel(2)]
 }
 
-/// How curve `index` of a panel with `count` curves is drawn: its colour (red, green, blue), and lengths of dash, gap, dash...; empty for
-/// a solid line.
+/// How curve `index` of a figure with `count` curves is drawn, in whatever panel: its colour (red, green, blue), and lengths of dash, gap,
+/// dash...; empty for a solid line. No two of a figure are alike.
 #[must_use]
-fn line_style(index: usize, count: usize) -> ([u8; 3], &'static [f64]) {
-    // colours of a scale are told apart by their order
-    (curve_color(index, count), if count > PALETTE.len() { &[] } else { curve_dash(index) })
+pub(super) fn curve_style(index: usize, count: usize) -> ([u8; 3], &'static [f64]) {
+    (curve_color(index, count), curve_dash(index))
 }
 
-/// Colour and dashes of a curve by its number and the number of curves, in the figure and in its panel: no two curves of a figure are alike,
-/// in whatever panel; where these are too many, no two of a panel.
-pub fn curve_style([index, all]: [usize; 2], [place, count]: [usize; 2]) -> ([u8; 3], &'static [f64]) {
-    if all > PALETTE.len() { line_style(place, count) } else { line_style(index, all) }
-}
-
-/// The dashes of curve `index`: with them curves differ in print without colour, too.
+/// The dashes of curve `index`: with them curves differ in print without colour, too, and neighbours on a scale of colours as well.
 fn curve_dash(index: usize) -> &'static [f64] {
     const DASHES: [&[f64]; 7] =
         [&[], &[14.0, 7.0], &[3.0, 7.0], &[18.0, 6.0, 3.0, 6.0], &[8.0, 5.0], &[24.0, 8.0], &[14.0, 5.0, 3.0, 5.0, 3.0, 5.0]];
     DASHES[index % DASHES.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_curves_of_a_figure_are_alike() {
+        for count in [1, 7, 8, 20, 500] {
+            let styles: Vec<_> = (0..count).map(|index| curve_style(index, count)).collect();
+            assert!((0..count).all(|i| !styles[..i].contains(&styles[i])), "{count}");
+        }
+    }
 }

@@ -70,6 +70,7 @@ impl Sheet {
             line: gear.line.filter(|line| line.iter().all(is_usable)).map(|line| line.map(|p| self.point(p))),
             mesh: gear.mesh.filter(is_usable).map(|p| self.point(p)),
             belt: self.points(&gear.belt),
+            rope: gear.rope.filter(|rope| rope.iter().all(is_usable)).map(|rope| rope.map(|p| self.point(p))),
         }
     }
 }
@@ -114,7 +115,7 @@ pub(super) fn extent(drawing: &Drawing) -> [f64; 4] {
     let gears = drawing
         .gears
         .iter()
-        .flat_map(|gear| gear.circles.iter().flatten().chain(&gear.belt).copied().chain(gear.line.into_iter().flatten()));
+        .flat_map(|gear| gear.circles.iter().flatten().chain(&gear.belt).copied().chain(gear.line.into_iter().chain(gear.rope).flatten()));
     let all = bodies.chain(joints).chain(links).chain(traces).chain(gears).filter(is_usable);
     let [left, bottom, right, top] = all.fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |e, [x, y]| {
         [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)]

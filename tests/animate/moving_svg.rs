@@ -108,3 +108,31 @@ fn solids_are_a_flip_book() {
 fn fs_model(name: &str) -> String {
     std::fs::read_to_string(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name)).unwrap()
 }
+
+/// The arrow of a load is there at all times, as long as its force, and turns over with it.
+#[test]
+fn forces_move_with_the_mechanism() {
+    let text = SLIDER_CRANK.replace("drivers:", "loads: { push: { at: rod.P, force: [0, 5 N*cos(O.angle)] } }\ndrivers:").replace(
+        "kinematics: { over: 1 turn, samples: 97 }, columns: [time, rod.P]",
+        "inverse: { over: 1 turn, samples: 97 }, columns: [time], show: { loads: 10 N/m }",
+    );
+    let place = Place::new("forces", &text);
+    let svg = String::from_utf8(place.made("animate --study turn --rate 20 --duration 4 -o out.svg", "out.svg")).unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let moving =
+        |node: &Node<'_, '_>| node.attribute("fill") == Some("#d55e00") && node.children().any(|child| child.has_tag_name("animate"));
+    let arrow = document.descendants().find(|node| node.has_tag_name("polygon") && moving(node)).unwrap();
+    let animation = arrow.children().find(|child| child.has_tag_name("animate")).unwrap();
+    let way = |part: f64| {
+        let points = value(animation, part);
+        assert_eq!(points.len(), 14);
+        [points[6] - 0.5 * (points[0] + points[12]), points[7] - 0.5 * (points[1] + points[13])]
+    };
+    let first = way(0.0);
+    assert!(first[0].abs() < 0.1 && first[1] < -20.0, "{first:?}");
+    for part in [0.25_f64, 0.5, 0.75, 1.0] {
+        let force = (20f64.to_radians() - std::f64::consts::TAU * part).cos() / 20f64.to_radians().cos();
+        let [x, y] = way(part);
+        assert!(x.abs() < 0.1 && (y - force * first[1]).abs() < 0.02 * first[1].abs(), "{part}: {x} {y}, {force}");
+    }
+}

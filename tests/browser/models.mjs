@@ -31,4 +31,40 @@ studies:
     columns: [O.angle, P.position]
     expect: { max(P.position): { is: 50 cm, within: 1 mm } }
 `,
+  // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
+  winch: `grashof: 1
+name: winch
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { D: [0, 0], W: [10 cm, -40 cm], S: [40 cm, -40 cm] }
+bodies:
+  drum: { disc: { radius: 10 cm, mass: 3 kg } }
+  weight: { plate: { size: [12 cm, 12 cm], mass: 4 kg } }
+  block: { plate: { size: [8 cm, 8 cm], mass: 1 kg } }
+joints:
+  D: { revolute: [ground.D, drum.origin] }
+  W: { slider: [ground.W, weight.origin], axis: [0, 1] }
+  S: { slider: [ground.S, block.origin], axis: [0, 1] }
+couplings: { rope: { rope: [D, W], radius: 10 cm } }
+springs:
+  coil: { joint: S, stiffness: 200 N/m }
+  foot: { stretch: weight.y + 40 cm, stiffness: 20 N/m }
+  spiral: { stretch: drum.angle, stiffness: 0.2 N m/rad }
+loads: { brake: { joint: D, torque: -1 N m }, push: { at: block.origin, force: [0, 5 N] } }
+start: { D.angle: 30 deg, W.position: 0 m, S.position: 2 cm }
+measures: { height: W.position, speed: W.velocity }
+studies:
+  fall:
+    dynamics: { until: 0.5 s, every: 5 ms }
+    columns: [time, height, speed]
+    show: { loads: 100 N/m, reactions: 200 N/m }
+    plot:
+      height:
+        show: [height]
+        right: { show: [speed], in: mm/s }
+        data: { seen: { file: seen.csv, x: time, y: height, in: [s, mm] } }
+`,
 };
+
+/** Files beside these models. */
+export const FILES = { winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };

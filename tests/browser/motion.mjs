@@ -139,3 +139,15 @@ export async function arrows_are_drawn_on_demand(open) {
   pictures.push(await picture(tab));
   assert.equal(new Set(pictures).size, 5);
 }
+
+export async function arrows_begin_at_the_scale_of_the_model(open) {
+  const { tab } = await open('winch');
+  for (const kind of ['loads', 'reactions']) assert.ok(await tab.getByRole('checkbox', { name: kind }).isChecked(), kind);
+  assert.equal(await tab.locator('.told').innerText(), 'loads 100 N/m, reactions 200 N/m');
+  const slider = tab.getByLabel('length of the arrows');
+  assert.equal(await slider.inputValue(), '25');
+  const before = await picture(tab);
+  await slider.fill('50');
+  assert.equal(await tab.locator('.told').innerText(), 'loads 50 N/m, reactions 100 N/m');
+  assert.notEqual(await picture(tab), before);
+}

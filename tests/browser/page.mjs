@@ -82,22 +82,63 @@ export async function light_and_dark_follow_the_system_and_the_switch(open) {
 }
 
 export async function nothing_is_wider_than_the_window(open) {
+  const pages = [['crank_rocker', ['one-turn', 'lengths', 'modes']], ['stewart_platform', ['ride']], ['winch', ['fall']], ['cart_pole', ['linear']]];
   for (const width of [390, 768, 1280, 2560]) {
-    const { tab } = await open('crank_rocker', { width });
-    for (const study of ['one-turn', 'lengths', 'modes']) {
-      await tab.evaluate((name) => grashof.study(name), study);
-      await tab.waitForTimeout(100);
-      const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
-      assert.ok(wide <= width, `${study} is ${wide} wide in ${width}`);
+    for (const [model, studies] of pages) {
+      const { tab } = await open(model, { width });
+      for (const study of studies) {
+        await tab.evaluate((name) => grashof.study(name), study);
+        await tab.evaluate(() => document.querySelectorAll('details').forEach((part) => (part.open = true)));
+        await tab.waitForTimeout(100);
+        const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
+        assert.ok(wide <= width, `${model}, ${study} is ${wide} wide in ${width}`);
+      }
     }
   }
 }
 
+/** The name of what has the focus. */
+const focused = (tab) => tab.evaluate(() => {
+  const { activeElement: on } = document;
+  return on.getAttribute('aria-label') || on.closest('label')?.textContent.trim() || on.textContent.trim().split('\n')[0] || on.tagName;
+});
+
+export async function the_controls_are_reached_and_used_by_keys(open) {
+  const { tab } = await open('winch');
+  const names = [];
+  for (let k = 0; k < 60 && !names.includes('Add figure'); k++) {
+    await tab.keyboard.press('Tab');
+    names.push(await focused(tab));
+  }
+  const wanted = [/^Skip|^To the/i, /^drawing of the mechanism/, /^play$/, /^place of the motion$/, /^speed$/, /^again and again$/, /^whole mechanism$/, /^names$/, /^loads$/,
+    /^reactions$/, /^length of the arrows$/, /^height/, /^column to draw$/, /^drawn over$/, /^Add figure$/];
+  let from = 0;
+  for (const name of wanted) {
+    const found = names.findIndex((one, k) => k >= from && name.test(one));
+    assert.ok(found >= 0, `${name} not in ${names.slice(from).join(' | ')}`);
+    from = found;
+  }
+  await tab.getByRole('checkbox', { name: 'loads' }).focus();
+  await tab.keyboard.press(' ');
+  assert.equal(await tab.getByRole('checkbox', { name: 'loads' }).isChecked(), false);
+  await tab.locator('.legend button').first().focus();
+  await tab.keyboard.press('Enter');
+  assert.equal(await tab.locator('.legend button').first().getAttribute('aria-pressed'), 'false');
+  await tab.locator('.scrub').focus();
+  await tab.keyboard.press('End');
+  assert.ok(Math.abs((await tab.evaluate(() => grashof.time())) - 0.5) < 1e-9);
+  await tab.locator('.canvas canvas').focus();
+  const before = await tab.evaluate(() => grashof.look());
+  await tab.keyboard.press('+');
+  assert.ok((await tab.evaluate(() => grashof.look()))[0] > before[0]);
+}
+
 export async function controls_have_names(open) {
-  for (const [model, study] of [['crank_rocker', 'one-turn'], ['crank_rocker', 'lengths'], ['four_bar_spatial', 'one-turn']]) {
+  const pages = [['crank_rocker', 'one-turn'], ['crank_rocker', 'lengths'], ['four_bar_spatial', 'one-turn'], ['winch', 'fall'], ['cart_pole', 'linear'], ['truss', 'path']];
+  for (const [model, study] of pages) {
     const { tab } = await open(model, { study });
-    const nameless = await tab.evaluate(() => [...document.querySelectorAll('button, select, input, a')].filter((control) =>
-      !(control.getAttribute('aria-label') || control.textContent.trim() || control.closest('label')?.textContent.trim())).map((control) => control.outerHTML));
+    const nameless = await tab.evaluate(() => [...document.querySelectorAll('button, select, input, a, canvas, summary, output, [tabindex="0"], svg[role=img]')].filter((control) =>
+      !(control.getAttribute('aria-label') || control.textContent.trim() || control.closest('label')?.textContent.trim() || control.matches('output:empty'))).map((control) => control.outerHTML));
     assert.deepEqual(nameless, []);
     assert.equal(await tab.locator('.time').getAttribute('aria-live'), 'polite');
   }

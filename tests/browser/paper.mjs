@@ -15,3 +15,24 @@ export async function a_study_prints_on_a4(open) {
   assert.equal(await tab.locator('nav').isVisible(), false);
   assert.equal(await tab.locator('[data-plot=torque] svg.chart').isVisible(), true);
 }
+
+export async function nothing_is_cut_off_on_a4(open) {
+  for (const [model, study] of [['crank_rocker', 'lengths'], ['stewart_platform', 'ride'], ['winch', 'fall']]) {
+    const { tab } = await open(model, { study });
+    // the width of A4 within its margins, 182 mm
+    await tab.setViewportSize({ width: 688, height: 1017 });
+    await tab.emulateMedia({ media: 'print' });
+    await tab.waitForTimeout(150);
+    const wide = await tab.evaluate(() => [...document.querySelectorAll('.study *')].filter((one) => {
+      const box = one.getBoundingClientRect();
+      return box.width > 0 && (box.right > innerWidth + 1 || box.left < -1) && !one.closest('svg, .rows');
+    }).map((one) => one.outerHTML.slice(0, 80)));
+    assert.deepEqual(wide, [], model);
+    for (const chart of await tab.locator('svg.chart').all()) {
+      const box = await chart.boundingBox();
+      assert.ok(box === null || (box.x >= 0 && box.x + box.width <= 689), `${model}: a figure ends at ${box?.x + box?.width}`);
+    }
+    const pages = (await tab.pdf({ preferCSSPageSize: true })).toString('latin1').match(/\/Type \/Page\b/g).length;
+    assert.ok(pages <= 8, `${model}: ${pages} pages`);
+  }
+}

@@ -42,7 +42,7 @@ export async function a_click_in_a_figure_sets_the_time(open) {
 export async function dragging_zooms_and_a_double_click_ends_it(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const stage = plot(tab, 'rates').locator('.plot-stage');
-  const labels = () => stage.locator('text').allInnerTexts();
+  const labels = () => stage.locator('text').allTextContents();
   const before = await labels();
   await stage.scrollIntoViewIfNeeded();
   const box = await stage.boundingBox();
@@ -106,4 +106,37 @@ export async function files_of_a_figure_have_its_curves(open) {
   assert.equal(lines[0], 'theta [deg],phi2 [deg],phi3 [deg]');
   assert.ok(lines.length > 1000, `${lines.length} lines`);
   assert.match(lines[1], /^0,33\.35352/);
+}
+
+export async function a_second_axis_has_its_own_unit(open) {
+  const { tab, directory } = await open('winch');
+  const { time: seconds, speed } = csv(`${directory}/fall.csv`);
+  const figure = plot(tab, 'height');
+  const texts = await figure.locator('svg.chart text').allTextContents();
+  assert.ok(texts.includes('speed [mm/s]'), texts.join());
+  assert.match(await figure.locator('.legend').innerText(), /speed \(right\)/);
+  await seek(tab, seconds[60]);
+  near(await value(tab, 'height', 1), 1e3 * speed[60], 1e-2, 'speed in mm/s');
+  // over its own axis it fills the panel as the other curve does
+  const heights = await figure.locator('svg.chart g[clip-path] path').evaluateAll((all) => all.map((one) => one.getBBox().height));
+  assert.ok(heights.every((height) => height > 60), heights.join());
+}
+
+export async function measured_data_are_points(open) {
+  const { tab } = await open('winch');
+  const figure = plot(tab, 'height');
+  const lines = await figure.locator('svg.chart g[clip-path] path').evaluateAll((all) => all.map((one) => one.getAttribute('d')));
+  const dotted = lines.filter((d) => d.includes('h0'));
+  assert.deepEqual([lines.length, dotted.length, dotted[0].match(/h0/g).length], [3, 1, 4]);
+  assert.match(await figure.locator('.legend').innerText(), /seen/);
+}
+
+export async function no_two_curves_are_alike(open) {
+  for (const [study, name, count] of [['fluctuation', 'speed', 14], ['lengths', 'phi2', 7]]) {
+    const { tab } = await open('crank_rocker', { study });
+    const lines = await plot(tab, name).locator('svg.chart g[clip-path] path').evaluateAll((all) => all.map((one) => `${one.getAttribute('stroke')} ${one.getAttribute('stroke-dasharray')}`));
+    assert.deepEqual([lines.length, new Set(lines).size], [count, count], study);
+    const legend = await plot(tab, name).locator('.legend path').evaluateAll((all) => all.map((one) => `${one.getAttribute('stroke')} ${one.getAttribute('stroke-dasharray')}`));
+    assert.deepEqual(legend, lines);
+  }
 }

@@ -9,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '../../viewer/node_modules/playwright-core/index.mjs';
-import { MODELS } from './models.mjs';
+import { FILES, MODELS } from './models.mjs';
 import * as motion from './motion.mjs';
 import * as page from './page.mjs';
 import * as paper from './paper.mjs';
@@ -30,6 +30,7 @@ function results(name) {
   const text = MODELS[name];
   const model = text ? join(directory, `${name}.yaml`) : join(root, 'models', `${name}.yaml`);
   if (text) writeFileSync(model, text);
+  for (const [file, beside] of Object.entries(FILES[name] ?? {})) writeFileSync(join(directory, file), beside);
   try {
     execFileSync(program, ['run', model, '--no-plots', '--quiet', '-o', out], { stdio: 'pipe' });
   } catch (error) {

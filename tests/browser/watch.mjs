@@ -75,6 +75,35 @@ export async function a_save_is_shown_and_nothing_is_lost(browser, program) {
   });
 }
 
+export async function view_and_zoom_stay_over_a_save(browser, program) {
+  await watched(browser, program, async ({ open, save }) => {
+    const tab = await open();
+    const canvas = tab.locator('.stage canvas');
+    await canvas.focus();
+    await tab.keyboard.press('+');
+    const box = await canvas.boundingBox();
+    await tab.mouse.move(box.x + 80, box.y + 80);
+    await tab.mouse.down();
+    await tab.mouse.move(box.x + 120, box.y + 95, { steps: 3 });
+    await tab.mouse.up();
+    const figure = tab.locator('.plot-stage').first();
+    await figure.focus();
+    for (const _ of [1, 2]) await tab.keyboard.press('+');
+    const across = () => figure.locator('svg.chart text[text-anchor=middle]').allTextContents();
+    const [look, ticks] = [await tab.evaluate(() => grashof.look()), await across()];
+    assert.ok(look[0] > 1 && look[1] !== 0, look.join());
+    await tab.evaluate(() => document.querySelectorAll('.stage canvas, .plot-stage, .legend button').forEach((one) => (one.before = true)));
+    for (const angle of ['-70 deg', '-80 deg']) {
+      const before = await far(tab);
+      save(MODEL.replace('-60 deg', angle));
+      await changes(tab, before);
+      assert.deepEqual([await tab.evaluate(() => grashof.look()), await across()], [look, ticks]);
+    }
+    // the page goes on in its own elements
+    assert.ok(await tab.evaluate(() => [...document.querySelectorAll('.stage canvas, .plot-stage')].every((one) => one.before)));
+  });
+}
+
 export async function a_broken_file_is_told_above_the_last_picture(browser, program) {
   await watched(browser, program, async ({ open, save }) => {
     const tab = await open();

@@ -3,6 +3,7 @@
 import { column, fineOf, valueAt } from './curves';
 import type { Motion, Vector } from './motion';
 import type { Pace } from './pace';
+import { FIRST } from './renderer';
 import type { Place, Results, Scene } from './types';
 
 export type Kind = 'velocities' | 'accelerations' | 'loads' | 'reactions';
@@ -10,7 +11,8 @@ export const KINDS: Kind[] = ['velocities', 'accelerations', 'loads', 'reactions
 /** The curve colour of each kind. */
 export const COLOR: Record<Kind, number> = { velocities: 2, accelerations: 4, loads: 1, reactions: 0 };
 
-export interface Arrow { kind: Kind; from: Vector; along: Vector }
+/** Of a torque `along` is its vector, N m, and it turns about it. */
+export interface Arrow { kind: Kind; from: Vector; along: Vector; torque: boolean }
 
 /** Places at which the largest arrow is looked for. */
 const LOOKS = 90;
@@ -26,7 +28,7 @@ export class Arrows {
     const told = ({ name, b }: Scene['joints'][number]): Scene['arrows'] => {
       const columns = ['fx', 'fy', 'fz'].slice(0, dimensions).map((axis) => `${name}.${axis}`);
       if (!columns.every((own) => column(results, own)) || arrows.some((arrow) => arrow.name === name)) return [];
-      return [{ name, kind: 'reaction', body: b.body, at: b.at, columns, values: null }];
+      return [{ name, kind: 'reaction', body: b.body, at: b.at, columns, values: null, scale: null }];
     };
     this.forces = [...arrows, ...joints.flatMap(told)];
     const seen = new Set<string>();
@@ -46,19 +48,40 @@ export class Arrows {
 
   /** Arrows of a kind at a place, in their own unit. */
   at(kind: Kind, place: number): Arrow[] {
-    if (kind === 'velocities' || kind === 'accelerations') return this.moving.map((point) => ({ kind, from: this.motion.world(point, place), along: this.rate(point, place, kind) }));
+    if (kind === 'velocities' || kind === 'accelerations') return this.moving.map((point) => ({ kind, from: this.motion.world(point, place), along: this.rate(point, place, kind), torque: false }));
     return this.forces.flatMap((arrow) => {
-      if (arrow.kind === 'torque' || (arrow.kind === 'load') !== (kind === 'loads')) return [];
+      if ((arrow.kind === 'reaction') !== (kind === 'reactions')) return [];
       const along = this.force(arrow, place);
-      return along ? [{ kind, from: this.motion.world(arrow, place), along }] : [];
+      return along ? [{ kind, from: this.motion.world(arrow, place), along, torque: arrow.kind === 'torque' }] : [];
     });
+  }
+
+  /** Kinds that the model asks to be shown. */
+  asked(): Kind[] {
+    const { arrows } = this.motion.scene;
+    return (['loads', 'reactions'] as const).filter((kind) => arrows.some((arrow) => (arrow.kind === 'reaction') === (kind === 'reactions')));
+  }
+
+  /** Force per length that the model gives a kind, N/m. */
+  scale(kind: Kind): number | null {
+    if (kind !== 'loads' && kind !== 'reactions') return null;
+    const of = this.motion.scene.arrows.find((arrow) => arrow.scale !== null && (arrow.kind === 'reaction') === (kind === 'reactions'));
+    return of?.scale ?? null;
+  }
+
+  /** Pixels to one unit of a kind, with the slider at `part`, in a picture of some width and so many pixels to the metre. */
+  pixels(kind: Kind, part: number, room: number, metre: number): number {
+    const scale = this.scale(kind);
+    if (scale !== null) return ((part / FIRST) * metre) / scale;
+    const most = this.most(kind);
+    return most > 0 ? (part * room) / most : 0;
   }
 
   /** The length of the largest one over the motion. */
   most(kind: Kind): number {
     const known = this.largest.get(kind);
     if (known !== undefined) return known;
-    const lengths = this.motion.sampled(LOOKS).flatMap((place) => this.at(kind, place).map(({ along }) => Math.hypot(...along)));
+    const lengths = this.motion.sampled(LOOKS).flatMap((place) => this.at(kind, place).map(({ along, torque }) => (torque ? 0 : Math.hypot(...along))));
     const most = Math.max(0, ...lengths.filter(Number.isFinite));
     this.largest.set(kind, most);
     return most;
@@ -78,16 +101,19 @@ export class Arrows {
   /** World components of a force at a place; none if nothing tells them. */
   private force(arrow: Scene['arrows'][number], place: number): Vector | null {
     const { dimensions, frames } = this.motion.scene;
+    // a torque in the plane has its third component alone
+    const own = arrow.values ? arrow.values.length / frames.at.length : dimensions;
+    const first = own === 1 ? 2 : 0;
     const read = (i: number): number => {
-      if (i >= dimensions) return 0;
-      const own = arrow.columns[i] !== undefined ? column(this.results, arrow.columns[i]!) : undefined;
-      if (own && own.values.length > 1) return valueAt(fineOf(this.results), own.values, place);
+      if (i < first || i >= first + own) return 0;
+      const told = arrow.columns[i] !== undefined ? column(this.results, arrow.columns[i]!) : undefined;
+      if (told && told.values.length > 1) return valueAt(fineOf(this.results), told.values, place);
       if (!arrow.values || arrow.values.length === 0) return NaN;
       let k = 0;
       while (k + 2 < frames.at.length && frames.at[k + 1]! <= place) k++;
       const part = frames.at.length > 1 ? (place - frames.at[k]!) / (frames.at[k + 1]! - frames.at[k]!) : 0;
-      const low = arrow.values[k * dimensions + i]!;
-      return low + (part > 0 ? part * ((arrow.values[(k + 1) * dimensions + i] ?? low) - low) : 0);
+      const low = arrow.values[k * own + i - first]!;
+      return low + (part > 0 ? part * ((arrow.values[(k + 1) * own + i - first] ?? low) - low) : 0);
     };
     const along: Vector = [read(0), read(1), read(2)];
     return along.every(Number.isFinite) ? along : null;

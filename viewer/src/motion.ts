@@ -89,9 +89,9 @@ export class Motion {
     const { bodies, joints, links, gears, traces } = this.scene;
     for (const { a, b } of joints) yield* [a, b];
     for (const { a, b } of links) yield* [a, b];
-    for (const { a, b, rack } of gears) {
+    for (const { a, b, kind } of gears) {
       yield* round(a.body, a.at, a.radius);
-      if (!rack) yield* round(b.body, b.at, b.radius);
+      if (kind !== 'rack') yield* round(b.body, b.at, b.radius);
     }
     for (const { body, at } of traces) yield { body, at };
     for (let body = 0; body < bodies.length; body++) {

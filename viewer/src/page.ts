@@ -9,10 +9,11 @@ import type { Data, Study } from './types';
 
 declare global {
   interface Window {
-    /** For tests and for readers with a console: where a joint is, the place of the motion, another place, another study. */
+    /** For tests and for readers with a console: where a joint is, the place of the motion, how it is seen, another place, another study. */
     grashof: {
       place(joint: string): number[] | null;
       time(): number;
+      look(): number[];
       seek(at: number): void;
       study(name: string): boolean;
     };
@@ -182,6 +183,7 @@ export class Page {
     return {
       place: (joint) => this.view?.stage.motion?.joint(joint, this.clock.at) ?? null,
       time: () => this.clock.at,
+      look: () => this.view?.stage.look() ?? [],
       seek: (at) => this.clock.seek(at),
       study: (name) => this.show(name),
     };

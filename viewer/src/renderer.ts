@@ -4,11 +4,14 @@ import type { Arrows, Kind } from './arrows';
 import type { Motion } from './motion';
 import type { Inks } from './theme';
 
+/** Where the slider of the arrows stands at first: there arrows to which the model gives a scale have it. */
+export const FIRST = 0.25;
+
 export interface Options {
   paths: 'none' | 'growing' | 'whole';
   names: boolean;
   arrows: Set<Kind>;
-  /** Length of the largest arrow as a part of the picture. */
+  /** Length of the largest arrow as a part of the picture; beside FIRST that of arrows with a scale beside their own. */
   scale: number;
 }
 

@@ -8,7 +8,7 @@ import { Motion } from './motion';
 import { digits, heading, pretty, shownIn } from './numbers';
 import { type Pace, pace } from './pace';
 import { Plane } from './plane/plane';
-import type { Options, Renderer } from './renderer';
+import { FIRST, type Options, type Renderer } from './renderer';
 import { inks } from './theme';
 import type { CodedScene, Results, Run, Scene, Study } from './types';
 
@@ -58,7 +58,9 @@ export class Stage {
   private renderer: Renderer | null = null;
   private pace: Pace | null = null;
   private results: Results;
-  private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: 0.25 };
+  private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: FIRST };
+  /** Whether a reader may have chosen what is shown. */
+  private begun = false;
   private size: [number, number] = [0, 0];
   private waiting = false;
   private run = '';
@@ -67,7 +69,7 @@ export class Stage {
   /** With what a reader has chosen on an earlier stage of the study, whose clock then goes on. */
   constructor(private study: Study, private readonly clock: Clock, private readonly chosen: (run: number) => void, private kept?: StageKept) {
     this.results = study;
-    if (kept) this.options = kept.options;
+    if (kept) [this.options, this.begun] = [kept.options, true];
     this.element = h('section', { class: 'stage card', 'aria-label': 'the mechanism in motion' },
       this.choices(), h('div', { class: 'canvas' }, this.canvas), this.transport(), this.shown, this.note);
     this.listen();
@@ -89,6 +91,11 @@ export class Stage {
     this.kept = this.keep();
     this.load(run?.run.results ?? study, Math.max(0, this.drawings.selectedIndex), true);
     return true;
+  }
+
+  /** How it is seen, in numbers of what draws it. */
+  look(): number[] {
+    return this.renderer?.outlook() ?? [];
   }
 
   /** Draws when the browser next does. */
@@ -221,7 +228,9 @@ export class Stage {
     this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
     const kinds = arrows.kinds();
     this.options.arrows = new Set([...this.options.arrows].filter((kind) => kinds.includes(kind)));
-    this.showOptions(kinds);
+    if (!this.begun) arrows.asked().filter((kind) => kinds.includes(kind)).forEach((kind) => this.options.arrows.add(kind));
+    this.begun = true;
+    this.showOptions(kinds, arrows);
     const { error } = motion.scene.frames;
     this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
     const { seconds, place } = this.pace;
@@ -237,7 +246,7 @@ export class Stage {
     this.clock.speed = SPEEDS[this.speed.selectedIndex]!;
   }
 
-  private showOptions(kinds: Kind[]): void {
+  private showOptions(kinds: Kind[], arrows: Arrows): void {
     const { options } = this;
     const check = (name: string, on: boolean, change: (on: boolean) => void, color?: number) => {
       const box = h('input', { type: 'checkbox', ...(on ? { checked: true } : {}), change: () => {
@@ -251,15 +260,26 @@ export class Stage {
       this.redraw();
     } }, ...['paths grow', 'whole paths', 'no paths'].map((name) => h('option', {}, name)));
     paths.selectedIndex = ['growing', 'whole', 'none'].indexOf(options.paths);
+    // what the arrows mean, where the model says it
+    const told = h('output', { class: 'told' });
+    const tell = () => {
+      const scales = kinds.flatMap((kind) => {
+        const own = arrows.scale(kind);
+        return own === null ? [] : [`${NAMES[kind]} ${digits((own * FIRST) / options.scale, 3)} N/m`];
+      });
+      told.textContent = scales.join(', ');
+    };
     const scale = h('input', { type: 'range', min: 2, max: 100, value: options.scale * 100, 'aria-label': 'length of the arrows', class: 'scale', input: () => {
       options.scale = Number(scale.value) / 100;
+      tell();
       this.redraw();
     } });
     this.shown.replaceChildren(
       ...(this.motion!.scene.traces.length > 0 ? [paths] : []),
       check('names', options.names, (on) => (options.names = on)),
       ...kinds.map((kind) => check(NAMES[kind], options.arrows.has(kind), (on) => (on ? options.arrows.add(kind) : options.arrows.delete(kind)), COLOR[kind])),
-      ...(kinds.length > 0 ? [h('label', {}, heading('length', ''), scale)] : []));
+      ...(kinds.length > 0 ? [h('label', {}, heading('length', ''), scale), told] : []));
+    tell();
   }
 
   private fit(): void {

@@ -164,7 +164,8 @@ export interface Joint {
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';
 export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
-export interface Gear { name: string; a: Wheel; b: Wheel; rack: boolean; belt: boolean }
+export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';
+export interface Gear { name: string; kind: GearKind; a: Wheel; b: Wheel }
 export interface Trace { name: string; body: number; at: number[] }
 export type ArrowKind = 'load' | 'reaction' | 'torque';
 
@@ -175,7 +176,7 @@ interface Parts<A> {
   joints: Joint[];
   links: Link[];
   gears: Gear[];
-  arrows: { name: string; kind: ArrowKind; body: number; at: number[]; columns: string[]; values: A }[];
+  arrows: { name: string; kind: ArrowKind; body: number; at: number[]; columns: string[]; values: A; scale: Num }[];
   traces: Trace[];
 }
 

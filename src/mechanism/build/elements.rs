@@ -79,7 +79,7 @@ impl<G: Space> Builder<'_, G> {
                     self.row(row(RowKind::Ratio { first, second, ratio }, true, true));
                 }
             }
-            &CouplingKind::Rack { pinion, slide, radius } => {
+            &CouplingKind::Rack { pinion, slide, radius, .. } => {
                 let ratio = self.number(radius, place);
                 if let (Some(first), Some(second)) = (self.coordinate(pinion, place), self.coordinate(slide, place)) {
                     self.row(row(RowKind::Ratio { first, second, ratio }, true, false));

@@ -21,13 +21,15 @@ const TORQUE: Shape = Shape::Value(Want::Of(Dimension::TORQUE));
 
 keys! {
     /// A coupling.
-    pub(crate) COUPLING = CouplingKeys "a coupling" [one_of(&["gear", "rack", "zero"])] {
+    pub(crate) COUPLING = CouplingKeys "a coupling" [one_of(&["gear", "rack", "rope", "zero"])] {
         gear: may Shape::List(&JOINT_NAME, Size::Exactly(2)), "The second joint turns `ratio` times as far as the first.";
         rack: may Shape::List(&JOINT_NAME, Size::Exactly(2)),
             "The slider moves `radius` times as far as the pinion turns: [pinion, slider].";
+        rope: may Shape::List(&JOINT_NAME, Size::Exactly(2)),
+            "As `rack`, by a rope that winds on a drum and stays taut: [drum, slider].";
         zero: may Shape::Formula("an expression of positions and `t`"), "An expression of positions and `t` that stays 0.";
         ratio: may NUMBER, "Of a gear.";
-        radius: may LENGTH, "Of a pinion.";
+        radius: may LENGTH, "Of a pinion or drum.";
     }
 }
 
@@ -133,7 +135,8 @@ impl<'n> Decoder<'n> {
             return Some(CouplingKind::Zero(id));
         }
         let gear = keys.gear.given();
-        let (of, wrong) = if gear { (keys.gear, keys.radius) } else { (keys.rack, keys.ratio) };
+        let rope = keys.rope.given();
+        let (of, wrong) = if gear { (keys.gear, keys.radius) } else { (if rope { keys.rope } else { keys.rack }, keys.ratio) };
         self.refuse_keys(at, &[wrong], of);
         let here = at.key(of);
         let [a, b] = of.items() else { return None };
@@ -146,7 +149,7 @@ impl<'n> Decoder<'n> {
             self.read(keys.ratio, at)
         } else {
             if !keys.radius.given() {
-                self.missing(at, keys.radius, of, "the radius of the pinion (m)");
+                self.missing(at, keys.radius, of, if rope { "the radius of the drum (m)" } else { "the radius of the pinion (m)" });
             }
             self.read(keys.radius, at)
         };
@@ -163,7 +166,7 @@ impl<'n> Decoder<'n> {
             self.fault("wrong-joint", &here, "the wrong kinds of joints", "first a joint that turns, then one that slides");
         }
         let value = value?;
-        Some(if gear { CouplingKind::Gear { a, b, ratio: value } } else { CouplingKind::Rack { pinion: a, slide: b, radius: value } })
+        Some(if gear { CouplingKind::Gear { a, b, ratio: value } } else { CouplingKind::Rack { pinion: a, slide: b, radius: value, rope } })
     }
 
     pub(super) fn drivers(&mut self) {

@@ -45,7 +45,7 @@ impl<'a> Film<'a> {
     #[must_use]
     pub fn new(model: &str, study: &str, name: &str, scene: &'a Scene, shot: &'a Shot) -> Self {
         let poses = |x: &f64| scene.frames.at(*x, scene.dimensions);
-        let some: Vec<Vec<f64>> = shot.at.iter().step_by(shot.at.len().div_ceil(LOOKED_AT).max(1)).map(poses).collect();
+        let some: Vec<f64> = shot.at.iter().step_by(shot.at.len().div_ceil(LOOKED_AT).max(1)).copied().collect();
         let step = ALONG.div_ceil(shot.steps.max(1));
         let view = posed::view(scene);
         let along = shot.places(shot.steps * step);
@@ -56,7 +56,7 @@ impl<'a> Film<'a> {
         let whole = Drawing {
             title: posed::title(model, study, name, &scene.caption),
             traces: scene.traces.iter().map(path).collect(),
-            ..posed::in_poses(scene, some.iter().map(Vec::as_slice).collect())
+            ..posed::at_all(scene, &some)
         };
         let plan = plan(&whole);
         let mut sheet = frame(&whole, &plan);
@@ -84,8 +84,7 @@ impl<'a> Film<'a> {
 
     /// The mechanism at a value of the independent variable, without paths.
     pub(super) fn mechanism(&self, x: f64) -> Vec<Item> {
-        let poses = self.scene.frames.at(x, self.scene.dimensions);
-        position(&posed::in_poses(self.scene, vec![&poses]), &self.plan)
+        position(&posed::at(self.scene, x), &self.plan)
     }
 
     /// What is over the sheet in a picture: the mechanism, the paths up to there, the time.
@@ -108,7 +107,9 @@ impl<'a> Film<'a> {
     pub(super) fn clock(&self, time: f64, last: f64) -> Item {
         let digits = (2.0 - last.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
         let mut over = Sheet::default();
-        let at = [0.5 * self.sheet.width, self.sheet.height - 19.0];
+        // in the line of the scale, or above it where that tells the scales of forces
+        let foot = if self.scene.arrows.is_empty() { 19.0 } else { 56.0 };
+        let at = [0.5 * self.sheet.width, self.sheet.height - foot];
         over.text(at, format!("{time:.digits$} s"), LETTERS, Anchor::Middle);
         over.items.remove(0)
     }

@@ -1,31 +1,35 @@
-//! Forces in the picture, in the first position.
+//! Forces in the picture.
 
 use super::Posed;
 use crate::output::pose::{Force, ForceKind};
 use crate::results::scene::{Arrow, ArrowKind, Place};
 
 impl Posed<'_> {
-    /// Forces whose values are known.
-    pub(super) fn forces(&self) -> impl Iterator<Item = Force> {
-        let frames = &self.scene.frames;
-        let first = frames.shown.first().copied().filter(|first| *first < frames.count());
-        self.scene.arrows.iter().filter_map(move |arrow| self.force(first?, arrow))
+    /// The forces whose values are known, in the first position, at a place of the independent variable; one that is not finite is 0.
+    pub(super) fn forces(&self, at: f64) -> impl Iterator<Item = Force> {
+        let frames = &self.scene.frames.at;
+        let above = frames.partition_point(|place| *place <= at);
+        let (low, high) = (above.saturating_sub(1), above.min(frames.len().saturating_sub(1)));
+        let between = |from: &f64, to: &f64| if to > from { ((at - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+        let part = frames.get(low).zip(frames.get(high)).map_or(0.0, |(from, to)| between(from, to));
+        self.scene.arrows.iter().filter_map(move |arrow| self.force(arrow, [low, high], part))
     }
 
-    fn force(&self, frame: usize, arrow: &Arrow) -> Option<Force> {
-        let width = arrow.values.len() / self.scene.frames.count();
-        let values = arrow.values.get(frame * width..(frame + 1) * width).filter(|values| !values.is_empty())?;
-        let at = self.flat(self.scene.frame(frame), &Place { body: arrow.body, at: arrow.at.clone() });
+    /// A force between two frames, on a straight line.
+    fn force(&self, arrow: &Arrow, [low, high]: [usize; 2], part: f64) -> Option<Force> {
+        let width = arrow.values.len() / self.scene.frames.count().max(1);
+        let of = |frame: usize| arrow.values.get(frame * width..(frame + 1) * width).filter(|values| !values.is_empty());
+        let (from, to) = (of(low)?, of(high)?);
+        let values: Vec<f64> = from.iter().zip(to).map(|(from, to)| if part > 0.0 { from + part * (to - from) } else { *from }).collect();
+        let at = self.flat(self.frames.first()?, &Place { body: arrow.body, at: arrow.at.clone() });
         let kind = if arrow.kind == ArrowKind::Reaction { ForceKind::Reaction } else { ForceKind::Load };
-        let vector: [f64; 3] = match *values {
+        let vector: [f64; 3] = match values[..] {
             [turning] => [0.0, 0.0, turning],
             _ => std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0)),
         };
-        if !vector.iter().all(|x| x.is_finite()) {
-            return None;
-        }
-        let (along, turning) =
-            if arrow.kind == ArrowKind::Torque { ([0.0; 2], self.view.depth(vector)) } else { (self.view.flat(vector), 0.0) };
-        Some(Force { kind, at, along, turning, scale: arrow.scale })
+        let vector = if vector.iter().all(|x| x.is_finite()) { vector } else { [0.0; 3] };
+        let torque = arrow.kind == ArrowKind::Torque;
+        let along = if torque { [0.0; 2] } else { self.view.flat(vector) };
+        Some(Force { kind, at, along, turning: torque.then(|| self.view.depth(vector)), scale: arrow.scale })
     }
 }

@@ -34,7 +34,7 @@ impl Posed<'_> {
                     let mut rim = center.clone();
                     rim[0] += radius;
                     let (center, spoke) = (self.view.flat(world(center)), Some(self.view.flat(world(&rim))));
-                    vec![Form { kind: FormKind::Disc { center, radius: *radius, spoke }, depth: -radius }]
+                    vec![Form { kind: FormKind::Disc { center, radius: *radius, spoke }, depth: -8f64.sqrt() * radius }]
                 }
             },
             Shape::Box { center, size } => {
@@ -67,7 +67,7 @@ impl Posed<'_> {
         Form { kind, depth: 0.5 * (self.view.depth(a) + self.view.depth(b)) }
     }
 
-    /// In the plane large plates lie under small ones and under bars.
+    /// In the plane large plates lie under small ones and under bars; a disc is as large as the square around it.
     fn depth(&self, places: &[[f64; 3]]) -> f64 {
         if self.scene.dimensions == 2 {
             let span = |axis: usize| {

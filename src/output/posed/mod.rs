@@ -19,13 +19,25 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let frames = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
     let posed = Posed { scene, view: view(scene), frames };
     let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
-    let forces = posed.forces().collect();
+    let first = scene.frames.shown.first().and_then(|first| scene.frames.at.get(*first));
+    let forces = first.map(|at| posed.forces(*at).collect()).unwrap_or_default();
     Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
 }
 
-/// The drawing of a scene in given poses, without title and paths.
-pub(super) fn in_poses(scene: &Scene, frames: Vec<&[f64]>) -> Drawing {
-    Posed { scene, view: view(scene), frames }.positions()
+/// The drawing of a scene at a place of the independent variable, without title and paths.
+pub(super) fn at(scene: &Scene, x: f64) -> Drawing {
+    let poses = scene.frames.at(x, scene.dimensions);
+    let posed = Posed { scene, view: view(scene), frames: vec![&poses] };
+    Drawing { forces: posed.forces(x).collect(), ..posed.positions() }
+}
+
+/// The drawing of a scene at several places: one position for each, and the forces of all of them; without title and paths.
+pub(super) fn at_all(scene: &Scene, places: &[f64]) -> Drawing {
+    let poses: Vec<Vec<f64>> = places.iter().map(|x| scene.frames.at(*x, scene.dimensions)).collect();
+    let one = |poses| Posed { scene, view: view(scene), frames: vec![poses] };
+    let forces = poses.iter().zip(places).flat_map(|(poses, x)| one(poses.as_slice()).forces(*x).collect::<Vec<_>>()).collect();
+    let all = Posed { scene, view: view(scene), frames: poses.iter().map(Vec::as_slice).collect() };
+    Drawing { forces, ..all.positions() }
 }
 
 /// From where a scene is seen.

@@ -9,7 +9,7 @@ mod parts;
 mod shape;
 
 pub use frames::{Frames, interpolate};
-pub use parts::{Arrow, ArrowKind, Body, Gear, Joint, Link, LinkKind, Place, Trace, Wheel};
+pub use parts::{Arrow, ArrowKind, Body, Gear, GearKind, Joint, Link, LinkKind, Place, Trace, Wheel};
 pub use shape::Shape;
 
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Springs, dampers and massless rods.
     pub links: Vec<Link>,
-    /// Pairs of gears, and racks with their pinions.
+    /// Pairs of gears, racks with their pinions, wheels under a belt, ropes on their drums.
     pub gears: Vec<Gear>,
     /// Forces and torques.
     pub arrows: Vec<Arrow>,

@@ -77,31 +77,44 @@ pub enum LinkKind {
     Torsion,
 }
 
-/// Two bodies that roll on each other.
+/// Two bodies that move each other by teeth, a belt or a rope.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gear {
     /// Name of the coupling.
     pub name: String,
-    /// The first gear; of a rack its pinion.
+    /// What joins them.
+    pub kind: GearKind,
+    /// The first gear; of a rack its pinion, of a rope its drum.
     pub a: Wheel,
-    /// The second gear, or a rack.
+    /// The second gear, a rack, or the end of a rope.
     pub b: Wheel,
-    /// Whether the second one is a rack.
-    pub rack: bool,
-    /// Whether a belt joins them, so that they do not touch.
-    pub belt: bool,
 }
 
-/// A pitch circle, or the pitch line of a rack.
+/// What joins two wheels, or a wheel and what slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GearKind {
+    /// Teeth of two wheels.
+    Teeth,
+    /// Teeth of a pinion and a rack.
+    Rack,
+    /// A belt around two wheels that do not touch.
+    Belt,
+    /// A rope that winds on a drum.
+    Rope,
+}
+
+/// A pitch circle, the pitch line of a rack, or the end of a rope.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wheel {
     /// Its body.
     pub body: usize,
     /// Its centre in the body, m; of a rack the point of the pitch line that touches the pinion in the first frame.
     pub at: Vec<f64>,
-    /// Radius, m; negative for a gear with inner teeth; 0 for a rack.
+    /// Radius, m; negative for a gear with inner teeth; 0 for a rack or the end of a rope.
     pub radius: f64,
-    /// Unit axis in the body, 3 numbers in space and none in the plane; of a rack the direction of its pitch line.
+    /// Unit axis in the body, 3 numbers in space and none in the plane; of a rack the direction of its pitch line, of a rope that in which
+    /// its end goes when the drum turns counter-clockwise.
     pub axis: Vec<f64>,
 }
 

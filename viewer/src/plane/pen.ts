@@ -48,6 +48,14 @@ export class Pen {
     return this.on.measureText(text).width;
   }
 
+  /** A torque about a place: an arrow that turns. */
+  turn(at: Point, torque: number, color: string): void {
+    if (torque === 0) return;
+    const arc = turning(at, torque);
+    this.path(arc.slice(0, -3)).stroke(color, 2);
+    this.arrow(arc[arc.length - 4]!, arc[arc.length - 1]!, color);
+  }
+
   /** An arrow with a slender head. */
   arrow(from: Point, to: Point, color: string, width = 2): void {
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
@@ -58,6 +66,15 @@ export class Pen {
     this.path([from, base]).stroke(color, width);
     this.path([to, [base[0] - uy * head * 0.36, base[1] + ux * head * 0.36], [base[0] + uy * head * 0.36, base[1] - ux * head * 0.36]], true).fill(color);
   }
+}
+
+/** The points of the arc of a torque about a place: seven tenths of a turn, counter-clockwise if it is positive. */
+export function turning(at: Point, torque: number): Point[] {
+  const radius = 18;
+  return Array.from({ length: 31 }, (_, k): Point => {
+    const angle = 0.6 * 2 * Math.PI - Math.sign(torque) * 0.7 * 2 * Math.PI * (k / 30);
+    return off(at, [Math.cos(angle), Math.sin(angle)], radius, 0);
+  });
 }
 
 /** The point at some pixels along and across from another. */

@@ -1,11 +1,11 @@
 // A mechanism in the plane on a canvas.
 
-import { type Arrows, COLOR } from '../arrows';
+import { type Arrows, COLOR, type Kind } from '../arrows';
 import type { Motion } from '../motion';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
-import type { Joint, Place, Shape, Trace } from '../types';
-import { Pen, type Point, hull, off } from './pen';
+import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
+import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
@@ -13,6 +13,8 @@ const BAR = 15;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
+/** Dashes of the first seven paths, the next seven, and so on. */
+const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
 /** Left, top, right, bottom. */
 type Box = [number, number, number, number];
 const overlap = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
@@ -72,22 +74,47 @@ export class Plane implements Renderer {
     const { scene } = this.motion;
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
-    scene.gears.forEach(({ a, b, rack, belt }, k) => {
-      if (belt) {
-        signs.belt(pen, this.point(a), Math.abs(a.radius) * this.scale, this.point(b), Math.abs(b.radius) * this.scale, inks);
-        return;
-      }
-      const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
-      for (const wheel of rack ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, place), wheel.radius < 0, color(wheel.body), inks);
-      if (rack) signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), 0.1 * width * (k + 1), inks);
-    });
+    scene.gears.forEach((gear, k) => this.toothed(gear, 0.1 * width * (k + 1)));
+    // boxes lie under the bodies that slide, slots on those that they are cut into
+    scene.joints.forEach((joint) => this.box(joint));
     scene.bodies.forEach((body, index) => body.shapes.forEach((shape) => this.shape(index, shape)));
-    scene.joints.forEach((joint) => this.sliding(joint));
-    scene.links.forEach(({ kind, a, b }) => signs.link(pen, kind, this.point(a), this.point(b), inks));
+    scene.joints.forEach((joint) => this.slot(joint));
+    scene.gears.forEach((gear) => this.wound(gear));
+    scene.links.forEach((link) => this.link(link));
     scene.joints.forEach((joint) => this.sign(joint));
     if (options.names) this.names();
-    for (const kind of options.arrows) this.drawArrows(kind, options.scale * Math.min(width, height));
+    for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height));
     this.bar(height);
+  }
+
+  /** Wheels with teeth, and racks. */
+  private toothed({ kind, a, b }: Gear, reach: number): void {
+    const { pen, inks } = this;
+    if (kind === 'belt' || kind === 'rope') return;
+    const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
+    for (const wheel of kind === 'rack' ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, this.place), wheel.radius < 0, color(wheel.body), inks);
+    if (kind === 'rack') signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), reach, inks);
+  }
+
+  /** Belts around wheels, and ropes that leave their drums. */
+  private wound({ kind, a, b }: Gear): void {
+    const [ra, rb] = [a.radius, b.radius].map((radius) => Math.abs(radius) * this.scale) as [number, number];
+    if (kind === 'belt') signs.belt(this.pen, this.point(a), ra, this.point(b), rb, this.inks);
+    if (kind === 'rope') signs.rope(this.pen, this.point(a), ra, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), this.inks);
+  }
+
+  /** A spring, damper or rod, with the ground at its ends where no joint has its bearing. */
+  private link({ kind, a, b }: Link): void {
+    const [from, to] = [this.point(a), this.point(b)];
+    if (kind === 'torsion') {
+      signs.spiral(this.pen, from, this.motion.angle(a.body, this.place), this.motion.angle(b.body, this.place), this.inks);
+      return;
+    }
+    const bearings = this.motion.scene.joints.filter(({ kind, a, b }) => kind === 'revolute' && (a.body === 0 || b.body === 0)).map((joint) => this.point(joint.a));
+    for (const [end, other, body] of [[from, to, a.body], [to, from, b.body]] as const) {
+      if (kind !== 'rod' && body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
+    }
+    signs.link(this.pen, kind, from, to, this.inks);
   }
 
   /** Names of joints, one text to a place. */
@@ -162,12 +189,12 @@ export class Plane implements Renderer {
   private drawPaths(growing: boolean): void {
     const { pen, inks } = this;
     this.paths.forEach(({ trace, at, points }, k) => {
-      const color = inks.curves[(k + 1) % 6]!;
+      const [color, dash] = [inks.curves[(k + 1) % 7]!, DASHES[Math.floor(k / 7) % DASHES.length]!];
       const all = points.map(([x, y]) => this.pixel(x, y));
-      pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.3) : color, growing ? 1.2 : 1.8);
+      pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.3) : color, growing ? 1.2 : 1.8, dash);
       if (!growing) return;
       const until = at.findIndex((place) => place > this.place);
-      pen.path([...all.slice(0, until < 0 ? all.length : until), this.point(trace)]).stroke(color, 2);
+      pen.path([...all.slice(0, until < 0 ? all.length : until), this.point(trace)]).stroke(color, 2, dash);
     });
   }
 
@@ -241,9 +268,12 @@ export class Plane implements Renderer {
     else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
   }
 
-  private sliding(joint: Joint): void {
+  private slot(joint: Joint): void {
     if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), this.colors(joint.a.body).edge, this.inks);
-    else if (this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
+  }
+
+  private box(joint: Joint): void {
+    if (joint.kind !== 'pin-in-slot' && this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
   }
 
   private sign({ kind, a, b, driven }: Joint): void {
@@ -251,12 +281,13 @@ export class Plane implements Renderer {
     signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
   }
 
-  private drawArrows(kind: keyof typeof COLOR, longest: number): void {
-    const most = this.arrows.most(kind);
-    if (!(most > 0)) return;
-    for (const { from, along } of this.arrows.at(kind, this.place)) {
+  private drawArrows(kind: Kind, part: number, room: number): void {
+    const color = this.inks.curves[COLOR[kind]]!;
+    const pixels = this.arrows.pixels(kind, part, room, this.scale);
+    for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
       const at = this.pixel(from[0], from[1]);
-      this.pen.arrow(at, [at[0] + (along[0] / most) * longest, at[1] - (along[1] / most) * longest], this.inks.curves[COLOR[kind]]!, 2.2);
+      if (torque) this.pen.turn(at, along[2], color);
+      else this.pen.arrow(at, [at[0] + along[0] * pixels, at[1] - along[1] * pixels], color, 2.2);
     }
   }
 

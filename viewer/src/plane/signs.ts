@@ -26,6 +26,11 @@ export function bearing(pen: Pen, at: Point, inks: Inks): void {
   hatched(pen, [at[0] - 17, foot], [at[0] + 17, foot], inks);
 }
 
+/** A piece of ground at the end of a link that comes along a direction. */
+export function anchor(pen: Pen, at: Point, along: Point, inks: Inks): void {
+  hatched(pen, off(at, along, 0, 9), off(at, along, 0, -9), inks);
+}
+
 /** What a slide slides on, from one end to the other: hatched ground on its lower side, or a line on another body. */
 export function slideway(pen: Pen, a: Point, b: Point, grounded: boolean, inks: Inks): void {
   if (!grounded) {
@@ -75,15 +80,10 @@ function damper(pen: Pen, a: Point, along: Point, from: number, to: number, acro
   pen.path([p((low + high) / 2, -4), p((low + high) / 2, 4)]).stroke(color, 2.6);
 }
 
-/** A spring, a damper, both, or a rod between two points. */
+/** A spring, a damper, both, or a rod between two points. Springs about a hinge are spirals. */
 export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): void {
   const color = kind === 'rod' ? inks.ink : inks.curves[2]!;
   const { along, length } = toward(a, b);
-  if (kind === 'torsion') {
-    const spiral = Array.from({ length: 60 }, (_, k): Point => [a[0] + (7 + k / 6) * Math.cos(k / 4), a[1] + (7 + k / 6) * Math.sin(k / 4)]);
-    pen.path(spiral).stroke(color, 1.6);
-    return;
-  }
   const end = Math.min(0.2 * length, 16);
   [a, b].forEach((point) => pen.circle(point, 2.6).fill(color));
   if (kind === 'rod') pen.path([a, b]).stroke(color, 1.8);
@@ -96,6 +96,17 @@ export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): 
     pen.path(coil(a, along, end, length - end, -9)).stroke(color, 1.6);
     damper(pen, a, along, end, length - end, 9, color);
   }
+}
+
+/** A spring about a hinge: from the first body outside to the second one inside, wound by the angle between them. */
+export function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): void {
+  const [inner, outer, turn] = [7, 16, 2 * Math.PI];
+  const to = b + 2 * turn - turn * Math.floor((b - a) / turn);
+  const points = Array.from({ length: 61 }, (_, k): Point => {
+    const [angle, radius] = [a + (k / 60) * (to - a), outer + (k / 60) * (inner - outer)];
+    return [at[0] + radius * Math.cos(angle), at[1] - radius * Math.sin(angle)];
+  });
+  pen.path(points).stroke(inks.curves[2]!, 1.6);
 }
 
 /** A pitch circle with teeth, turned by an angle; of an inner gear the teeth point inwards. */
@@ -130,4 +141,20 @@ export function belt(pen: Pen, a: Point, ra: number, b: Point, rb: number, inks:
     return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
   });
   pen.path([...arc(a, ra, lean, 2 * Math.PI - lean), ...arc(b, rb, -lean, lean)], true).stroke(inks.soft, 2.6);
+}
+
+/**
+ * A rope: around its drum, and from there along the tangent to its end. Of the two points where that touches the drum it is the one on the
+ * side that goes along `goes` when the drum turns counter-clockwise.
+ */
+export function rope(pen: Pen, center: Point, radius: number, end: Point, goes: Point, inks: Inks): void {
+  const { along, length } = toward(center, end);
+  // upwards is negative in pixels: the side is a quarter turn clockwise from the way
+  const side: Point = [-goes[1], goes[0]];
+  const lean = Math.acos(Math.min(radius / (length || 1), 1));
+  const touches = [lean, -lean].map((angle) => off(center, along, radius * Math.cos(angle), radius * Math.sin(angle)));
+  const facing = (at: Point) => (at[0] - center[0]) * side[0] + (at[1] - center[1]) * side[1];
+  const from = length <= radius ? off(center, side, radius, 0) : touches.reduce((a, b) => (facing(a) >= facing(b) ? a : b));
+  pen.circle(center, radius).stroke(inks.soft, 2.4);
+  pen.path([from, end]).stroke(inks.soft, 2.4);
 }

@@ -45,7 +45,7 @@ interface Scaled { axis: Axis; factor: number; unit: string; own: string }
 export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled }
 export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
 
-export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#6b6b6b'];
+export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
 export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'];
 /** For many curves: dark blue to amber, rising in lightness. */
 const SCALE = [[0, 32, 96], [66, 78, 107], [124, 123, 120], [188, 160, 90], [235, 190, 30]] as const;

@@ -3,7 +3,7 @@
 import { type Arrows, COLOR, type Kind } from '../arrows';
 import { type Motion, type Vector, cross } from '../motion';
 import { Pen, type Point, off, toward } from '../plane/pen';
-import { link } from '../plane/signs';
+import { link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
 import type { Joint } from '../types';
@@ -87,13 +87,20 @@ class Space implements Renderer {
     motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body, inks)));
     for (const { kind, a, b } of motion.scene.links) {
       const [p, q] = [motion.world(a, place), motion.world(b, place)];
-      items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw: () => link(pen, kind, this.pixel(p), this.pixel(q), inks) });
+      const draw = () => (kind === 'torsion' ? spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : link(pen, kind, this.pixel(p), this.pixel(q), inks));
+      items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
-    for (const kind of options.arrows) this.drawArrows(kind, options.scale * Math.min(width, height), inks);
+    for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height), inks);
     if (options.names) for (const { name, b, kind } of motion.scene.joints) if (kind !== 'distance') pen.text(name, off(this.pixel(motion.world(b, place)), [1, 0], 9, -8), inks.soft, inks.paper);
     this.axes(height, inks);
+  }
+
+  /** Direction of the x axis of a body in the picture, rad. */
+  private turned(body: number): number {
+    const x = this.motion.direction(body, [1, 0, 0], this.place);
+    return Math.atan2(dot(x, this.above), dot(x, this.right));
   }
 
   /** Directions of the picture from those of the eye. */
@@ -212,12 +219,12 @@ class Space implements Renderer {
     });
   }
 
-  private drawArrows(kind: Kind, longest: number, inks: Inks): void {
-    const most = this.arrows.most(kind);
-    if (!(most > 0)) return;
-    for (const { from, along } of this.arrows.at(kind, this.place)) {
-      const to = add(from, along, longest / this.scale / most);
-      this.pen.arrow(this.pixel(from), this.pixel(to), inks.curves[COLOR[kind]]!, 2.2);
+  private drawArrows(kind: Kind, part: number, room: number, inks: Inks): void {
+    const color = inks.curves[COLOR[kind]]!;
+    const pixels = this.arrows.pixels(kind, part, room, this.scale);
+    for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
+      if (torque) this.pen.turn(this.pixel(from), dot(along, this.toEye), color);
+      else this.pen.arrow(this.pixel(from), this.pixel(add(from, along, pixels / this.scale)), color, 2.2);
     }
   }
 

@@ -1,4 +1,4 @@
-//! Pitch circles of gears and racks, which the model does not give: they follow from the ratio and the distance of the axes.
+//! Pitch circles of gears and racks, belts and ropes, which the model does not give: they follow from the ratio and the distance of the axes.
 //!
 //! With both hinges on one carrier, at a distance d, and wheels that turn relative to it by φ_b = ρ φ_a: teeth that run on each other
 //! turn outer gears against each other, ρ < 0, r_a + r_b = d; one with inner teeth turns like the other, ρ > 0, |r_a − r_b| = d; in
@@ -7,11 +7,12 @@
 use super::places::numbers;
 use crate::geometry::Space;
 use crate::mechanism::{Joint, Mechanism, Outline, RowKind, RowOwner};
+use crate::model::{CouplingKind, Model};
 use crate::results::Scene;
-use crate::results::scene::{Gear, Wheel};
+use crate::results::scene::{Body, Gear, GearKind, Shape, Wheel};
 
 /// The gears of a mechanism whose circles can be told. The frames of the scene are there.
-pub(super) fn gears<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Gear> {
+pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Gear> {
     let rows = mechanism.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
     rows.filter_map(|row| {
         let RowKind::Ratio { first, second, ratio } = row.kind else { return None };
@@ -19,11 +20,30 @@ pub(super) fn gears<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene) 
         let (first, second) = (of_gauge(first)?, of_gauge(second)?);
         match (first.kind, second.kind) {
             ("revolute", "revolute") => pair(mechanism, &row.label, first, second, ratio),
+            ("revolute", "slider") if is_rope(model, &row.label) => rope(&row.label, first, second, ratio, scene),
             ("revolute", "slider") => rack(&row.label, first, second, ratio, scene),
             _ => None,
         }
     })
     .collect()
+}
+
+/// Gives wheels with outer teeth that have no outline of their own the disc of their pitch circle.
+pub(super) fn outline_wheels(gears: &[Gear], bodies: &mut [Body]) {
+    for gear in gears.iter().filter(|gear| matches!(gear.kind, GearKind::Teeth | GearKind::Rack)) {
+        for wheel in [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.body > 0 && wheel.radius > 0.0) {
+            let shapes = &mut bodies[wheel.body].shapes;
+            if shapes.iter().all(|shape| matches!(shape, Shape::Bar { .. } | Shape::Hull { .. } | Shape::Mass { .. })) {
+                let axis = (!wheel.axis.is_empty()).then(|| wheel.axis.clone());
+                shapes.insert(0, Shape::Disc { center: wheel.at.clone(), radius: wheel.radius, axis, thickness: None });
+            }
+        }
+    }
+}
+
+/// Whether a coupling is a rope.
+fn is_rope(model: &Model, name: &str) -> bool {
+    model.couplings.iter().any(|coupling| coupling.name == name && matches!(coupling.kind, CouplingKind::Rack { rope: true, .. }))
 }
 
 /// A wheel on its hinge: its side of the joint and that of the carrier, and 1 if the wheel is the second body.
@@ -65,10 +85,10 @@ fn pair<G: Space<S = f64>>(mechanism: &Mechanism<G>, name: &str, first: &Joint<G
     let turned = ratio * a.sign * b.sign * facing.signum();
     let reaches = [a.wheel, b.wheel].map(|(body, hinge)| reach(mechanism, body, hinge));
     if let Some([ra, rb]) = belted(turned, distance, reaches) {
-        return Some(Gear { name: name.into(), a: a.circle(first, ra), b: b.circle(second, rb), rack: false, belt: true });
+        return Some(Gear { name: name.into(), kind: GearKind::Belt, a: a.circle(first, ra), b: b.circle(second, rb) });
     }
     let [ra, rb] = radii(turned, distance)?;
-    Some(Gear { name: name.into(), a: a.circle(first, ra), b: b.circle(second, rb), rack: false, belt: false })
+    Some(Gear { name: name.into(), kind: GearKind::Teeth, a: a.circle(first, ra), b: b.circle(second, rb) })
 }
 
 /// How far the outline of a wheel reaches from its hinge, m; 0 if it has none.
@@ -101,24 +121,57 @@ fn radii(ratio: f64, distance: f64) -> Option<[f64; 2]> {
     Some(if size > 1.0 { [-size * rb, rb] } else { [size * rb, -rb] })
 }
 
+/// A wheel and what slides, both on one carrier.
+struct Wound<G: Space> {
+    wheel: Hung<G>,
+    moved: Hung<G>,
+    /// Direction of the slide in the first frame, world axes.
+    axis: [f64; 3],
+    /// Way of the slide along it by the angle of the wheel, m.
+    radius: f64,
+}
+
+impl<G: Space<S = f64>> Wound<G> {
+    /// Of the hinge of a wheel and a slide in the plane.
+    fn of(pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Self> {
+        let carrier = [pinion.a.0, pinion.b.0].into_iter().find(|body| *body == slide.a.0 || *body == slide.b.0)?;
+        let (wheel, moved) = (Hung::on(pinion, carrier)?, Hung::on(slide, carrier)?);
+        if G::VECTOR == 3 || scene.frames.count() == 0 {
+            return None;
+        }
+        let axis = scene.direction(scene.frame(0), slide.a.0, &slide.axis[..2]);
+        let radius = radius * wheel.sign * moved.sign;
+        Some(Self { wheel, moved, axis, radius })
+    }
+
+    /// A direction of the first frame in the axes of the body that slides.
+    fn own(&self, scene: &Scene, v: [f64; 3]) -> Vec<f64> {
+        let axes = [[1.0, 0.0], [0.0, 1.0]].map(|e| scene.direction(scene.frame(0), self.moved.wheel.0, &e));
+        axes.map(|e| e[0] * v[0] + e[1] * v[1]).to_vec()
+    }
+}
+
 /// A pinion and its rack: the line that the pinion touches at −r n, with n a quarter turn ahead of the slide.
 fn rack<G: Space<S = f64>>(name: &str, pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
-    let carrier = [pinion.a.0, pinion.b.0].into_iter().find(|body| *body == slide.a.0 || *body == slide.b.0)?;
-    let (wheel, moved) = (Hung::on(pinion, carrier)?, Hung::on(slide, carrier)?);
-    if G::VECTOR == 3 || scene.frames.count() == 0 {
-        return None;
-    }
-    let poses = scene.frame(0);
-    let axis = scene.direction(poses, slide.a.0, &slide.axis[..2]);
-    let signed = radius * wheel.sign * moved.sign;
-    let center = scene.world(poses, &super::places::place::<G>(wheel.wheel));
+    let wound = Wound::of(pinion, slide, radius, scene)?;
+    let Wound { wheel, moved, axis, radius: signed } = &wound;
+    let world = |at| scene.world(scene.frame(0), &super::places::place::<G>(at));
+    let center = world(wheel.wheel);
     // a point at c moves by φ z × c: that is r φ u for c = −r z × u
     let touched = [center[0] + signed * axis[1], center[1] - signed * axis[0], 0.0];
-    let origin = scene.world(poses, &super::places::place::<G>((moved.wheel.0, G::Vector::default())));
-    let [ex, ey] = [[1.0, 0.0], [0.0, 1.0]].map(|e| scene.direction(poses, moved.wheel.0, &e));
-    let own = |v: [f64; 3]| vec![ex[0] * v[0] + ex[1] * v[1], ey[0] * v[0] + ey[1] * v[1]];
-    let line = Wheel { body: moved.wheel.0, at: own(std::array::from_fn(|i| touched[i] - origin[i])), radius: 0.0, axis: own(axis) };
-    Some(Gear { name: name.into(), a: wheel.circle(pinion, radius.abs()), b: line, rack: true, belt: false })
+    let origin = world((moved.wheel.0, G::Vector::default()));
+    let at = wound.own(scene, std::array::from_fn(|i| touched[i] - origin[i]));
+    let line = Wheel { body: moved.wheel.0, at, radius: 0.0, axis: wound.own(scene, *axis) };
+    Some(Gear { name: name.into(), kind: GearKind::Rack, a: wheel.circle(pinion, radius.abs()), b: line })
+}
+
+/// A drum and the end of its rope, which is at the joint of what slides.
+fn rope<G: Space<S = f64>>(name: &str, drum: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
+    let wound = Wound::of(drum, slide, radius, scene)?;
+    let (body, at) = wound.moved.wheel;
+    let axis = wound.own(scene, wound.axis.map(|x| wound.radius.signum() * x));
+    let end = Wheel { body, at: numbers::<G>(at), radius: 0.0, axis };
+    Some(Gear { name: name.into(), kind: GearKind::Rope, a: wound.wheel.circle(drum, radius.abs()), b: end })
 }
 
 #[cfg(test)]

@@ -1,35 +1,42 @@
 //! Springs, dampers and massless rods.
 
-use super::places::{place, same};
+use super::places::{numbers, place, reaches, same};
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::mechanism::{Measured, Mechanism, StretchOf};
+use crate::mechanism::{Joint, Measured, Mechanism, StretchOf};
 use crate::model::{self, Model, PointRef, Quantity, SpringLaw, SpringOn};
-use crate::results::scene::{Link, LinkKind};
+use crate::results::Scene;
+use crate::results::scene::{Link, LinkKind, Place};
 
-/// The massless elements of a mechanism; a spring over an expression has a place where that is of two points, or of the angles of two
-/// bodies about one hinge.
-pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<Link> {
+/// Shortest spring along a slide or to the ground, as part of the size of the mechanism.
+const SHORTEST: f64 = 0.1;
+
+/// The massless elements of a mechanism. The frames of the scene are there.
+///
+/// A spring over an expression has a place where that is of the coordinates of one point or two, of one joint, or of the angles of one
+/// body or two about one hinge.
+pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
     let springs = mechanism.stretches.iter().zip(&model.springs).filter_map(|(stretch, spring)| {
         let rest = (stretch.moving.is_none() && spring.rest.is_some()).then_some(stretch.rest);
-        let (kind, [a, b], rest) = match (&spring.on, stretch.of) {
+        let (turns, [a, b], rest) = match (&spring.on, stretch.of) {
             (&SpringOn::Joint(joint), _) => {
                 let joint = &mechanism.joints[joint];
-                let kind = if joint.kind == "slider" { kind(spring) } else { LinkKind::Torsion };
-                (kind, [joint.a, joint.b], rest.map(|rest| rest - joint.zero))
+                let (turns, ends) = at_joint(mechanism, scene, joint, joint.kind != "slider");
+                (turns, ends, rest.map(|rest| rest - joint.zero))
             }
             (SpringOn::Between(..), StretchOf::Gauge(gauge)) => {
                 let gauge = &mechanism.gauges[gauge];
                 let Measured::Distance { pa, pb } = gauge.measured else { return None };
-                (kind(spring), [(gauge.a, pa), (gauge.b, pb)], rest)
+                (false, [place::<G>((gauge.a, pa)), place::<G>((gauge.b, pb))], rest)
             }
             (&SpringOn::Stretch(id), _) => {
-                let (kind_of, ends) = stretched(model, mechanism, id)?;
-                (if kind_of == LinkKind::Torsion { LinkKind::Torsion } else { kind(spring) }, ends, None)
+                let (turns, ends) = stretched(model, mechanism, scene, id)?;
+                (turns, ends, None)
             }
             _ => return None,
         };
-        Some(Link { name: spring.name.clone(), kind, a: place::<G>(a), b: place::<G>(b), rest })
+        let kind = if turns { LinkKind::Torsion } else { kind(spring) };
+        Some(Link { name: spring.name.clone(), kind, a, b, rest })
     });
     let rods = mechanism.joints.iter().filter(|joint| joint.kind == "distance").map(|joint| Link {
         name: joint.name.clone(),
@@ -41,40 +48,92 @@ pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) 
     springs.chain(rods).collect()
 }
 
-/// Two bodies with a place on each.
-type Ends<G> = [(usize, <G as Space>::Vector); 2];
+/// Whether a spring turns about a hinge, and the places of its ends.
+type Ends = (bool, [Place; 2]);
 
-/// The two places between which an expression measures, if its coordinates are those of two points, or of a point and the ground; or
-/// the hinge about which it measures the angle between two bodies.
-fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, id: Id) -> Option<(LinkKind, Ends<G>)> {
-    let mut points: Vec<PointRef> = Vec::new();
-    let mut turned: Vec<usize> = Vec::new();
+/// A spring over the coordinate of a joint: about its point, or from the first body to what slides.
+fn at_joint<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, joint: &Joint<G>, turns: bool) -> Ends {
+    let [a, b] = [place::<G>(joint.a), place::<G>(joint.b)];
+    if turns {
+        return (true, [a, b]);
+    }
+    let along = G::vector(&joint.axis);
+    let way = |poses: &[f64]| {
+        let (from, to) = (scene.world(poses, &a), scene.world(poses, &b));
+        let axis = scene.direction(poses, a.body, &joint.axis);
+        (0..3).map(|i| axis[i] * (to[i] - from[i])).sum::<f64>()
+    };
+    let ways: Vec<f64> = (0..scene.frames.count()).map(|i| way(scene.frame(i))).filter(|way| way.is_finite()).collect();
+    let ends = ways.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], way| [low.min(*way), high.max(*way)]);
+    let shortest = SHORTEST * mechanism.size();
+    if ways.is_empty() || ends[0] > shortest || ends[1] < -shortest {
+        return (false, [a, b]);
+    }
+    // what slides over the point of the first body is held from beyond its way
+    let beyond = joint.a.1 + along * (ends[0] - 2.0 * shortest);
+    (false, [place::<G>((joint.a.0, beyond)), b])
+}
+
+/// The spring of an expression of positions, if it has a place.
+fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene, id: Id) -> Option<Ends> {
+    let (mut points, mut axes): (Vec<PointRef>, Vec<usize>) = (Vec::new(), Vec::new());
+    let (mut turned, mut joints): (Vec<usize>, Vec<(usize, usize)>) = (Vec::new(), Vec::new());
     for input in model.pool.inputs_of(&[id]) {
         match model.inputs[input as usize] {
-            Quantity::Point { at, order: 0, .. } if !points.contains(&at) => points.push(at),
-            Quantity::Point { order: 0, .. } => {}
+            Quantity::Point { at, axis, order: 0 } => {
+                axes.push(axis);
+                if !points.contains(&at) {
+                    points.push(at);
+                }
+            }
             Quantity::Angle { body, order: 0 } => turned.push(body),
+            Quantity::Joint { joint, slot, order: 0 } => joints.push((joint, slot)),
+            Quantity::Time => {}
             _ => return None,
         }
     }
-    match (&points[..], &turned[..]) {
-        (&[a, b], []) => Some((LinkKind::Spring, [a, b].map(|p| (p.body, mechanism.bodies[p.body].points[p.point].1)))),
-        ([], &[a, b]) => hinge(mechanism, a, b).map(|ends| (LinkKind::Torsion, ends)),
+    let on = |p: PointRef| (p.body, mechanism.bodies[p.body].points[p.point].1);
+    match (&points[..], &turned[..], &joints[..]) {
+        (&[a, b], [], []) => Some((false, [a, b].map(|p| place::<G>(on(p))))),
+        (&[a], [], []) => Some((false, above_ground(mechanism, scene, on(a), &axes))),
+        ([], &[a, b], []) => hinge(mechanism, a, b).map(|ends| (true, ends)),
+        ([], &[a], []) => hinge(mechanism, 0, a).map(|ends| (true, ends)),
+        ([], [], &[(joint, slot)]) => {
+            let joint = &mechanism.joints[joint];
+            let turns = match (joint.kind, slot) {
+                ("revolute", _) | ("cylindrical", 0) => true,
+                ("slider", _) | ("cylindrical", _) => false,
+                _ => return None,
+            };
+            Some(at_joint(mechanism, scene, joint, turns))
+        }
         _ => None,
     }
 }
 
+/// From the ground to a point: where its coordinate along one axis is least, as far below as its body reaches; over several axes from the
+/// origin of the world.
+fn above_ground<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, (body, at): (usize, G::Vector), axes: &[usize]) -> [Place; 2] {
+    let point = place::<G>((body, at));
+    let &[axis] = axes else { return [Place { body: 0, at: vec![0.0; G::VECTOR] }, point] };
+    let mut foot = scene.world(scene.frame(0), &point);
+    let all = (0..scene.frames.count()).map(|i| scene.world(scene.frame(i), &point)[axis]);
+    let least = all.filter(|x| x.is_finite()).fold(foot[axis], f64::min);
+    foot[axis] = least - reaches(mechanism)[body].max(SHORTEST * mechanism.size());
+    [Place { body: 0, at: foot[..G::VECTOR].to_vec() }, Place { body, at: numbers::<G>(at) }]
+}
+
 /// Where two bodies turn about one point: a hinge between them, or one of each on a third body.
-fn hinge<G: Space<S = f64>>(mechanism: &Mechanism<G>, a: usize, b: usize) -> Option<Ends<G>> {
+fn hinge<G: Space<S = f64>>(mechanism: &Mechanism<G>, a: usize, b: usize) -> Option<[Place; 2]> {
     let hinges = || mechanism.joints.iter().filter(|joint| joint.kind == "revolute");
     // the side of a body at a hinge, and the other side
     let sides = |body: usize| hinges().flat_map(|joint| [(joint.a, joint.b), (joint.b, joint.a)]).filter(move |(own, _)| own.0 == body);
-    for (own, other) in sides(a) {
-        if other.0 == b {
-            return Some([own, other]);
-        }
+    if let Some((own, other)) = sides(a).find(|(_, other)| other.0 == b) {
+        return Some([place::<G>(own), place::<G>(other)]);
+    }
+    for (own, other) in sides(a).filter(|_| a != 0) {
         if let Some((second, _)) = sides(b).find(|(_, of)| of.0 == other.0 && same::<G>(of.1, other.1)) {
-            return Some([own, second]);
+            return Some([place::<G>(own), place::<G>(second)]);
         }
     }
     None

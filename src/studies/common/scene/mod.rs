@@ -60,13 +60,14 @@ impl<G: Space<S = f64>> Subject<'_, G> {
             view: view(case),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
-            links: links::links(case.model, mechanism),
             frames,
             ..Scene::default()
         };
+        scene.links = links::links(case.model, mechanism, &scene);
         scene.joints = joints::joints(case, mechanism, &scene);
         scene.arrows = arrows::arrows(case, mechanism);
-        scene.gears = gears::gears(mechanism, &scene);
+        scene.gears = gears::gears(case.model, mechanism, &scene);
+        gears::outline_wheels(&scene.gears, &mut scene.bodies);
         scene.traces = traces::traces(case, mechanism, &scene);
         scene
     }
