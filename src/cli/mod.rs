@@ -18,6 +18,7 @@ mod modes;
 mod moving;
 mod new;
 mod progress;
+mod ray;
 mod report;
 mod run;
 mod schema;

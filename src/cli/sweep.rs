@@ -14,10 +14,10 @@ const FIGURE: &str = "scalars";
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Model file, or `-` for stdin
-    model: String,
+    pub(super) model: String,
     /// The study; may be left out if the model has only one
     #[arg(long, value_name = "S")]
-    study: Option<String>,
+    pub(super) study: Option<String>,
     /// Values of a parameter: a range with the number of values, as `l3=0.3..0.8:26` (with `:log` at the end for equal ratios), or a
     /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest); or a distribution, as
     /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`
@@ -28,6 +28,10 @@ pub(super) struct Arguments {
     /// Compute one part of the sweep alone, the K-th of N, and keep it for `grashof gather`
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Compute on a Ray cluster, by the Python package `grashof`: the address of the cluster, or `local` for one of this machine alone. The
+    /// table is written as a Parquet file
+    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["shard", "json", "units", "format", "expect", "verify"])]
+    ray: Option<String>,
     #[command(flatten)]
     wanted: Wanted,
 }
@@ -47,6 +51,16 @@ impl Drawn {
     fn samples(&self) -> Option<Samples> {
         self.samples.map(|count| Samples { count: count as usize, seed: self.seed.into() })
     }
+
+    /// Number of points, if it is given.
+    pub(super) fn count(&self) -> Option<u32> {
+        self.samples
+    }
+
+    /// What decides which points are drawn.
+    pub(super) fn seed(&self) -> u32 {
+        self.seed
+    }
 }
 
 /// A sweep as it is asked for.
@@ -62,6 +76,9 @@ pub(super) struct Asked<'a> {
 
 /// Sweeps a study.
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
+    if let Some(address) = &arguments.ray {
+        return super::ray::sweep(arguments, address, common);
+    }
     let part = arguments.shard.map_or(Part::Whole, Part::Shard);
     let (model, study) = (arguments.model.as_str(), arguments.study.as_deref());
     computed(&Asked { model, study, over: &arguments.over, drawn: &arguments.drawn, wanted: &arguments.wanted, part }, common)
@@ -75,8 +92,11 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };
     let names: Vec<&str> = over.iter().map(|(name, _)| name.as_str()).collect();
-    let (stem, swept) =
-        if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
+    let (stem, swept) = if names.is_empty() {
+        (study.to_owned(), None)
+    } else {
+        (format!("{study}-over-{}", names.join("+").replace(',', "+")), Some("--over"))
+    };
     let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };
     let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
