@@ -1,8 +1,9 @@
 """Sweeps on Ray, measured: memory of the program that calls, efficiency by processor, and a machine that is lost on the way.
 
-    python benches/ray.py [--runs 100000] [--nodes 2]
+    python benches/ray.py [--runs 100000] [--nodes 2] [--each 10]
 
-A cluster of machines with a processor each is made on this one. The runs are motions of a double pendulum of about 10 ms.
+A cluster of machines with a processor each is made on this one. The runs are motions of a double pendulum
+of so many milliseconds; efficiency is what a processor of the cluster does beside one process that sweeps with one thread.
 """
 
 from __future__ import annotations
@@ -48,17 +49,17 @@ def lengths(runs: int) -> dict[str, np.ndarray]:
     return {"length": np.linspace(0.5, 1.5, runs)}
 
 
-def timed(model: grashof.LoadedModel) -> tuple[grashof.LoadedModel, float]:
-    """The model with motions so long that a run takes about 10 ms, and what one takes in one process, s."""
+def timed(model: grashof.LoadedModel, wanted: float) -> tuple[grashof.LoadedModel, float]:
+    """The model with motions so long that a run takes about so long, and what one takes in one process, s."""
     until = 1.0
     for _ in range(3):
         probe = model.set(until=until)
         begin = time.perf_counter()
         probe.sweep("swing", lengths(100), workers=1)
         each = (time.perf_counter() - begin) / 100
-        if abs(each / 0.01 - 1) < 0.05:
+        if abs(each / wanted - 1) < 0.05:
             break
-        until *= 0.01 / each
+        until *= wanted / each
     model = model.set(until=until)
     begin = time.perf_counter()
     model.sweep("swing", lengths(1000), workers=1)
@@ -70,13 +71,13 @@ def memory() -> int:
     return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
-def measure(runs: int, nodes: int, lost: bool) -> None:
+def measure(runs: int, nodes: int, each: float, lost: bool) -> None:
     """Computes a sweep in this process, which is new, and prints a row."""
     cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 0, "include_dashboard": False})
     for _ in range(nodes):
         cluster.add_node(num_cpus=1)
     ray.init(address=cluster.address, log_to_driver=False, logging_level="ERROR")
-    model, each = timed(grashof.parse(PENDULUM))
+    model, each = timed(grashof.parse(PENDULUM), each)
     most = 0
     gone: list[object] = []
 
@@ -105,16 +106,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=100_000)
     parser.add_argument("--nodes", type=int, default=2)
+    parser.add_argument("--each", type=float, default=10.0, help="time of a run, ms")
     parser.add_argument("--one", action="store_true", help="one row, in this process")
     parser.add_argument("--lost", action="store_true", help="lose a machine on the way")
     asked = parser.parse_args()
     if asked.one:
-        measure(asked.runs, asked.nodes, asked.lost)
+        measure(asked.runs, asked.nodes, asked.each / 1000, asked.lost)
         return
     print("| runs | machines | whole | one run | time | efficiency by processor | memory of the caller |")
     print("|---|---|---|---|---|---|---|", flush=True)
     for runs, lost in [(1000, False), (asked.runs, True)]:
-        words = ["--one", "--runs", str(runs), "--nodes", str(asked.nodes), *(["--lost"] if lost else [])]
+        words = ["--one", "--runs", str(runs), "--nodes", str(asked.nodes), "--each", str(asked.each), *(["--lost"] if lost else [])]
         subprocess.run([sys.executable, __file__, *words], check=True)
 
 

@@ -18,13 +18,13 @@ from grashof import __main__ as command
 from grashof import cluster, distributed
 from grashof.parts import Parts
 
-os.environ.update(RAY_USAGE_STATS_ENABLED="0", RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO="0", RAY_DEDUP_LOGS="0")
+os.environ.update(RAY_USAGE_STATS_ENABLED="0", RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO="0", RAY_worker_niceness="0")
 ray: Any = pytest.importorskip("ray")
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 #: A thousand lengths of the pendulum, of which some are none.
 LENGTHS = {"length": np.concatenate([np.linspace(0.3, 2.0, 990), np.linspace(-0.2, -0.1, 10)]), "push": [0.0]}
-SHORT = PENDULUM.replace("until: 2 s, every: 10 ms", "until: 0.5 s, every: 10 ms")
+SHORT = PENDULUM.replace("until: 2 s, every: 10 ms", "until: 0.1 s, every: 10 ms")
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +52,15 @@ def whole(model: grashof.LoadedModel, tmp_path_factory: pytest.TempPathFactory) 
     return path.read_bytes()
 
 
+def cut(monkeypatch: pytest.MonkeyPatch, runs: int) -> None:
+    """Parts of so many runs, however long they take."""
+
+    def size(pace: object, left: int, processors: int) -> int:
+        return runs
+
+    monkeypatch.setattr(distributed, "_Pace", type("Fixed", (distributed._Pace,), {"size": size}))
+
+
 def parts_of(directory: pathlib.Path) -> Set[str]:
     return {path.name for path in (directory / "parts").glob("*.parquet")}
 
@@ -59,7 +68,7 @@ def parts_of(directory: pathlib.Path) -> Set[str]:
 def test_a_lost_node_costs_nothing_but_its_unfinished_parts(
     nodes: Any, model: grashof.LoadedModel, whole: bytes, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(distributed, "WORK", 0.05)
+    cut(monkeypatch, 25)
     lost: list[int] = []
 
     def progress(done: int, count: int) -> None:
@@ -77,8 +86,7 @@ def test_a_lost_node_costs_nothing_but_its_unfinished_parts(
 def test_an_interrupted_sweep_goes_on(
     nodes: Any, model: grashof.LoadedModel, whole: bytes, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # another cut than that of the other tests
-    monkeypatch.setattr(distributed, "WORK", 0.02)
+    cut(monkeypatch, 31)
 
     def interrupt(done: int, count: int) -> None:
         if done >= 200:
@@ -95,6 +103,7 @@ def test_an_interrupted_sweep_goes_on(
     # a part that was torn is computed again
     torn = tmp_path / "parts" / sorted(kept)[0]
     torn.write_bytes(torn.read_bytes()[:100])
+    cut(monkeypatch, 47)
     seen: list[int] = []
     table = model.sweep("swing", LENGTHS, workers="ray", into=tmp_path, progress=lambda done, count: seen.append(done))
     assert 0 < seen[0] < 1000 and pathlib.Path(table.path).read_bytes() == whole
@@ -120,13 +129,29 @@ def test_a_table_is_that_of_the_results(nodes: Any, model: grashof.LoadedModel, 
         table["none"]
 
 
+def test_parts_grow_to_the_time_that_they_are_to_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(distributed, "WORK", 1.0)
+    pace = distributed._Pace()
+    assert pace.size(10**6, 8) == 1
+    sizes: list[int] = []
+    for _ in range(6):
+        size = pace.size(10**6, 8)
+        sizes.append(size)
+        pace.learn(size, 0.01 * size)
+    assert sizes == [1, 4, 16, 64, 100, 100]
+    # all processors end together, and a part has a run at least
+    assert pace.size(160, 8) == 10 and pace.size(3, 8) == 1
+    pace.learn(1, 1000.0)
+    assert pace.size(10**6, 8) == 1
+
+
 def test_what_no_run_of_a_part_has_is_left_out_of_the_whole_alone(nodes: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # where the rod stands on its head there are no vibrations
     vibrating = PENDULUM.replace("  swing:", "  vibrations:\n    modes: { at: start }\n  swing:").replace("-30 deg, P.omega: 0", "way")
     vibrating = vibrating.replace("push: 0 N m", "push: 0 N m, way: -90 deg")
     model = grashof.parse(vibrating)
     over = {"way": ["90 deg", "90 deg", "-90 deg", "90 deg", "-90 deg"]}
-    monkeypatch.setattr(distributed, "WORK", 0.0)
+    cut(monkeypatch, 1)
     results = model.sweep("vibrations", over)
     table = model.sweep("vibrations", over, workers="ray", into=tmp_path)
     results.to_parquet(tmp_path / "own.parquet")
