@@ -20,11 +20,12 @@ pub(super) struct Arguments {
     pub(super) study: Option<String>,
     /// Values of a parameter: a range with the number of values, as `l3=0.3..0.8:26` (with `:log` at the end for equal ratios), or a
     /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest); or a distribution, as
-    /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`
+    /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`; or of several parameters a list of points, as
+    /// `"l1,l3=10 cm,50 cm; 12 cm,55 cm"`
     #[arg(long, value_name = "NAME=VALUES", required = true)]
-    over: Vec<String>,
+    pub(super) over: Vec<String>,
     #[command(flatten)]
-    drawn: Drawn,
+    pub(super) drawn: Drawn,
     /// Compute one part of the sweep alone, the K-th of N, and keep it for `grashof gather`
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,

@@ -13,7 +13,10 @@ fn reader(bytes: &[u8]) -> ParquetRecordBatchReaderBuilder<File> {
 }
 
 /// Names, units, numbers (NaN for null) and row groups of a file.
-fn read(bytes: &[u8]) -> (Vec<String>, Vec<Option<String>>, Vec<Vec<f64>>, usize) {
+type Contents = (Vec<String>, Vec<Option<String>>, Vec<Vec<f64>>, usize);
+
+/// What is in a file.
+fn read(bytes: &[u8]) -> Contents {
     let builder = reader(bytes);
     let fields: Vec<_> = builder.schema().fields().iter().cloned().collect();
     let groups = builder.metadata().num_row_groups();

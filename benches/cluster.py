@@ -1,6 +1,6 @@
 """Sweeps on Ray, measured: memory of the program that calls, efficiency by processor, and a machine that is lost on the way.
 
-    python benches/ray.py [--runs 100000] [--nodes 2] [--each 10]
+    python benches/cluster.py [--runs 100000] [--nodes 2] [--each 10]
 
 A cluster of machines with a processor each is made on this one. The runs are motions of a double pendulum
 of so many milliseconds; efficiency is what a processor of the cluster does beside one process that sweeps with one thread.
