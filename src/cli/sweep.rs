@@ -92,12 +92,9 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     files::print_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };
-    let names: Vec<&str> = over.iter().map(|(name, _)| name.as_str()).collect();
-    let (stem, swept) = if names.is_empty() {
-        (study.to_owned(), None)
-    } else {
-        (format!("{study}-over-{}", names.join("+").replace(',', "+")), Some("--over"))
-    };
+    let names: Vec<&str> = over.iter().flat_map(|(names, _)| names.split(',').map(str::trim)).collect();
+    let (stem, swept) =
+        if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
     let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };
     let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
         Ok(model) => model,
