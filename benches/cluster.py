@@ -41,7 +41,7 @@ studies:
   swing:
     dynamics: { until: until, every: until/20, tolerance: 1e-9 }
     columns: [P.angle, Q.angle]
-    scalars: { widest: max(abs(P.angle)), last: last(Q.angle) }
+    scalars: { widest: max(abs(P.angle)), behind: max(Q.angle) }
 """
 
 

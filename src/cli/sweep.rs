@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     /// Compute on a Ray cluster, by the Python package `grashof`: the address of the cluster, or `local` for one of this machine alone. The
     /// table is written as a Parquet file
     #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["shard", "json", "units", "format", "expect", "verify"])]
-    ray: Option<String>,
+    pub(super) ray: Option<String>,
     #[command(flatten)]
     wanted: Wanted,
 }
@@ -77,9 +77,6 @@ pub(super) struct Asked<'a> {
 
 /// Sweeps a study.
 pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
-    if let Some(address) = &arguments.ray {
-        return super::ray::sweep(arguments, address, common);
-    }
     let part = arguments.shard.map_or(Part::Whole, Part::Shard);
     let (model, study) = (arguments.model.as_str(), arguments.study.as_deref());
     computed(&Asked { model, study, over: &arguments.over, drawn: &arguments.drawn, wanted: &arguments.wanted, part }, common)

@@ -1,7 +1,7 @@
 //! The table of a sweep from those of its parts, a few rows at a time.
 
+use super::encode::{BATCH, schema, write, writer};
 use super::read::{ParquetTable, REASON, numbers, reasons};
-use super::{BATCH, schema, write, writer};
 use crate::results::Column;
 use arrow_array::{ArrayRef, Float64Array, StringArray};
 use arrow_schema::SchemaRef;

@@ -1,5 +1,6 @@
 //! Bytes, and what is read back from them.
 
+use super::encode::GROUP;
 use super::*;
 use arrow_array::Array;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
