@@ -1,6 +1,7 @@
 //! The face of the library: models with settings, evaluators, motions that are stepped from outside.
 
 use grashof::api::{Evaluator, Placement};
+use grashof::results::Column;
 use grashof::{Error, Model};
 use std::path::Path;
 
@@ -142,4 +143,52 @@ fn what_cannot_be_stepped_is_refused() {
     assert!(crank.stepping("nobody").is_err_and(|e| e.is_unknown_name()));
     let events = Model::parse(&format!("{PENDULUM}events: {{ low: {{ when: P.angle + 90 deg }} }}\n")).unwrap();
     assert!(matches!(events.stepping("swing"), Err(Error::Refused { .. })));
+}
+
+#[test]
+fn a_sweep_is_computed_in_parts() {
+    let model = pendulum();
+    let study = || model.study("swing").unwrap().over("length", "1,-1,2,3").over("push", "normal(0, 1)").samples(5, 3);
+    let whole = study().run().unwrap();
+    let sweep = study().prepare().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((sweep.count(), sweep.parameters()), (20, vec!["length", "push"]));
+    for range in [0..20, 0..1, 3..11, 19..20, 7..7] {
+        let part = sweep.only(range.clone(), 2, &|| false).unwrap();
+        let rows = |column: &Column| column.values[range.clone()].iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(part.runs.len(), range.len());
+        for (own, all) in part.table.columns.iter().zip(&whole.table.columns) {
+            assert_eq!(own.name, all.name);
+            assert_eq!(own.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), rows(all));
+        }
+        assert_eq!(part.table.reasons.as_deref(), whole.table.reasons.as_ref().map(|all| &all[range]));
+    }
+    let failed = sweep.only(6..7, 1, &|| false).unwrap().findings;
+    assert!(failed[0].message.starts_with("run 7 (length = -1 m"), "{failed:?}");
+    assert_eq!(sweep.statistics(&whole.table), whole.statistics);
+    assert!([20..21, 5..22].into_iter().all(|range| sweep.only(range, 1, &|| false).is_err()));
+    assert!(model.study("swing").unwrap().prepare().is_err());
+}
+
+#[test]
+fn chances_are_mapped_by_the_distributions_of_a_sweep() {
+    let model = pendulum();
+    let drawn = model.study("swing").unwrap().over("length", "uniform(1 m, 3 m)").over("push", "normal(2, 1)").samples(1, 1);
+    let sweep = drawn.prepare().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(sweep.at_chances(&[0.25, 0.5]).unwrap(), [1.5, 2.0]);
+    // Φ(1.96) = 0.9750021048517795
+    assert!((sweep.at_chances(&[0.5, 0.975_002_104_851_779_5]).unwrap()[1] - 3.96).abs() < 1e-9);
+    assert!([&[0.5][..], &[0.0, 0.5], &[0.5, f64::NAN]].into_iter().all(|wrong| sweep.at_chances(wrong).is_err()));
+    assert!(model.study("swing").unwrap().over("length", "1,2").prepare().unwrap().at_chances(&[0.5]).is_err());
+}
+
+#[test]
+fn a_packed_model_is_the_same_elsewhere() {
+    let (model, study) = model("arm.yaml").with_study("short", "{ dynamics: { until: 0.1 s }, columns: [energy] }");
+    let again = Model::unpack(&model.pack()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((again.pack(), again.studies()), (model.pack(), model.studies()));
+    assert_eq!(again.study(&study).unwrap().run().unwrap().table, model.study(&study).unwrap().run().unwrap().table);
+    let set = pendulum().variant("long").unwrap().set(&[("push", "3 N m")]).unwrap();
+    let values = |model: &Model| model.parameters().unwrap().into_iter().map(|p| p.value).collect::<Vec<_>>();
+    assert_eq!(values(&Model::unpack(&set.pack()).unwrap()), values(&set));
+    assert!(Model::unpack("{}").is_err());
 }

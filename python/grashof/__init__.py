@@ -14,11 +14,13 @@ from .compared import Compared, ComparedRun
 from .distributions import Distribution, normal, uniform
 from .dynamics import Dynamics, Pose
 from .errors import Error, Fault, Interrupted, ModelError, Refused, StudyError, UnknownName
+from .gathered import SweepTable
 from .linear import Linear
 from .model import LoadedModel, Study, load, parse
 from .page import Animation, Page
 from .records import Checked, Event, Extreme, Extremes, Finding, Part, Solution, Statistics
 from .results import Results, Runs
+from .sensitivity import Index, Sensitivity
 from .stepper import State, Stepper
 
 #: The version of the library.
@@ -37,6 +39,7 @@ __all__ = [
     "Extremes",
     "Fault",
     "Finding",
+    "Index",
     "Interrupted",
     "Linear",
     "LoadedModel",
@@ -48,12 +51,14 @@ __all__ = [
     "Refused",
     "Results",
     "Runs",
+    "Sensitivity",
     "Solution",
     "State",
     "Statistics",
     "Stepper",
     "Study",
     "StudyError",
+    "SweepTable",
     "UnknownName",
     "load",
     "normal",

@@ -50,6 +50,16 @@ def values(x: Any) -> str:
     return ",".join(value(each) for each in _each(x))
 
 
+def axes(over: Mapping[Any, Any]) -> List[Tuple[str, str]]:
+    """Swept parameters with their values; several parameters together, ``("l1", "l3")``, with points, a row each."""
+    return [(names, values(x)) if isinstance(names, str) else (",".join(names), _points(names, x)) for names, x in over.items()]
+
+
+def _points(names: Any, points: Any) -> str:
+    rows = points.tolist() if isinstance(points, np.ndarray) else points
+    return (", " if len(names) == 1 else "; ").join(",".join(value(x) for x in row) for row in rows)
+
+
 def _each(x: Any) -> Iterable[Any]:
     if isinstance(x, np.ndarray):
         return [float(each) for each in x.ravel()]

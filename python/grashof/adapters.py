@@ -10,10 +10,11 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from .gathered import SweepTable
     from .results import Results
 
 
-def frame(results: Results, copy: bool) -> pandas.DataFrame:
+def frame(results: Results | SweepTable, copy: bool) -> pandas.DataFrame:
     """The table as a frame."""
     import pandas
 
@@ -26,11 +27,12 @@ def frame(results: Results, copy: bool) -> pandas.DataFrame:
     return made
 
 
-def dataset(results: Results) -> xarray.Dataset:
+def dataset(results: Results | SweepTable) -> xarray.Dataset:
     """The table as a data set."""
     import xarray
 
-    sweep = bool(results.reasons)
+    reasons = results.reasons
+    sweep = bool(reasons)
     axis = "run" if sweep else results.independent_name or "row"
 
     def attributes(name: str) -> dict[str, str]:
@@ -41,12 +43,12 @@ def dataset(results: Results) -> xarray.Dataset:
     at = np.arange(len(results)) if sweep else results.independent
     made = xarray.Dataset(columns, coords={axis: (axis, at, {"units": results.units.get(axis, "")})})
     if sweep:
-        made["reason"] = (axis, results.reasons)
+        made["reason"] = (axis, reasons)
     made.attrs["study"] = results.study
     return made
 
 
-def quantity(results: Results, name: str, registry: Any) -> Any:
+def quantity(results: Results | SweepTable, name: str, registry: Any) -> Any:
     """A column with its unit."""
     import pint
 

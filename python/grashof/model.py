@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union, overload
 
 from . import _grashof, _text
 from .builder import Model
@@ -13,6 +13,10 @@ from .errors import Fault, Refused
 from .page import Page
 from .results import Results
 from .stepper import Stepper
+
+if TYPE_CHECKING:
+    from .gathered import SweepTable
+    from .sensitivity import Sensitivity
 
 __all__ = ["LoadedModel", "Study", "load", "parse"]
 
@@ -35,11 +39,22 @@ def parse(text: str) -> LoadedModel:
     return LoadedModel(_grashof.parse(text))
 
 
+def _unpacked(packed: str) -> LoadedModel:
+    """A model that was pickled."""
+    return LoadedModel(_grashof.unpack(packed))
+
+
 class LoadedModel:
-    """A model file with variants applied and parameters set: a mechanism, and studies of it. It never changes."""
+    """A model file with variants applied and parameters set: a mechanism, and studies of it. It never changes.
+
+    It can be pickled, with the files that it includes, and sent to other processes and machines.
+    """
 
     def __init__(self, core: _grashof.Model) -> None:
         self._core = core
+
+    def __reduce__(self) -> Tuple[Any, Tuple[str]]:
+        return _unpacked, (self._core.pack(),)
 
     def __repr__(self) -> str:
         return f"<model with the studies {', '.join(self.studies) or 'none'}>"
@@ -101,41 +116,115 @@ class LoadedModel:
         """
         return self._run(study, {}, None, _text.settings(values, named))
 
+    @overload
     def sweep(
         self,
         study: str,
-        over: Mapping[str, Any],
+        over: Mapping[Any, Any],
         *,
         workers: Optional[int] = None,
         values: Optional[Mapping[str, _text.Value]] = None,
         samples: Optional[int] = None,
         seed: int = 1,
-    ) -> Results:
+    ) -> Results: ...
+    @overload
+    def sweep(
+        self,
+        study: str,
+        over: Mapping[Any, Any],
+        *,
+        workers: Literal["ray"],
+        values: Optional[Mapping[str, _text.Value]] = None,
+        samples: Optional[int] = None,
+        seed: int = 1,
+        into: _text.Path,
+        address: Optional[str] = None,
+        progress: Optional[Callable[[int, int], object]] = None,
+    ) -> SweepTable: ...
+    def sweep(
+        self,
+        study: str,
+        over: Mapping[Any, Any],
+        *,
+        workers: Union[int, Literal["ray"], None] = None,
+        values: Optional[Mapping[str, _text.Value]] = None,
+        samples: Optional[int] = None,
+        seed: int = 1,
+        into: Optional[_text.Path] = None,
+        address: Optional[str] = None,
+        progress: Optional[Callable[[int, int], object]] = None,
+    ) -> Union[Results, SweepTable]:
         """Runs a study for all combinations of values of parameters; the last parameter goes fastest.
 
-        ``over`` has for each parameter its values: numbers in SI or texts. The results have a row a run: the parameters and the
-        scalars of the study. ``workers`` are threads, all processors if omitted; the numbers are the same for any.
+        ``over`` has for each parameter its values: numbers in SI or texts. Several parameters together run through points, a row each.
+        The results have a row a run: the parameters and the scalars of the study. ``workers`` are threads, all processors if omitted;
+        the numbers are the same for any.
 
         >>> m.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 31), "load_max": [0, 3000]})
+        >>> m.sweep("one-turn", over={("l1", "l3"): [[0.15, 0.5], [0.16, 0.55]]})
 
         Values may be drawn: ``samples`` points, all parameters with a distribution at once, on which ``seed`` decides;
         :attr:`Results.statistics` says how the scalars are distributed.
 
         >>> m.sweep("one-turn", over={"l3": grashof.normal("55 cm", "1 mm")}, samples=1000)
+
+        With ``workers="ray"`` runs are computed on the cluster of an ``address``, by default that to which the program is connected, or
+        one of this machine alone. Finished runs are kept ``into`` a directory, from which the same call goes on after an interrupt; the
+        table is gathered there in a file, with the bytes that the results of one process give. ``progress`` is called with the number
+        of finished runs, and of all.
+
+        >>> m.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 10**5)}, workers="ray", into="lengths")
         """
-        return self._run(study, over, workers, _text.settings(values, {}), None if samples is None else (samples, seed))
+        drawn = None if samples is None else (samples, seed)
+        if workers != "ray":
+            if into is not None or address is not None or progress is not None:
+                raise TypeError("`into`, `address` and `progress` go with `workers=\"ray\"`")
+            return self._run(study, over, workers, _text.settings(values, {}), drawn)
+        if into is None:
+            raise TypeError("name the directory for the runs, `into`")
+        from .distributed import sweep
+
+        core = self.set(values)._core if values else self._core
+        return sweep(core, study, _text.axes(over), drawn, address=address, into=into, progress=progress)
+
+    def sensitivity(
+        self,
+        study: str,
+        over: Mapping[str, _text.Distribution],
+        *,
+        samples: int = 1024,
+        seed: int = 1,
+        confidence: float = 0.95,
+        values: Optional[Mapping[str, _text.Value]] = None,
+        workers: Union[int, Literal["ray"], None] = None,
+        **cluster: Any,
+    ) -> Sensitivity:
+        """Sobol's indices of the scalars of a study: which share of their variance each parameter with a distribution has, alone and with
+        what it does together with others.
+
+        The study is run at ``samples`` × (parameters + 2) points, those of Saltelli; ``samples`` is a power of two. The indices are those
+        of SALib. With ``workers="ray"`` as :meth:`sweep`, with ``into``, ``address`` and ``progress``.
+
+        >>> m.sensitivity("one-turn", over={"l1": grashof.normal("15 cm", "1 mm"), "l3": grashof.uniform("54 cm", "56 cm")})
+        """
+        from .sensitivity import indices, points
+
+        model = self.set(values) if values else self
+        names = list(over)
+        at = points(model._core, study, _text.axes(over), samples, seed)
+        runs = model.sweep(study, {tuple(names): at}, workers=workers, **cluster)
+        return indices(runs, names, seed, confidence)
 
     def _run(
         self,
         study: str,
-        over: Mapping[str, Any],
+        over: Mapping[Any, Any],
         workers: Optional[int],
         settings: Any,
         samples: Optional[Tuple[int, int]] = None,
     ) -> Results:
         model = LoadedModel(self._core.set(settings)) if settings else self
-        axes = [(name, _text.values(values)) for name, values in over.items()]
-        return Results(model._core.run(study, axes, workers, samples), model._core)
+        return Results(model._core.run(study, _text.axes(over), workers, samples), model._core)
 
     def solve(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
         """Runs a study with a section ``solve``; :attr:`Results.solution` is the value of the parameter that meets the target."""
@@ -234,7 +323,7 @@ class Study:
         return self.model.run(self.name, values, **named)
 
     def sweep(
-        self, over: Mapping[str, Any], *, workers: Optional[int] = None, samples: Optional[int] = None, seed: int = 1
+        self, over: Mapping[Any, Any], *, workers: Optional[int] = None, samples: Optional[int] = None, seed: int = 1
     ) -> Results:
         """:meth:`LoadedModel.sweep` of this study."""
         return self.model.sweep(self.name, over, workers=workers, samples=samples, seed=seed)

@@ -10,6 +10,7 @@ mod interrupt;
 mod model;
 mod results;
 mod stepper;
+mod sweep;
 
 use pyo3::prelude::*;
 
@@ -20,11 +21,13 @@ mod _grashof {
     #[pymodule_export]
     use crate::dynamics::Dynamics;
     #[pymodule_export]
-    use crate::model::{Model, load, parse, yaml};
+    use crate::model::{Model, load, parse, unpack, yaml};
     #[pymodule_export]
     use crate::results::Results;
     #[pymodule_export]
     use crate::stepper::Stepper;
+    #[pymodule_export]
+    use crate::sweep::{Sweep, Table};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

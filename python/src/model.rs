@@ -5,6 +5,7 @@ use crate::errors::{faults, raised};
 use crate::interrupt::away;
 use crate::results::Results;
 use crate::stepper::Stepper;
+use crate::sweep::Sweep;
 use grashof::Error;
 use grashof::results::Scalar;
 use pyo3::prelude::*;
@@ -36,6 +37,12 @@ pub(crate) fn parse(py: Python<'_>, text: &str) -> PyResult<Model> {
     made(py, || grashof::Model::parse(text))
 }
 
+/// The model that `Model.pack` gave as text.
+#[pyfunction]
+pub(crate) fn unpack(py: Python<'_>, packed: &str) -> PyResult<Model> {
+    made(py, || grashof::Model::unpack(packed))
+}
+
 /// YAML for a value that is given as JSON.
 #[pyfunction]
 pub(crate) fn yaml(json: &str) -> PyResult<String> {
@@ -54,6 +61,12 @@ fn made(py: Python<'_>, make: impl FnOnce() -> Result<grashof::Model, Error> + S
 /// Settings as the library takes them.
 fn lent(settings: &Settings) -> Vec<(&str, &str)> {
     settings.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect()
+}
+
+/// A study over values of parameters.
+fn swept<'m>(model: &'m grashof::Model, study: &str, over: &Settings, samples: Option<(usize, u64)>) -> Result<grashof::Study<'m>, Error> {
+    let asked = samples.into_iter().fold(model.study(study)?, |asked, (count, seed)| asked.samples(count, seed));
+    Ok(over.iter().fold(asked, |asked, (parameter, values)| asked.over(parameter, values)))
 }
 
 #[pymethods]
@@ -78,6 +91,11 @@ impl Model {
     #[getter]
     fn text(&self) -> &str {
         self.model.text()
+    }
+
+    /// All of the model as text, with the files that it names.
+    fn pack(&self) -> String {
+        self.model.pack()
     }
 
     /// Names of the studies.
@@ -116,13 +134,21 @@ impl Model {
     ) -> PyResult<Results> {
         let model = Arc::clone(&self.model);
         let run = away(py, move |flag| {
-            let mut asked = model.study(&study)?;
-            asked = threads.into_iter().fold(asked, grashof::Study::threads);
-            asked = samples.into_iter().fold(asked, |asked, (count, seed)| asked.samples(count, seed));
-            asked = over.iter().fold(asked, |asked, (parameter, values)| asked.over(parameter, values));
+            let asked = swept(&model, &study, &over, samples)?;
+            let asked = threads.into_iter().fold(asked, grashof::Study::threads);
             asked.stop_if(|| flag.load(Ordering::Relaxed)).run()
         })?;
         Results::new(py, run.map_err(|error| raised(py, &error))?)
+    }
+
+    /// A sweep of a study, to be computed part by part.
+    #[pyo3(signature = (study, over, samples=None, threads=1))]
+    fn prepare(&self, py: Python<'_>, study: String, over: Settings, samples: Option<(usize, u64)>, threads: usize) -> PyResult<Sweep> {
+        let model = Arc::clone(&self.model);
+        let prepared = away(py, move |flag| {
+            swept(&model, &study, &over, samples)?.threads(threads).stop_if(|| flag.load(Ordering::Relaxed)).prepare()
+        })?;
+        Ok(Sweep::new(prepared.map_err(|error| raised(py, &error))?))
     }
 
     /// Computes a motion by several integrators, at several tolerances or with several steps, s.

@@ -8,9 +8,11 @@ mod mechanism;
 mod model;
 mod page;
 mod simulation;
+mod sources;
 mod state;
 mod stepper;
 mod study;
+mod sweep;
 
 pub use error::{Error, explained};
 pub use evaluator::Evaluator;
@@ -22,3 +24,4 @@ pub use page::told;
 pub use simulation::Simulation;
 pub use stepper::{Stepper, Stepping};
 pub use study::Study;
+pub use sweep::PreparedSweep;

@@ -4,6 +4,7 @@ use super::error::Error;
 use super::files::beside;
 use super::mechanism::Mechanism;
 use super::page::told;
+use super::sources::Sources;
 use super::stepper::Stepping;
 use super::study::Study;
 use crate::model::{self, Document, Selection};
@@ -17,6 +18,7 @@ use std::sync::Arc;
 /// A model file, with variants applied and parameters set: a mechanism, and studies of it.
 #[derive(Clone, Debug)]
 pub struct Model {
+    sources: Arc<Sources>,
     document: Arc<Document>,
     selection: Selection<'static>,
 }
@@ -31,8 +33,7 @@ impl Model {
         let path = path.as_ref();
         let name = path.to_string_lossy();
         let bytes = std::fs::read(path).map_err(|cause| Error::Read { path: path.into(), cause })?;
-        let document = Document::with_files(&bytes, &name, &|included| beside(&name, included)).map_err(Error::Wrong)?;
-        Ok(Self::of(document))
+        Ok(Self::of(Sources::read(&bytes, &name, &|included| beside(&name, included))?))
     }
 
     /// A model that stands in a text and includes no files.
@@ -40,11 +41,37 @@ impl Model {
     /// # Errors
     /// If it is no model.
     pub fn parse(text: &str) -> Result<Self, Error> {
-        Ok(Self::of(Document::read(text, "<text>").map_err(Error::Wrong)?))
+        Ok(Self::of(Sources::read(text.as_bytes(), "<text>", &|_| Err("no files are read here".to_owned()))?))
     }
 
-    fn of(document: Document) -> Self {
-        Self { document: Arc::new(document), selection: Selection::default() }
+    fn of((sources, document): (Sources, Document)) -> Self {
+        Self { sources: Arc::new(sources), document: Arc::new(document), selection: Selection::default() }
+    }
+
+    /// All of the model as text, with the files that it names, to be read by [`Self::unpack`] in another process or on another machine.
+    #[must_use]
+    pub fn pack(&self) -> String {
+        serde_json::json!({ "sources": *self.sources, "variants": self.selection.variants, "sets": self.selection.sets }).to_string()
+    }
+
+    /// The model that [`Self::pack`] gave as text.
+    ///
+    /// # Errors
+    /// If it gave none.
+    pub fn unpack(packed: &str) -> Result<Self, Error> {
+        #[derive(serde::Deserialize)]
+        struct Packed {
+            sources: Sources,
+            variants: Vec<String>,
+            sets: Vec<(String, String)>,
+        }
+        let read = serde_json::from_str(packed).map_err(|why| Error::Refused {
+            message: format!("this is no packed model: {why}"),
+            help: "pack it with the same version of the program".into(),
+        });
+        let Packed { sources, variants, sets } = read?;
+        let document = Arc::new(sources.document()?);
+        Ok(Self { sources: Arc::new(sources), document, selection: Selection { variants, sets, ..Selection::default() } })
     }
 
     /// The same with parameters at other values, given as in the file: `[("l3", "60 cm")]`, or as numbers in SI. They stand over what
@@ -73,7 +100,7 @@ impl Model {
 
     fn selected(&self, selection: Selection<'static>) -> Result<Self, Error> {
         self.document.model(&selection).map_err(Error::Wrong)?;
-        Ok(Self { document: Arc::clone(&self.document), selection })
+        Ok(Self { selection, ..self.clone() })
     }
 
     /// The same with one more study, given as the YAML that it would have in the file (`statics: { from: start }`); and its name, which
@@ -82,7 +109,9 @@ impl Model {
     pub fn with_study(&self, name: &str, yaml: &str) -> (Self, String) {
         let mut document = Document::clone(&self.document);
         let name = document.add_study(name, yaml);
-        (Self { document: Arc::new(document), selection: self.selection.clone() }, name)
+        let mut sources = Sources::clone(&self.sources);
+        sources.add(&name, yaml);
+        (Self { sources: Arc::new(sources), document: Arc::new(document), selection: self.selection.clone() }, name)
     }
 
     /// The text of the file.

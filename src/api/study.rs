@@ -2,6 +2,7 @@
 
 use super::error::Error;
 use super::mechanism::Mechanism;
+use super::sweep::PreparedSweep;
 use crate::model::{self, Document, INTEGRATORS, Integrator, Kind, Model, Selection};
 use crate::par;
 use crate::results::{Compared, Results, Sink, Unknown};
@@ -60,7 +61,8 @@ impl<'a> Study<'a> {
     }
 
     /// Runs the study for many values of a parameter: `0.3..0.8:26`, or a list, `30 cm,40 cm`; several: all combinations. With
-    /// [`Self::samples`] also a distribution, `normal(55 cm, 1 mm)` or `uniform(54 cm, 56 cm)`.
+    /// [`Self::samples`] also a distribution, `normal(55 cm, 1 mm)` or `uniform(54 cm, 56 cm)`. Several parameters
+    /// with commas between them run through a list of points: `l1,l3` through `10 cm,50 cm; 12 cm,55 cm`.
     #[must_use]
     pub fn over(mut self, parameter: &str, values: &str) -> Self {
         self.selection.over.push((parameter.into(), values.into()));
@@ -141,6 +143,22 @@ impl<'a> Study<'a> {
         Ok(together(&model, study, runs, &mut |_, _| {}))
     }
 
+    /// The sweep of the study, to be computed part by part; studies from which it takes scalars are run.
+    ///
+    /// # Errors
+    /// If the file or a setting is wrong, the study is no sweep, or one from which it takes has no whole result.
+    pub fn prepare(&self) -> Result<PreparedSweep, Error> {
+        let selection = self.selection();
+        let loaded = Loader::new(self.document, self.threads).model(&selection, &*self.stop);
+        let model = loaded.map_err(|why| Error::not_loaded(self.document, why))?;
+        let Some(study) = model.study.clone() else { return Err(self.unknown()) };
+        if study.sweep.is_empty() {
+            let message = format!("study `{}` is no sweep", self.name);
+            return Err(Error::Refused { message, help: "say which values parameters run through".into() });
+        }
+        Ok(PreparedSweep::new(model, study))
+    }
+
     /// A study of one run whose rows go to a sink.
     fn streamed(&self, model: &Model, study: &model::Study, sink: &dyn Sink) -> Result<Results, Error> {
         if !study.sweep.is_empty() || study.solve.is_some() {
@@ -219,8 +237,11 @@ impl<'a> Study<'a> {
     }
 
     fn model(&self) -> Result<Model, Error> {
-        let selection = Selection { study: Some(&self.name), ..self.selection.clone() };
-        Loader::new(self.document, self.threads).drawn(&selection, &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
+        Loader::new(self.document, self.threads).drawn(&self.selection(), &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
+    }
+
+    fn selection(&self) -> Selection<'_> {
+        Selection { study: Some(&self.name), ..self.selection.clone() }
     }
 
     fn unknown(&self) -> Error {

@@ -18,6 +18,7 @@ mod modes;
 mod moving;
 mod new;
 mod progress;
+mod ray;
 mod report;
 mod run;
 mod schema;
@@ -146,7 +147,10 @@ pub(crate) fn main() -> ExitCode {
     let code = match &cli.command {
         Command::Run(arguments) => run::run(arguments, &cli.common),
         Command::Watch(arguments) => watch::watch(arguments, &cli.common),
-        Command::Sweep(arguments) => sweep::sweep(arguments, &cli.common),
+        Command::Sweep(arguments) => match &arguments.ray {
+            Some(address) => ray::sweep(arguments, address, &cli.common),
+            None => sweep::sweep(arguments, &cli.common),
+        },
         Command::Gather(arguments) => gather::gather(arguments, &cli.common),
         Command::Compare(arguments) => compare::compare(arguments, &cli.common),
         Command::Animate(arguments) => animate::animate(arguments, &cli.common),

@@ -14,20 +14,25 @@ const FIGURE: &str = "scalars";
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Model file, or `-` for stdin
-    model: String,
+    pub(super) model: String,
     /// The study; may be left out if the model has only one
     #[arg(long, value_name = "S")]
-    study: Option<String>,
+    pub(super) study: Option<String>,
     /// Values of a parameter: a range with the number of values, as `l3=0.3..0.8:26` (with `:log` at the end for equal ratios), or a
     /// list, as `l3=30cm,40cm,50cm` (repeatable: all combinations, the last parameter fastest); or a distribution, as
-    /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`
+    /// `"l3=normal(55 cm, 1 mm)"` or `"l3=uniform(54 cm, 56 cm)"`; or of several parameters a list of points, as
+    /// `"l1,l3=10 cm,50 cm; 12 cm,55 cm"`
     #[arg(long, value_name = "NAME=VALUES", required = true)]
-    over: Vec<String>,
+    pub(super) over: Vec<String>,
     #[command(flatten)]
-    drawn: Drawn,
+    pub(super) drawn: Drawn,
     /// Compute one part of the sweep alone, the K-th of N, and keep it for `grashof gather`
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Compute on a Ray cluster, by the Python package `grashof`: the address of the cluster, or `local` for one of this machine alone. The
+    /// table is written as a Parquet file
+    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["shard", "json", "units", "format", "expect", "verify"])]
+    pub(super) ray: Option<String>,
     #[command(flatten)]
     wanted: Wanted,
 }
@@ -46,6 +51,16 @@ pub(super) struct Drawn {
 impl Drawn {
     fn samples(&self) -> Option<Samples> {
         self.samples.map(|count| Samples { count: count as usize, seed: self.seed.into() })
+    }
+
+    /// Number of points, if it is given.
+    pub(super) fn count(&self) -> Option<u32> {
+        self.samples
+    }
+
+    /// What decides which points are drawn.
+    pub(super) fn seed(&self) -> u32 {
+        self.seed
     }
 }
 
@@ -74,7 +89,7 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     files::print_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };
-    let names: Vec<&str> = over.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = over.iter().flat_map(|(names, _)| names.split(',').map(str::trim)).collect();
     let (stem, swept) =
         if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
     let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };

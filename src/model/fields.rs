@@ -95,6 +95,8 @@ pub(crate) enum Shape {
     Map(&'static Record),
     /// A map with free keys; the words name one entry.
     Named(Keys, &'static str, &'static Shape),
+    /// The same but for one key with a shape of its own, if its value is a map.
+    NamedBut(&'static Field, Keys, &'static str, &'static Shape),
     /// One of several shapes, told apart by being a map, a list or a scalar.
     Either(&'static [Shape]),
     /// A variant: a merge patch of the file's sections.
@@ -170,7 +172,7 @@ impl Shape {
                 let more = if table.fields.len() > 8 { ", ..." } else { "" };
                 format!("{}: a map `{{ key: value }}` with the keys {}{more}", table.what, keys.join(", "))
             }
-            Self::Named(_, what, _) => format!("a map `{{ name: ... }}`, one entry for {what}"),
+            Self::Named(_, what, _) | Self::NamedBut(_, _, what, _) => format!("a map `{{ name: ... }}`, one entry for {what}"),
             Self::Either(shapes) => shapes.iter().map(Shape::expected).collect::<Vec<_>>().join("; or "),
             Self::Patch => "a map of sections with what changes".to_owned(),
             Self::Later => "nothing yet".to_owned(),

@@ -94,6 +94,14 @@ fn shape(of: &Shape, patch: bool) -> Value {
             list
         }
         Shape::Map(inner) => table(inner, patch),
+        Shape::NamedBut(but, keys, what, inner) => {
+            let mut map = shape(&Shape::Named(*keys, what, inner), patch);
+            if let Value::Object(fields) = &mut map {
+                let either = json!({ "description": but.doc, "anyOf": [shape(&but.shape, patch), shape(inner, patch)] });
+                fields.insert("properties".to_owned(), json!({ but.key: either }));
+            }
+            map
+        }
         Shape::Named(keys, _, inner) => {
             let mut value = shape(inner, patch);
             if patch {

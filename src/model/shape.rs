@@ -2,7 +2,7 @@
 //! right keys and the right kinds of values; their meaning is checked where they are decoded.
 
 use super::fault::{At, Fault, Spot};
-use super::fields::{Keys, Record, Shape, Size};
+use super::fields::{Field, Keys, Record, Shape, Size};
 use super::merge::{Layers, Node};
 use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
@@ -64,7 +64,7 @@ impl Shapes<'_> {
         match (shape, node) {
             (Shape::Either(shapes), _) => {
                 let fits = |shape: &&Shape| match shape {
-                    Shape::Map(_) | Shape::Named(..) | Shape::Patch => node.is_map(),
+                    Shape::Map(_) | Shape::Named(..) | Shape::NamedBut(..) | Shape::Patch => node.is_map(),
                     Shape::List(..) => node.is_list(),
                     _ => !node.is_map() && !node.is_list(),
                 };
@@ -110,7 +110,8 @@ impl Shapes<'_> {
             }
             (Shape::List(item, size), Node::Plain(Value::Sequence(items))) => self.list(items, item, *size, at, outer),
             (Shape::Map(table), _) if node.is_map() => self.map(node, table, at),
-            (Shape::Named(keys, what, inner), _) if node.is_map() => self.named(node, *keys, what, inner, at),
+            (Shape::Named(keys, what, inner), _) if node.is_map() => self.named(node, *keys, (what, inner), None, at),
+            (Shape::NamedBut(but, keys, what, inner), _) if node.is_map() => self.named(node, *keys, (what, inner), Some(but), at),
             (Shape::Patch, Node::Plain(Value::Mapping(_))) => self.variant(node, at),
             _ => self.wrong_type(node, at, outer),
         }
@@ -249,7 +250,7 @@ impl Shapes<'_> {
         }
     }
 
-    fn named(&mut self, node: Node<'_>, keys: Keys, what: &str, inner: &Shape, at: &At<'_, '_>) {
+    fn named(&mut self, node: Node<'_>, keys: Keys, (what, inner): (&str, &Shape), but: Option<&Field>, at: &At<'_, '_>) {
         let cut = self.commas(node, at);
         self.each(node, at, &cut, |shapes, key, value| {
             let here = at.key(key);
@@ -272,7 +273,8 @@ impl Shapes<'_> {
                 fault.spot = Spot::Key;
                 fault.help = Some("give it a short name, and say the rest in `about`".to_owned());
             }
-            shapes.check(value, inner, &here);
+            let own = but.filter(|field| field.key == key && value.is_map());
+            shapes.check(value, own.map_or(inner, |field| &field.shape), &here);
         });
     }
 

@@ -320,6 +320,8 @@ pub struct Sweep {
 pub enum Values {
     /// A list.
     List(Vec<Id>),
+    /// A list that stands beside that of the parameter before, of the same length: no combinations of the two.
+    Beside(Vec<Id>),
     /// `count` values from `from` to `to`, equally spaced, or so in the logarithm.
     Span { from: Id, to: Id, count: usize, log: bool },
     /// Drawn from a normal distribution.

@@ -1,7 +1,7 @@
 //! What a study leaves behind: CSV, JSON, figures, a drawing of the mechanism, a report, and the table on the terminal.
 //!
 //! This room knows results, which are names and numbers, and pictures, nothing of mechanics; every function here is
-//! pure but [`Staging::commit`], [`prepare`], [`CsvRows`] and [`RowFiles`], which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
+//! pure but [`Staging::commit`], [`prepare`], [`CsvRows`], [`RowFiles`] and those that read tables back, which alone touch a disc. Pictures go one road: a [`Figure`] or a [`Drawing`] is laid
 //! out once as a display list (`scene`), which is then written as SVG text and painted as pixels, so the two always agree.
 
 mod animation;
@@ -67,7 +67,7 @@ pub use json::{json_number, json_numbers, write_json};
 pub use mat::{MatValue, write_mat};
 pub use matrices::matrices;
 #[cfg(feature = "parquet")]
-pub use parquet::write_parquet;
+pub use parquet::{ParquetTable, gather_parquet, write_parquet};
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};

@@ -2,17 +2,15 @@
 
 use super::common::case::{Case, Streamed, parameters, parameters_with};
 use super::common::named::{self, named};
+pub use super::grid::grid;
 use super::run::run;
 use super::solve::{Solved, Task, solve};
-use crate::expression::Id;
-use crate::model::{Model, Study, Sweep, Values};
-use crate::numerics::sampling::Design;
+use crate::model::{Model, Study, Sweep};
 use crate::par;
 use crate::results::Failure;
 use crate::results::{self, By, Column, Finding, Results, Solution, Statistics, Table, number};
 use crate::studies::common::outcome::Outcome;
 pub use crate::studies::common::settings::{Drawn, Settings};
-use statrs::distribution::{ContinuousCDF, Normal};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -31,55 +29,6 @@ pub struct Run {
     pub solved: Option<Solved>,
     /// What came of it.
     pub result: Result<Box<Outcome>, Failure>,
-}
-
-/// The points of a study's sweep: the grid over its parameters, the last one fastest; one empty point if it sweeps nothing. At each of
-/// them the points that are drawn from distributions follow each other, the same at all.
-#[must_use]
-pub fn grid(model: &Model, study: &Study) -> Vec<Vec<f64>> {
-    let base = parameters(model);
-    let mut points = vec![vec![]];
-    for sweep in &study.sweep {
-        let values: Vec<f64> = match &sweep.values {
-            // its place, to be filled below
-            Values::Normal { .. } | Values::Uniform { .. } => vec![f64::NAN],
-            Values::List(ids) => model.pool.values(ids, &base),
-            &Values::Span { from, to, count, log } => {
-                let (a, b) = (model.pool.value(from, &base), model.pool.value(to, &base));
-                (0..count)
-                    .map(|i| {
-                        let s = if count > 1 { i as f64 / (count - 1) as f64 } else { 0.0 };
-                        match i {
-                            0 => a,
-                            _ if i + 1 == count => b,
-                            _ if log => a * (b / a).powf(s),
-                            _ => a + (b - a) * s,
-                        }
-                    })
-                    .collect()
-            }
-        };
-        points = points.iter().flat_map(|p| values.iter().map(move |v| [p.clone(), vec![*v]].concat())).collect();
-    }
-    let Some(samples) = study.samples else { return points };
-    let drawn: Vec<usize> = (0..study.sweep.len()).filter(|k| study.sweep[*k].values.are_drawn()).collect();
-    let design = Design::new(samples.count, drawn.len(), samples.seed);
-    let draw = |place: usize, mut point: Vec<f64>| {
-        for (&k, u) in drawn.iter().zip(design.point(place)) {
-            point[k] = drawn_at(&study.sweep[k].values, u, &|id| model.pool.value(id, &base));
-        }
-        point
-    };
-    points.iter().flat_map(|point| (0..samples.count).map(|place| draw(place, point.clone())).collect::<Vec<_>>()).collect()
-}
-
-/// The value of a distribution below which it is with the chance u, 0 < u < 1.
-fn drawn_at(values: &Values, u: f64, value: &dyn Fn(Id) -> f64) -> f64 {
-    match *values {
-        Values::Normal { mean, deviation } => value(mean) + value(deviation) * Normal::standard().inverse_cdf(u),
-        Values::Uniform { from, to } => value(from) + (value(to) - value(from)) * u,
-        Values::List(_) | Values::Span { .. } => f64::NAN,
-    }
 }
 
 /// The study at one point of its sweep (an empty one if it has none), solved if it has a `solve`; `rows` takes the rows of a motion that is
@@ -128,7 +77,20 @@ pub fn sweep(
     wanted: &dyn Fn(usize) -> bool,
     done: &(dyn Fn(usize, &Run) + Sync),
 ) -> Vec<Run> {
-    let mut points: Vec<Option<Vec<f64>>> = grid(model, study).into_iter().map(Some).collect();
+    sweep_of(model, study, settings, grid(model, study), known, wanted, done)
+}
+
+/// [`sweep`] over points of one's own, each with a value of every swept parameter.
+pub fn sweep_of(
+    model: &Model,
+    study: &Study,
+    settings: Settings<'_>,
+    points: Vec<Vec<f64>>,
+    known: Vec<Option<Run>>,
+    wanted: &dyn Fn(usize) -> bool,
+    done: &(dyn Fn(usize, &Run) + Sync),
+) -> Vec<Run> {
+    let mut points: Vec<Option<Vec<f64>>> = points.into_iter().map(Some).collect();
     let mut runs = known;
     runs.resize_with(points.len(), || None);
     let missing: Vec<(usize, Vec<f64>)> =
@@ -204,6 +166,11 @@ pub fn single(model: &Model, study: &Study, run: Run) -> Result<Results, Failure
 /// What the runs of a sweep have come to: a table with a row for each, and the results of each. `each` gets the latter with their number
 /// from 0 as they are made, and may take from them what is of no further use.
 pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnMut(usize, &mut Results)) -> Results {
+    together_from(0, model, study, runs, each)
+}
+
+/// [`together`] for runs that follow each other in a sweep from one of them on, `first`, counted from 0: findings name them so.
+pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnMut(usize, &mut Results)) -> Results {
     let labels = labels(model, study, &runs);
     let labelled = |(i, run): (usize, Run)| {
         let solution = solution(model, study, &run);
@@ -215,7 +182,7 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
     let table = table(model, study, &runs);
     let mut findings = Vec::new();
     for (i, (run, reason)) in runs.iter().zip(table.reasons.iter().flatten()).enumerate() {
-        let of = |message: &str| format!("run {} ({}): {message}", i + 1, labels[i]);
+        let of = |message: &str| format!("run {} ({}): {message}", first + i + 1, labels[i]);
         if !reason.is_empty() {
             findings.push(Finding { code: "run-stopped".into(), message: of(reason), path: study.place.clone() });
         }
@@ -237,7 +204,8 @@ pub fn together(model: &Model, study: &Study, runs: Vec<Run>, each: &mut dyn FnM
 }
 
 /// How the numbers of a table are distributed over its rows, behind the parameters that the sweep gives.
-fn statistics(sweep: &[Sweep], table: &Table) -> Vec<Statistics> {
+#[must_use]
+pub fn statistics(sweep: &[Sweep], table: &Table) -> Vec<Statistics> {
     let (swept, found) = table.columns.split_at(sweep.len());
     let drawn: Vec<&Column> = if sweep.iter().all(|s| s.values.are_drawn()) { swept.iter().collect() } else { Vec::new() };
     found.iter().filter_map(|column| Some(Statistics::of(column)?.with_parts(column, &drawn))).collect()
@@ -280,6 +248,12 @@ fn labels(model: &Model, study: &Study, runs: &[Run]) -> Vec<String> {
 /// A number with some significant digits.
 fn significant(x: f64, digits: usize) -> f64 {
     if digits >= ALL { x } else { format!("{x:.*e}", digits - 1).parse().unwrap_or(x) }
+}
+
+/// The columns of the table of a sweep that leaves none out, without values.
+#[must_use]
+pub fn columns(model: &Model, study: &Study) -> Vec<Column> {
+    table(model, study, &[]).columns
 }
 
 /// One row a run: swept parameters, the one that was solved for, results of the kind, scalars, and why a run is not whole.

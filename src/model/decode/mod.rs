@@ -18,6 +18,7 @@ mod order;
 mod outside;
 mod pictures;
 mod plots;
+mod points;
 mod scalars;
 mod springs;
 mod start;

@@ -26,7 +26,7 @@ pub(crate) struct Outside<'o> {
 }
 
 /// An argument as it is shown, `--over l3=0.3,0.4`, and where its value begins.
-struct Argument {
+pub(super) struct Argument {
     shown: String,
     value: usize,
 }
@@ -38,13 +38,13 @@ impl Argument {
     }
 
     /// Bytes of the value.
-    fn spot(&self, part: Range<usize>) -> Spot {
+    pub(super) fn spot(&self, part: Range<usize>) -> Spot {
         Spot::Outside(self.shown.clone(), part.start + self.value..part.end + self.value)
     }
 
-    /// The name of the parameter.
-    fn name(&self, name: &str) -> Spot {
-        let end = self.value - 1;
+    /// The name of a parameter, which stands so many bytes before the sign `=`.
+    fn name(&self, name: &str, behind: usize) -> Spot {
+        let end = self.value - 1 - behind;
         Spot::Outside(self.shown.clone(), end - name.len()..end)
     }
 }
@@ -55,7 +55,7 @@ impl<'n> Decoder<'n> {
         let mut found: Vec<(usize, Id)> = Vec::new();
         for (name, value) in sets {
             let argument = Argument::new("--set", name, value);
-            let Some((i, wanted)) = self.named_outside(name, &argument) else { continue };
+            let Some((i, wanted)) = self.named_outside(name, argument.name(name, 0)) else { continue };
             let Some(wanted) = wanted else { continue };
             if let Some(id) = self.given(name, value, 0..value.len(), &argument, wanted, Allow::PARAMETER, &mut Local::default()) {
                 // what was wrong with the file's value does not matter any more
@@ -67,18 +67,18 @@ impl<'n> Decoder<'n> {
     }
 
     /// The parameter that an argument names, and its dimension unless the file's value of it is faulty.
-    fn named_outside(&mut self, name: &str, argument: &Argument) -> Option<(usize, Option<Dimension>)> {
+    fn named_outside(&mut self, name: &str, spot: Spot) -> Option<(usize, Option<Dimension>)> {
         let before = self.faults.len();
         let found = self.parameter_named(name, &At::ROOT, true);
         for fault in &mut self.faults[before..] {
-            fault.spot = argument.name(name);
+            fault.spot = spot.clone();
         }
         found.map(|i| (i, self.name_space.parameters.get(i).copied().flatten()))
     }
 
     /// The value in a part of an argument's text.
     #[allow(clippy::too_many_arguments, reason = "what is read, where it stands, what it may be")]
-    fn given(
+    pub(super) fn given(
         &mut self,
         name: &str,
         value: &str,
@@ -109,25 +109,15 @@ impl<'n> Decoder<'n> {
     pub(super) fn over(&mut self, outside: &Outside<'_>, solved: Option<&str>, local: &mut Local<'n>) -> Vec<Sweep> {
         let mut sweeps: Vec<Sweep> = Vec::new();
         let mut runs: u64 = outside.samples.map_or(1, |samples| samples.count as u64);
-        for (name, value) in outside.over {
-            let argument = Argument::new("--over", name, value);
-            let Some((parameter, wanted)) = self.named_outside(name, &argument) else { continue };
-            let twice = sweeps.iter().any(|s| s.parameter == parameter);
-            if twice || solved == Some(name) {
-                let message = format!("`{name}` {}", if twice { "is swept already" } else { "is what the study solves for" });
-                let fault = self.fault("swept-twice", &At::ROOT, message, "another parameter");
-                fault.spot = argument.name(name);
-                fault.help = Some("leave this one out".to_owned());
-                continue;
-            }
-            let Some(wanted) = wanted else { continue };
-            let (values, count) = match (distribution(value), value.find("..")) {
-                (Some(of), _) => {
-                    self.samples_of(outside, &argument, value);
-                    (self.drawn(name, value, of, &argument, wanted, local), 1)
+        for (names, value) in outside.over {
+            let argument = Argument::new("--over", names, value);
+            let Some(parameters) = self.swept_outside(names, &argument, &sweeps, solved) else { continue };
+            let (found, count) = match parameters[..] {
+                [(parameter, wanted, name)] => {
+                    let (values, count) = self.values_outside(name, value, wanted, &argument, outside, local);
+                    (values.map(|values| Sweep { parameter, values, place: String::new() }).into_iter().collect(), count)
                 }
-                (None, Some(dots)) => self.span(name, value, dots, &argument, wanted, local),
-                (None, None) => self.list(name, value, &argument, wanted, local),
+                _ => self.points_outside(&parameters, value, &argument, local),
             };
             runs = runs.saturating_mul(count as u64);
             if runs > MOST_RUNS {
@@ -135,7 +125,7 @@ impl<'n> Decoder<'n> {
                 self.fault("too-many-runs", &At::ROOT, message, format!("at most {MOST_RUNS} runs")).spot = argument.spot(0..value.len());
                 break;
             }
-            sweeps.extend(values.map(|values| Sweep { parameter, values, place: String::new() }));
+            sweeps.extend(found);
         }
         if let (Some(samples), Some((name, value))) = (outside.samples, outside.over.last())
             && outside.over.iter().all(|(_, value)| distribution(value).is_none())
@@ -145,6 +135,51 @@ impl<'n> Decoder<'n> {
             fault.help = Some(format!("leave `--samples {}` out", samples.count));
         }
         sweeps
+    }
+
+    /// The parameters that an argument names, with commas between several, none of them swept already; with what they are of.
+    fn swept_outside<'a>(
+        &mut self,
+        names: &'a str,
+        argument: &Argument,
+        sweeps: &[Sweep],
+        solved: Option<&str>,
+    ) -> Option<Vec<(usize, Dimension, &'a str)>> {
+        let mut found: Vec<(usize, Dimension, &str)> = Vec::new();
+        for part in between_commas(names) {
+            let (name, behind) = (names[part.clone()].trim(), names.len() - part.start - names[part].trim_end().len());
+            let (parameter, wanted) = self.named_outside(name, argument.name(name, behind))?;
+            let twice = sweeps.iter().any(|s| s.parameter == parameter) || found.iter().any(|(known, ..)| *known == parameter);
+            if twice || solved == Some(name) {
+                let message = format!("`{name}` {}", if twice { "is swept already" } else { "is what the study solves for" });
+                let fault = self.fault("swept-twice", &At::ROOT, message, "another parameter");
+                fault.spot = argument.name(name, behind);
+                fault.help = Some("leave this one out".to_owned());
+                return None;
+            }
+            found.push((parameter, wanted?, name));
+        }
+        Some(found)
+    }
+
+    /// The values of one parameter, and how many of them are not drawn.
+    fn values_outside(
+        &mut self,
+        name: &str,
+        value: &str,
+        wanted: Dimension,
+        argument: &Argument,
+        outside: &Outside<'_>,
+        local: &mut Local<'n>,
+    ) -> (Option<Values>, usize) {
+        match (distribution(value), value.find("..")) {
+            (Some(of), _) => {
+                self.samples_of(outside, argument, value);
+                (self.drawn(name, value, of, argument, wanted, local), 1)
+            }
+            (None, Some(dots)) => self.span(name, value, dots, argument, wanted, local),
+            (None, None) => self.list(name, value, argument, wanted, local),
+        }
     }
 
     /// That nothing says how many values are drawn.
@@ -245,7 +280,7 @@ impl<'n> Decoder<'n> {
         (ids.map(Values::List), count)
     }
 
-    fn over_allow() -> Allow {
+    pub(super) fn over_allow() -> Allow {
         Allow { what: "a value for a parameter", ..Allow::PARAMETER }
     }
 
@@ -269,7 +304,7 @@ fn distribution(text: &str) -> Option<(bool, Range<usize>)> {
 }
 
 /// Parts of a text between commas that stand in no parentheses.
-fn between_commas(text: &str) -> Vec<Range<usize>> {
+pub(super) fn between_commas(text: &str) -> Vec<Range<usize>> {
     let mut parts = Vec::new();
     let (mut depth, mut begin) = (0_i32, 0);
     for (i, byte) in text.bytes().enumerate() {

@@ -1,6 +1,7 @@
 //! Sweeps: parameters that run through values, or whose values are drawn from distributions.
 
 use super::decoder::Decoder;
+use super::points::POINTS;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANY, Keys, MOST_RUNS, Shape, Size, Want, one_of};
 use crate::model::keys::{Entry, Words, keys, words};
@@ -10,7 +11,8 @@ use crate::model::scope::Local;
 use crate::model::study::{Samples, Sweep, Values};
 
 /// `sweep`.
-pub(super) const SWEEP: Shape = Shape::Named(
+pub(super) const SWEEP: Shape = Shape::NamedBut(
+    &POINTS,
     Keys::Reference,
     "a parameter",
     &Shape::Either(&[
@@ -76,9 +78,12 @@ impl<'n> Decoder<'n> {
                 }
                 continue;
             }
-            let Some(parameter) = self.parameter_named(name, &here, true) else { continue };
-            let Some(dimension) = self.name_space.parameters.get(parameter).copied().flatten() else { continue };
-            let Some((values, count)) = self.values(value, &here, Want::of(dimension), local) else { continue };
+            if name == POINTS.key && value.is_map() {
+                runs = runs.saturating_mul(self.point_list(value, &here, &mut swept, local) as u64);
+                continue;
+            }
+            let Some((parameter, want)) = self.swept(name, &here, &swept) else { continue };
+            let Some((values, count)) = self.values(value, &here, want, local) else { continue };
             runs = runs.saturating_mul(count as u64);
             swept.push(Sweep { parameter, values, place: self.place(&here) });
         }
