@@ -5,6 +5,7 @@ mod equivalence;
 mod faults;
 mod forces;
 mod linkages;
+mod many;
 
 use crate::common;
 use grashof::mechanism::Coordinates;

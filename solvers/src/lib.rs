@@ -18,7 +18,7 @@ pub mod elimination;
 pub mod engine;
 pub mod friction;
 pub mod halt;
-pub mod inertia;
+pub mod indefinite;
 pub mod integration;
 pub mod kkt;
 pub mod loaded;

@@ -4,10 +4,13 @@
 //! bodies here and there, whose joints are rows, roads are short and M and G are sparse: n bodies take a multiple of n. What counts
 //! is the number of operations of the factorisation, by patterns alone.
 
+use super::assemble::Assembled;
+use super::undefined::assembled;
 use crate::dynamics::{mass_pattern, row_pattern};
 use crate::geometry::{Planar, Space, Spatial};
-use crate::mechanism::{Coordinates, build};
+use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::{Dimensions, Model};
+use crate::results::Failure;
 use grashof_solvers::Kkt;
 
 /// Mechanisms of fewer bodies are not looked at: there each tree costs next to nothing.
@@ -40,4 +43,16 @@ fn among<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Coordinates {
         (Some(plain), Some((cost, tree))) if CHEAPER * cost <= plain => tree,
         _ => Coordinates::Joint,
     }
+}
+
+/// The mechanism on the cheapest tree on which all coordinates of joints are measured by gauges, along which a force can hold them; with
+/// its start.
+///
+/// # Errors
+/// If it cannot be assembled.
+pub(crate) fn assembled_for_gauges<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<(Mechanism<G>, Assembled), Failure> {
+    let tree = cheapest(model, parameters);
+    let (mechanism, start) = assembled::<G>(model, parameters, tree)?;
+    let measured = mechanism.joints.iter().all(|joint| joint.tree.is_some() || joint.slots.len() == joint.freedom);
+    if measured { Ok((mechanism, start)) } else { assembled::<G>(model, parameters, Coordinates::Joint) }
 }

@@ -11,6 +11,7 @@
 use super::coordinates::{Coordinate, coordinates};
 use super::held::{Pose, geodesic};
 use super::linear::Singular;
+use super::saddle::Saddle;
 use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, Row, RowKind, RowOwner, Start};
@@ -20,6 +21,8 @@ use grashof_solvers::rank::RANK_TOLERANCE;
 use grashof_solvers::{Block, Elimination, Kkt, Sparsity, Tangent};
 use std::collections::HashSet;
 
+/// Part of the stiffness that may be circulatory by round-off: forces have a potential.
+pub(crate) const POTENTIAL: f64 = 1e-8;
 /// Part of what K x is the sum of that is lost to round-off.
 const ROUND_OFF: f64 = 1e-11;
 
@@ -106,6 +109,8 @@ pub struct HeldSparse {
     pub pencil: Pencil,
     /// The independent coordinates, with the row of S of each: columns and their factors.
     pub independent: Vec<(Coordinate, Vec<(usize, f64)>)>,
+    /// How each of them is measured.
+    pub ways: Vec<Way>,
     /// h: what is unbalanced, N or N m.
     pub unbalanced: Vec<f64>,
     /// Sum of the sizes of all forces over whole ways (1 rad, or the size of the mechanism), and of what such ways change in them, J.
@@ -123,9 +128,9 @@ struct Candidate {
 }
 
 /// How a coordinate is measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Way {
-    /// It is one of the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// It is that of a velocity of the tree.
     Column(usize),
     /// By a gauge.
     Gauge(usize),
@@ -189,6 +194,7 @@ impl HeldSparse {
         Ok(Self {
             unbalanced: chosen.candidates.iter().map(|&i| lambda[place(i)]).collect(),
             independent: chosen.candidates.iter().map(|&i| (candidates[i].coordinate.clone(), line(i))).collect(),
+            ways: chosen.candidates.iter().map(|&i| candidates[i].way).collect(),
             work,
             residual: held.phi[..rows].iter().fold(0.0, |m, phi| f64::max(m, phi.abs())),
             pencil: Pencil {
@@ -317,10 +323,9 @@ impl<G: Space<S = f64>> Rows<G> {
 
     /// λ and h with Gᵀλ + Sᵀh = f, of least size where rows are redundant: what holds the mechanism, so that nothing accelerates.
     fn multipliers(&self, metric: &[f64]) -> Result<Vec<f64>, Singular> {
-        let mut kkt = held_system(&self.block, metric, &self.scale).ok_or(Singular)?;
-        let (mut a, mut lambda) = (vec![0.0; metric.len()], vec![0.0; self.scale.len()]);
-        kkt.solve(&self.force, &vec![0.0; self.scale.len()], &mut a, &mut lambda);
-        Ok(lambda)
+        let scale: Vec<f64> = inverse_roots(metric).into_iter().chain(inverse_roots(&self.scale)).collect();
+        let masses = metric.iter().enumerate().map(|(i, d)| (i, i, *d));
+        Ok(Saddle::new(masses, &self.block, &scale).ok_or(Singular)?.multipliers(&self.force))
     }
 }
 

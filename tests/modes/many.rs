@@ -6,11 +6,11 @@ use crate::common::{assembled, close, model, study};
 use grashof::dynamics::LANES;
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::held::{Pose, settled};
+use grashof::kinematics::lowest::lowest;
 use grashof::kinematics::pencil::HeldSparse;
 use grashof::mechanism::Coordinates;
 use grashof::scalar::Dual;
 use grashof::studies::modes::eigen::library;
-use grashof::studies::modes::lanczos::lowest;
 use std::f64::consts::PI;
 
 /// A mechanism in its assembled start, held there, with sparse matrices.

@@ -2,7 +2,7 @@
 
 use super::damped::{Damped, damped, state_matrix};
 use super::eigen::{self, Eigen};
-use super::report::{BALANCED, DRAWN, POTENTIAL, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{LANES, Linearizer};
@@ -10,6 +10,7 @@ use crate::geometry::Space;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
 use crate::kinematics::held::{Held, Pose};
 use crate::kinematics::partition::{preferred, with_mass};
+use crate::kinematics::pencil::POTENTIAL;
 use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::Coordinates;
 use crate::model::{Eigensolver, Modes};

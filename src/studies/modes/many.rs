@@ -1,24 +1,23 @@
 //! The lowest modes of a mechanism of many bodies, by sparse matrices on the tree on which these are.
 
-use super::lanczos::{self, Lowest};
 use super::picture::picture;
-use super::report::{BALANCED, DRAWN, POTENTIAL, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
-use crate::kinematics::bounded::cheapest;
+use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::held::Pose;
+use crate::kinematics::lowest::{self, Lowest};
 use crate::kinematics::partition::without_mass;
-use crate::kinematics::pencil::{HeldSparse, Pencil};
-use crate::kinematics::undefined::{assembled, not_finite};
-use crate::mechanism::{Coordinates, Mechanism};
+use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
+use crate::kinematics::undefined::not_finite;
 use crate::model::{Eigensolver, Model, Modes};
 use crate::results::Failure;
 use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
-use crate::studies::statics::{Still, equilibrium};
+use crate::studies::statics::{Still, equilibrium_of_many};
 use nalgebra::DVector;
 
 /// Bodies from which on the lowest modes alone are found, by sparse matrices, unless the study says otherwise; and how many.
@@ -46,14 +45,10 @@ where
     G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, parameters, .. } = case;
-    // an equilibrium is searched in joint coordinates
-    let tree = if asked.at_equilibrium { Coordinates::Joint } else { cheapest(model, parameters) };
-    let (mut mechanism, mut start) = assembled::<G>(model, parameters, tree)?;
-    if tree != Coordinates::Joint && !is_held_by_gauges(&mechanism) {
-        (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
-    }
+    let (mechanism, start) = assembled_for_gauges::<G>(model, parameters)?;
     let rest = if asked.at_equilibrium {
-        equilibrium::<G>(case, &mechanism, &mechanism.lift(), &start, stop)?
+        let Some(rest) = equilibrium_of_many::<G>(case, &mechanism, &mechanism.lift(), &start, stop)? else { return Ok(None) };
+        rest
     } else {
         held_start(&mechanism, &start)
     };
@@ -62,7 +57,7 @@ where
     let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| not_finite(model, &mechanism, pose))?;
     let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();
     let HeldSparse { pencil, independent, .. } = &held;
-    if let Some(x) = lanczos::without_mass(pencil, MASSLESS) {
+    if let Some(x) = lowest::without_mass(pencil, MASSLESS) {
         let name = independent.get(shape(independent, &x).iamax()).map_or("", |(c, _)| &c.name);
         return Err(without_mass(name, &study.place));
     }
@@ -76,7 +71,7 @@ where
         report.balance(held.unbalanced.iter().zip(own.iter().map(|c| BALANCED * held.work / way(c))));
     }
     let wanted = asked.lowest.unwrap_or(LOWEST);
-    let Lowest { values, mut vectors, steps } = lanczos::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
+    let Lowest { values, mut vectors, steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
     report.list("steps_lanczos", "", vec![steps as f64]);
@@ -94,11 +89,6 @@ where
         .map(|x| picture(case, &mechanism, pose, &DVector::from_vec(x), &mut close))
         .collect();
     Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
-}
-
-/// Whether all coordinates of joints off the tree are measured by gauges, along which a force can hold them.
-fn is_held_by_gauges<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> bool {
-    mechanism.joints.iter().all(|joint| joint.tree.is_some() || joint.slots.len() == joint.freedom)
 }
 
 /// A mode by its vector (nv), which is turned so that its largest coordinate is positive.

@@ -15,8 +15,6 @@ use nalgebra::DVector;
 pub(super) const ROUND_OFF: f64 = 1e-12;
 /// Unbalanced forces below this part of what they are made of are round-off.
 pub(super) const BALANCED: f64 = 1e-8;
-/// Asymmetry of K, relative, above which forces have no potential.
-pub(super) const POTENTIAL: f64 = 1e-8;
 /// Modes that are drawn.
 pub(super) const DRAWN: usize = 12;
 /// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.

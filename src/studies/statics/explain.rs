@@ -1,14 +1,19 @@
 //! Equilibria in words: coordinates by their names, what falls, what stays unbalanced.
 
-use super::pose::{Lost, Pose};
+use super::pose::Pose;
+use super::rest::Lost;
 use super::search::{Ended, Found};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
+use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
+use crate::kinematics::held::settled;
 use crate::kinematics::partition::{Partition, preferred};
+use crate::kinematics::undefined::in_state;
 use crate::mechanism::{Mechanism, Step};
 use crate::model::Model;
 use crate::results::{Failure, Unsolved};
+use crate::studies::common::case::Case;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
@@ -45,7 +50,7 @@ impl Names {
     pub(super) fn partition<G: Space<S = f64>>(&self, dynamics: &Dynamics<'_, G>, pose: &Pose) -> Partition {
         let m = dynamics.mechanism;
         let g = DMatrix::from_row_slice(m.rows.len(), m.nv, &dynamics.work.g.to_dense());
-        Partition::new(&g, &self.metric, &dynamics.row_scale(&pose.q, &pose.modes, &self.metric), &self.preferred)
+        Partition::new(&g, &self.metric, &dynamics.row_scale(&pose.position.q, &pose.position.modes, &self.metric), &self.preferred)
     }
 
     /// The coordinate that a displacement (nv) moves most, lengths by the size.
@@ -56,30 +61,19 @@ impl Names {
         self.all.get(most).map_or("", |c| &c.name)
     }
 
-    /// `P.angle = -90 deg, S.position = 0.2 m` of independent coordinates.
-    pub(super) fn place(&self, independent: &[usize], values: &[f64]) -> String {
-        const SHOWN: usize = 4;
-        let shown: Vec<String> =
-            independent.iter().zip(values).take(SHOWN).map(|(k, x)| format!("{} = {}", self.all[*k].name, self.value(*k, *x))).collect();
-        let more = if independent.len() > SHOWN { ", ..." } else { "" };
-        if shown.is_empty() { "no coordinate is free".into() } else { shown.join(", ") + more }
+    /// The coordinates of some velocities.
+    pub(super) fn coordinates(&self, of: &[usize]) -> Vec<Coordinate> {
+        of.iter().map(|&k| self.all[k].clone()).collect()
     }
 
-    fn value(&self, k: usize, x: f64) -> String {
-        if self.all[k].turns { format!("{} deg", six(x * 180.0 / PI)) } else { format!("{} m", six(x)) }
-    }
-
-    /// A force on a coordinate with its unit.
-    fn effort(&self, k: usize, x: f64) -> String {
-        format!("{} {}", six(x), if self.all[k].turns { "N m" } else { "N" })
-    }
-
-    /// The failure of a search whose best pose leaves `forces` (n) on the `independent` coordinates.
-    pub(super) fn unbalanced(&self, independent: &[usize], forces: &DVector<f64>, unit: &[f64], why: Ended, place: &str) -> Failure {
-        let size = |i: usize| forces[i].abs() * unit[independent[i]];
-        let most = (0..independent.len()).fold(0, |best, i| if size(i) > size(best) { i } else { best });
-        let what = match independent.get(most) {
-            Some(&k) => format!("{} on `{}` stays unbalanced at best", self.effort(k, forces[most].abs()), self.all[k].name),
+    /// The failure of a search whose best pose leaves `forces` on the independent coordinates `of` a mechanism of this size, m.
+    pub(super) fn unbalanced(&self, of: &[Coordinate], forces: &[f64], size: f64, why: Ended, place: &str) -> Failure {
+        let work = |i: usize| forces[i].abs() * if of[i].turns { 1.0 } else { size };
+        let most = (0..of.len()).fold(0, |best, i| if work(i) > work(best) { i } else { best });
+        let what = match of.get(most) {
+            Some(c) => {
+                format!("{} {} on `{}` stays unbalanced at best", six(forces[most].abs()), if c.turns { "N m" } else { "N" }, c.name)
+            }
             None => "nothing can move".into(),
         };
         let (how, help) = match why {
@@ -124,15 +118,36 @@ impl Names {
     /// `stable`, or what falls, or what is not held; `unit` as in [`Names::most`].
     pub(super) fn verdict(&self, found: &Found, unit: &[f64]) -> String {
         let s = &found.stability;
-        let motion = self.most(&(&found.pose.basis * &s.falls), unit);
-        match (s.negative, s.zero) {
-            (0, 0) => "stable".into(),
-            (1, _) => format!("unstable, it falls along `{motion}`"),
-            (0, 1) => format!("indifferent, nothing holds `{motion}`"),
-            (0, n) => format!("indifferent, nothing holds {n} motions, one of them along `{motion}`"),
-            (n, _) => format!("unstable, it falls in {n} motions, most of all along `{motion}`"),
-        }
+        verdict(s.negative, s.zero, self.most(&(&found.pose.basis * &s.falls), unit))
     }
+}
+
+/// `stable`, or what falls, or what is not held, of so many motions that fall and that nothing holds; most of all along `motion`.
+pub(super) fn verdict(negative: usize, zero: usize, motion: &str) -> String {
+    match (negative, zero) {
+        (0, 0) => "stable".into(),
+        (1, _) => format!("unstable, it falls along `{motion}`"),
+        (0, 1) => format!("indifferent, nothing holds `{motion}`"),
+        (0, n) => format!("indifferent, nothing holds {n} motions, one of them along `{motion}`"),
+        (n, _) => format!("unstable, it falls in {n} motions, most of all along `{motion}`"),
+    }
+}
+
+/// `P.angle = -90 deg, S.position = 0.2 m` of independent coordinates.
+pub(super) fn place(coordinates: &[Coordinate], values: &[f64]) -> String {
+    const SHOWN: usize = 4;
+    let value = |turns: bool, x: f64| if turns { format!("{} deg", six(x * 180.0 / PI)) } else { format!("{} m", six(x)) };
+    let of = |(coordinate, x): (&Coordinate, &f64)| format!("{} = {}", coordinate.name, value(coordinate.turns, *x));
+    let shown: Vec<String> = coordinates.iter().zip(values).take(SHOWN).map(of).collect();
+    let more = if coordinates.len() > SHOWN { ", ..." } else { "" };
+    if shown.is_empty() { "no coordinate is free".into() } else { shown.join(", ") + more }
+}
+
+/// What is undefined at the start, if something is.
+pub(super) fn undefined<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    let (rest, states) = (vec![0.0; start.v.len()], &mechanism.state_starts);
+    let modes = settled(mechanism, [&start.q, &rest, states], &start.modes);
+    in_state(case.model, mechanism, [&start.q, &rest, states], &modes, "the start").map(Failure::Undefined)
 }
 
 fn unsolved(message: String, place: &str, help: &str) -> Failure {

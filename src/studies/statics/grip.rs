@@ -1,6 +1,7 @@
 //! Where friction holds a mechanism at rest: at its start, and around a pose of a mechanism with one degree of freedom.
 
-use super::pose::{Pose, Rest};
+use super::pose::Pose;
+use super::rest::Rest;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
@@ -32,7 +33,7 @@ where
     if rest.system.dynamics.mechanism.contacts.is_empty() {
         return None;
     }
-    let state = rest.state(&pose);
+    let state = rest.state(&pose.position);
     let held = rest.system.gripped(&state)?;
     let live = rest.system.extents(&state);
     let mut mechanism = rest.system.dynamics.mechanism.clone();
@@ -53,7 +54,7 @@ where
     let mut ends = [-1.0, 1.0].map(|sense| end(rest, pose, sense));
     // the basis points one way or the other
     if let [Some(low), Some(high)] = &ends
-        && low.q.iter().zip(&high.q).find(|(a, b)| a != b).is_some_and(|(a, b)| a > b)
+        && low.position.q.iter().zip(&high.position.q).find(|(a, b)| a != b).is_some_and(|(a, b)| a > b)
     {
         ends.reverse();
     }
@@ -65,7 +66,7 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    let state = rest.state(pose);
+    let state = rest.state(&pose.position);
     rest.system.gripped(&state).is_some()
 }
 

@@ -3,7 +3,8 @@
 //! Each place is reached from the equilibrium at hand by a walk along the constraints in a direction of its own, so that nothing is
 //! taken apart on the way. Directions are a fixed sequence: the same model gives the same list.
 
-use super::pose::{Pose, Rest};
+use super::pose::Pose;
+use super::rest::Rest;
 use super::search::{Ended, Found};
 use crate::dynamics::LANES;
 use crate::geometry::Space;
@@ -44,7 +45,7 @@ where
 {
     /// Equilibria that a mechanism can reach from a pose, apart from those `known`; of a continuum none. Angles are counted from `near`.
     pub(super) fn others(&mut self, from: &Pose, near: &Pose, known: &[&Pose], stop: &dyn Fn() -> bool) -> Result<Vec<Found>, Ended> {
-        let mut signatures: Vec<Vec<f64>> = known.iter().map(|pose| self.signature(pose)).collect();
+        let mut signatures: Vec<Vec<f64>> = known.iter().map(|pose| self.signature(&pose.position)).collect();
         let mut found: Vec<Found> = Vec::new();
         for place in self.places(from) {
             for falling in [false, true] {
@@ -55,7 +56,7 @@ where
                     Err(Ended::Stopped) => return Err(Ended::Stopped),
                     Err(_) => continue,
                 };
-                let signature = self.signature(&new.pose);
+                let signature = self.signature(&new.pose.position);
                 if new.stability.zero == 0 && signatures.iter().all(|s| !is_same(s, &signature)) {
                     found.push(self.unwound(new, near, &signature)?);
                     signatures.push(signature);
@@ -67,14 +68,14 @@ where
 
     /// The same equilibrium with its angles within half a turn of another pose, where that makes no difference to anything.
     fn unwound(&mut self, found: Found, from: &Pose, signature: &[f64]) -> Result<Found, Ended> {
-        let mut q = found.pose.q.clone();
+        let mut q = found.pose.position.q.clone();
         for step in &self.system.dynamics.mechanism.steps {
             if let Step::Axis { q: i, turns: true, slides: false, .. } = *step {
-                q[i] -= TAU * ((q[i] - from.q[i]) / TAU).round();
+                q[i] -= TAU * ((q[i] - from.position.q[i]) / TAU).round();
             }
         }
-        let Ok(pose) = self.at(&q, &found.pose.z, &found.pose.modes) else { return Ok(found) };
-        if is_same(&self.signature(&pose), signature) && self.is_balanced(&pose)? {
+        let Ok(pose) = self.at(&q, &found.pose.position.z, &found.pose.position.modes) else { return Ok(found) };
+        if is_same(&self.signature(&pose.position), signature) && self.is_balanced(&pose)? {
             return self.judged(pose);
         }
         Ok(found)

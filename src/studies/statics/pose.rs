@@ -12,35 +12,24 @@
 //! K = ∂(Gᵀλ − f)/∂q at fixed λ contains the curvature of the constraints; the states follow the position, z = z(q). Where h = 0
 //! this is the Hessian of the Lagrangian on the tangent space (Nocedal & Wright, Numerical Optimization, theorem 12.6).
 
+use super::rest::{CLOSED, Lost, Position, Rest, norm};
 use crate::dynamics::LANES;
-use crate::geometry::{Force, Motion, Space};
-use crate::mechanism::{EffortLaw, Measured, Step, StretchOf};
+use crate::geometry::Space;
 use crate::numerics::least_squares::{shortest, shortest_beyond};
 use crate::scalar::Dual;
-use crate::studies::dynamics::system::Mechanical;
 use grashof_solvers::kkt::ROUND_OFF;
 use grashof_solvers::rank::{NullSpace, RANK_TOLERANCE};
-use grashof_solvers::{Span, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Span, Stage, System};
 use nalgebra::{DMatrix, DVector};
 
-/// Residual of a closed constraint, in units of the mechanism's size.
-const CLOSED: f64 = 1e-12;
 /// Newton steps for constraints and for states.
 const STEPS: usize = 40;
 
 /// A position with its constraints closed and its states at rest.
 #[derive(Clone, Debug)]
 pub(super) struct Pose {
-    /// Coordinates (nq).
-    pub(super) q: Vec<f64>,
-    /// First-order states (nz).
-    pub(super) z: Vec<f64>,
-    /// ż (nz): not 0 where a state finds no rest.
-    pub(super) drift: Vec<f64>,
-    /// Modes of switches and windings.
-    pub(super) modes: Vec<i32>,
-    /// λ (rows).
-    pub(super) lambda: Vec<f64>,
+    /// Where it is.
+    pub(super) position: Position,
     /// P (nv × n).
     pub(super) basis: DMatrix<f64>,
     /// h (n).
@@ -51,52 +40,11 @@ pub(super) struct Pose {
     pub(super) stiffness: f64,
 }
 
-/// Why there is no pose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lost {
-    /// The constraints cannot be closed from there.
-    Open,
-    /// The force on this velocity is not a number.
-    NotFinite(usize),
-}
-
-/// A mechanism that rests: evaluates poses.
-pub(super) struct Rest<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) system: Mechanical<'m, G, D>,
-    /// Characteristic length, m.
-    pub(super) size: f64,
-    /// What counts as a whole way of each velocity: 1 rad, or the size (nv).
-    pub(super) unit: Vec<f64>,
-    state: State,
-    terms: Terms,
-    tangent: Tangent,
-    zeros: Vec<f64>,
-}
-
-impl<'m, G, D> Rest<'m, G, D>
+impl<G, D> Rest<'_, G, D>
 where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    /// A system of a characteristic length, m.
-    pub(super) fn new(system: Mechanical<'m, G, D>, size: f64) -> Self {
-        let dims = system.dims();
-        let unit = system.pattern().size_v.clone();
-        let (state, terms, tangent) = (State::new(dims), Terms::new(dims, system.pattern()), Tangent::new(system.pattern()));
-        Self { size, unit, state, terms, tangent, zeros: vec![0.0; dims.v], system }
-    }
-
-    /// Holds contacts where they stand, rad or m.
-    pub(super) fn hold(&mut self, live: &[f64]) {
-        self.state.live.copy_from_slice(live);
-    }
-
-    /// The state at a pose.
-    pub(super) fn state(&mut self, pose: &Pose) -> State {
-        self.show(pose);
-        self.state.clone()
-    }
-
     /// The pose nearest to given coordinates, states and modes.
     pub(super) fn at(&mut self, q: &[f64], z: &[f64], modes: &[i32]) -> Result<Pose, Lost> {
         self.state.q.copy_from_slice(q);
@@ -106,13 +54,11 @@ where
         self.close()?;
         // a state may switch what drives it, and so may the position
         for _ in 0..2 {
-            let mut next = self.state.modes.clone();
-            self.system.modes(self.state.at(), &mut next);
-            self.state.modes = next;
+            self.take_modes();
             self.settle();
         }
         self.evaluate(Stage::Dynamics);
-        if let Some(k) = self.terms.force.iter().position(|f| !f.is_finite()) {
+        if let Some(k) = self.undefined() {
             return Err(Lost::NotFinite(k));
         }
         Ok(self.balance())
@@ -120,23 +66,16 @@ where
 
     /// The pose behind a displacement `delta` (nv).
     pub(super) fn moved(&mut self, from: &Pose, delta: &[f64]) -> Result<Pose, Lost> {
-        let mut q = from.q.clone();
+        let mut q = from.position.q.clone();
         self.system.retract(Span::at(self.state.t), &mut q, delta);
-        self.at(&q, &from.z, &from.modes)
-    }
-
-    /// Largest part of a displacement (nv), in radians or sizes.
-    pub(super) fn measure(&self, delta: &DVector<f64>) -> f64 {
-        delta.iter().zip(&self.unit).fold(0.0, |m, (d, u)| f64::max(m, d.abs() / u))
+        self.at(&q, &from.position.z, &from.position.modes)
     }
 
     /// H (n × n) at a pose.
     pub(super) fn tangent(&mut self, pose: &Pose) -> Result<DMatrix<f64>, Lost> {
-        self.state.q.copy_from_slice(&pose.q);
-        self.state.z.copy_from_slice(&pose.z);
-        self.state.modes.copy_from_slice(&pose.modes);
-        self.system.tangent(self.state.at(), &self.zeros, &pose.lambda, &mut self.tangent);
-        let (nv, nz) = (self.zeros.len(), pose.z.len());
+        self.stand_at(&pose.position);
+        self.system.tangent(self.state.at(), &self.zeros, &pose.position.lambda, &mut self.tangent);
+        let (nv, nz) = (self.zeros.len(), pose.position.z.len());
         let mut k = DMatrix::from_row_slice(nv, nv, &self.tangent.k.to_dense());
         if nz > 0 {
             let mut follow = DMatrix::zeros(nz, nv);
@@ -151,66 +90,10 @@ where
         if h.iter().all(|x| x.is_finite()) { Ok(h) } else { Err(Lost::NotFinite(0)) }
     }
 
-    /// What tells apart two equilibria: poses of the bodies and stretches of the springs, lengths by the size.
-    pub(super) fn signature(&mut self, pose: &Pose) -> Vec<f64> {
-        self.show(pose);
-        let d = &self.system.dynamics;
-        let mut out = Vec::new();
-        for p in d.poses() {
-            out.extend((0..9).map(|i| G::entry(p.r, i / 3, i % 3)));
-            out.extend((0..G::VECTOR).map(|i| G::component(p.p, i) / self.size));
-        }
-        for stretch in &d.mechanism.stretches {
-            let turns = match stretch.of {
-                StretchOf::Gauge(g) => match d.mechanism.gauges[g].measured {
-                    Measured::Angle | Measured::Turn { .. } => true,
-                    Measured::Coordinate { along, .. } => along.turns,
-                    _ => false,
-                },
-                StretchOf::Function(_) => false,
-            };
-            out.push(d.extent(stretch.of) / if turns { 1.0 } else { self.size });
-        }
-        out
-    }
-
-    /// Evaluates a pose for whoever reads the workspace: quantities of the columns, outlines.
-    pub(super) fn show(&mut self, pose: &Pose) {
-        self.state.q.copy_from_slice(&pose.q);
-        self.state.z.copy_from_slice(&pose.z);
-        self.state.modes.copy_from_slice(&pose.modes);
-        self.system.observe(&self.state.at(), &self.zeros, &pose.lambda);
-    }
-
     /// The unbalanced force on each velocity, D P h (nv).
     pub(super) fn net(&self, pose: &Pose) -> DVector<f64> {
         let along = &pose.basis * &pose.force;
         DVector::from_fn(along.len(), |k, _| self.system.pattern().metric[k] * along[k])
-    }
-
-    /// Largest |Φ| at a pose, m or rad.
-    pub(super) fn open(&mut self, pose: &Pose) -> f64 {
-        self.show(pose);
-        self.system.dynamics.work.phi.iter().fold(0.0, |m, p| f64::max(m, p.abs()))
-    }
-
-    /// How far the quaternions of a pose are turned from those of another, as rotation vectors in the turned body (nv), rad;
-    /// 0 for other velocities.
-    pub(super) fn turned(&self, from: &Pose, to: &Pose) -> Vec<f64> {
-        let mut out = vec![0.0; self.unit.len()];
-        let quaternion = |q: &[f64]| nalgebra::Quaternion::new(q[0], q[1], q[2], q[3]);
-        for step in &self.system.dynamics.mechanism.steps {
-            if let Step::Ball { q, v, .. } = *step {
-                let between = quaternion(&from.q[q..]).conjugate() * quaternion(&to.q[q..]);
-                let turn = nalgebra::UnitQuaternion::from_quaternion(between).scaled_axis();
-                out[v..v + 3].copy_from_slice(turn.as_slice());
-            }
-        }
-        out
-    }
-
-    fn evaluate(&mut self, stage: Stage) {
-        self.system.terms(self.state.at(), stage, &mut self.terms);
     }
 
     /// Moves the coordinates to the constraints, by the shortest way in the metric.
@@ -238,13 +121,6 @@ where
         }
         // round-off may shrink for ever
         if last <= CLOSED { Ok(()) } else { Err(Lost::Open) }
-    }
-
-    /// Largest |Φ|, lengths by the size.
-    fn gap(&self) -> f64 {
-        let rows = &self.system.dynamics.mechanism.rows;
-        let scaled = self.terms.phi.iter().zip(rows).map(|(p, r)| p.abs() / if r.angular { 1.0 } else { self.size });
-        scaled.fold(0.0, |m, x| if x > m || x.is_nan() { x } else { m })
     }
 
     /// Brings the states to rest by Newton's method where their rates allow it; what cannot rest keeps its value. A step counts if
@@ -294,69 +170,7 @@ where
         let transposed: Vec<f64> = (0..nv).flat_map(|k| (0..m).map(move |i| (i, k))).map(|(i, k)| g[i * nv + k] / root[k]).collect();
         let scaled: Vec<f64> = force.iter().zip(&root).map(|(f, r)| f / r).collect();
         let lambda = if m == 0 { Vec::new() } else { shortest_beyond(RANK_TOLERANCE, &transposed, &scaled, e, 0.0) };
-        let (grain, stiffness) = self.scales(&root);
-        Pose {
-            q: self.state.q.clone(),
-            z: self.state.z.clone(),
-            drift: self.terms.zdot.clone(),
-            modes: self.state.modes.clone(),
-            lambda,
-            force: basis.transpose() * DVector::from_column_slice(force),
-            basis,
-            grain,
-            stiffness,
-        }
+        let (grain, stiffness) = self.sizes();
+        Pose { position: self.position(lambda), force: basis.transpose() * DVector::from_column_slice(force), basis, grain, stiffness }
     }
-
-    /// Sizes of the forces and of the stiffnesses that act, each before anything cancels, in the metric; `root` is D^½.
-    fn scales(&self, root: &[f64]) -> (f64, f64) {
-        let (m, w) = (self.system.dynamics.mechanism, &self.system.dynamics.work);
-        // a moment is the difference of larger ones, about as large as the force at the body's own distance and size; places that
-        // coordinates give are rounded by these
-        let far = m.steps.iter().fold(self.size, |far, step| match *step {
-            Step::Axis { turns: false, q, .. } => far.max(self.state.q[q].abs()),
-            _ => far,
-        });
-        let length = |(body, f): (usize, &Force<G>)| {
-            let (p, size) = (w.places[body].p, G::dot(f.f, f.f).sqrt());
-            [G::dot_spin(f.n, f.n).sqrt() + size * (G::dot(p, p).sqrt() + far), size]
-        };
-        let mut pulls: Vec<[f64; 2]> = w.applied.iter().enumerate().map(length).collect();
-        let mut grains = vec![0.0; root.len()];
-        for node in m.nodes.iter().rev() {
-            let [n, f] = pulls[node.body];
-            for k in node.columns.clone() {
-                let Motion { w, v } = w.columns[k];
-                grains[k] = (n * G::dot_spin(w, w).sqrt() + f * G::dot(v, v).sqrt()) / root[k];
-            }
-            let parent = &mut pulls[node.parent];
-            *parent = [parent[0] + n, parent[1] + f];
-        }
-        let mut stiffness = G::dot(m.gravity, m.gravity).sqrt() / self.size;
-        for (effort, size) in m.efforts.iter().zip(&w.efforts) {
-            let mut along = vec![0.0; root.len()];
-            let mut add = |gauge: usize, slope: f64| {
-                m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| along[k] += slope * x / root[k]);
-            };
-            match effort.along {
-                StretchOf::Gauge(gauge) => add(gauge, 1.0),
-                StretchOf::Function(f) => {
-                    let function = &m.functions[f];
-                    function.gauges.iter().enumerate().for_each(|(i, &gauge)| add(gauge, w.functions[function.value + 1 + i]));
-                }
-            }
-            let mut size = size.abs();
-            if let EffortLaw::Linear { stiffness: k, rest, .. } = effort.law {
-                stiffness += k.abs() * along.iter().map(|a| a * a).sum::<f64>();
-                size += k.abs() * (self.system.dynamics.extent(effort.along).abs() + rest.abs());
-            }
-            grains.iter_mut().zip(&along).for_each(|(g, a)| *g += size * a.abs());
-        }
-        (norm(&grains), stiffness)
-    }
-}
-
-/// √Σ x².
-pub(super) fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

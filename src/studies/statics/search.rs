@@ -13,7 +13,8 @@
 //!
 //! Newton's method with damping, min |H y − h|² + μ|y|², makes |h| smaller and ends in equilibria of any kind.
 
-use super::pose::{Lost, Pose, Rest};
+use super::pose::Pose;
+use super::rest::{Lost, Rest};
 use super::stability::Stability;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
@@ -22,19 +23,19 @@ use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of a search.
-const STEPS: usize = 400;
+pub(super) const STEPS: usize = 400;
 /// Longest step, rad; slides may become faster.
-const LONGEST: f64 = 0.3;
+pub(super) const LONGEST: f64 = 0.3;
 /// A Newton step (rad or sizes) after which only round-off is left to remove.
-const CLOSE: f64 = 1e-9;
+pub(super) const CLOSE: f64 = 1e-9;
 /// A step after which the search may be on a ridge.
-const NEAR: f64 = 1e-6;
+pub(super) const NEAR: f64 = 1e-6;
 /// Part of the acting forces that is round-off.
-const ROUND_OFF: f64 = 1e-14;
+pub(super) const ROUND_OFF: f64 = 1e-14;
 /// Part of the acting stiffness that is always added, so that motions that nothing holds stay where they are.
-const FLOOR: f64 = 1e-11;
+pub(super) const FLOOR: f64 = 1e-11;
 /// Sizes beyond which a mechanism has run away.
-const AWAY: f64 = 1e6;
+pub(super) const AWAY: f64 = 1e6;
 
 /// Why a search ends without equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,6 +7,7 @@
 //! eigenvalues of H do, as they do for slow, overdamped motion D ẏ = −H y; a flutter is not seen by them.
 
 use super::pose::Pose;
+use super::rest::Position;
 use crate::dynamics::{LANES, Linearizer, Point};
 use crate::geometry::Space;
 use crate::kinematics::linear::Linear;
@@ -81,7 +82,8 @@ impl Stability {
             return;
         }
         let zeros = vec![0.0; mechanism.nv];
-        let point = Point { t: 0.0, q: &pose.q, v: &zeros, z: &pose.z, a: &zeros, lambda: &pose.lambda, modes: &pose.modes };
+        let Position { q, z, modes, lambda, .. } = &pose.position;
+        let point = Point { t: 0.0, q, v: &zeros, z, a: &zeros, lambda, modes };
         let linear = Linear::new(mechanism, &mut Linearizer::new(lifted), &point, metric);
         let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
             return;

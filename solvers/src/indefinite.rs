@@ -1,0 +1,272 @@
+//! L D Lᵀ of a sparse symmetric matrix that is not definite: its solutions, and how many of its eigenvalues are negative.
+//!
+//! By Sylvester's law A = L D Lᵀ has as many as D. Pivots of one and of two columns keep L small (Bunch & Kaufman, Math. Comp. 31 (1977)
+//! 163-179), and the next one is sought in the row with the fewest entries, so that sparse matrices stay so: the order follows the numbers,
+//! where that of [`crate::Kkt`] is made once for all matrices of a pattern, and takes all velocities before all rows.
+//!
+//! For a pair K x = λ M x on motions with G x = 0, the matrix [K − σM, Gᵀ; G, −E] has a negative eigenvalue for each row of G and for each λ
+//! below σ: the count that proves that an iteration has missed none (Bathe, Finite Element Procedures, 2nd edition, section 11.6.4, there
+//! without constraints).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Bunch and Kaufman's bound (1 + √17)/8.
+const ALPHA: f64 = 0.6404;
+
+/// A partner of two columns is the one with the fewest entries among those from this part of the largest on.
+const LARGE: f64 = 0.5;
+
+/// The factors of a symmetric matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Indefinite {
+    steps: Vec<Step>,
+    negative: usize,
+}
+
+/// One or two columns that are eliminated together, with what their lines had when they were.
+#[derive(Clone, Debug, PartialEq)]
+struct Step {
+    lines: Vec<(usize, Row)>,
+    block: PivotBlock,
+}
+
+/// The inverse of a pivot: its diagonal, and what is beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PivotBlock {
+    first: f64,
+    second: f64,
+    beside: f64,
+}
+
+impl PivotBlock {
+    fn new(lines: &[(usize, Row)]) -> Self {
+        match lines {
+            [(p, line)] => {
+                let d = at(line, *p);
+                Self { first: if d == 0.0 { 0.0 } else { d.recip() }, second: 0.0, beside: 0.0 }
+            }
+            [(p, first), (r, second)] => {
+                let (a, b, c) = (at(first, *p), at(first, *r), at(second, *r));
+                let determinant = a * c - b * b;
+                Self { first: c / determinant, second: a / determinant, beside: -b / determinant }
+            }
+            _ => Self { first: 0.0, second: 0.0, beside: 0.0 },
+        }
+    }
+
+    /// The inverse times the values of its columns.
+    fn times(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.first * x + self.beside * y, self.beside * x + self.second * y]
+    }
+}
+
+impl Indefinite {
+    /// Factors a symmetric matrix of order n, given by the entries (row, column, value) of both of its triangles; entries of one place are
+    /// added. A pivot of 0 takes no part.
+    pub fn new(n: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Self {
+        let mut rows: Vec<Row> = vec![Vec::new(); n];
+        entries.into_iter().for_each(|(i, j, value)| rows[i].push((j, value)));
+        for row in &mut rows {
+            row.sort_unstable_by_key(|(j, _)| *j);
+            row.dedup_by(|next, kept| {
+                let same = next.0 == kept.0;
+                kept.1 += if same { next.1 } else { 0.0 };
+                same
+            });
+        }
+        let mut queue: BinaryHeap<_> = rows.iter().enumerate().map(|(i, row)| Reverse((row.len(), i))).collect();
+        let mut done = vec![false; n];
+        let mut factors = Self { steps: Vec::new(), negative: 0 };
+        while let Some(Reverse((length, i))) = queue.pop() {
+            if done[i] || rows[i].len() != length {
+                continue;
+            }
+            let (pivot, count) = pivot(&rows, i);
+            factors.negative += count;
+            let lines: Vec<(usize, Row)> = pivot.iter().map(|&p| (p, std::mem::take(&mut rows[p]))).collect();
+            pivot.iter().for_each(|&p| done[p] = true);
+            let block = PivotBlock::new(&lines);
+            for k in eliminated(&lines, block, &mut rows, &done) {
+                queue.push(Reverse((rows[k].len(), k)));
+            }
+            factors.steps.push(Step { lines, block });
+        }
+        factors
+    }
+
+    /// Number of negative eigenvalues.
+    #[must_use]
+    pub fn negative(&self) -> usize {
+        self.negative
+    }
+
+    /// Puts the solution with the right-hand side `b` (n) in its place.
+    pub fn solve(&self, b: &mut [f64]) {
+        for Step { lines, block } in &self.steps {
+            let z = block.times(on_pivot(lines, |p, _| b[p]));
+            for ((_, line), z) in lines.iter().zip(z) {
+                beyond(lines, line).for_each(|(j, x)| b[j] -= x * z);
+            }
+            lines.iter().zip(z).for_each(|((p, _), z)| b[*p] = z);
+        }
+        for Step { lines, block } in self.steps.iter().rev() {
+            let known = block.times(on_pivot(lines, |_, line| beyond(lines, line).map(|(j, x)| x * b[j]).sum()));
+            lines.iter().zip(known).for_each(|((p, _), known)| b[*p] -= known);
+        }
+    }
+}
+
+/// A number for each column of a pivot, 0 for a second one that is not there.
+fn on_pivot(lines: &[(usize, Row)], of: impl Fn(usize, &Row) -> f64) -> [f64; 2] {
+    let mut out = [0.0; 2];
+    out.iter_mut().zip(lines).for_each(|(out, (p, line))| *out = of(*p, line));
+    out
+}
+
+/// Entries of a line outside of its pivot.
+fn beyond<'a>(lines: &'a [(usize, Row)], line: &'a Row) -> impl Iterator<Item = (usize, f64)> + 'a {
+    line.iter().copied().filter(move |(j, _)| lines.iter().all(|(p, _)| p != j))
+}
+
+/// Columns with their entries, rising.
+type Row = Vec<(usize, f64)>;
+
+fn at(row: &Row, j: usize) -> f64 {
+    row.binary_search_by_key(&j, |(j, _)| *j).map_or(0.0, |k| row[k].1)
+}
+
+/// The size of the largest entry of row i beside its diagonal.
+fn beside(row: &Row, i: usize) -> f64 {
+    row.iter().filter(|(j, _)| *j != i).fold(0.0, |m, (_, x)| f64::max(m, x.abs()))
+}
+
+/// The next pivot, of column i, its partner or both, and its number of negative eigenvalues.
+fn pivot(rows: &[Row], i: usize) -> (Vec<usize>, usize) {
+    let (diagonal, most) = (at(&rows[i], i), beside(&rows[i], i));
+    let one = |p: usize, x: f64| (vec![p], usize::from(x < 0.0));
+    if diagonal.abs() >= ALPHA * most {
+        return one(i, diagonal);
+    }
+    let large = rows[i].iter().filter(|(j, x)| *j != i && x.abs() >= LARGE * most);
+    let Some(&(r, across)) = large.min_by_key(|(j, _)| rows[*j].len()) else { return one(i, diagonal) };
+    let (other, others) = (at(&rows[r], r), beside(&rows[r], r));
+    if diagonal.abs() * others >= ALPHA * across * across {
+        return one(i, diagonal);
+    }
+    if other.abs() >= ALPHA * others {
+        return one(r, other);
+    }
+    let count = match diagonal * other - across * across {
+        determinant if determinant < 0.0 => 1,
+        _ if diagonal + other < 0.0 => 2,
+        _ => 0,
+    };
+    (vec![i, r], count)
+}
+
+/// Takes the part of the lines of a pivot from the rows that meet them, and gives those.
+fn eliminated(lines: &[(usize, Row)], block: PivotBlock, rows: &mut [Row], done: &[bool]) -> Vec<usize> {
+    // the pivot's inverse times its lines
+    let solved: Vec<Row> = match lines {
+        [(_, line)] => vec![line.iter().map(|(j, x)| (*j, x * block.first)).collect()],
+        [(_, first), (_, second)] => {
+            vec![merged(first, block.first, second, block.beside), merged(first, block.beside, second, block.second)]
+        }
+        _ => Vec::new(),
+    };
+    let mut met: Vec<usize> = lines.iter().flat_map(|(_, line)| line.iter().map(|(j, _)| *j)).filter(|j| !done[*j]).collect();
+    met.sort_unstable();
+    met.dedup();
+    for &k in &met {
+        let factors: Vec<f64> = lines.iter().map(|(p, _)| at(&rows[k], *p)).collect();
+        for (factor, solved) in factors.iter().zip(&solved).filter(|(factor, _)| **factor != 0.0) {
+            rows[k] = merged(&rows[k], 1.0, solved, -factor);
+        }
+        rows[k].retain(|(j, _)| !done[*j]);
+    }
+    met
+}
+
+/// x·first + y·second.
+fn merged(first: &Row, x: f64, second: &Row, y: f64) -> Row {
+    let mut out = Row::with_capacity(first.len() + second.len());
+    let (mut a, mut b) = (first.iter().peekable(), second.iter().peekable());
+    loop {
+        match (a.peek(), b.peek()) {
+            (Some((i, u)), Some((j, w))) if i == j => {
+                out.push((*i, x * u + y * w));
+                a.next();
+                b.next();
+            }
+            (Some((i, u)), other) if other.is_none_or(|(j, _)| i < j) => {
+                out.push((*i, x * u));
+                a.next();
+            }
+            (_, Some((j, w))) => {
+                out.push((*j, y * w));
+                b.next();
+            }
+            _ => return out,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::Noise;
+
+    /// The count for a matrix of order n with `negative` negative eigenvalues and the entries outside of the diagonal that `fill` keeps in
+    /// its factor T.
+    fn counted(n: usize, negative: usize, fill: impl Fn(usize, usize, f64) -> bool) -> usize {
+        let mut noise = Noise(7);
+        // A = T D Tᵀ with a regular T
+        let mut t = vec![vec![0.0; n]; n];
+        for (i, row) in t.iter_mut().enumerate() {
+            for (j, x) in row.iter_mut().enumerate().take(i + 1) {
+                let value = noise.next();
+                *x = if i == j {
+                    1.0
+                } else if fill(i, j, value) {
+                    value
+                } else {
+                    0.0
+                };
+            }
+        }
+        let d = |k: usize| if k < negative { -1.0 - k as f64 } else { 0.5 + k as f64 };
+        let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let value = |(i, j): (usize, usize)| (i, j, (0..n).map(|k| t[i][k] * d(k) * t[j][k]).sum());
+        let all: Vec<(usize, usize, f64)> = entries.map(value).filter(|e: &(usize, usize, f64)| e.2 != 0.0).collect();
+        let factors = Indefinite::new(n, all.iter().copied());
+        // the solution meets its right-hand side
+        let right = noise.vector(n);
+        let mut x = right.clone();
+        factors.solve(&mut x);
+        let mut left = vec![0.0; n];
+        all.iter().for_each(|(i, j, a)| left[*i] += a * x[*j]);
+        let size = x.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+        assert!(left.iter().zip(&right).all(|(l, r)| (l - r).abs() < 1e-9 * size), "{left:?} {right:?}");
+        factors.negative()
+    }
+
+    #[test]
+    fn signs_are_those_of_the_congruent_diagonal() {
+        for negative in [0, 1, 7, 19, 20] {
+            assert_eq!(counted(20, negative, |_, _, _| true), negative);
+            assert_eq!(counted(20, negative, |i, j, _| i - j < 3), negative);
+            assert_eq!(counted(20, negative, |_, _, x| x > 0.3), negative);
+        }
+    }
+
+    #[test]
+    fn zero_diagonals_take_pivots_of_two_columns() {
+        // [A Gᵀ; G 0] with regular rows has one for each of them
+        let swap = [(0, 1, 1.0), (1, 0, 1.0)];
+        assert_eq!(Indefinite::new(2, swap).negative(), 1);
+        let held = [(0, 0, 2.0), (1, 1, -3.0), (0, 2, 1.0), (2, 0, 1.0), (1, 3, 1.0), (3, 1, 1.0)];
+        assert_eq!(Indefinite::new(4, held).negative(), 2);
+        assert_eq!(Indefinite::new(3, []).negative(), 0);
+    }
+}
