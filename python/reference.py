@@ -20,7 +20,8 @@ PAGE = HERE.parent / "docs" / "python-reference.md"
 #: The public names by what they are for, in the order of the page.
 SECTIONS: Dict[str, List[str]] = {
     "Models and studies": ["load", "parse", "LoadedModel", "Study", "Model"],
-    "Sweeps with drawn values": ["normal", "uniform", "Distribution"],
+    "Sweeps with drawn values": ["normal", "uniform", "Distribution", "Sensitivity", "Index"],
+    "Sweeps on clusters": ["SweepTable"],
     "Results of a study": ["Results", "Runs", "Page", "Animation"],
     "What results hold": ["Extremes", "Extreme", "Statistics", "Part", "Finding", "Event", "Checked", "Solution"],
     "Linear systems": ["Linear"],

@@ -203,7 +203,7 @@ class LoadedModel:
         what it does together with others.
 
         The study is run at ``samples`` × (parameters + 2) points, those of Saltelli; ``samples`` is a power of two. The indices are those
-        of SALib. With ``workers="ray"`` as :meth:`sweep`, with ``into``, ``address`` and ``progress``.
+        of SALib. With ``workers="ray"`` as :meth:`LoadedModel.sweep`, with ``into``, ``address`` and ``progress``.
 
         >>> m.sensitivity("one-turn", over={"l1": grashof.normal("15 cm", "1 mm"), "l3": grashof.uniform("54 cm", "56 cm")})
         """
