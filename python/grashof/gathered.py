@@ -23,7 +23,7 @@ __all__ = ["SweepTable"]
 
 
 class SweepTable:
-    """What a sweep on many machines has come to: a row a run, as :class:`Results` of a sweep have it, in the file :attr:`SweepTable.path`.
+    """What a sweep on many machines has come to: a row a run, as :class:`Results` of a sweep have it, in the file ``path``.
 
     Columns are read when they are asked for. All numbers are SI.
     """
