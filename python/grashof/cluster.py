@@ -73,7 +73,9 @@ def connected(address: Optional[str]) -> Iterator[Any]:
         yield module
         return
     quiet = {"log_to_driver": False, "logging_level": logging.ERROR}
-    here = address == "local" or address is None and not os.environ.get("RAY_ADDRESS")
+    # without an address Ray would look for a cluster that somebody began on this machine, and may find one that is gone
+    address = address or os.environ.get("RAY_ADDRESS") or "local"
+    here = address == "local"
     try:
         module.init(address=address, **quiet, **({"include_dashboard": False} if here else {}))
     except (ConnectionError, ValueError) as why:

@@ -70,8 +70,10 @@ class SweepTable:
         """Number of runs."""
         return self._table.rows
 
-    #: A sweep has no independent variable.
-    independent_name = "run"
+    @property
+    def independent_name(self) -> str:
+        """``run``: a sweep has no other independent variable than the number of the run."""
+        return "run"
 
     @property
     def independent(self) -> Array:
