@@ -68,7 +68,7 @@ def sweep(
     return SweepTable(str(parts.gathered), study, prepared)
 
 
-class _Pace:
+class Pace:
     """How many runs a part has: by the time that runs have taken."""
 
     def __init__(self) -> None:
@@ -100,7 +100,7 @@ class _Driver:
         self._task = ray.put(task)
         # a part that is lost with its worker or its machine is computed again, without end
         self._compute = ray.remote(num_cpus=1, max_retries=-1)(compute)
-        self._pace = _Pace()
+        self._pace = Pace()
         self._waiting = parts.missing()[::-1]
         self._out: Dict[Any, Tuple[int, int]] = {}
         self._counted = (float("-inf"), 1)

@@ -58,7 +58,7 @@ def cut(monkeypatch: pytest.MonkeyPatch, runs: int) -> None:
     def size(pace: object, left: int, processors: int) -> int:
         return runs
 
-    monkeypatch.setattr(distributed, "_Pace", type("Fixed", (distributed._Pace,), {"size": size}))
+    monkeypatch.setattr(distributed, "Pace", type("Fixed", (distributed.Pace,), {"size": size}))
 
 
 def parts_of(directory: pathlib.Path) -> Set[str]:
@@ -131,7 +131,7 @@ def test_a_table_is_that_of_the_results(nodes: Any, model: grashof.LoadedModel, 
 
 def test_parts_grow_to_the_time_that_they_are_to_take(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(distributed, "WORK", 1.0)
-    pace = distributed._Pace()
+    pace = distributed.Pace()
     assert pace.size(10**6, 8) == 1
     sizes: list[int] = []
     for _ in range(6):
