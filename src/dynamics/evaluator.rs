@@ -41,10 +41,15 @@ impl<'m, G: Space> Dynamics<'m, G> {
 
     /// All stages up to M, f, Φ, G, ν and γ.
     pub fn terms(&mut self, t: G::S, q: &[G::S], v: &[G::S], modes: &[i32]) {
+        self.terms_without_mass(t, q, v, modes);
+        self.mass();
+    }
+
+    /// All stages up to f, Φ, G, ν and γ.
+    pub fn terms_without_mass(&mut self, t: G::S, q: &[G::S], v: &[G::S], modes: &[i32]) {
         self.time(t, modes);
         self.position(q, modes);
         self.velocity(v, modes);
         self.forces(modes);
-        self.mass();
     }
 }

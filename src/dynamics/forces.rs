@@ -199,7 +199,17 @@ impl<G: Space> Dynamics<'_, G> {
             *r = -*f;
             row.entries().for_each(|(j, m)| *r += m * a[j]);
         }
-        w.g.lines().zip(lambda).for_each(|(row, l)| row.add_to(*l, r));
+        self.add_reactions(lambda, r);
+    }
+
+    /// Gᵀλ − f − f_λ (rows → nv): the residual without accelerations, which needs no M.
+    pub fn imbalance(&self, lambda: &[G::S], r: &mut [G::S]) {
+        r.iter_mut().zip(&self.work.force).for_each(|(r, f)| *r = -*f);
+        self.add_reactions(lambda, r);
+    }
+
+    fn add_reactions(&self, lambda: &[G::S], r: &mut [G::S]) {
+        self.work.g.lines().zip(lambda).for_each(|(row, l)| row.add_to(*l, r));
         self.add_friction(lambda, r);
     }
 }

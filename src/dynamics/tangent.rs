@@ -205,9 +205,16 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
     }
 
     fn evaluate(&mut self, at: &Point<'_>) {
-        self.dynamics.terms(Dual::constant(at.t), &self.q, &self.v, at.modes);
-        self.dynamics.rates(at.modes);
-        self.dynamics.residual(&self.a, &self.lambda, &mut self.r);
+        let Self { dynamics, q, v, a, lambda, r, .. } = self;
+        if at.a.iter().all(|a| *a == 0.0) {
+            // M is met with accelerations alone
+            dynamics.terms_without_mass(Dual::constant(at.t), q, v, at.modes);
+            dynamics.imbalance(lambda, r);
+        } else {
+            dynamics.terms(Dual::constant(at.t), q, v, at.modes);
+            dynamics.residual(a, lambda, r);
+        }
+        dynamics.rates(at.modes);
     }
 }
 
