@@ -59,6 +59,28 @@
 //! # Ok::<(), grashof::Error>(())
 //! ```
 //!
+//! Expressions of a model may call functions of the program, [`api::ExternalFunction`], which [`Model::with_functions`] gives them:
+//!
+//! ```
+//! # let text = "
+//! # grashof: 1
+//! # name: pendulum
+//! # space: planar
+//! # gravity: [0, -9.81 m/s^2]
+//! # bodies: { rod: { bar: { length: 1 m, mass: 2 kg } } }
+//! # joints: { P: { revolute: [ground, rod.start] } }
+//! # loads: { air: { joint: P, torque: drag(P.omega) } }
+//! # start: { P.angle: -30 deg, P.omega: 0 }
+//! # studies: { swing: { dynamics: { until: 1 s }, columns: [P.angle] } }
+//! # ";
+//! use grashof::api::ExternalFunction;
+//! // `torque: drag(P.omega)` in the file
+//! let drag = ExternalFunction::new("drag", &["rate"], |x| -0.1 * x[0]).unit("N m").switches(&[]);
+//! let results = grashof::Model::parse(text)?.with_functions(vec![drag])?.study("swing")?.run()?;
+//! # assert!(results.stopped.is_none());
+//! # Ok::<(), grashof::Error>(())
+//! ```
+//!
 //! A force law of one's own is a closure on the motion of points, which [`Mechanism::with_force`] takes. An integrator of one's own is a
 //! [`solvers::Scheme`]: [`Mechanism::simulate_by`] steps with it, [`Study::integrator`] brings it into [`Study::compare`]. A system of
 //! one's own is a [`solvers::System`]. How the rooms below depend on each other is drawn in `docs/architecture.md`.

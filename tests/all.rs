@@ -21,6 +21,7 @@ mod face;
 mod figures;
 mod frames;
 mod friction;
+mod functions;
 mod hand_written;
 mod joints;
 mod kills;

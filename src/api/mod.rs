@@ -14,6 +14,7 @@ mod stepper;
 mod study;
 mod sweep;
 
+pub use crate::model::ExternalFunction;
 pub use error::{Error, explained};
 pub use evaluator::Evaluator;
 pub use files::{MOST_INCLUDED, beside, why};

@@ -7,7 +7,7 @@ use super::page::told;
 use super::sources::Sources;
 use super::stepper::Stepping;
 use super::study::Study;
-use crate::model::{self, Document, Selection};
+use crate::model::{self, Document, ExternalFunction, Selection};
 use crate::output::{Report, ReportRuns, ReportStudy};
 use crate::results::{Results, Scalar, Unknown};
 use crate::studies::common::case::parameters;
@@ -96,6 +96,19 @@ impl Model {
         let mut selection = self.selection.clone();
         selection.variants.push(name.into());
         self.selected(selection)
+    }
+
+    /// The same with functions from outside, in the place of those that it had: expressions may call them by their names. They stay
+    /// behind where the model is packed.
+    ///
+    /// # Errors
+    /// If a name is none or is not free, or a unit or switch cannot be read. What is wrong with a call is told as what is wrong with the
+    /// model, which is not looked at here.
+    pub fn with_functions(&self, functions: Vec<ExternalFunction>) -> Result<Self, Error> {
+        if let Some((message, help)) = model::unfit(&functions) {
+            return Err(Error::Refused { message, help });
+        }
+        Ok(Self { selection: Selection { externals: functions.into(), ..self.selection.clone() }, ..self.clone() })
     }
 
     fn selected(&self, selection: Selection<'static>) -> Result<Self, Error> {

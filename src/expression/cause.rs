@@ -23,6 +23,13 @@ pub enum Cause {
         /// Ends of its points.
         range: [f64; 2],
     },
+    /// An external function that gave no number.
+    External {
+        /// Number of the function.
+        function: usize,
+        /// Its first argument.
+        x: f64,
+    },
     /// An input that is not defined itself.
     Input(u32),
     /// A number too large to be held.
@@ -78,6 +85,11 @@ impl Program {
                 let range = self.tables.get(table).map_or([f64::NAN; 2], |t| [t.x[0], t.x[t.segments()]]);
                 Cause::Table { table, x: value(x), range }
             }
+            Op::Call(function, _, last) => {
+                let function = usize::from(function);
+                let count = self.externals.get(function).map_or(1, |f| f.names().count());
+                Cause::External { function, x: value(last + 1 - count as u32) }
+            }
             _ => Cause::TooLarge,
         }
     }
@@ -102,9 +114,11 @@ fn operands(op: Op, modes: &[i32], value: impl Fn(u32) -> f64) -> [Option<u32>; 
         Op::Neg(a) | Op::Shift(a, _) | Op::Scale(a, _) | Op::Powi(a, _) | Op::Powf(a, _) => [Some(a), None],
         Op::SinCos(a) | Op::Tan(a) | Op::Asin(a) | Op::Acos(a) | Op::Atan(a) | Op::Sqrt(a) | Op::Exp(a) | Op::Ln(a) => [Some(a), None],
         Op::Log10(a) | Op::Sinh(a) | Op::Cosh(a) | Op::Tanh(a) => [Some(a), None],
-        Op::Not(a) | Op::Signed(a, _) | Op::Sign(a, _) | Op::Floor(a, _) | Op::Table(_, _, a, _) => [Some(a), None],
+        Op::Call(_, _, a) | Op::Not(a) | Op::Signed(a, _) | Op::Sign(a, _) | Op::Floor(a, _) | Op::Table(_, _, a, _) => [Some(a), None],
         Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) | Op::Pow(a, b) | Op::Atan2(a, b) => [Some(a), Some(b)],
-        Op::Compare(_, _, a, b) | Op::And(a, b) | Op::Or(a, b) | Op::Select(a, b, _) | Op::Where(a, b) => [Some(a), Some(b)],
+        Op::Argument(a, b) | Op::Compare(_, _, a, b) | Op::And(a, b) | Op::Or(a, b) | Op::Select(a, b, _) | Op::Where(a, b) => {
+            [Some(a), Some(b)]
+        }
         Op::If(c, a, b) => [Some(c), Some(if value(c) != 0.0 { a } else { b })],
         Op::Choose(a, b, switch) => [Some(if modes.get(switch as usize).is_some_and(|mode| *mode != 0) { a } else { b }), None],
     }

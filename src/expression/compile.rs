@@ -1,5 +1,6 @@
 //! Nodes → program: parameters become numbers, what follows from numbers is folded, what no output needs is left out.
 
+use super::external::By;
 use super::pool::{Id, Node, Pool};
 use super::program::{Decision, Op, Program};
 use super::switch::{Switch, Test};
@@ -20,13 +21,14 @@ impl Pool {
         }
         let mut program = compiler.finish(&outputs);
         program.tables = Arc::clone(tables);
+        program.externals = Arc::clone(&self.externals);
         program
     }
 
     /// A copy of what `outputs` need with numbers for parameters; switches keep their numbers.
     fn with_numbers(&self, outputs: &[Id], parameters: &[f64], tables: &[LookupTable]) -> (Self, Vec<Id>) {
         let order = self.reach(outputs);
-        let mut copy = Self::new();
+        let mut copy = Self::with_externals(Arc::clone(&self.externals));
         copy.switches = self.switches.iter().map(|s| Switch { test: s.test, text: String::new() }).collect();
         let mut image: HashMap<Id, Id> = HashMap::with_capacity(order.len());
         for id in order {
@@ -103,7 +105,8 @@ impl Compiler<'_> {
         }
         let number = |id: Id| self.pool.constant_value(id);
         let op = match node {
-            Node::Const(_) => return,
+            Node::Const(_) | Node::Argument { .. } => return,
+            Node::Call { function, by, last } => self.call(function, by, last),
             // a program without parameters: they were replaced by numbers
             Node::Parameter(_) => Op::Const(f64::NAN),
             Node::Input(i) => Op::Input(i),
@@ -190,6 +193,16 @@ impl Compiler<'_> {
             }
         }
         self.registers.insert(id, register);
+    }
+
+    /// A call, whose arguments stand in registers one behind the other.
+    fn call(&mut self, function: u32, by: By, last: Id) -> Op {
+        let arguments: Vec<u32> = self.pool.arguments(last).into_iter().map(|id| self.register(id)).collect();
+        let last = arguments.into_iter().fold(None, |before, a| Some(self.emit(Op::Argument(a, before.unwrap_or(a)))));
+        match (last, u16::try_from(function)) {
+            (Some(last), Ok(function)) => Op::Call(function, by, last),
+            _ => Op::Const(f64::NAN),
+        }
     }
 
     /// Sine and cosine of one angle come from one call.

@@ -83,7 +83,12 @@ impl Pool {
             Node::Table { table, order, x, switch } => {
                 tables.get(table as usize).map_or(f64::NAN, |t| t.eval(value(x), mode(switch), order))
             }
-            Node::Where(a, _) => value(a),
+            Node::Where(a, _) | Node::Argument { value: a, .. } => value(a),
+            Node::Call { function, by, last } => {
+                let arguments: Vec<f64> = self.arguments(last).into_iter().map(value).collect();
+                let defined = arguments.iter().all(|x| x.is_finite());
+                self.externals.get(function as usize).filter(|_| defined).map_or(f64::NAN, |f| f.value(&arguments, by))
+            }
         };
         if self.all_defined(node, value) { result } else { f64::NAN }
     }

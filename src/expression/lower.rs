@@ -25,8 +25,8 @@ pub fn lower(pool: &mut Pool, expr: &Expr, text: &str, scope: &mut dyn Scope) ->
     }
 }
 
-struct Lowerer<'a> {
-    pool: &'a mut Pool,
+pub(super) struct Lowerer<'a> {
+    pub(super) pool: &'a mut Pool,
     text: &'a str,
     scope: &'a mut dyn Scope,
     faults: Vec<Fault>,
@@ -38,7 +38,7 @@ struct Lowerer<'a> {
 type Operand = (Option<Lowered>, Range<usize>);
 
 impl Lowerer<'_> {
-    fn fault(&mut self, at: &Range<usize>, found: String, expected: impl Into<String>, help: Option<String>) {
+    pub(super) fn fault(&mut self, at: &Range<usize>, found: String, expected: impl Into<String>, help: Option<String>) {
         self.faults.push(Fault { at: at.clone(), found, expected: expected.into(), help, wanted: None });
     }
 
@@ -58,7 +58,7 @@ impl Lowerer<'_> {
         (self.expr(expr), expr.at.clone())
     }
 
-    fn expr(&mut self, expr: &Expr) -> Option<Lowered> {
+    pub(super) fn expr(&mut self, expr: &Expr) -> Option<Lowered> {
         match &expr.kind {
             Kind::Number(x) => {
                 let id = self.pool.constant(*x);
@@ -257,6 +257,9 @@ impl Lowerer<'_> {
         if let Some((table, x, y)) = self.scope.table(name) {
             return self.table(name, (table, x, y), arguments, at);
         }
+        if let Some(number) = self.scope.external(name) {
+            return self.external(number, arguments, at);
+        }
         // what may stand in a function is known only of a known one
         if function::meant(name).is_none() {
             for argument in arguments {
@@ -268,7 +271,7 @@ impl Lowerer<'_> {
     }
 
     /// Faults a call with another number of arguments.
-    fn counted(&mut self, found: usize, (least, most): (usize, usize), usage: &str, at: &Range<usize>) -> bool {
+    pub(super) fn counted(&mut self, found: usize, (least, most): (usize, usize), usage: &str, at: &Range<usize>) -> bool {
         let right = (least..=most).contains(&found);
         if !right {
             let plural = if found == 1 { "" } else { "s" };

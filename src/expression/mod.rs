@@ -5,10 +5,12 @@
 //! numbers. Every switch (comparison, `abs`, `sign`, `min`, `max`, `clamp`, table segment) has a number and an integer
 //! *mode*; a program never branches on a value: it selects by mode. This module knows no mechanics and no file format.
 
+mod calls;
 mod cause;
 mod compile;
 mod construct;
 mod evaluate;
+mod external;
 mod function;
 mod id;
 mod lexer;
@@ -30,6 +32,7 @@ mod unit_text;
 mod units;
 
 pub use cause::Cause;
+pub use external::ExternalFunction;
 pub use function::is_function;
 pub use id::Id;
 pub use lower::lower;

@@ -2,9 +2,11 @@
 //!
 //! Operands always stand before the nodes that use them, so ascending order of ids is an order of evaluation.
 
+use super::external::{By, ExternalFunction};
 pub(super) use super::id::Id;
 use super::switch::{Compare, Switch, Test};
 use std::collections::{BinaryHeap, HashMap};
+use std::sync::Arc;
 
 /// What a node computes. Conditions have the value 1 (true) or 0.
 ///
@@ -135,6 +137,22 @@ pub enum Node {
     },
     /// a where b is defined.
     Where(Id, Id),
+    /// An argument of a call, where those before it are defined.
+    Argument {
+        /// The argument.
+        value: Id,
+        /// The one before it.
+        before: Option<Id>,
+    },
+    /// An external function, or a derivative of it.
+    Call {
+        /// Number of the function.
+        function: u32,
+        /// By which arguments it is differentiated.
+        by: By,
+        /// Its last argument.
+        last: Id,
+    },
 }
 
 impl Node {
@@ -188,6 +206,8 @@ impl Node {
             Self::Min { a, b, switch } => Self::Min { a: f(a), b: f(b), switch },
             Self::Max { a, b, switch } => Self::Max { a: f(a), b: f(b), switch },
             Self::Table { table, order, x, switch } => Self::Table { table, order, x: f(x), switch },
+            Self::Argument { value, before } => Self::Argument { value: f(value), before: before.map(f) },
+            Self::Call { function, by, last } => Self::Call { function, by, last: f(last) },
         }
     }
 }
@@ -205,6 +225,8 @@ pub struct Pool {
     pub(super) switch_index: HashMap<Test, u32>,
     /// Inputs that are numbers known beforehand.
     pub(super) given: Vec<(u32, f64)>,
+    /// Functions that calls name by their numbers.
+    pub(super) externals: Arc<[ExternalFunction]>,
 }
 
 impl Pool {

@@ -1,5 +1,6 @@
 //! Straight-line code: the form in which expressions are evaluated, on any scalar.
 
+use super::external::{By, ExternalFunction};
 use super::switch::{Compare, Test, whole};
 use super::table::LookupTable;
 use crate::scalar::Scalar;
@@ -60,6 +61,10 @@ pub(super) enum Op {
     Mode(u32),
     /// Table, order, argument, switch.
     Table(u16, u8, u32, u32),
+    /// An argument of a call, where the one before it is defined.
+    Argument(u32, u32),
+    /// External function, its derivative, the last of its arguments, which stand one behind the other.
+    Call(u16, By, u32),
 }
 
 impl Op {
@@ -102,6 +107,8 @@ impl Op {
             Self::Choose(a, b, switch) => Self::Choose(f(a), f(b), switch),
             Self::Where(a, b) => Self::Where(f(a), f(b)),
             Self::Table(table, order, x, switch) => Self::Table(table, order, f(x), switch),
+            Self::Argument(a, before) => Self::Argument(f(a), f(before)),
+            Self::Call(function, by, last) => Self::Call(function, by, f(last)),
         }
     }
 }
@@ -129,11 +136,12 @@ pub struct Program {
     pub(super) switches: Vec<u32>,
     pub(super) decisions: Vec<Decision>,
     pub(super) tables: Arc<[LookupTable]>,
+    pub(super) externals: Arc<[ExternalFunction]>,
 }
 
-/// Runs one instruction whose result belongs into register `k`; returns the next free register.
+/// Runs one instruction of a program whose result belongs into register `k`; returns the next free register.
 #[inline(always)]
-pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tables: &[LookupTable], r: &mut [S]) -> usize {
+pub(super) fn step<S: Scalar>(program: &Program, op: Op, k: usize, inputs: &[S], modes: &[i32], r: &mut [S]) -> usize {
     let at = |i: u32| r[i as usize];
     // conditions are constants that modes decided, so reading their value is no branch on a scalar
     let truth = |i: u32| r[i as usize].value() != 0.0;
@@ -185,8 +193,13 @@ pub(super) fn step<S: Scalar>(op: Op, k: usize, inputs: &[S], modes: &[i32], tab
         Op::Where(a, b) => at(a).where_finite(at(b)),
         Op::Holds(op, switch) => boolean(op.holds(mode(switch))),
         Op::Mode(switch) => S::constant(f64::from(mode(switch))),
-        Op::Table(table, order, x, switch) => match tables.get(usize::from(table)) {
+        Op::Table(table, order, x, switch) => match program.tables.get(usize::from(table)) {
             Some(table) => table.eval(at(x), mode(switch), order),
+            None => S::constant(f64::NAN),
+        },
+        Op::Argument(a, before) => at(a).where_finite(at(before)),
+        Op::Call(function, by, last) => match program.externals.get(usize::from(function)) {
+            Some(function) => function.call(&r[last as usize + 1 - function.names().count()..=last as usize], by),
             None => S::constant(f64::NAN),
         },
     };
@@ -231,7 +244,7 @@ impl Program {
         let registers = &mut registers[..self.registers];
         let mut k = 0;
         for op in &self.ops {
-            k = step(*op, k, inputs, modes, &self.tables, registers);
+            k = step(self, *op, k, inputs, modes, registers);
         }
     }
 
@@ -245,7 +258,7 @@ impl Program {
         let (mut k, mut done) = (0, 0);
         for (decision, switch) in self.decisions.iter().zip(&self.switches) {
             while done < decision.before as usize {
-                k = step(self.ops[done], k, inputs, modes, &self.tables, registers);
+                k = step(self, self.ops[done], k, inputs, modes, registers);
                 done += 1;
             }
             modes[*switch as usize] = decision.test.mode(|i| registers[i as usize], &self.tables);

@@ -33,6 +33,9 @@ impl Pool {
         match node {
             Node::Const(_) | Node::Parameter(_) | Node::Input(_) => zero,
             Node::Compare { .. } | Node::And(..) | Node::Or(..) | Node::Not(_) | Node::Sign { .. } | Node::Floor { .. } => zero,
+            // of a call its arguments themselves count
+            Node::Argument { .. } => zero,
+            Node::Call { function, by, last } => self.call_rate((function, by, last), zero, of),
             Node::Neg(a) => self.neg(of(a)),
             Node::Add(a, b) => self.add(of(a), of(b)),
             Node::Sub(a, b) => self.sub(of(a), of(b)),

@@ -78,6 +78,9 @@ pub trait Scope {
     /// Number of the table of this name, with the dimensions of x and y.
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)>;
 
+    /// Number of the external function of this name.
+    fn external(&mut self, name: &str) -> Option<u32>;
+
     /// The node that is the time rate of an input leaf; `None` if it has none.
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id>;
 

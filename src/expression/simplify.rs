@@ -32,7 +32,7 @@ impl Pool {
             Node::Const(bits) => f64::from_bits(bits).is_finite(),
             Node::Powi(_, n) => n >= 0,
             Node::Div(..) | Node::Pow(..) | Node::Tan(_) | Node::Asin(_) | Node::Acos(_) => false,
-            Node::Sqrt(_) | Node::Exp(_) | Node::Ln(_) | Node::Table { .. } => false,
+            Node::Sqrt(_) | Node::Exp(_) | Node::Ln(_) | Node::Table { .. } | Node::Call { .. } => false,
             Node::Log10(_) | Node::Sinh(_) | Node::Cosh(_) | Node::Floor { .. } => false,
             _ => true,
         };
@@ -246,7 +246,9 @@ impl Pool {
 
     /// The value of a node without switch all of whose operands are numbers, if it is defined.
     fn folded(&self, node: Node) -> Option<f64> {
-        if matches!(node, Node::Const(_) | Node::Parameter(_) | Node::Input(_)) || node.switch().is_some() {
+        // a call finds its arguments by their nodes
+        let leaf = matches!(node, Node::Const(_) | Node::Parameter(_) | Node::Input(_) | Node::Argument { .. });
+        if leaf || node.switch().is_some() {
             return None;
         }
         let mut known = true;

@@ -26,6 +26,9 @@ impl Scope for Names {
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         ["f", "g"].iter().position(|n| *n == name).map(|i| (i as u32, Dimension::NONE, Dimension::NONE))
     }
+    fn external(&mut self, _: &str) -> Option<u32> {
+        None
+    }
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {
         Some(pool.input(input + 2))
     }

@@ -12,8 +12,12 @@ pub enum Outline {
         /// Width across.
         width: f64,
     },
-    /// A disc about z through the origin.
+    /// A disc.
     Disc {
+        /// Centre.
+        center: [f64; 3],
+        /// What it is round about, of length 1; z in the plane.
+        axis: [f64; 3],
         /// Radius.
         radius: f64,
         /// Thickness; thin if 0.

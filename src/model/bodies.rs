@@ -38,12 +38,25 @@ pub struct Body {
     pub fictitious: bool,
     /// Points that outline the body in drawings beside its joints and points, body frame, m.
     pub drawn: Vec<Vec<Id>>,
+    /// The circle that it is drawn as.
+    pub circle: Option<Circle>,
     /// Points: 0 `origin`, 1 `com`, then those of the shape (`start`, `end` of a bar), then the user's.
     pub points: Vec<Point>,
     /// Point masses and rotors.
     pub attached: Vec<Attached>,
     /// Where it stands.
     pub place: Place,
+}
+
+/// A circle that a body is drawn as.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Circle {
+    /// Radius, m.
+    pub radius: Id,
+    /// Centre, body frame, m; the origin if it has no components.
+    pub at: Vec<Id>,
+    /// Spatial: what it is round about, body frame; z if it has no components.
+    pub axis: Vec<Id>,
 }
 
 /// A shape with its sizes, m, and mass, kg.

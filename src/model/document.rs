@@ -12,7 +12,9 @@ use super::spans::Spans;
 use super::study::Samples;
 use super::suggest;
 use super::yaml;
+use crate::expression::ExternalFunction;
 use serde_yaml::{Mapping, Value};
+use std::sync::Arc;
 
 /// What is asked of a model file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,6 +30,8 @@ pub struct Selection<'a> {
     pub over: Vec<(String, String)>,
     /// How many points are drawn from the distributions in `over`.
     pub samples: Option<Samples>,
+    /// Functions from outside that expressions may call.
+    pub externals: Arc<[ExternalFunction]>,
 }
 
 /// A model file.

@@ -229,10 +229,13 @@ impl<'d, 's> Inquiry<'d, 's> {
     }
 
     /// A decoded model with its form and numbers checked, and the parameters from outside.
-    fn decoder<'b>(&mut self, base: &'b Base<'d>) -> (Decoder<'b>, Settings) {
+    fn decoder<'b>(&mut self, base: &'b Base<'d>) -> (Decoder<'b>, Settings)
+    where
+        's: 'b,
+    {
         let root = Node::Merged(&base.merged);
         let mut form = if base.layers.is_merged() { shape::check_merged(&base.layers, root) } else { Vec::new() };
-        let mut decoder = Decoder::new(&base.layers, root, std::mem::take(&mut self.parsed));
+        let mut decoder = Decoder::new(&base.layers, root, &self.selection.externals, std::mem::take(&mut self.parsed));
         form.append(&mut decoder.faults);
         decoder.faults = form;
         let outside = decoder.outside(&self.selection.sets);

@@ -48,6 +48,7 @@ mod whole;
 mod words;
 mod yaml;
 
+pub use crate::expression::ExternalFunction;
 pub use bodies::*;
 pub use contacts::*;
 pub(crate) use coordinates::coordinates as coordinates_of;
@@ -59,6 +60,7 @@ pub use figure::*;
 pub use files::Files;
 pub use integrator::{Description, Family, INTEGRATORS, Integrator};
 pub use literal::{Literal, replaced};
+pub(crate) use names::unfit;
 pub use place::{Place, PointRef};
 pub use rules::Check;
 pub use schema::schema;

@@ -2,7 +2,7 @@
 
 use super::fault::{At, Fault, Spot};
 use super::merge::{Layers, Node};
-use crate::expression::is_function;
+use crate::expression::{ExternalFunction, is_function};
 use std::collections::HashMap;
 
 /// Names that mean something everywhere.
@@ -27,6 +27,7 @@ const RESERVED: [&str; 15] = [
 /// What a name stands for: index in the model's list of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Entity {
+    External(usize),
     Parameter(usize),
     Table(usize),
     Body(usize),
@@ -46,6 +47,7 @@ impl Entity {
     /// With its article, for messages.
     pub(crate) fn what(self) -> &'static str {
         match self {
+            Self::External(_) => "a function from outside",
             Self::Parameter(_) => "a parameter",
             Self::Table(_) => "a table",
             Self::Body(_) => "a body",
@@ -86,10 +88,15 @@ const SECTIONS: [Section; 13] = [
 /// Names with what they stand for.
 pub(crate) type Names<'n> = (HashMap<&'n str, Entity>, Vec<(&'n str, Entity)>);
 
-/// Every name of a model, to be looked up and in file order, with faults for those that are taken twice or reserved.
-pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, faults: &mut Vec<Fault>) -> Names<'n> {
+/// Every name of a model, to be looked up and in file order, with faults for those that are taken twice or reserved; external functions
+/// come first.
+pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, externals: &'n [ExternalFunction], faults: &mut Vec<Fault>) -> Names<'n> {
     let mut names: HashMap<&str, (Entity, &str)> = HashMap::new();
     let mut listed = Vec::new();
+    for (i, function) in externals.iter().enumerate() {
+        names.insert(function.name(), (Entity::External(i), "functions"));
+        listed.push((function.name(), Entity::External(i)));
+    }
     for (section, entity) in SECTIONS {
         let Some(node) = root.get(section) else { continue };
         let at = At::ROOT.key(section);
@@ -132,6 +139,32 @@ pub(crate) fn taken(name: &str) -> Option<&'static str> {
     } else {
         None
     }
+}
+
+/// What is wrong with functions from outside, and the remedy.
+pub(crate) fn unfit(externals: &[ExternalFunction]) -> Option<(String, String)> {
+    for (i, function) in externals.iter().enumerate() {
+        let name = function.name();
+        if let Some(other) = std::iter::once(name).chain(function.names()).find(|name| !is_name(name)) {
+            let help = "names consist of letters, digits and `_`, and begin with a letter".to_owned();
+            return Some((format!("`{other}` is no name for a function or an argument"), help));
+        }
+        if let Some(why) = taken(name) {
+            return Some((format!("`{name}` is {why}"), format!("another name for it, for example `{name}1`")));
+        }
+        if externals[..i].iter().any(|other| other.name() == name) {
+            return Some((format!("there are two functions `{name}`"), "one name for one function".into()));
+        }
+        let mut names: Vec<&str> = function.names().collect();
+        names.sort_unstable();
+        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Some((format!("`{name}` has two arguments or switches `{}`", pair[0]), "one name for one argument".into()));
+        }
+        if let Some(fault) = function.fault() {
+            return Some(fault);
+        }
+    }
+    None
 }
 
 /// `[A-Za-z][A-Za-z0-9_]*`

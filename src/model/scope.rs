@@ -12,7 +12,7 @@ use crate::expression::{Dimension, Id, Lowered, Pool, Scope, Symbol, Unknown};
 pub(crate) struct Allow {
     /// Highest level.
     pub(crate) level: Known,
-    /// Whether tables may be called.
+    /// Whether tables and external functions may be called.
     pub(crate) tables: bool,
     /// Whether reactions may be named.
     pub(crate) reactions: bool,
@@ -75,7 +75,7 @@ pub(crate) struct View<'v, 'a, 's> {
     /// Codes of the refusals, found again by their text.
     pub(crate) codes: Vec<(String, &'static str)>,
     /// A table was called where none may be.
-    pub(crate) refused_table: bool,
+    pub(crate) refused_call: Option<&'static str>,
     /// What is allowed and was needed outside of the functional that is being lowered.
     pub(crate) outside: Option<(Allow, Needs)>,
 }
@@ -218,11 +218,20 @@ impl Scope for View<'_, '_, '_> {
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         let Some(Entity::Table(i)) = self.name_space.names.get(name).copied() else { return None };
         if !self.allow.tables {
-            self.refused_table = true;
+            self.refused_call = Some("a table");
             return None;
         }
         let (x, y) = self.name_space.tables.get(i).copied().flatten().unwrap_or((Dimension::NONE, Dimension::NONE));
         Some((i as u32, x, y))
+    }
+
+    fn external(&mut self, name: &str) -> Option<u32> {
+        let Some(Entity::External(i)) = self.name_space.names.get(name).copied() else { return None };
+        if !self.allow.tables {
+            self.refused_call = Some("a function from outside");
+            return None;
+        }
+        Some(i as u32)
     }
 
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {

@@ -4,7 +4,7 @@ use super::coordinates::coordinates;
 use super::vocabulary::{Quantity, WORKS};
 use super::whole::Model;
 use super::words::{why_undefined, with_unit};
-use crate::expression::{Cause, Dimension};
+use crate::expression::{Cause, Dimension, ExternalFunction};
 
 impl Model {
     /// Why a value is undefined: "sqrt of -0.2", "table `lift` at 0.3 m, below its range from 0.5 m to 2 m".
@@ -21,6 +21,10 @@ impl Model {
                     (_, true) => format!("table `{name}` at {}, above {range}", shown(x)),
                     _ => format!("table `{name}` at {}, where {range} ends", shown(x)),
                 }
+            }
+            Cause::External { function, x } => {
+                let name = self.pool.externals().get(function).map_or("?", ExternalFunction::name);
+                format!("`{name}`, which comes from outside, with the first argument {}", with_unit(x, Dimension::NONE))
             }
             Cause::Input(input) => match self.inputs.get(input as usize) {
                 Some(Quantity::Functional(k)) => {

@@ -23,6 +23,6 @@ pub(crate) fn why_undefined(cause: Cause) -> String {
         Cause::Zero => "a division by 0".into(),
         Cause::Power(base, exponent) => format!("{} to the power {}", plain(base), plain(exponent)),
         Cause::TooLarge => "a number beyond 1.8e308".into(),
-        Cause::Table { .. } | Cause::Input(_) => "what it is made of is not defined".into(),
+        Cause::Table { .. } | Cause::External { .. } | Cause::Input(_) => "what it is made of is not defined".into(),
     }
 }

@@ -135,6 +135,7 @@ impl<const N: usize> Num for Dual<N> {
 }
 
 impl<const N: usize> Scalar for Dual<N> {
+    const DERIVATIVES: bool = true;
     #[inline]
     fn constant(x: f64) -> Self {
         Self { x, d: [0.0; N] }

@@ -196,6 +196,7 @@ impl Num for Interval {
 }
 
 impl Scalar for Interval {
+    const DERIVATIVES: bool = false;
     fn constant(x: f64) -> Self {
         Self { low: x, high: x }
     }

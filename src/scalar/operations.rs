@@ -9,6 +9,8 @@ use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
 pub trait Scalar:
     Copy + Debug + Default + PartialEq + Neg<Output = Self> + num_traits::Num + AddAssign + SubAssign + MulAssign + Send + Sync + 'static
 {
+    /// Whether numbers carry derivatives.
+    const DERIVATIVES: bool;
     /// The number `x` with zero derivatives.
     fn constant(x: f64) -> Self;
     /// The real part.
@@ -54,6 +56,7 @@ pub trait Scalar:
 }
 
 impl Scalar for f64 {
+    const DERIVATIVES: bool = false;
     #[inline(always)]
     fn constant(x: f64) -> Self {
         x

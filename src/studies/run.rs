@@ -5,8 +5,8 @@ use super::{driven, dynamics, linearize, modes, periodic, statics};
 use crate::dynamics::LANES;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::Coordinates;
-use crate::model::{Dimensions, Kind};
-use crate::results::Failure;
+use crate::model::{Dimensions, Kind, Model, Study};
+use crate::results::{Failure, Finding};
 use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 
@@ -24,10 +24,30 @@ pub fn run(case: Case<'_>, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure> 
 /// # Errors
 /// As there.
 pub fn run_in(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure> {
-    match case.model.space {
-        Dimensions::Planar => in_space::<Planar<f64>>(case, coordinates, stop),
-        Dimensions::Spatial => in_space::<Spatial<f64>>(case, coordinates, stop),
+    let mut outcome = match case.model.space {
+        Dimensions::Planar => in_space::<Planar<f64>>(case, coordinates, stop)?,
+        Dimensions::Spatial => in_space::<Spatial<f64>>(case, coordinates, stop)?,
+    };
+    outcome.findings.extend(from_outside(case.model, case.study));
+    Ok(outcome)
+}
+
+/// What a reader should know of functions from outside.
+fn from_outside(model: &Model, study: &Study) -> Vec<Finding> {
+    let finding = |code: &'static str, message: String| Finding { code: code.into(), message, path: study.place.clone() };
+    let mut findings = Vec::new();
+    for function in model.pool.externals_called() {
+        let name = function.name();
+        findings
+            .push(finding("from-outside", format!("`{name}` is computed outside of the program, which takes longer than an expression")));
+        if !function.is_declared() {
+            findings.push(finding(
+                "unresolved",
+                format!("the switches of `{name}`, if it has any, are not declared: none is located, and what depends on one may be wrong"),
+            ));
+        }
     }
+    findings
 }
 
 /// The kinds of studies.

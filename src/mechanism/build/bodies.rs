@@ -82,6 +82,13 @@ impl<G: Space> Builder<'_, G> {
                     point.1 = mass.com;
                 }
             }
+            let round = body.circle.as_ref().map(|circle| {
+                let radius = self.length(circle.radius, place, "the radius is");
+                let given = (!circle.axis.is_empty()).then_some(&circle.axis[..]);
+                let axis = self.direction(given, [0.0, 0.0, 1.0], place);
+                Outline::Disc { center: self.triple(&circle.at, place), axis, radius, thickness: 0.0 }
+            });
+            let outline = round.or(outline);
             let drawn = body.drawn.iter().map(|at| G::vector(&self.triple(at, place))).collect();
             self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, outline, path: vec![] });
         }
@@ -125,7 +132,7 @@ impl<G: Space> Builder<'_, G> {
             Shape::Disc { radius, mass, thickness } => {
                 let r = self.length(*radius, place, "the radius is");
                 let [m, t] = [*mass, *thickness].map(|x| self.optional(x, place));
-                let outline = Some(Outline::Disc { radius: r, thickness: t });
+                let outline = Some(Outline::Disc { center: [0.0; 3], axis: [0.0, 0.0, 1.0], radius: r, thickness: t });
                 Shaped { mass: inertia::disc(m, r, t), ends: [origin; 2], outline }
             }
             Shape::Plate { size, mass } => {

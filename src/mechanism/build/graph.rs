@@ -176,7 +176,7 @@ impl<G: Space> Builder<'_, G> {
     }
 
     /// A unit direction.
-    fn direction(&mut self, ids: Option<&[Id]>, default: [f64; 3], place: &str) -> [f64; 3] {
+    pub(super) fn direction(&mut self, ids: Option<&[Id]>, default: [f64; 3], place: &str) -> [f64; 3] {
         let Some(ids) = ids else { return default };
         let d = self.triple(ids, place);
         if joint::dot(d, d) == 0.0 {

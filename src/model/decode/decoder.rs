@@ -1,6 +1,6 @@
 //! A model on its way from the file, and what all parts of the decoder do.
 
-use crate::expression::{self, Dimension, Expr, Id, Lowered, Pool, SyntaxError};
+use crate::expression::{self, Dimension, Expr, ExternalFunction, Id, Lowered, Pool, SyntaxError};
 use crate::model::entities::Dimensions;
 use crate::model::fault::{At, Fault, Spot};
 use crate::model::fields::Want;
@@ -17,6 +17,7 @@ use crate::model::whole::Model;
 use serde_yaml::Value;
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A model on its way from the file.
 pub(crate) struct Decoder<'n> {
@@ -59,11 +60,11 @@ impl Origin<'_> {
 
 impl<'n> Decoder<'n> {
     /// Decodes a merged model with all but its studies.
-    pub(crate) fn new(layers: &'n Layers<'n>, root: Node<'n>, parsed: Parsed) -> Self {
+    pub(crate) fn new(layers: &'n Layers<'n>, root: Node<'n>, externals: &'n Arc<[ExternalFunction]>, parsed: Parsed) -> Self {
         let text = |key: &str| root.get(key).and_then(Node::text).unwrap_or_default().to_owned();
         let space = if root.get("space").and_then(Node::text) == Some("spatial") { Dimensions::Spatial } else { Dimensions::Planar };
         let mut faults = Vec::new();
-        let (names, listed) = names::collect(root, layers, &mut faults);
+        let (names, listed) = names::collect(root, layers, externals, &mut faults);
         let model = Model {
             name: text("name"),
             about: text("about"),
@@ -105,7 +106,8 @@ impl<'n> Decoder<'n> {
             renumbered: Renumbered::default(),
             input_of: HashMap::new(),
         };
-        let mut decoder = Self { layers, root, pool: Pool::new(), name_space, faults, checks: Vec::new(), parsed };
+        let pool = Pool::with_externals(Arc::clone(externals));
+        let mut decoder = Self { layers, root, pool, name_space, faults, checks: Vec::new(), parsed };
         decoder.display_units();
         decoder.parameters();
         decoder.tables();
@@ -204,11 +206,11 @@ impl<'n> Decoder<'n> {
             allow,
             reach: Needs::CONSTANT,
             codes: Vec::new(),
-            refused_table: false,
+            refused_call: None,
             outside: None,
         };
         let result = expression::lower(&mut self.pool, expr, text, &mut view);
-        let (reach, codes, refused_table) = (view.reach, view.codes, view.refused_table);
+        let (reach, codes, refused_call) = (view.reach, view.codes, view.refused_call);
         match result {
             Ok(lowered) => {
                 // `rate` raises the level of what it is taken of
@@ -226,13 +228,13 @@ impl<'n> Decoder<'n> {
                 let place = self.place(at);
                 for fault in faults.into_iter().filter(|fault| !fault.found.is_empty()) {
                     let code = codes.iter().find(|(found, _)| *found == fault.found).map(|(_, code)| *code);
-                    let refused = refused_table && fault.expected == "a function or a table";
-                    let made = if refused {
+                    let refused = refused_call.filter(|_| fault.expected == "a function or a table");
+                    let made = if let Some(refused) = refused {
                         Fault::new(
                             "wrong-level",
                             place.clone(),
                             format!("found {}", fault.found),
-                            format!("{} may not call a table", allow.what),
+                            format!("{} may not call {refused}", allow.what),
                         )
                     } else {
                         // what the scope refused is a sentence, what lowering refused a thing

@@ -49,6 +49,9 @@ impl Scope for Nothing {
     fn table(&mut self, _: &str) -> Option<(u32, Dimension, Dimension)> {
         None
     }
+    fn external(&mut self, _: &str) -> Option<u32> {
+        None
+    }
     fn rate(&mut self, _: &mut Pool, _: u32) -> Option<Id> {
         None
     }

@@ -95,7 +95,7 @@ fn pair<G: Space<S = f64>>(mechanism: &Mechanism<G>, name: &str, first: &Joint<G
 fn reach<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize, hinge: G::Vector) -> f64 {
     let body = &mechanism.bodies[body];
     let round = match body.outline {
-        Some(Outline::Disc { radius, .. }) => radius,
+        Some(Outline::Disc { center, radius, .. }) if G::vector(&center) == hinge => radius,
         _ => 0.0,
     };
     body.drawn.iter().map(|at| G::dot(*at - hinge, *at - hinge).sqrt()).fold(round, f64::max)

@@ -68,9 +68,9 @@ fn outline_shape(outline: Outline, dimensions: usize) -> Shape {
     let given = |x: f64| (x > 0.0).then_some(x);
     match outline {
         Outline::Bar { from, to, width } => Shape::Bar { from: cut(from), to: cut(to), width: given(width) },
-        Outline::Disc { radius, thickness } => {
-            let axis = (dimensions == 3).then(|| vec![0.0, 0.0, 1.0]);
-            Shape::Disc { center: origin, radius, axis, thickness: given(thickness) }
+        Outline::Disc { center, axis, radius, thickness } => {
+            let axis = (dimensions == 3).then(|| axis.to_vec());
+            Shape::Disc { center: cut(center), radius, axis, thickness: given(thickness) }
         }
         Outline::Block { size: [a, b, _] } if dimensions == 2 => {
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -94,7 +94,10 @@ fn holds(shape: &Shape, p: &[f64]) -> bool {
             let across: Vec<f64> = r.iter().zip(&d).map(|(r, d)| r - along * d).collect();
             (-1e-6..=1.0 + 1e-6).contains(&along) && length(&across) <= width.unwrap_or(0.0) * 0.5 + 1e-6 * size
         }
-        Shape::Disc { radius, .. } | Shape::Sphere { radius, .. } => length(p) <= radius * (1.0 + 1e-6),
+        Shape::Disc { center, radius, .. } | Shape::Sphere { center, radius } => {
+            let from: Vec<f64> = p.iter().zip(center).map(|(p, c)| p - c).collect();
+            length(&from) <= radius * (1.0 + 1e-6)
+        }
         Shape::Box { size, .. } => size.iter().zip(p).all(|(size, x)| x.abs() <= 0.5 * size * (1.0 + 1e-6)),
         Shape::Polygon { points } => is_inside(points, p),
         Shape::Hull { .. } | Shape::Cylinder { .. } | Shape::Mass { .. } => false,
