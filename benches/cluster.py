@@ -3,12 +3,14 @@
     python benches/cluster.py [--runs 100000] [--nodes 2] [--each 10]
 
 A cluster of machines with a processor each is made on this one. The runs are motions of a double pendulum
-of so many milliseconds; efficiency is what a processor of the cluster does beside one process that sweeps with one thread.
+of so many milliseconds. Efficiency is what a processor of the cluster does beside a process that computes the same rows with one thread
+and without Ray: alone, and with one such process on every processor at once, which take turns where two processors are one core.
 """
 
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import pathlib
 import subprocess
@@ -23,6 +25,8 @@ import ray
 from ray.cluster_utils import Cluster
 
 import grashof
+from grashof._text import axes
+from grashof.cluster import Task, compute
 
 PENDULUM = """
 grashof: 1
@@ -49,21 +53,28 @@ def lengths(runs: int) -> dict[str, np.ndarray]:
     return {"length": np.linspace(0.5, 1.5, runs)}
 
 
-def timed(model: grashof.LoadedModel, wanted: float) -> tuple[grashof.LoadedModel, float]:
-    """The model with motions so long that a run takes about so long, and what one takes in one process, s."""
+def alone(model: grashof.LoadedModel, runs: int) -> float:
+    """What a run takes in this process with one thread, s: the rows of the table, as Parquet."""
+    task = Task("", grashof.__version__, model._core.pack(), {}, "swing", axes(lengths(runs)), None)
+    return compute(task._replace(fingerprint=str(time.perf_counter())), 0, runs)[1] / runs
+
+
+def side_by_side(model: grashof.LoadedModel, runs: int, processes: int) -> float:
+    """What a run takes where so many processes compute at once, s."""
+    with multiprocessing.get_context("spawn").Pool(processes) as pool:
+        pool.starmap(alone, [(model, 20)] * processes, chunksize=1)
+        return sum(pool.starmap(alone, [(model, runs)] * processes, chunksize=1)) / processes
+
+
+def timed(model: grashof.LoadedModel, wanted: float) -> grashof.LoadedModel:
+    """The model with motions so long that a run takes about so long."""
     until = 1.0
-    for _ in range(3):
-        probe = model.set(until=until)
-        begin = time.perf_counter()
-        probe.sweep("swing", lengths(100), workers=1)
-        each = (time.perf_counter() - begin) / 100
+    for _ in range(4):
+        each = alone(model.set(until=until), 100)
         if abs(each / wanted - 1) < 0.05:
             break
         until *= wanted / each
-    model = model.set(until=until)
-    begin = time.perf_counter()
-    model.sweep("swing", lengths(1000), workers=1)
-    return model, (time.perf_counter() - begin) / 1000
+    return model.set(until=until)
 
 
 def memory() -> int:
@@ -77,7 +88,8 @@ def measure(runs: int, nodes: int, each: float, lost: bool) -> None:
     for _ in range(nodes):
         cluster.add_node(num_cpus=1)
     ray.init(address=cluster.address, log_to_driver=False, logging_level="ERROR")
-    model, each = timed(grashof.parse(PENDULUM), each)
+    model = timed(grashof.parse(PENDULUM), each)
+    one, many = alone(model, 500), side_by_side(model, 500, nodes)
     most = 0
     gone: list[object] = []
 
@@ -95,9 +107,11 @@ def measure(runs: int, nodes: int, each: float, lost: bool) -> None:
         table = model.sweep("swing", lengths(runs), workers="ray", into=pathlib.Path(place) / "runs", progress=progress)
         took = time.perf_counter() - begin
         whole = sum(reason == "" for reason in table.reasons)
-    efficiency = each * runs / (took * nodes)
+    one, many = (one + alone(model, 500)) / 2, (many + side_by_side(model, 500, nodes)) / 2
+    efficiencies = [each * runs / (took * nodes) for each in (one, many)]
     event = "one machine lost" if lost else "none lost"
-    print(f"| {runs} | {event} | {whole} | {1e3 * each:.2f} ms | {took:.0f} s | {efficiency:.2f} | {most / 1e6:.0f} MB |", flush=True)
+    shown = f"{1e3 * one:.2f}, {1e3 * many:.2f} ms | {took:.0f} s | {efficiencies[0]:.2f}, {efficiencies[1]:.2f}"
+    print(f"| {runs} | {event} | {whole} | {shown} | {most / 1e6:.0f} MB |", flush=True)
     ray.shutdown()
     cluster.shutdown()
 
@@ -113,7 +127,7 @@ def main() -> None:
     if asked.one:
         measure(asked.runs, asked.nodes, asked.each / 1000, asked.lost)
         return
-    print("| runs | machines | whole | one run | time | efficiency by processor | memory of the caller |")
+    print("| runs | machines | whole | a run alone, side by side | time | efficiency beside each | memory of the caller |")
     print("|---|---|---|---|---|---|---|", flush=True)
     for runs, lost in [(1000, False), (asked.runs, True)]:
         words = ["--one", "--runs", str(runs), "--nodes", str(asked.nodes), "--each", str(asked.each), *(["--lost"] if lost else [])]

@@ -19,7 +19,7 @@ PAGE = HERE.parent / "docs" / "python-reference.md"
 
 #: The public names by what they are for, in the order of the page.
 SECTIONS: Dict[str, List[str]] = {
-    "Models and studies": ["load", "parse", "LoadedModel", "Study", "Model"],
+    "Models and studies": ["load", "parse", "LoadedModel", "Study", "Model", "Function"],
     "Sweeps with drawn values": ["normal", "uniform", "Distribution", "Sensitivity", "Index"],
     "Sweeps on clusters": ["SweepTable"],
     "Results of a study": ["Results", "Runs", "Page", "Animation"],

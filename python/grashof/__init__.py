@@ -14,6 +14,7 @@ from .compared import Compared, ComparedRun
 from .distributions import Distribution, normal, uniform
 from .dynamics import Dynamics, Pose
 from .errors import Error, Fault, Interrupted, ModelError, Refused, StudyError, UnknownName
+from .functions import Function
 from .gathered import SweepTable
 from .linear import Linear
 from .model import LoadedModel, Study, load, parse
@@ -39,6 +40,7 @@ __all__ = [
     "Extremes",
     "Fault",
     "Finding",
+    "Function",
     "Index",
     "Interrupted",
     "Linear",

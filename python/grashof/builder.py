@@ -26,9 +26,12 @@ class Model:
     """
 
     _sections: Dict[str, Any]
+    #: Functions of Python that its expressions may call, by their names; no section of a file.
+    functions: Dict[str, Any]
 
     def __init__(self, **sections: Any) -> None:
         """A mechanism with these sections."""
+        self.__dict__["functions"] = dict(sections.pop("functions", {}))
         self.__dict__["_sections"] = {"grashof": 1, **sections}
 
     def __getattr__(self, key: str) -> Any:
@@ -38,7 +41,10 @@ class Model:
         return self._sections.setdefault(key, {})
 
     def __setattr__(self, key: str, value: Any) -> None:
-        self._sections[key] = value
+        if key == "functions":
+            self.__dict__[key] = value
+        else:
+            self._sections[key] = value
 
     def __delattr__(self, key: str) -> None:
         del self._sections[key]
@@ -63,4 +69,4 @@ class Model:
         """The model, to check and run; raises :class:`ModelError` if it is none."""
         from .model import parse
 
-        return parse(self.to_yaml())
+        return parse(self.to_yaml(), self.functions)

@@ -6,10 +6,11 @@ import logging
 import os
 import time
 from contextlib import contextmanager
-from typing import Any, Iterator, NamedTuple, Optional, Tuple
+from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple
 
 from . import _grashof
 from .errors import Refused
+from .functions import Function, described
 
 __all__ = ["Task", "compute", "connected"]
 
@@ -23,6 +24,8 @@ class Task(NamedTuple):
     version: str
     #: The model with the files that it names.
     model: str
+    #: Functions of Python that it calls.
+    functions: Dict[str, Function]
     study: str
     over: Tuple[Tuple[str, str], ...]
     samples: Optional[Tuple[int, int]]
@@ -32,7 +35,10 @@ class Task(NamedTuple):
         if self.version != _grashof.version:
             message = f"a machine of the cluster has the version {_grashof.version} of the package, and not {self.version}"
             raise Refused(message, code="refused", help="install the same version on all of them")
-        return _grashof.unpack(self.model).prepare(self.study, self.over, self.samples, 1)
+        model = _grashof.unpack(self.model)
+        if self.functions:
+            model = model.with_functions(described(self.functions))
+        return model.prepare(self.study, self.over, self.samples, 1)
 
 
 class _Last:

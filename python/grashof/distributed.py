@@ -15,6 +15,8 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 from . import _grashof, _text
 from .cluster import Task, compute, connected
 from .errors import Interrupted
+from .functions import Function
+from .functions import fingerprint as by_source
 from .gathered import SweepTable
 from .parts import Parts
 
@@ -34,6 +36,7 @@ Progress = Callable[[int, int], object]
 
 def sweep(
     core: _grashof.Model,
+    functions: Dict[str, Function],
     study: str,
     over: List[Tuple[str, str]],
     samples: Optional[Tuple[int, int]],
@@ -53,9 +56,10 @@ def sweep(
         "model": hashes["model"],
         "values": hashes["over"],
         "samples and seed": list(samples) if samples else None,
+        **({"functions": by_source(functions)} if functions else {}),
     }
     fingerprint = hashlib.sha256(json.dumps(about).encode()).hexdigest()
-    task = Task(fingerprint, _grashof.version, core.pack(), study, tuple(over), samples)
+    task = Task(fingerprint, _grashof.version, core.pack(), functions, study, tuple(over), samples)
     name = f"{study}-over-{'+'.join(prepared.parameters)}" if over else study
     parts = Parts(into, name, prepared.count, about)
     try:

@@ -6,10 +6,12 @@ import os
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union, overload
 
 from . import _grashof, _text
+from . import functions as _functions
 from .builder import Model
 from .compared import Compared
 from .dynamics import Dynamics
 from .errors import Fault, Refused
+from .functions import Function, Functions
 from .page import Page
 from .results import Results
 from .stepper import Stepper
@@ -21,27 +23,33 @@ if TYPE_CHECKING:
 __all__ = ["LoadedModel", "Study", "load", "parse"]
 
 
-def load(source: Union[_text.Path, Mapping[str, Any], Model]) -> LoadedModel:
+def load(source: Union[_text.Path, Mapping[str, Any], Model], functions: Optional[Functions] = None) -> LoadedModel:
     """Reads a model: the path of a file, with what it includes; or a mechanism in code, as a mapping with the keys of a file.
+    ``functions`` are functions of Python that its expressions may call, by their names there.
 
     Raises :class:`ModelError` if it cannot be read or is no model. What is wrong with the mechanism or a study is told by
     :meth:`LoadedModel.check`, and when these are asked for.
     """
     if isinstance(source, Model):
-        return source.load()
+        return source.load() if functions is None else source.load().with_functions(functions)
     if isinstance(source, Mapping):
-        return parse(_text.text(source))
-    return LoadedModel(_grashof.load(os.fspath(source)))
+        return parse(_text.text(source), functions)
+    return _with(_grashof.load(os.fspath(source)), functions)
 
 
-def parse(text: str) -> LoadedModel:
-    """A model that stands in a text and includes no files; raises :class:`ModelError` if it is none."""
-    return LoadedModel(_grashof.parse(text))
+def parse(text: str, functions: Optional[Functions] = None) -> LoadedModel:
+    """A model that stands in a text and includes no files; raises :class:`ModelError` if it is none. ``functions`` as of :func:`load`."""
+    return _with(_grashof.parse(text), functions)
 
 
-def _unpacked(packed: str) -> LoadedModel:
+def _with(core: _grashof.Model, functions: Optional[Functions]) -> LoadedModel:
+    known = _functions.known(functions)
+    return LoadedModel(core.with_functions(_functions.described(known)) if known else core, known)
+
+
+def _unpacked(packed: str, functions: Dict[str, Function]) -> LoadedModel:
     """A model that was pickled."""
-    return LoadedModel(_grashof.unpack(packed))
+    return _with(_grashof.unpack(packed), functions)
 
 
 class LoadedModel:
@@ -50,11 +58,12 @@ class LoadedModel:
     It can be pickled, with the files that it includes, and sent to other processes and machines.
     """
 
-    def __init__(self, core: _grashof.Model) -> None:
+    def __init__(self, core: _grashof.Model, functions: Optional[Dict[str, Function]] = None) -> None:
         self._core = core
+        self._functions = functions or {}
 
-    def __reduce__(self) -> Tuple[Any, Tuple[str]]:
-        return _unpacked, (self._core.pack(),)
+    def __reduce__(self) -> Tuple[Any, Tuple[Any, ...]]:
+        return _unpacked, (self._core.pack(), self._functions)
 
     def __repr__(self) -> str:
         return f"<model with the studies {', '.join(self.studies) or 'none'}>"
@@ -75,6 +84,22 @@ class LoadedModel:
         return self._core.variants
 
     @property
+    def functions(self) -> Dict[str, Function]:
+        """Functions of Python that its expressions may call, by their names."""
+        return dict(self._functions)
+
+    def with_functions(self, functions: Optional[Functions] = None, /, **named: Union[Function, Callable[..., Any]]) -> LoadedModel:
+        """A new model whose expressions may call functions of Python, beside those that it has.
+
+        A call takes some two microseconds, in a sweep with several threads ten times that: as long as dozens of expressions, and calls
+        from several threads wait for each other.
+
+        >>> m.with_functions(gas=grashof.Function(gas, switches={"late": "angle > 213 deg"}))
+        """
+        known = {**self._functions, **_functions.known({**(functions or {}), **named})}
+        return LoadedModel(self._core.with_functions(_functions.described(known)), known)
+
+    @property
     def parameters(self) -> Dict[str, float]:
         """Parameters with their values, SI, in file order."""
         return {name: value for name, value, _ in self._core.parameters()}
@@ -90,14 +115,14 @@ class LoadedModel:
 
         >>> m.set(l3="60 cm", l1=0.15)
         """
-        return LoadedModel(self._core.set(_text.settings(values, named)))
+        return LoadedModel(self._core.set(_text.settings(values, named)), self._functions)
 
     def variant(self, *names: str) -> LoadedModel:
         """A new model with variants of the file; a study applies its own first."""
         core = self._core
         for name in names:
             core = core.variant(name)
-        return LoadedModel(core)
+        return LoadedModel(core, self._functions)
 
     def check(self) -> List[Fault]:
         """All that is wrong with the model, with each of its variants and studies; empty if nothing is."""
@@ -185,7 +210,7 @@ class LoadedModel:
         from .distributed import sweep
 
         core = self.set(values)._core if values else self._core
-        return sweep(core, study, _text.axes(over), drawn, address=address, into=into, progress=progress)
+        return sweep(core, self._functions, study, _text.axes(over), drawn, address=address, into=into, progress=progress)
 
     def sensitivity(
         self,
@@ -223,8 +248,8 @@ class LoadedModel:
         settings: Any,
         samples: Optional[Tuple[int, int]] = None,
     ) -> Results:
-        model = LoadedModel(self._core.set(settings)) if settings else self
-        return Results(model._core.run(study, _text.axes(over), workers, samples), model._core)
+        core = self._core.set(settings) if settings else self._core
+        return Results(core.run(study, _text.axes(over), workers, samples), core)
 
     def solve(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
         """Runs a study with a section ``solve``; :attr:`Results.solution` is the value of the parameter that meets the target."""
@@ -266,7 +291,7 @@ class LoadedModel:
         >>> m, name = m.with_study("slow", {"inverse": {"over": "1 turn", "samples": 72}, "set": {"speed": "60 rpm"}, "columns": ["drive.torque"]})
         """
         core, name = self._core.with_study(name, _text.text(study))
-        return LoadedModel(core), name
+        return LoadedModel(core, self._functions), name
 
     def compare(
         self,

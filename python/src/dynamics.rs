@@ -3,7 +3,7 @@
 //! Arrays come with one row a state and go back so; the shapes in front are those of `grashof/dynamics.py`. What evaluates takes longer to
 //! be made than a few states take, so one is kept, in a thread of its own, since it borrows the mechanism; many states have their own.
 
-use crate::errors::raised;
+use crate::functions::Trouble;
 use crate::interrupt::{Flag, awaited, away, begin};
 use grashof::api::{Evaluator, Mechanism};
 use grashof::{Error, solvers};
@@ -29,11 +29,12 @@ pub(crate) struct Dynamics {
     mechanism: Arc<Mechanism>,
     /// Where the evaluator that is kept takes its work.
     kept: Mutex<Option<Sender<Work>>>,
+    trouble: Trouble,
 }
 
 impl Dynamics {
-    pub(crate) fn new(mechanism: Mechanism) -> Self {
-        Self { mechanism: Arc::new(mechanism), kept: Mutex::default() }
+    pub(crate) fn new(mechanism: Mechanism, trouble: Trouble) -> Self {
+        Self { mechanism: Arc::new(mechanism), kept: Mutex::default(), trouble }
     }
 
     /// Evaluates something of each state, `width` numbers, without the lock of the interpreter.
@@ -58,7 +59,7 @@ impl Dynamics {
             self.give(Box::new(move |evaluator| drop(sender.send(all(evaluator, &own)))))?;
             awaited(py, receiver, &flag)?
         };
-        PyArray1::from_vec(py, done.map_err(|error| raised(py, &error))?).reshape([count, width])
+        PyArray1::from_vec(py, self.trouble.settle(py, done)?).reshape([count, width])
     }
 
     /// Gives work to the evaluator that is kept; it is made when it is needed first.
@@ -197,6 +198,6 @@ impl Dynamics {
             })?;
             Ok::<_, Error>(out)
         });
-        PyArray1::from_vec(py, placed.map_err(|error| raised(py, &error))?).reshape([count, 12])
+        PyArray1::from_vec(py, self.trouble.settle(py, placed)?).reshape([count, 12])
     }
 }

@@ -6,6 +6,7 @@
 mod drawn;
 mod dynamics;
 mod errors;
+mod functions;
 mod interrupt;
 mod model;
 mod results;

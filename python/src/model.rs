@@ -2,6 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::errors::{faults, raised};
+use crate::functions::{Described, Functions, Trouble};
 use crate::interrupt::away;
 use crate::results::Results;
 use crate::stepper::Stepper;
@@ -23,6 +24,7 @@ type Settings = Vec<(String, String)>;
 #[pyclass(frozen, module = "grashof._grashof")]
 pub(crate) struct Model {
     model: Arc<grashof::Model>,
+    functions: Functions,
 }
 
 /// Reads a model file, and what it includes.
@@ -53,8 +55,28 @@ pub(crate) fn yaml(json: &str) -> PyResult<String> {
 
 fn made(py: Python<'_>, make: impl FnOnce() -> Result<grashof::Model, Error> + Send) -> PyResult<Model> {
     match py.detach(make) {
-        Ok(model) => Ok(Model { model: Arc::new(model) }),
+        Ok(model) => Ok(Model { model: Arc::new(model), functions: Functions::default() }),
         Err(error) => Err(raised(py, &error)),
+    }
+}
+
+impl Model {
+    /// The model for one computation, and where that keeps what functions of Python raise.
+    fn apart(&self, py: Python<'_>) -> PyResult<(grashof::Model, Trouble)> {
+        self.functions.with(&self.model).map_err(|error| raised(py, &error))
+    }
+
+    /// Something of the model that takes no time.
+    fn told<T: Send>(&self, py: Python<'_>, tell: impl FnOnce(&grashof::Model) -> Result<T, Error> + Send) -> PyResult<T> {
+        let (model, trouble) = self.apart(py)?;
+        let told = py.detach(|| tell(&model));
+        trouble.settle(py, told)
+    }
+
+    /// Another model with the same functions.
+    fn other(&self, py: Python<'_>, make: impl FnOnce(&grashof::Model) -> Result<grashof::Model, Error> + Send) -> PyResult<Self> {
+        let model = self.told(py, make)?;
+        Ok(Self { model: Arc::new(model), functions: self.functions.clone() })
     }
 }
 
@@ -73,18 +95,25 @@ fn swept<'m>(model: &'m grashof::Model, study: &str, over: &Settings, samples: O
 impl Model {
     /// The same with parameters at other values, given as in the file.
     fn set(&self, py: Python<'_>, values: Settings) -> PyResult<Self> {
-        made(py, || self.model.set(&lent(&values)))
+        self.other(py, |model| model.set(&lent(&values)))
     }
 
     /// The same with a variant of the file.
     fn variant(&self, py: Python<'_>, name: &str) -> PyResult<Self> {
-        made(py, || self.model.variant(name))
+        self.other(py, |model| model.variant(name))
+    }
+
+    /// The same with functions of Python, in the place of those that it had.
+    fn with_functions(&self, py: Python<'_>, functions: Vec<Described>) -> PyResult<Self> {
+        let functions = Functions::new(functions);
+        let (model, _) = functions.with(&self.model).map_err(|error| raised(py, &error))?;
+        Ok(Self { model: Arc::new(model), functions })
     }
 
     /// The same with one more study, given as YAML; and its name.
     fn with_study(&self, name: &str, yaml: &str) -> (Self, String) {
         let (model, name) = self.model.with_study(name, yaml);
-        (Self { model: Arc::new(model) }, name)
+        (Self { model: Arc::new(model), functions: self.functions.clone() }, name)
     }
 
     /// The text of the file.
@@ -112,13 +141,13 @@ impl Model {
 
     /// Name, value in SI and unit of each parameter.
     fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, f64, String)>> {
-        let all = py.detach(|| self.model.parameters()).map_err(|error| raised(py, &error))?;
+        let all = self.told(py, grashof::Model::parameters)?;
         Ok(all.into_iter().map(|Scalar { name, value, unit, .. }| (name, value, unit)).collect())
     }
 
     /// All that is wrong with the file.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let report = py.detach(|| self.model.check());
+        let report = self.told(py, |model| Ok(model.check()))?;
         faults(py, Some(&report))
     }
 
@@ -132,23 +161,27 @@ impl Model {
         threads: Option<usize>,
         samples: Option<(usize, u64)>,
     ) -> PyResult<Results> {
-        let model = Arc::clone(&self.model);
+        let (model, trouble) = self.apart(py)?;
+        let thread = trouble.clone();
         let run = away(py, move |flag| {
-            let asked = swept(&model, &study, &over, samples)?;
-            let asked = threads.into_iter().fold(asked, grashof::Study::threads);
-            asked.stop_if(|| flag.load(Ordering::Relaxed)).run()
+            thread.known(|| {
+                let asked = swept(&model, &study, &over, samples)?;
+                let asked = threads.into_iter().fold(asked, grashof::Study::threads);
+                asked.stop_if(|| flag.load(Ordering::Relaxed)).run()
+            })
         })?;
-        Results::new(py, run.map_err(|error| raised(py, &error))?)
+        Results::new(py, trouble.settle(py, run)?)
     }
 
     /// A sweep of a study, to be computed part by part.
     #[pyo3(signature = (study, over, samples=None, threads=1))]
     fn prepare(&self, py: Python<'_>, study: String, over: Settings, samples: Option<(usize, u64)>, threads: usize) -> PyResult<Sweep> {
-        let model = Arc::clone(&self.model);
+        let (model, trouble) = self.apart(py)?;
         let prepared = away(py, move |flag| {
             swept(&model, &study, &over, samples)?.threads(threads).stop_if(|| flag.load(Ordering::Relaxed)).prepare()
         })?;
-        Ok(Sweep::new(prepared.map_err(|error| raised(py, &error))?))
+        let prepared = trouble.settle(py, prepared)?;
+        Ok(Sweep::new(prepared, trouble))
     }
 
     /// Computes a motion by several integrators, at several tolerances or with several steps, s.
@@ -160,7 +193,7 @@ impl Model {
         sizes: Vec<f64>,
         fixed: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let model = Arc::clone(&self.model);
+        let (model, trouble) = self.apart(py)?;
         let compared = away(py, move |flag| {
             let begin = Instant::now();
             let clock = || begin.elapsed().as_secs_f64();
@@ -168,18 +201,21 @@ impl Model {
             let integrators: Vec<&str> = integrators.iter().map(String::as_str).collect();
             if fixed { study.compare_steps(&integrators, &sizes, &clock) } else { study.compare(&integrators, &sizes, &clock) }
         })?;
-        Ok(pythonize(py, &compared.map_err(|error| raised(py, &error))?)?)
+        Ok(pythonize(py, &trouble.settle(py, compared)?)?)
     }
 
     /// The mechanism, to be evaluated by hand.
     fn dynamics(&self, py: Python<'_>) -> PyResult<Dynamics> {
-        let mechanism = py.detach(|| self.model.mechanism()).map_err(|error| raised(py, &error))?;
-        Ok(Dynamics::new(mechanism))
+        let (model, trouble) = self.apart(py)?;
+        let mechanism = py.detach(|| model.mechanism());
+        let mechanism = trouble.settle(py, mechanism)?;
+        Ok(Dynamics::new(mechanism, trouble))
     }
 
     /// The motion of a study, to be advanced from outside.
     fn stepper(&self, py: Python<'_>, study: String) -> PyResult<Stepper> {
-        Stepper::new(py, Arc::clone(&self.model), study)
+        let (model, trouble) = self.apart(py)?;
+        Stepper::new(py, model, trouble, study)
     }
 
     /// The page of a report on results of its studies.

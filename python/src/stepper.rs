@@ -1,6 +1,7 @@
 //! A motion that is advanced from outside. It lives in a thread of its own, to which calls are sent.
 
-use crate::errors::{raised, refused};
+use crate::errors::refused;
+use crate::functions::Trouble;
 use crate::interrupt::{self, Flag, awaited};
 use grashof::Error;
 use grashof::api::{Stepper as Motion, Stepping};
@@ -49,24 +50,28 @@ pub(crate) struct Stepper {
     present: Mutex<Present>,
     columns: Vec<String>,
     flag: Flag,
+    trouble: Trouble,
 }
 
 impl Stepper {
     /// Begins the motion of a study.
-    pub(crate) fn new(py: Python<'_>, model: Arc<grashof::Model>, study: String) -> PyResult<Self> {
+    pub(crate) fn new(py: Python<'_>, model: grashof::Model, trouble: Trouble, study: String) -> PyResult<Self> {
         let (calls, asked) = channel();
         let (begun, begin) = channel();
         let flag = Flag::default();
         let own = Arc::clone(&flag);
-        interrupt::begin(move || match model.stepping(&study) {
+        let thread = trouble.clone();
+        let serving = move || match model.stepping(&study) {
             Ok(stepping) => {
                 let columns = stepping.columns();
                 serve(stepping, &own, &asked, Waiting::First(begun, columns));
             }
             Err(error) => drop(begun.send(Err(error))),
-        })?;
-        let (present, columns) = awaited(py, begin, &flag)?.map_err(|error| raised(py, &error))?;
-        Ok(Self { calls: Mutex::new(calls), present: Mutex::new(present), columns, flag })
+        };
+        interrupt::begin(move || thread.known(serving))?;
+        let begun = awaited(py, begin, &flag)?;
+        let (present, columns) = trouble.settle(py, begun)?;
+        Ok(Self { calls: Mutex::new(calls), present: Mutex::new(present), columns, flag, trouble })
     }
 
     /// Sends a call and waits for its end.
@@ -75,8 +80,8 @@ impl Stepper {
         self.flag.store(false, Ordering::Relaxed);
         let sent = self.calls.lock().unwrap_or_else(PoisonError::into_inner).send((call, reply));
         sent.map_err(|_| refused(py, "the motion has ended", "begin a new one"))?;
-        let present = awaited(py, replied, &self.flag)?.map_err(|error| raised(py, &error))?;
-        *self.present() = present;
+        let present = awaited(py, replied, &self.flag)?;
+        *self.present() = self.trouble.settle(py, present)?;
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Sweeps that are computed part by part, and the tables that their parts leave.
 
 use crate::errors::{raised, refused};
+use crate::functions::Trouble;
 use crate::interrupt::away;
 use crate::results::Results;
 use grashof::api::PreparedSweep;
@@ -26,11 +27,12 @@ fn about(columns: &[Column]) -> Vec<About> {
 #[pyclass(frozen, module = "grashof._grashof")]
 pub(crate) struct Sweep {
     sweep: Arc<PreparedSweep>,
+    trouble: Trouble,
 }
 
 impl Sweep {
-    pub(crate) fn new(sweep: PreparedSweep) -> Self {
-        Self { sweep: Arc::new(sweep) }
+    pub(crate) fn new(sweep: PreparedSweep, trouble: Trouble) -> Self {
+        Self { sweep: Arc::new(sweep), trouble }
     }
 }
 
@@ -51,9 +53,9 @@ impl Sweep {
     /// Computes the runs from one on to another, which is not computed.
     #[pyo3(signature = (first, end, threads=1))]
     fn only(&self, py: Python<'_>, first: usize, end: usize, threads: usize) -> PyResult<Results> {
-        let sweep = Arc::clone(&self.sweep);
-        let run = away(py, move |flag| sweep.only(first..end, threads.max(1), &|| flag.load(Ordering::Relaxed)))?;
-        Results::new(py, run.map_err(|error| raised(py, &error))?)
+        let (sweep, thread) = (Arc::clone(&self.sweep), self.trouble.clone());
+        let run = away(py, move |flag| thread.known(|| sweep.only(first..end, threads.max(1), &|| flag.load(Ordering::Relaxed))))?;
+        Results::new(py, self.trouble.settle(py, run)?)
     }
 
     /// Values of the parameters by their chances, a row a point.
