@@ -31,6 +31,17 @@ studies:
     columns: [O.angle, P.position]
     expect: { max(P.position): { is: 50 cm, within: 1 mm } }
 `,
+  // its variable falls on the way
+  clamp: `grashof: 1
+name: clamp
+space: planar
+gravity: none
+bodies: { handle: { bar: { length: 16 cm, mass: 0.3 kg } } }
+joints: { A: { revolute: [ground, handle.start] } }
+drivers: { hand: { joint: A, speed: -60 deg/s } }
+start: { A.angle: 97 deg }
+studies: { close: { inverse: { over: 60 deg, samples: 60 }, columns: [time, A.angle, handle.end], trace: [handle.end] } }
+`,
   // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
   winch: `grashof: 1
 name: winch

@@ -75,6 +75,23 @@ export async function keys_move_it(open) {
   assert.ok((await time(tab)) > 0.04);
 }
 
+export async function a_variable_that_falls_falls_in_play(open) {
+  const { tab } = await open('clamp', { study: 'close' });
+  const [begin, end] = [97, 37].map((angle) => (angle * Math.PI) / 180);
+  near(await time(tab), begin, 1e-9, 'begin');
+  await tab.locator('[aria-label=speed]').selectOption('0.1×');
+  await tab.locator('.play').click();
+  await tab.waitForTimeout(500);
+  await tab.locator('.play').click();
+  const at = await time(tab);
+  // 6 deg/s
+  assert.ok(at < begin - 0.01 && at > begin - 0.3, `at ${at}`);
+  await tab.keyboard.press('End');
+  near(await time(tab), end, 1e-9, 'end');
+  await tab.keyboard.press('ArrowLeft');
+  near(await time(tab), end + (begin - end) / 200, 1e-9, 'one step back');
+}
+
 export async function the_slider_scrubs(open) {
   const { tab } = await open('crank_rocker', { study: 'start-up-exact' });
   await tab.locator('.scrub').click();

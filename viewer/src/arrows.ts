@@ -90,9 +90,9 @@ export class Arrows {
   /** Rates of a place by differences over a part of the way between frames. */
   private rate(point: Place, place: number, kind: Kind): Vector {
     const { motion, pace } = this;
-    const step = (pace.seconds(motion.to) - pace.seconds(motion.from)) / Math.max(motion.scene.frames.at.length - 1, 1);
+    const step = (pace.seconds(motion.end) - pace.seconds(motion.begin)) / Math.max(motion.scene.frames.at.length - 1, 1);
     const h = kind === 'velocities' ? 0.3 * step : step;
-    const t = Math.min(Math.max(pace.seconds(place), pace.seconds(motion.from) + h), pace.seconds(motion.to) - h);
+    const t = Math.min(Math.max(pace.seconds(place), pace.seconds(motion.begin) + h), pace.seconds(motion.end) - h);
     const [a, b, c] = [t - h, t, t + h].map((seconds) => [...motion.world(point, pace.place(seconds))] as Vector) as [Vector, Vector, Vector];
     const component = kind === 'velocities' ? (i: 0 | 1 | 2) => (c[i] - a[i]) / (2 * h) : (i: 0 | 1 | 2) => (c[i] - 2 * b[i] + a[i]) / (h * h);
     return [component(0), component(1), component(2)];

@@ -5,6 +5,7 @@ export type Listener = (at: number) => void;
 /** Plays over a range again and again, or once. */
 export class Clock {
   at = 0;
+  /** Where the motion begins and ends; its variable may fall on the way. */
   from = 0;
   to = 0;
   playing = false;
@@ -20,18 +21,19 @@ export class Clock {
   /** A new range; `seconds` and `place` say how long its way takes at speed 1. */
   range(from: number, to: number, seconds: (at: number) => number, place: (seconds: number) => number): void {
     [this.from, this.to, this.seconds, this.place] = [from, to, seconds, place];
-    this.seek(Math.min(Math.max(this.at, from), to));
-    if (this.playing && to <= from) this.play(false);
+    this.seek(Number.isFinite(this.at) ? this.at : from);
+    if (this.playing && to === from) this.play(false);
   }
 
   seek(at: number): void {
-    this.at = Math.min(Math.max(at, this.from), this.to);
+    const [low, high] = this.from < this.to ? [this.from, this.to] : [this.to, this.from];
+    this.at = Math.min(Math.max(at, low), high);
     this.listeners.forEach((listener) => listener(this.at));
   }
 
   play(on = !this.playing): void {
-    if (on && this.at >= this.to) this.seek(this.from);
-    this.playing = on && this.to > this.from;
+    if (on && this.at === this.to) this.seek(this.from);
+    this.playing = on && this.to !== this.from;
     this.last = performance.now();
     this.states.forEach((tell) => tell());
     if (this.playing) requestAnimationFrame((now) => this.tick(now));

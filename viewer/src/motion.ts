@@ -5,6 +5,14 @@ import type { Place, Scene } from './types';
 
 export type Vector = [number, number, number];
 
+/** Whether a variable falls from the last frame to the first. */
+export function falling(values: (number | null)[], at: ArrayLike<number>): boolean {
+  const [from, to] = [at[0] ?? 0, at[at.length - 1] ?? 0];
+  const known = values.filter((x): x is number => x !== null);
+  const near = (x: number | undefined, end: number) => x !== undefined && Math.abs(x - end) <= 1e-6 * (to - from);
+  return to > from && near(known[0], to) && near(known[known.length - 1], from);
+}
+
 export class Motion {
   readonly stride: number;
   readonly width: number;
@@ -13,13 +21,24 @@ export class Motion {
   private poses: Float64Array;
   private posed = NaN;
 
-  constructor(readonly scene: Scene) {
+  /** `falls` says that the independent variable falls on the way. */
+  constructor(readonly scene: Scene, readonly falls = false) {
     this.stride = scene.dimensions === 2 ? 3 : 7;
     this.width = (scene.bodies.length - 1) * this.stride;
     const { at } = scene.frames;
     this.from = at[0] ?? 0;
     this.to = at[at.length - 1] ?? 0;
     this.poses = new Float64Array(this.width);
+  }
+
+  /** Where it begins. */
+  get begin(): number {
+    return this.falls ? this.to : this.from;
+  }
+
+  /** Where it ends. */
+  get end(): number {
+    return this.falls ? this.from : this.to;
   }
 
   /** Poses of all bodies by Lagrange's polynomial through four frames; the same array each time. */

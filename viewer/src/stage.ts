@@ -4,7 +4,7 @@ import { Arrows, COLOR, type Kind } from './arrows';
 import type { Clock } from './clock';
 import { scene as decoded } from './data';
 import { button, h, icon } from './dom';
-import { Motion } from './motion';
+import { Motion, falling } from './motion';
 import { digits, heading, pretty, shownIn } from './numbers';
 import { type Pace, pace } from './pace';
 import { Plane } from './plane/plane';
@@ -216,9 +216,10 @@ export class Stage {
     if (!this.kept || !coded) this.clock.play(false);
     this.element.hidden = !coded;
     if (!coded) return;
-    const motion = new Motion(sceneOf(coded));
+    const scene = sceneOf(coded);
+    const motion = new Motion(scene, falling(results.independent.values, scene.frames.at));
     this.motion = motion;
-    this.pace = pace(results, motion.from, motion.to);
+    this.pace = pace(results, motion.begin, motion.end);
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
@@ -234,8 +235,8 @@ export class Stage {
     const { error } = motion.scene.frames;
     this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
     const { seconds, place } = this.pace;
-    if (!again) this.pick(seconds(motion.to) - seconds(motion.from));
-    this.clock.range(motion.from, motion.to, seconds, place);
+    if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));
+    this.clock.range(motion.begin, motion.end, seconds, place);
     this.state();
   }
 

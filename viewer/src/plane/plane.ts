@@ -194,7 +194,9 @@ export class Plane implements Renderer {
       pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.3) : color, growing ? 1.2 : 1.8, dash);
       if (!growing) return;
       const until = at.findIndex((place) => place > this.place);
-      pen.path([...all.slice(0, until < 0 ? all.length : until), this.point(trace)]).stroke(color, 2, dash);
+      const split = until < 0 ? all.length : until;
+      const passed = this.motion.falls ? all.slice(split).reverse() : all.slice(0, split);
+      pen.path([...passed, this.point(trace)]).stroke(color, 2, dash);
     });
   }
 

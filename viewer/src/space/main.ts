@@ -212,7 +212,7 @@ class Space implements Renderer {
     this.paths.forEach(({ at, points }, k) => {
       const color = inks.curves[(k + 1) % 6]!;
       points.slice(1).forEach((point, i) => {
-        const done = !growing || at[i + 1]! <= this.place;
+        const done = !growing || (this.motion.falls ? at[i]! >= this.place : at[i + 1]! <= this.place);
         const ink = done ? color : mixed(inks.paper, color, 0.3);
         items.push({ depth: this.depth(point), draw: () => this.pen.path([this.pixel(points[i]!), this.pixel(point)]).stroke(ink, done ? 2 : 1.2) });
       });
