@@ -131,7 +131,7 @@ studies:
 
 #[test]
 fn declared_switches_are_located_and_others_are_told() {
-    let contact = |a: &[f64], beyond: bool| -1.0 * a[0] - if beyond { 1e4 * (a[0] - 0.1) } else { 0.0 };
+    let contact = |a: &[f64], beyond: bool| -a[0] - if beyond { 1e4 * (a[0] - 0.1) } else { 0.0 };
     let with_side = ExternalFunction::new("bump", &["x"], move |a| contact(a, a[1] != 0.0)).switches(&[("beyond", "x > 10 cm")]);
     let by_itself = ExternalFunction::new("bump", &["x"], move |a| contact(a, a[0] > 0.1));
     let inside = got(&bumper("-1 N/m*S.position - if(S.position > 10 cm, 1e4 N/m*(S.position - 0.1 m), 0)"), Vec::new(), "run");

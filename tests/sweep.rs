@@ -1,6 +1,7 @@
 //! Sweeps: `grashof sweep`, sweeps of every kind of study, any number of threads, and runs that are kept over an interrupt.
 
 mod elsewhere;
+mod findings;
 
 use serde_json::Value;
 use std::collections::BTreeMap;

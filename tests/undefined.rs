@@ -258,3 +258,45 @@ studies:
     assert!(last[1].is_nan() && last[2].is_finite() && last[0] < PI);
     assert!(outcome.findings.iter().any(|f| f.code == "blank-cells" && f.message.contains("`rocker.omega`")));
 }
+
+#[test]
+fn a_switch_on_a_rate_is_followed_up_to_a_dead_point() {
+    let text = "
+grashof: 1
+name: pump whose rod is too short
+space: planar
+gravity: none
+bodies:
+  crank: { bar: { length: 30 mm } }
+  rod: { bar: { length: 20 mm } }
+  piston: { mass: 0.2 kg }
+joints:
+  O: { revolute: [ground, crank.start] }
+  A: { revolute: [crank.end, rod.start] }
+  B: { revolute: [rod.end, piston.origin] }
+  W: { slider: [ground, piston.origin], axis: [1, 0] }
+drivers: { drive: { joint: O, speed: 900 rpm } }
+start: { O.angle: 0, W.position: ~50 mm }
+measures:
+  push: \"if(W.velocity > 0, 800 N, 0 N)\"
+studies:
+  s: { kinematics: { over: 1 turn, samples: 90 }, columns: [O.angle, W.position, push] }
+";
+    let outcome = result(text).unwrap_or_else(|f| panic!("{}", f.reason()));
+    assert!(outcome.stopped.is_some_and(|why| why.contains("dead point")));
+    let [first, last] = [outcome.rows.first(), outcome.rows.last()].map(|row| row.expect("rows"));
+    assert!((last[0] - (2.0_f64 / 3.0).asin()).abs() < 1e-9 && first[2].is_nan() && last[2].is_nan());
+    // outwards on the way back from the other dead point, inwards behind the dead centre
+    let pushes: Vec<f64> = outcome.rows.iter().map(|row| row[2]).filter(|x| x.is_finite()).collect();
+    assert!(pushes.len() > 15 && pushes[0] == 800.0 && pushes[pushes.len() - 1] == 0.0, "{pushes:?}");
+}
+
+#[test]
+fn columns_that_nobody_asked_for_stop_nothing() {
+    let measure = "measures: { ratio: 1/O.omega }";
+    let text = arm(measure, "    statics: { from: start }");
+    let asked = arm(measure, "    statics: { from: start }\n    columns: [ratio]");
+    let outcome = result(&text).unwrap_or_else(|f| panic!("{}", f.reason()));
+    assert!(outcome.stopped.is_none() && outcome.findings.iter().any(|f| f.code == "blank-cells" && f.message.contains("`ratio`")));
+    refused(&asked);
+}

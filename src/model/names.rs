@@ -3,6 +3,7 @@
 use super::fault::{At, Fault, Spot};
 use super::merge::{Layers, Node};
 use crate::expression::{ExternalFunction, is_function};
+use serde_yaml::{Mapping, Value};
 use std::collections::HashMap;
 
 /// Names that mean something everywhere.
@@ -128,6 +129,19 @@ pub(crate) fn collect<'n>(root: Node<'n>, layers: &Layers<'_>, externals: &'n [E
         }
     }
     (names.into_iter().map(|(name, (entity, _))| (name, entity)).collect(), listed)
+}
+
+/// Names that variants remove, with the section and the variant.
+pub(crate) fn removed<'n>(layers: &Layers<'n>) -> Vec<(&'n str, &'static str, &'n str)> {
+    let of_patch = |&(variant, patch): &(&'n str, &'n Mapping)| {
+        let of_section = move |(section, _): Section| {
+            let entries = patch.get(section).and_then(Value::as_mapping).into_iter().flatten();
+            let gone = entries.filter(|(_, value)| value.is_null()).filter_map(|(name, _)| name.as_str());
+            gone.map(move |name| (name, section, variant)).collect::<Vec<_>>()
+        };
+        SECTIONS.into_iter().flat_map(of_section).collect::<Vec<_>>()
+    };
+    layers.patches.iter().flat_map(of_patch).collect()
 }
 
 /// Why a name is not free, if it is not.

@@ -28,6 +28,8 @@ pub(crate) struct NameSpace<'a> {
     pub(crate) names: HashMap<&'a str, Entity>,
     /// The same in file order, for messages.
     pub(crate) listed: Vec<(&'a str, Entity)>,
+    /// Names that variants remove, with the section and the variant.
+    pub(crate) removed: Vec<(&'a str, &'static str, &'a str)>,
     /// Dimensions of parameters; `None` where the value is faulty.
     pub(crate) parameters: Vec<Option<Dimension>>,
     /// Dimensions of tables.
@@ -196,6 +198,15 @@ impl<'a> NameSpace<'a> {
 
     /// An unknown first name.
     pub(crate) fn nobody(&self, head: &str, path: &str) -> Unknown {
+        if let Some((_, section, variant)) = self.removed.iter().find(|(name, ..)| *name == head) {
+            let help =
+                "let the variant remove what names it as well, by `null` in its section, or give that another value there".to_owned();
+            return unknown(
+                format!("`{path}`: the variant `{variant}` removes `{head}` from `{section}`"),
+                "a name of what is left",
+                Some(help),
+            );
+        }
         let known = ["ground", "t", "time", "com", "energy", "shaking", "frame"].into_iter();
         let known = known.chain(self.listed.iter().map(|(name, _)| *name));
         let help = suggest::nearest(head, known).map(|near| {

@@ -188,6 +188,7 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
         }
         findings.extend(run.solved.iter().flat_map(|s| &s.findings).map(|f| Finding { message: of(&f.message), ..f.clone() }));
     }
+    findings.extend(findings_of(first, &runs, &labels));
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
@@ -201,6 +202,29 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
         runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }
+}
+
+/// What a reader should know of the runs, each thing once: what the first run with it says, and how many have it.
+fn findings_of(first: usize, runs: &[Run], labels: &[String]) -> Vec<Finding> {
+    let mut known: Vec<(usize, usize, &Finding)> = Vec::new();
+    for (i, outcome) in runs.iter().enumerate().filter_map(|(i, run)| Some((i, run.result.as_ref().ok()?))) {
+        let mut codes: Vec<&str> = Vec::new();
+        for finding in &outcome.findings {
+            if codes.contains(&&*finding.code) {
+                continue;
+            }
+            codes.push(&finding.code);
+            match known.iter_mut().find(|(.., other)| other.code == finding.code) {
+                Some((_, count, _)) => *count += 1,
+                None => known.push((i, 1, finding)),
+            }
+        }
+    }
+    let told = |(i, count, finding): (usize, usize, &Finding)| {
+        let others = if count == 1 { String::new() } else { format!("in {count} of {} runs, the first of them ", runs.len()) };
+        Finding { message: format!("{others}run {} ({}): {}", first + i + 1, labels[i], finding.message), ..finding.clone() }
+    };
+    known.into_iter().map(told).collect()
 }
 
 /// How the numbers of a table are distributed over its rows, behind the parameters that the sweep gives.

@@ -7,6 +7,7 @@ use super::rotation::orientation;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Mechanism};
+use std::f64::consts::PI;
 
 /// Most by which an exact value may be missed, in parts of it and of 1.
 const EXACT: f64 = 1e-7;
@@ -24,6 +25,28 @@ pub struct Found {
     pub guess: bool,
     /// Unit of both values.
     pub unit: &'static str,
+}
+
+impl Found {
+    /// Whether a position is so far from its guess that another assembly may be meant: a sixth of a turn, or half of the size, m.
+    pub(super) fn is_far(&self, size: f64) -> bool {
+        let off = self.found - self.asked;
+        match self.unit {
+            "rad" => off.sin().atan2(off.cos()).abs() > PI / 3.0,
+            "m" => off.abs() > 0.5 * size,
+            _ => false,
+        }
+    }
+
+    /// That it is far from its guess.
+    pub(super) fn missed(&self) -> String {
+        let (factor, unit) = if self.unit == "rad" { (180.0 / PI, "deg") } else { (1.0, self.unit) };
+        let [asked, found] = [self.asked, self.found].map(|x| short(factor * x));
+        format!(
+            "`{}` was guessed at {asked} {unit} and is {found} {unit} in the assembly that is nearest: another one may be meant",
+            self.name
+        )
+    }
 }
 
 /// Asked and found values.

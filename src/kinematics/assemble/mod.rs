@@ -63,7 +63,10 @@ pub struct Assembled {
 impl Assembled {
     /// What a reader should know of the start.
     pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
-        self.change.iter().map(|change| Finding { code: "change-point".into(), message: change.message(), path: "start".into() })
+        let finding = |code: &'static str, message: String| Finding { code: code.into(), message, path: "start".into() };
+        let change = self.change.iter().map(move |change| finding("change-point", change.message()));
+        let missed = self.found.iter().filter(|found| found.guess && found.is_far(self.size));
+        change.chain(missed.map(move |found| finding("guess-missed", found.missed())))
     }
 }
 

@@ -97,6 +97,7 @@ impl<'n> Decoder<'n> {
             model,
             names,
             listed,
+            removed: names::removed(layers),
             parameters: Vec::new(),
             tables: Vec::new(),
             states: Vec::new(),
@@ -291,11 +292,18 @@ impl<'n> Decoder<'n> {
             self.faults.push(fault);
             return false;
         }
-        if want == Want::Angle
-            && lowered.bare
-            && let Some(x) = self.pool.constant_value(lowered.id)
-            && x.abs() > std::f64::consts::TAU
+        let turns = |x: Option<f64>| x.filter(|x| want == Want::Angle && x.abs() > std::f64::consts::TAU);
+        if let Node::Plain(Value::String(name)) = node
+            && let Some(number) = turns(self.bare_parameter(name.trim_start_matches('~').trim()).and_then(|text| text.parse().ok()))
         {
+            let (place, name) = (self.place(at), name.trim_start_matches('~').trim());
+            self.faults.push(
+                Fault::new("bare-angle", place, format!("`{name}` is {number} rad, more than a turn"), "an angle in rad, or with its unit")
+                    .help(format!("if degrees are meant, write `{name}: {number} deg` in `parameters`"))
+                    .warn(),
+            );
+        }
+        if lowered.bare && turns(self.pool.constant_value(lowered.id)).is_some() {
             let place = self.place(at);
             let text = match node {
                 Node::Plain(Value::Number(n)) => n.to_string(),
@@ -318,14 +326,19 @@ impl<'n> Decoder<'n> {
         unit.then(|| format!("`{word}` directly after a number is the unit; for the parameter write `{number}*{word}`"))
     }
 
+    /// The value of a parameter that is a plain number without a unit, as it is written.
+    fn bare_parameter(&self, name: &str) -> Option<String> {
+        let Some(Entity::Parameter(i)) = self.name_space.names.get(name).copied() else { return None };
+        match self.section("parameters").get(i)?.1 {
+            Node::Plain(Value::Number(n)) => Some(n.to_string()),
+            Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => Some(text.trim().to_owned()),
+            _ => None,
+        }
+    }
+
     /// Where a unit is missing: at the definition of the parameter that a text names, if that is a plain number.
     pub(super) fn unit_missing(&self, text: &str, wanted: Dimension) -> Option<String> {
-        let Some(Entity::Parameter(i)) = self.name_space.names.get(text.trim()).copied() else { return None };
-        let value = match self.section("parameters").get(i)?.1 {
-            Node::Plain(Value::Number(n)) => n.to_string(),
-            Node::Plain(Value::String(text)) if text.trim().parse::<f64>().is_ok() => text.trim().to_owned(),
-            _ => return None,
-        };
+        let value = self.bare_parameter(text.trim())?;
         let written = wanted.written(&value);
         (written != value)
             .then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))

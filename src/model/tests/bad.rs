@@ -149,6 +149,14 @@ fn meaning() {
 }
 
 #[test]
+fn degrees_without_their_unit_are_asked_for_at_parameters_too() {
+    let text = BASE.replacen("  l1: 15 cm", "  l1: 15 cm\n  begin: 97", 1).replacen("O.angle: 0 deg", "O.angle: begin", 1);
+    let report = Document::read(&text, "bad.yaml").unwrap().check_all(&Selection::default());
+    let all: Vec<(&str, Option<&str>)> = report.diagnostics.iter().map(|d| (d.code, d.help.as_deref())).collect();
+    assert_eq!(all, [("bare-angle", Some("if degrees are meant, write `begin: 97 deg` in `parameters`"))], "{report}");
+}
+
+#[test]
 fn a_fault_is_said_once_however_many_studies_meet_it() {
     let text = BASE.replacen("length: l1", "length: l_1", 1);
     let second = text.clone() + "  again:\n    variant: v\n    kinematics: { over: 1 turn, samples: 36 }\n";
@@ -163,6 +171,7 @@ fn what_a_variant_breaks_is_shown_at_the_referrer_with_its_name() {
     let report = Document::read(&text, "bad.yaml").unwrap().check_all(&Selection::default());
     let codes: Vec<&str> = report.diagnostics.iter().map(|d| d.code).collect();
     assert_eq!(codes, ["no-driver", "unknown-name", "unknown-name"], "{report}");
+    assert!(report.diagnostics[1].message.contains("the variant `v` removes `drive` from `drivers`"), "{report}");
     let text =
         BASE.replacen("parameters: { l1: 20 cm }", "joints: { O: null }", 1).replacen("    columns", "    variant: v\n    columns", 1);
     let report = Document::read(&text, "bad.yaml").unwrap().check_all(&Selection::default());

@@ -156,7 +156,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     if lost.gap.is_some() {
                         return Err(lost);
                     }
-                    let Some(q) = standing.or_else(|| self.smooth(t)) else { return Err(lost) };
+                    let Some(q) = standing.or_else(|| self.smooth(t)).or_else(|| self.dead_beside(s)) else { return Err(lost) };
                     self.singular(t, &q);
                     return Ok(false);
                 }
@@ -232,6 +232,31 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         found
     }
 
+    /// As [`Self::row`] at a place where switches were located. One of them may lie beyond the end of its mode by rounding; there |x| is
+    /// below 0, and what is divided by it has the wrong sign. Columns that have a pole there take their values from inside of the mode.
+    pub(crate) fn row_at_switch(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
+        let beyond: Vec<f64> = self.distances(s, piece)?.iter().map(|distance| (-distance.root).max(0.0)).collect();
+        let crossed = beyond.iter().any(|over| *over > 0.0);
+        self.row(s, piece, out)?;
+        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11].into_iter().filter(|_| crossed) {
+            let beside = s + shift * self.clock.length;
+            let Ok(distances) = self.distances(beside, piece) else { continue };
+            if distances.iter().zip(&beyond).all(|(distance, over)| distance.root >= *over) {
+                let mut there = vec![0.0; out.len()];
+                self.row(beside, piece, &mut there)?;
+                // away from a pole it falls, from a zero it grows
+                let falls = |(x, y): (&mut f64, f64)| {
+                    if (*x - y).abs() > 1e-3 * x.abs() && y.abs() <= x.abs() {
+                        *x = y
+                    }
+                };
+                out.iter_mut().zip(there).for_each(falls);
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Looks again where resolved columns have no value.
     ///
     /// # Errors
@@ -245,6 +270,12 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     fn dead_at(&self, s: f64) -> Option<Vec<f64>> {
         let side = self.ends.iter().position(|e| *e == s)?;
         self.path.dead[if self.clock.end() < 0.0 { 1 - side } else { side }].as_ref().map(|d| d.1.clone())
+    }
+
+    /// Coordinates of a dead point next to which Newton's method has no direction any more.
+    fn dead_beside(&self, s: f64) -> Option<Vec<f64>> {
+        let end = self.ends.into_iter().find(|end| (end - s).abs() <= 1e-8 * self.clock.length)?;
+        self.dead_at(end)
     }
 
     /// A singular position: coordinates are known, rates are not defined.

@@ -5,7 +5,7 @@ use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
 use crate::kinematics::undefined::Gap;
 use crate::mechanism::{EffortLaw, Measured, Mechanism, RowOwner};
-use crate::model::{Model, Quantity};
+use crate::model::{Model, Quantity, Study};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
 #[derive(Clone, Debug)]
@@ -104,7 +104,9 @@ impl<G: Space<S = f64>> Observer<G> {
         let program = model.pool.program(ids, parameters, &mechanism.tables);
         let fills: Vec<(usize, Source<G>)> =
             program.inputs().iter().map(|&i| (i as usize, source(mechanism, model.inputs[i as usize]))).collect();
-        let may = |id: &Id| model.study.as_ref().is_some_and(|study| study.undefined.contains(id));
+        // columns that nobody asked for end no study
+        let own = |study: &Study, id: &Id| !study.columns_given && study.columns.iter().any(|column| column.value == *id);
+        let may = |id: &Id| model.study.as_ref().is_some_and(|study| study.undefined.contains(id) || own(study, id));
         Self {
             needs: fills.iter().map(|(_, source)| source.needs()).max().unwrap_or(Needs::Velocities),
             ids: ids.iter().map(|id| (*id, may(id))).collect(),

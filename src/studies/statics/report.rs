@@ -87,6 +87,13 @@ where
         let tables = &self.rest.system.dynamics.mechanism.tables;
         let numbers = Sources { case, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         findings.extend(numbers.findings);
+        let blank =
+            study.columns.iter().zip(&watched.columns).filter(|(column, c)| row[**c].is_nan() && !study.undefined.contains(&column.value));
+        findings.extend(blank.map(|(column, _)| Finding {
+            code: "blank-cells".into(),
+            message: format!("`{}` is not defined at the equilibrium: its cell is blank", column.name),
+            path: study.place.clone(),
+        }));
         let alone = |value: f64| Extremum { value, at: 0.0, piece: 0 };
         let mut shown = Rows::new(watched.columns.len() + watched.shown.len());
         shown.push(watched.columns.iter().chain(&watched.shown).map(|&c| row[c]));
@@ -123,7 +130,10 @@ where
         system.columns(&modes, &mut row);
         match system.observer.undefined(&modes, &row) {
             Some(gap) => Err(Failure::Undefined(gap.explain(self.case.model, self.case.study, "the equilibrium"))),
-            None => Ok(row),
+            None => {
+                row.iter_mut().filter(|x| !x.is_finite()).for_each(|x| *x = f64::NAN);
+                Ok(row)
+            }
         }
     }
 

@@ -1,0 +1,46 @@
+//! What runs find goes into what is said of the sweep.
+
+use grashof::Model;
+
+/// A rocker that turns back within the range: what is divided by its rate has no bound there.
+const POLES: &str = "
+grashof: 1
+name: poles
+space: planar
+gravity: none
+parameters: { l3: 55 cm }
+ground: { O: [0, 0], C: [1 m, 0] }
+bodies:
+  crank: { bar: { length: 15 cm } }
+  coupler: { bar: { length: 1 m } }
+  rocker: { bar: { length: l3 } }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, coupler.start] }
+  B: { revolute: [coupler.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start] }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 90 deg, coupler.angle: ~25 deg, rocker.angle: ~90 deg }
+measures: { advantage: abs(crank.omega)/abs(rocker.omega) }
+studies:
+  turn:
+    kinematics: { over: 1 turn, samples: 48 }
+    columns: [O.angle, advantage]
+    scalars: { most: max(advantage) }
+";
+
+#[test]
+fn findings_of_runs_are_told_once() {
+    let results = Model::parse(POLES).unwrap().study("turn").unwrap().over("l3", "50 cm, 55 cm, 60 cm").run().unwrap();
+    let told: Vec<&str> = results.findings.iter().filter(|f| f.code == "unresolved").map(|f| &*f.message).collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("in 3 of 3 runs, the first of them run 1 (l3 = 0.5 m): column `advantage` varies too fast"), "{}", told[0]);
+}
+
+#[test]
+fn an_absolute_value_is_not_below_zero_where_its_switch_is() {
+    let results = Model::parse(POLES).unwrap().study("turn").unwrap().run().unwrap();
+    let values = results.column("advantage").unwrap();
+    assert!(values.iter().all(|x| *x > 0.0), "{values:?}");
+    assert!(values.iter().any(|x| *x > 1e9));
+}
