@@ -1,8 +1,9 @@
 //! A model file in memory, and the models that can be made of it.
 
+use super::asked::{Asked, Caller};
 use super::data::DataFiles;
 use super::diagnostics::{Diagnostic, Report};
-use super::fault::{Fault, Spot};
+use super::fault::Fault;
 use super::files::Files;
 use super::include;
 use super::included::{Included, find};
@@ -32,6 +33,8 @@ pub struct Selection<'a> {
     pub samples: Option<Samples>,
     /// Functions from outside that expressions may call.
     pub externals: Arc<[ExternalFunction]>,
+    /// Who asks.
+    pub caller: Caller,
 }
 
 /// A model file.
@@ -179,13 +182,11 @@ impl Document {
         report(&self.file, &self.text, faults, &self.included)
     }
 
-    pub(super) fn unknown_study(&self, name: &str) -> Fault {
+    pub(super) fn unknown_study(&self, name: &str, caller: Caller) -> Fault {
         let known = self.study_names();
         let help = suggest::help(name, known.iter().map(String::as_str));
-        let shown = format!("--study {name}");
-        let start = shown.len() - name.len();
         Fault::new("unknown-study", String::new(), format!("unknown study `{name}`"), "a study of this file")
             .maybe_help(help)
-            .at(Spot::Outside(shown.clone(), start..shown.len()))
+            .at(caller.given(Asked::Study, name).end(name.len()))
     }
 }

@@ -1,5 +1,6 @@
 //! A finding before its place is looked up: reading is fast because positions are sought only for what is wrong.
 
+use super::asked::Given;
 use super::diagnostics::{Diagnostic, Excerpt, Severity};
 use super::spans::{Spans, Step};
 use std::ops::Range;
@@ -19,8 +20,8 @@ pub(crate) enum Spot {
     Bytes(Range<usize>),
     /// The file as a whole.
     Nowhere,
-    /// Bytes of a text given from outside, on the command line.
-    Outside(String, Range<usize>),
+    /// Bytes of a text given from outside, by an option or in a call.
+    Outside(Given, Range<usize>),
 }
 
 /// A finding with the path of its place.
@@ -79,7 +80,7 @@ impl Fault {
     /// Looks the place up.
     pub(crate) fn diagnostic(&self, file: &str, text: &str, spans: &Spans) -> Diagnostic {
         let (file, at) = match &self.spot {
-            Spot::Outside(source, range) => ("command line", Some(excerpt(source, range.clone()))),
+            Spot::Outside(given, range) => (given.source, Some(excerpt(&given.text, range.clone()))),
             Spot::Nowhere => (file, None),
             Spot::Bytes(range) => (file, Some(excerpt(text, range.clone()))),
             Spot::Value => (file, spans.value(&self.place).map(|range| excerpt(text, range))),

@@ -11,6 +11,7 @@ mod plot;
 mod rows;
 pub mod scene;
 mod statistics;
+mod swept;
 mod table;
 mod unknown;
 
@@ -25,6 +26,7 @@ pub use plot::{Plot, PlotAxis, PlotBeside, PlotRight};
 pub use rows::{Rows, Sink};
 pub use scene::Scene;
 pub use statistics::{PERCENTAGES, Part, Statistics};
+pub use swept::{Family, Swept, SweptBy};
 pub use table::{Column, ShownIn, Table};
 pub use unknown::Unknown;
 
@@ -79,6 +81,9 @@ pub struct Results {
     pub plots: Vec<Plot>,
     /// How the numbers of a sweep whose values are drawn are distributed over its runs.
     pub statistics: Vec<Statistics>,
+    /// The parameters of a sweep.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swept: Vec<Swept>,
     /// The runs of a sweep.
     pub runs: Vec<Run>,
 }
