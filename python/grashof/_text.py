@@ -6,11 +6,12 @@ import json
 import math
 import numbers
 import os
-from typing import Any, Iterator, List, Mapping, NamedTuple, Sequence, Tuple, Union
+from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _grashof
+from .errors import ModelError
 
 #: A value of a parameter: text as in a model file (``"60 cm"``, ``"l1/2"``), a number in SI, or a quantity of pint.
 Value = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Any]
@@ -61,9 +62,10 @@ def axes(over: Mapping[Any, Any]) -> List[Tuple[str, str]]:
 
 def _points(names: Sequence[str], points: Any) -> str:
     rows = _some(_each(points), ", ".join(names))
-    for row in rows:
+    for place, row in enumerate(rows):
         if isinstance(row, str) or not hasattr(row, "__len__") or len(row) != len(names):
-            raise ValueError(f"`{', '.join(names)}`: a point has {len(names)} values, one for each parameter, and is not {row!r}")
+            help = f"give a row for each point, with {len(names)} values: of {', '.join(f'`{name}`' for name in names)}"
+            raise ModelError(f"point {place} is {row!r}; {help}", code="uneven-points", help=help)
     return (", " if len(names) == 1 else "; ").join(",".join(map(value, row, names)) for row in rows)
 
 
@@ -73,7 +75,9 @@ def _each(x: Any) -> List[Any]:
         x = x.to_numpy()
     if isinstance(x, np.ndarray):
         return list(np.atleast_1d(x).tolist())
-    return list(x) if isinstance(x, Iterator) or hasattr(x, "__iter__") and np.ndim(x) > 0 else [x]
+    # a quantity of pint has an iterator, also where it is a single one
+    single = isinstance(x, str) or not hasattr(x, "__iter__") or np.ndim(getattr(x, "magnitude", [])) == 0
+    return [x] if single else list(x)
 
 
 def _some(found: List[Any], name: str) -> List[Any]:

@@ -93,7 +93,9 @@ def _draw(ax: matplotlib.axes.Axes, figure: Dict[str, Any], unit: Optional[str],
         ax.set_title(figure["title"], loc="left", color=INK, fontsize="medium")
     if len(curves) > MOST_NAMED:
         note = f"{len(curves)} curves, from {pretty(curves[0][0])} to {pretty(curves[-1][0])}"
-        ax.annotate(note, (1.0, 1.0), (0, -4), "axes fraction", "offset points", ha="right", va="top", color=GREY, fontsize="small")
+        # on the curves, which may be anywhere
+        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 1.0}
+        ax.annotate(note, (1.0, 1.0), (-4, -4), "axes fraction", "offset points", ha="right", va="top", color=INK, fontsize="small", bbox=box)
     elif len(curves) > 1:
         ax.legend(frameon=False)
     if figure["equal"]:

@@ -41,8 +41,9 @@ def test_no_values_and_points_of_the_wrong_length() -> None:
         with pytest.raises(ValueError, match="no values for `length`"):
             model.sweep("swing", over={"length": nothing})
     for points in ([0.5, 1.0], [[0.5], [1.0]], [[0.5, 1.0, 2.0]]):
-        with pytest.raises(ValueError, match="a point has 2 values"):
+        with pytest.raises(grashof.ModelError, match="a row for each point, with 2 values: of `length`, `push`") as uneven:
             model.sweep("swing", over={("length", "push"): points})
+        assert uneven.value.code == "uneven-points"
     with pytest.raises(TypeError, match="`length`"):
         model.sweep("swing", over={"length": [True]})
     assert len(model.sweep("swing", over={"length": (x for x in (0.5, 1.0))})) == 2
