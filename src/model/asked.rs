@@ -1,7 +1,6 @@
 //! The words in which messages speak of what is asked for from outside of a file.
 
-use super::fault::Spot;
-use std::ops::Range;
+use super::fault::Given;
 
 /// Who asks for a model: messages speak of what it gave as it did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,32 +23,6 @@ pub(crate) enum Asked {
     Variant,
     /// A study.
     Study,
-}
-
-/// A text that was given from outside, as messages show it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Given {
-    /// What stands in the place of the name of a file.
-    pub(crate) source: &'static str,
-    /// The text.
-    pub(crate) text: String,
-}
-
-impl Given {
-    /// Bytes of it.
-    pub(crate) fn spot(&self, part: Range<usize>) -> Spot {
-        Spot::Outside(self.clone(), part)
-    }
-
-    /// All of it.
-    pub(crate) fn whole(&self) -> Spot {
-        self.spot(0..self.text.len())
-    }
-
-    /// Its last bytes.
-    pub(crate) fn end(&self, length: usize) -> Spot {
-        self.spot(self.text.len() - length..self.text.len())
-    }
 }
 
 impl Caller {

@@ -1,6 +1,5 @@
 //! A finding before its place is looked up: reading is fast because positions are sought only for what is wrong.
 
-use super::asked::Given;
 use super::diagnostics::{Diagnostic, Excerpt, Severity};
 use super::spans::{Spans, Step};
 use std::ops::Range;
@@ -22,6 +21,32 @@ pub(crate) enum Spot {
     Nowhere,
     /// Bytes of a text given from outside, by an option or in a call.
     Outside(Given, Range<usize>),
+}
+
+/// A text that was given from outside, as messages show it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Given {
+    /// What stands in the place of the name of a file.
+    pub(crate) source: &'static str,
+    /// The text.
+    pub(crate) text: String,
+}
+
+impl Given {
+    /// Bytes of it.
+    pub(crate) fn spot(&self, part: Range<usize>) -> Spot {
+        Spot::Outside(self.clone(), part)
+    }
+
+    /// All of it.
+    pub(crate) fn whole(&self) -> Spot {
+        self.spot(0..self.text.len())
+    }
+
+    /// Its last bytes.
+    pub(crate) fn end(&self, length: usize) -> Spot {
+        self.spot(self.text.len() - length..self.text.len())
+    }
 }
 
 /// A finding with the path of its place.

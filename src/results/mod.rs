@@ -241,6 +241,14 @@ impl Results {
         found.ok_or_else(|| Unknown { what: "scalar", name: name.into(), known: known() })
     }
 
+    /// The runs of a sweep as curves over a column of its table, by default the first parameter: one for each combination of the other
+    /// parameters. With them, whether there are points alone and no lines between them, since values are drawn or come from a list
+    /// of points.
+    #[must_use]
+    pub fn families(&self, over: Option<&str>) -> (Vec<Family>, bool) {
+        swept::families(&self.table, &self.swept, over)
+    }
+
     /// The values of a list by its name, if the kind gives it.
     #[must_use]
     pub fn list(&self, name: &str) -> Option<&[f64]> {

@@ -1,9 +1,8 @@
 //! A model on its way from the file, and what all parts of the decoder do.
 
 use crate::expression::{self, Dimension, Expr, ExternalFunction, Id, Lowered, Pool, SyntaxError};
-use crate::model::asked::Given;
 use crate::model::entities::Dimensions;
-use crate::model::fault::{At, Fault, Spot};
+use crate::model::fault::{At, Fault, Given, Spot};
 use crate::model::fields::Want;
 use crate::model::keys::Entry;
 use crate::model::merge::{Layers, Node};

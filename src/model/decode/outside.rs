@@ -3,9 +3,9 @@
 use super::decoder::{Decoder, Origin};
 use super::written::unit_of;
 use crate::expression::{Dimension, Id, Lowered};
-use crate::model::asked::{Asked, Caller, Given};
+use crate::model::asked::{Asked, Caller};
 use crate::model::data::DataFiles;
-use crate::model::fault::{At, Spot};
+use crate::model::fault::{At, Given, Spot};
 use crate::model::fields::MOST_RUNS;
 use crate::model::figure::{Plot, ShownWhat};
 use crate::model::rules::Rule;

@@ -9,7 +9,7 @@ pub(super) fn unit_of(text: &str) -> Option<(String, f64)> {
     let first = first.split("..").next().unwrap_or_default();
     let inner = ["normal(", "uniform("].into_iter().find_map(|word| first.trim_start().strip_prefix(word));
     let first = inner.unwrap_or(first).trim();
-    let is_number = |end: &usize| first.is_char_boundary(*end) && first[..*end].trim_end().parse::<f64>().is_ok();
+    let is_number = |end: &usize| first.is_char_boundary(*end) && first[..*end].trim_end().parse::<f64>().is_ok_and(f64::is_finite);
     let unit = first[(1..=first.len()).rev().find(is_number)?..].trim();
     parse_unit(unit).map(|(size, _)| (unit.to_owned(), size))
 }
