@@ -19,7 +19,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("mechanism", &["geometry", "scalar"]),
     ("dynamics", &["mechanism", "geometry", "scalar"]),
     ("numerics", &[]),
-    ("results", &["mechanism::BuildFault", "model::WORKS", "numerics::extremum", "numerics::resolve::Resolution"]),
+    ("results", &["mechanism::BuildFault", "model::WORKS", "expression::nearest", "numerics::extremum", "numerics::resolve::Resolution"]),
     ("kinematics", &["numerics", "dynamics", "mechanism", "geometry", "scalar", "expression", "model", "results"]),
     ("studies", &["numerics", "kinematics", "dynamics", "mechanism", "geometry", "scalar", "expression", "model", "results", "par"]),
     ("output", &["results", "par"]),

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _optional
+
 if TYPE_CHECKING:
     import pandas
     import xarray
@@ -16,10 +18,9 @@ if TYPE_CHECKING:
 
 def frame(results: Results | SweepTable, copy: bool) -> pandas.DataFrame:
     """The table as a frame."""
-    import pandas
-
-    index = None if results.reasons else pandas.Index(results.independent, name=results.independent_name or None)
-    made = pandas.DataFrame(results.table, index=index, columns=results.columns, copy=copy)
+    library = _optional.package("pandas", "frames are made")
+    index = None if results.reasons else library.Index(results.independent, name=results.independent_name or None)
+    made: pandas.DataFrame = library.DataFrame(results.table, index=index, columns=results.columns, copy=copy)
     if results.reasons:
         made.index.name = "run"
         made["reason"] = results.reasons
@@ -29,8 +30,7 @@ def frame(results: Results | SweepTable, copy: bool) -> pandas.DataFrame:
 
 def dataset(results: Results | SweepTable) -> xarray.Dataset:
     """The table as a data set."""
-    import xarray
-
+    library = _optional.package("xarray", "data sets are made")
     reasons = results.reasons
     sweep = bool(reasons)
     axis = "run" if sweep else results.independent_name or "row"
@@ -41,7 +41,7 @@ def dataset(results: Results | SweepTable) -> xarray.Dataset:
     # a column that is the independent variable itself is the coordinate
     columns = {name: (axis, results[name], attributes(name)) for name in results.columns if name != axis}
     at = np.arange(len(results)) if sweep else results.independent
-    made = xarray.Dataset(columns, coords={axis: (axis, at, {"units": results.units.get(axis, "")})})
+    made: xarray.Dataset = library.Dataset(columns, coords={axis: (axis, at, {"units": results.units.get(axis, "")})})
     if sweep:
         made["reason"] = (axis, reasons)
     made.attrs["study"] = results.study
@@ -50,7 +50,6 @@ def dataset(results: Results | SweepTable) -> xarray.Dataset:
 
 def quantity(results: Results | SweepTable, name: str, registry: Any) -> Any:
     """A column with its unit."""
-    import pint
-
-    registry = registry or pint.get_application_registry()
+    library = _optional.package("pint", "quantities are made")
+    registry = registry or library.get_application_registry()
     return registry.Quantity(results[name], results.units[name] or "dimensionless")

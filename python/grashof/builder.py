@@ -22,7 +22,10 @@ class Model:
     >>> model.joints["P"] = {"revolute": ["ground", "rod.start"]}
     >>> model.save("pendulum.yaml")
 
-    Nothing is checked before :meth:`Model.load`, which says what is wrong and which keys there are.
+    Nothing is checked here, nor by :meth:`Model.load`. What is wrong with it, with the keys that there are, is told by
+    :meth:`LoadedModel.check` of the loaded model, and by an exception when something is asked of it.
+
+    >>> model.load().check()                # an empty list if nothing is wrong
     """
 
     _sections: Dict[str, Any]
@@ -66,7 +69,7 @@ class Model:
             file.write(self.to_yaml())
 
     def load(self) -> LoadedModel:
-        """The model, to check and run; raises :class:`ModelError` if it is none."""
+        """The model, to check and run; :meth:`LoadedModel.check` tells what is wrong with it."""
         from .model import parse
 
         return parse(self.to_yaml(), self.functions)

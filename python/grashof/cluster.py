@@ -8,7 +8,7 @@ import time
 from contextlib import contextmanager
 from typing import Any, Dict, Iterator, NamedTuple, Optional, Tuple
 
-from . import _grashof
+from . import _grashof, _optional
 from .errors import Refused
 from .functions import Function, described
 
@@ -62,12 +62,7 @@ def ray() -> Any:
     # it is to be quiet, unless somebody has said otherwise
     for name, value in {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}.items():
         os.environ.setdefault(name, value)
-    try:
-        import ray
-    except ImportError:
-        message = "sweeps on many machines go by the package `ray`, which is not installed; pip install ray"
-        raise Refused(message, code="no-package", help="pip install ray") from None
-    return ray
+    return _optional.package("ray", "sweeps on many machines go")
 
 
 @contextmanager

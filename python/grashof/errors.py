@@ -22,7 +22,7 @@ class Fault(NamedTuple):
     help: str
     #: Path of keys in the file: ``joints.O.revolute[1]``; empty if there is none.
     place: str
-    #: Name of the file.
+    #: Name of the file; of what is given in a call the name of its argument, as ``values`` or ``over``; ``<text>`` of a model in code.
     file: str
     #: Line, counted from 1; 0 if there is no place.
     line: int

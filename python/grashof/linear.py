@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, List, Mapping, Sequence
 
 import numpy as np
 
+from . import _optional
+
 if TYPE_CHECKING:
     import control
     import scipy.signal
@@ -17,7 +19,12 @@ __all__ = ["Linear"]
 
 
 class Linear:
-    """A linear system of small deviations from a state: ẋ = A x + B u, y = C x + D u, and M ü + C u̇ + K u = 0 of mechanics."""
+    """A linear system of small deviations from a state: ẋ = A x + B u, y = C x + D u, and M ü + C u̇ + K u = 0 of mechanics.
+
+    ``states``, ``inputs``, ``outputs`` and ``coordinates`` are the names of x, u, y and of the independent coordinates; ``x``,
+    ``rates``, ``u`` and ``y`` the values of x, ẋ, u and y in the state; ``A``, ``B``, ``C``, ``D``, ``mass``, ``damping`` and
+    ``stiffness`` the matrices.
+    """
 
     def __init__(self, facts: Mapping[str, Any]) -> None:
         #: Names of x.
@@ -38,6 +45,13 @@ class Linear:
         self.u: Array = u
         #: Values of y in the state, SI.
         self.y: Array = y
+
+    def __repr__(self) -> str:
+        sizes = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
+        parts = [("states x", self.states), ("inputs u", self.inputs), ("outputs y", self.outputs)]
+        matrices = ", ".join(f"{name} {' × '.join(map(str, getattr(self, name).shape))}" for name in "ABCD")
+        lines = [f"  {what}: {', '.join(names) or 'none'}" for what, names in parts]
+        return "\n".join([f"<linear system with {sizes}>", *lines, f"  {matrices}"])
 
     def _matrix(self, name: str, rows: Sequence[str], columns: Sequence[str]) -> Array:
         return self._matrices[name].reshape(len(rows), len(columns))
@@ -79,14 +93,14 @@ class Linear:
 
     def to_control(self) -> control.StateSpace:
         """As a system of python-control, with its names, in which points are not allowed: ``P_angle``."""
-        import control
-
+        library = _optional.package("control", "systems of python-control are made")
         named = {"states": self.states, "inputs": self.inputs, "outputs": self.outputs}
         plain = {what: [name.replace(".", "_") for name in names] for what, names in named.items()}
-        return control.ss(self.A, self.B, self.C, self.D, **plain)
+        made: control.StateSpace = library.ss(self.A, self.B, self.C, self.D, **plain)
+        return made
 
     def to_scipy(self) -> scipy.signal.StateSpace:
         """As a system of SciPy."""
-        import scipy.signal
-
-        return scipy.signal.StateSpace(self.A, self.B, self.C, self.D)
+        library = _optional.package("scipy.signal", "systems of SciPy are made")
+        made: scipy.signal.StateSpace = library.StateSpace(self.A, self.B, self.C, self.D)
+        return made

@@ -10,7 +10,7 @@ from . import functions as _functions
 from .builder import Model
 from .compared import Compared
 from .dynamics import Dynamics
-from .errors import Fault, Refused
+from .errors import Fault, ModelError, Refused
 from .functions import Function, Functions
 from .page import Page
 from .results import Results
@@ -27,18 +27,26 @@ def load(source: Union[_text.Path, Mapping[str, Any], Model], functions: Optiona
     """Reads a model: the path of a file, with what it includes; or a mechanism in code, as a mapping with the keys of a file.
     ``functions`` are functions of Python that its expressions may call, by their names there.
 
-    Raises :class:`ModelError` if it cannot be read or is no model. What is wrong with the mechanism or a study is told by
-    :meth:`LoadedModel.check`, and when these are asked for.
+    Nothing is checked but the form of the file: raises :class:`ModelError` if it cannot be read or is no YAML. What is wrong with the
+    mechanism, a key or a study is told by :meth:`LoadedModel.check`, and by an exception when these are asked for.
+
+    >>> model = grashof.load("crank_rocker.yaml")
+    >>> model.check()                       # an empty list if nothing is wrong
     """
     if isinstance(source, Model):
         return source.load() if functions is None else source.load().with_functions(functions)
     if isinstance(source, Mapping):
         return parse(_text.text(source), functions)
-    return _with(_grashof.load(os.fspath(source)), functions)
+    path = os.fspath(source)
+    if "\n" in path:
+        help = "read it by `grashof.parse`"
+        raise ModelError(f"this looks like the text of a model, and not like the path of a file; {help}", code="unreadable", help=help)
+    return _with(_grashof.load(path), functions)
 
 
 def parse(text: str, functions: Optional[Functions] = None) -> LoadedModel:
-    """A model that stands in a text and includes no files; raises :class:`ModelError` if it is none. ``functions`` as of :func:`load`."""
+    """A model that stands in a text and includes no files; raises :class:`ModelError` if that is no YAML, and checks no more, as
+    :func:`load`. ``functions`` as there."""
     return _with(_grashof.parse(text), functions)
 
 
@@ -296,20 +304,21 @@ class LoadedModel:
     def compare(
         self,
         study: str,
-        integrators: Sequence[str],
-        tolerances: Optional[Sequence[float]] = None,
+        integrators: Union[str, Sequence[str]],
+        tolerances: Union[float, Sequence[float], None] = None,
         *,
-        steps: Optional[Sequence[float]] = None,
+        steps: Union[float, Sequence[float], None] = None,
     ) -> Compared:
         """Computes a motion in time by several integrators, at several tolerances or with fixed steps of several sizes, s: errors,
-        times and counts of each.
+        times and counts of each. One integrator, tolerance or step may stand without a list.
 
         >>> m.compare("start-up", integrators=["dop853", "radau5"], tolerances=[1e-6, 1e-9]).to_pandas()
         """
         if (tolerances is None) == (steps is None):
             raise TypeError("give either `tolerances` or `steps`")
-        sizes = [float(size) for size in (tolerances if steps is None else steps) or ()]
-        return Compared(self._core.compare(study, list(integrators), sizes, steps is not None))
+        sizes = _text.sizes(tolerances, "tolerances") if steps is None else _text.sizes(steps, "steps")
+        names = [integrators] if isinstance(integrators, str) else list(integrators)
+        return Compared(self._core.compare(study, names, sizes, steps is not None))
 
     def dynamics(self) -> Dynamics:
         """The equations of motion of the mechanism, assembled at its start."""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
+
+from . import _optional
+from .errors import Refused, StudyError
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -12,6 +16,8 @@ if TYPE_CHECKING:
 
     from .results import Results
 
+#: Curves of a legend at most.
+MOST_NAMED = 12
 #: Panels of one figure at most; curves of more units share one.
 MOST_PANELS = 3
 #: Widths of lines in the program's figures, pixels, and here, points.
@@ -22,15 +28,14 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 def plot(results: Results, names: Sequence[str], over: Optional[str]) -> matplotlib.figure.Figure:
     """Figures of a study, or one of columns."""
-    import matplotlib.pyplot as plt
-
-    from .errors import Refused
-
+    _tell_failed(results)
+    plt = _optional.package("matplotlib.pyplot", "figures are drawn")
     figures = results._core.figures(list(names), over)
     if not figures:
         help = f"name columns: {', '.join(results.columns)}"
         raise Refused(f"study `{results.study}` has no figures; {help}", code="refused", help=help)
     rows = [(figure, unit, curves) for figure in figures for unit, curves in _panels(figure)]
+    drawn: matplotlib.figure.Figure
     drawn, axes = plt.subplots(len(rows), 1, squeeze=False, figsize=(8.0, 1.8 + 3.0 * len(rows)), layout="constrained")
     above: Any = None
     for place, ((figure, unit, curves), ax) in enumerate(zip(rows, axes[:, 0])):
@@ -46,6 +51,19 @@ def plot(results: Results, names: Sequence[str], over: Optional[str]) -> matplot
             above.set_xlabel("")
         above = ax
     return drawn
+
+
+def _tell_failed(results: Results) -> None:
+    """Warns of runs of a sweep that are not whole; raises :class:`StudyError` if none of them has anything to show."""
+    failed = [index for index, reason in enumerate(results.reasons) if reason]
+    if not failed:
+        return
+    first = f"{results.runs.label(failed[0])}: {results.reasons[failed[0]].splitlines()[0]}"
+    if next(results.runs.whole(), None) is None:
+        raise StudyError(f"none of the {len(results.runs)} runs of study `{results.study}` began; the first, {first}", code="run-stopped")
+    verb = "is" if len(failed) == 1 else "are"
+    # of the line that asks for the figure
+    warnings.warn(f"{len(failed)} of {len(results.runs)} runs {verb} not whole; the first, {first}", stacklevel=4)
 
 
 def _panels(figure: Dict[str, Any]) -> List[Tuple[Optional[str], List[Any]]]:
@@ -73,7 +91,12 @@ def _draw(ax: matplotlib.axes.Axes, figure: Dict[str, Any], unit: Optional[str],
     ax.set_xlabel(_axis(*figure["x"]), color=INK)
     if title:
         ax.set_title(figure["title"], loc="left", color=INK, fontsize="medium")
-    if len(curves) > 1:
+    if len(curves) > MOST_NAMED:
+        note = f"{len(curves)} curves, from {pretty(curves[0][0])} to {pretty(curves[-1][0])}"
+        # on the curves, which may be anywhere
+        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 1.0}
+        ax.annotate(note, (1.0, 1.0), (-4, -4), "axes fraction", "offset points", ha="right", va="top", color=INK, fontsize="small", bbox=box)
+    elif len(curves) > 1:
         ax.legend(frameon=False)
     if figure["equal"]:
         ax.set_aspect("equal", adjustable="datalim")

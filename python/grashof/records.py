@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Dict, Mapping, NamedTuple, Sequence
 
+from . import _grashof
 from .errors import UnknownName
 
 __all__ = ["Checked", "Event", "Extreme", "Extremes", "Finding", "Part", "Solution", "Statistics"]
@@ -101,7 +102,8 @@ class Statistics(NamedTuple):
     most: float
     #: By percentage: 5, 25, 50, 75, 95.
     percentiles: Dict[int, float]
-    #: By parameter; empty where there are too few runs, or other parameters vary as well.
+    #: By parameter; empty where there are too few runs, other parameters vary as well, or the deviation is round-off, below 1e-12 of
+    #: the mean.
     parts: Dict[str, Part]
 
 
@@ -118,9 +120,8 @@ class Named(Dict[str, Any]):
 
 def unknown(what: str, name: object, known: Sequence[str]) -> UnknownName:
     """There is nothing of a name."""
-    listed = ", ".join(f"`{each}`" for each in known)
-    there = f"there are {listed}" if known else "there is none"
-    return UnknownName(f"there is no {what} `{name}`: {there}", code="unknown", help=there)
+    there = _grashof.there_are(str(name), list(known))
+    return UnknownName(f"there is no {what} `{name}`; {there}", code="unknown", help=there)
 
 
 def statistics_of(facts: Mapping[str, Any]) -> Statistics:

@@ -254,6 +254,10 @@ class Results:
 
         Columns of different units stand in panels of their own. ``over`` is a column for the horizontal axis, in place of the
         independent variable; of a sweep it may be a swept parameter.
+
+        Of a sweep columns have a curve for each run; numbers of whole runs have one for each combination of the other parameters over the
+        first, or over that named by ``over``, and points alone where values are drawn or come from a list of points. Runs that are not
+        whole are told by a warning; raises :class:`StudyError` if none began.
         """
         from .plotting import plot
 

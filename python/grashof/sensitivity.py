@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from . import _grashof, _text
+from . import _grashof, _optional, _text
 from .errors import Refused
 from .records import Named
 
@@ -20,6 +20,8 @@ __all__ = ["Index", "Sensitivity"]
 
 #: The least chance that a point has in a parameter; the greatest is as far from 1.
 LEAST = 2.0**-33
+#: Deviations below this part of the mean are round-off.
+ROUND_OFF = 1e-12
 
 
 class Index(NamedTuple):
@@ -47,7 +49,7 @@ class Sensitivity:
         self.results = results
 
     def __getitem__(self, scalar: str) -> Dict[str, Index]:
-        """The indices of a scalar, by parameters; NaN where a run has no value, or all have the same."""
+        """The indices of a scalar, by parameters; NaN where a run has no value, or all have the same to 12 digits."""
         return self._indices[scalar]
 
     def __iter__(self) -> Any:
@@ -66,11 +68,10 @@ class Sensitivity:
 
     def to_pandas(self) -> pandas.DataFrame:
         """A frame with a row for each scalar and parameter."""
-        import pandas
-
+        library = _optional.package("pandas", "frames are made")
         rows = {(scalar, name): index._asdict() for scalar, of in self._indices.items() for name, index in of.items()}
-        made = pandas.DataFrame.from_dict(rows, orient="index")
-        made.index = pandas.MultiIndex.from_tuples(list(rows), names=["scalar", "parameter"])
+        made: pandas.DataFrame = library.DataFrame.from_dict(rows, orient="index")
+        made.index = library.MultiIndex.from_tuples(list(rows), names=["scalar", "parameter"])
         return made
 
 
@@ -90,7 +91,7 @@ def indices(results: Union[Results, SweepTable], names: Sequence[str], seed: int
     none = Index(np.nan, np.nan, np.nan, np.nan)
 
     def of(values: Any) -> Dict[str, Index]:
-        if not np.all(np.isfinite(values)) or np.ptp(values) == 0:
+        if not np.all(np.isfinite(values)) or np.std(values) <= ROUND_OFF * abs(np.mean(values)):
             return dict.fromkeys(names, none)
         found: Mapping[str, Any] = analyze.analyze(
             _problem(names), np.array(values), calc_second_order=False, conf_level=confidence, seed=seed
@@ -109,10 +110,4 @@ def _problem(names: Sequence[str]) -> Dict[str, Any]:
 
 def _salib(part: str) -> Any:
     """Saltelli's design, or its analysis."""
-    import importlib
-
-    try:
-        return importlib.import_module(f"SALib.{part}.sobol")
-    except ImportError:
-        message = "Sobol's indices are computed by the package `SALib`, which is not installed; pip install SALib"
-        raise Refused(message, code="no-package", help="pip install SALib") from None
+    return _optional.package(f"SALib.{part}.sobol", "Sobol's indices are computed")

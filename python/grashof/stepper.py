@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Dict, NamedTuple
 import numpy as np
 
 from . import _grashof
+from .records import unknown
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -77,8 +78,5 @@ class Stepper:
         """A column of the study in the present state, SI."""
         columns = self.columns
         if name not in columns:
-            from .errors import UnknownName
-
-            known = ", ".join(f"`{each}`" for each in columns)
-            raise UnknownName(f"there is no column `{name}`; there are {known}", code="unknown", help=f"there are {known}")
+            raise unknown("column", name, list(columns))
         return columns[name]

@@ -33,12 +33,23 @@ fn asked(results: &Results, names: &[String], over: Option<String>) -> Result<Ve
     let of_runs = results.table.reasons.is_some() && names.iter().chain(&over).all(|name| in_table(name));
     for name in names.iter().chain(&over) {
         if !in_table(name) && results.column(name).is_err() && !in_runs(name) {
-            let columns = results.table.columns.iter().map(|column| &column.name);
-            let known = results.plots.iter().map(|plot| &plot.name).chain(columns).cloned().collect();
-            return Err(Unknown { what: "figure or column", name: name.clone(), known });
+            return Err(Unknown { what: "figure or column", name: name.clone(), known: known(results) });
         }
     }
     Ok(vec![Plot { name: names.join(", "), show: names.to_vec(), over, of_runs, ..Plot::default() }])
+}
+
+/// Names of the figures and columns, of a sweep also the columns of its runs.
+fn known(results: &Results) -> Vec<String> {
+    let of_run = results.runs.iter().find_map(|run| run.results.as_ref()).map_or(&[][..], |run| &run.table.columns);
+    let columns = results.table.columns.iter().chain(of_run).map(|column| &column.name);
+    let mut known: Vec<String> = Vec::new();
+    for name in results.plots.iter().map(|plot| &plot.name).chain(columns) {
+        if !known.contains(name) {
+            known.push(name.clone());
+        }
+    }
+    known
 }
 
 /// A figure as a dictionary, its curves as arrays.

@@ -2,6 +2,7 @@
 
 use grashof::Error;
 use grashof::model::{Diagnostic, Report, Severity};
+use grashof::results::Unknown;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -53,6 +54,12 @@ fn exception(
     named.set_item("faults", faults(py, report)?)?;
     let class = py.import("grashof.errors")?.getattr(class)?;
     Ok(PyErr::from_value(class.call((message,), Some(&named))?))
+}
+
+/// What is said of a name that there is not among those that there are.
+#[pyfunction]
+pub(crate) fn there_are(name: &str, known: Vec<String>) -> String {
+    Unknown { what: "name", name: name.into(), known }.help()
 }
 
 /// The findings of a report as objects of the class `Fault`.

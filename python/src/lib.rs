@@ -22,6 +22,8 @@ mod _grashof {
     #[pymodule_export]
     use crate::dynamics::Dynamics;
     #[pymodule_export]
+    use crate::errors::there_are;
+    #[pymodule_export]
     use crate::model::{Model, load, parse, unpack, yaml};
     #[pymodule_export]
     use crate::results::Results;

@@ -39,6 +39,10 @@ def test_a_linear_system() -> None:
     assert np.allclose(linear.C, [[1, 0]]) and np.allclose(linear.D, [[0]])
     assert np.allclose(linear.mass, [[inertia]])
     assert (linear.inputs, linear.outputs) == (["push"], ["P.angle"])
+    shown = repr(linear)
+    assert "2 states, 1 inputs, 1 outputs" in shown and "states x: P.angle, P.omega" in shown and "inputs u: push" in shown
+    assert "A 2 × 2, B 2 × 1, C 1 × 2, D 1 × 1" in shown
+    assert all(f"``{name}``" in str(grashof.Linear.__doc__) for name in ("states", "inputs", "outputs", "A", "mass", "rates"))
     scipy: Any = linear.to_scipy()
     assert np.array_equal(np.asarray(scipy.A), linear.A)
     control: Any = linear.to_control()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from common import CRANK_ROCKER
@@ -46,6 +48,14 @@ def test_values_are_drawn_from_distributions() -> None:
     assert wrong.value.code == "missing-samples"
 
 
+def test_what_round_off_alone_makes_vary_has_no_shares() -> None:
+    model = grashof.load(CRANK_ROCKER)
+    over: dict[str, Any] = {"l3": grashof.normal("55 cm", "1 mm"), "load_max": grashof.uniform(2900, 3100)}
+    model, name = model.with_study("weight", {"inverse": {"over": "1 turn", "samples": 36}, "scalars": {"weight": "1 + 1e-15*sin(1e5*l3/(1 m))"}})
+    weight = model.sweep(name, over=over, samples=32).statistics["weight"]
+    assert 0 <= weight.deviation < 1e-12 and weight.parts == {}
+
+
 def test_workers_do_not_change_bits() -> None:
     model = grashof.load(CRANK_ROCKER)
     sweeps = [model.sweep("one-turn", over={"l3": "0.5..0.6:3"}, workers=workers) for workers in (1, 2)]
@@ -78,5 +88,10 @@ def test_compare() -> None:
     ]
     assert all(row.error < 1e-3 for row in compared.rows)
     assert list(compared.to_pandas()["tolerance"]) == [1e-6, 1e-8, 1e-6, 1e-8]
+    frame = compared.to_pandas()
+    assert (frame.attrs["units"]["time"], frame.attrs["units"]["energy"], frame.attrs["units"]["error"]) == ("s", "J", "")
+    table = repr(compared).splitlines()
+    assert table[1].split() == ["integrator", "tolerance", "time", "[s]", "error", "energy", "[J]", "reason"]
+    assert table[2].split()[:2] == ["dop853", "1e-06"] and len(table) == 6
     with pytest.raises(TypeError):
         grashof.load(CRANK_ROCKER).compare("start-up-exact", ["dop853"])

@@ -7,7 +7,7 @@ use super::page::told;
 use super::sources::Sources;
 use super::stepper::Stepping;
 use super::study::Study;
-use crate::model::{self, Document, ExternalFunction, Selection};
+use crate::model::{self, Caller, Document, ExternalFunction, Selection};
 use crate::output::{Report, ReportRuns, ReportStudy};
 use crate::results::{Results, Scalar, Unknown};
 use crate::studies::common::case::parameters;
@@ -41,11 +41,15 @@ impl Model {
     /// # Errors
     /// If it is no model.
     pub fn parse(text: &str) -> Result<Self, Error> {
-        Ok(Self::of(Sources::read(text.as_bytes(), "<text>", &|_| Err("no files are read here".to_owned()))?))
+        Ok(Self::of(Sources::read(text.as_bytes(), model::NO_FILE, &|_| Err("no files are read here".to_owned()))?))
     }
 
     fn of((sources, document): (Sources, Document)) -> Self {
-        Self { sources: Arc::new(sources), document: Arc::new(document), selection: Selection::default() }
+        Self {
+            sources: Arc::new(sources),
+            document: Arc::new(document),
+            selection: Selection { caller: Caller::Code, ..Selection::default() },
+        }
     }
 
     /// All of the model as text, with the files that it names, to be read by [`Self::unpack`] in another process or on another machine.
@@ -70,8 +74,8 @@ impl Model {
             help: "pack it with the same version of the program".into(),
         });
         let Packed { sources, variants, sets } = read?;
-        let document = Arc::new(sources.document()?);
-        Ok(Self { sources: Arc::new(sources), document, selection: Selection { variants, sets, ..Selection::default() } })
+        let Self { sources, document, selection } = Self::of((sources.clone(), sources.document()?));
+        Ok(Self { sources, document, selection: Selection { variants, sets, ..selection } })
     }
 
     /// The same with parameters at other values, given as in the file: `[("l3", "60 cm")]`, or as numbers in SI. They stand over what

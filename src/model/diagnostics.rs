@@ -3,6 +3,9 @@
 use super::place::Place;
 use std::fmt::Write;
 
+/// Stands in the place of the name of a file for a model that stands in none.
+pub(crate) const NO_FILE: &str = "<text>";
+
 /// How grave a diagnostic is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -40,7 +43,7 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Path of keys in the file: `joints.O.revolute[1]`; empty if there is none.
     pub place: Place,
-    /// The file's name as given to [`super::Document::read`], or `command line`.
+    /// The file's name as given to [`super::Document::read`]; of what is given from outside `command line`, or the name of the argument.
     pub file: String,
     /// The place in the file, if it has one.
     pub at: Option<Excerpt>,
@@ -70,13 +73,16 @@ impl Diagnostic {
         };
         let head = paint.of(tint, &format!("{word}[{}]", self.code));
         let _ = writeln!(out, "{head}{}", paint.of("1", &format!(": {}", self.message)));
+        // what stands in no file has no lines that a reader knows
+        let place =
+            if self.place.is_empty() || self.at.is_some() && self.file != NO_FILE { String::new() } else { format!(": {}", self.place) };
         let lines = [self.at.as_ref(), self.other.as_ref().map(|(at, _)| at)];
         let margin = lines.iter().flatten().map(|at| at.line.to_string().len()).max().unwrap_or(1);
         let (blank, bar) = (" ".repeat(margin), paint.of("1;34", "|"));
         match &self.at {
             Some(at) => {
                 let arrow = paint.of("1;34", "-->");
-                let _ = writeln!(out, "{blank}{arrow} {}:{}:{}", self.file, at.line, at.column);
+                let _ = writeln!(out, "{blank}{arrow} {}:{}:{}{place}", self.file, at.line, at.column);
                 let _ = writeln!(out, "{blank} {bar}");
                 // in file order, as a reader meets them
                 match &self.other {
@@ -92,7 +98,7 @@ impl Diagnostic {
                 }
             }
             None => {
-                let _ = writeln!(out, "{blank}{} {}", paint.of("1;34", "-->"), self.file);
+                let _ = writeln!(out, "{blank}{} {}{place}", paint.of("1;34", "-->"), self.file);
             }
         }
         if !self.expected.is_empty() || self.help.is_some() {

@@ -1,8 +1,9 @@
 //! A model file in memory, and the models that can be made of it.
 
+use super::asked::{Asked, Caller};
 use super::data::DataFiles;
 use super::diagnostics::{Diagnostic, Report};
-use super::fault::{Fault, Spot};
+use super::fault::Fault;
 use super::files::Files;
 use super::include;
 use super::included::{Included, find};
@@ -32,6 +33,8 @@ pub struct Selection<'a> {
     pub samples: Option<Samples>,
     /// Functions from outside that expressions may call.
     pub externals: Arc<[ExternalFunction]>,
+    /// Who asks.
+    pub caller: Caller,
 }
 
 /// A model file.
@@ -45,6 +48,8 @@ pub struct Document {
     pub(super) included: Vec<Included>,
     /// Measured data that its figures name.
     pub(super) data: DataFiles,
+    /// Names of studies that do not stand in the text.
+    added: Vec<String>,
 }
 
 impl Document {
@@ -76,7 +81,7 @@ impl Document {
         let root = yaml::read(text).map_err(|faults| report(file, text, &faults, &[]))?;
         let included = include::read(&root, file, text, files)?;
         let data = DataFiles::read(&root, files);
-        Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned(), included, data })
+        Ok(Self { root: Value::Mapping(root), file: file.to_owned(), text: text.to_owned(), included, data, added: Vec::new() })
     }
 
     /// What of included files the model does not use, or not as it stands, one sentence each with its file and line.
@@ -133,6 +138,7 @@ impl Document {
                 studies.insert(free.as_str().into(), study);
             }
         }
+        self.added.push(free.clone());
         free
     }
 
@@ -153,7 +159,17 @@ impl Document {
     ) -> Diagnostic {
         let spans = Spans::new(&self.text);
         let place = if find(&self.included, place).is_some() { place.to_owned() } else { self.real_place(&spans, place) };
-        shown(&Fault::new(code, place, message, expected).maybe_help(help), &self.file, &self.text, &spans, &self.included)
+        let mut found = shown(&Fault::new(code, place, message, expected).maybe_help(help), &self.file, &self.text, &spans, &self.included);
+        self.leave_out_lines(&mut found);
+        found
+    }
+
+    /// Leaves out the lines of what is found in a study that does not stand in the text.
+    fn leave_out_lines(&self, found: &mut Diagnostic) {
+        let study = found.place.strip_prefix("studies.").and_then(|rest| rest.split(['.', '[']).next());
+        if study.is_some_and(|study| self.added.iter().any(|added| added == study)) {
+            (found.at, found.other) = (None, None);
+        }
     }
 
     /// The place itself, or the same place in a variant (an entity of the file may have got the key from there).
@@ -176,16 +192,16 @@ impl Document {
     }
 
     pub(super) fn report(&self, faults: &[Fault]) -> Report {
-        report(&self.file, &self.text, faults, &self.included)
+        let mut report = report(&self.file, &self.text, faults, &self.included);
+        report.diagnostics.iter_mut().for_each(|found| self.leave_out_lines(found));
+        report
     }
 
-    pub(super) fn unknown_study(&self, name: &str) -> Fault {
+    pub(super) fn unknown_study(&self, name: &str, caller: Caller) -> Fault {
         let known = self.study_names();
         let help = suggest::help(name, known.iter().map(String::as_str));
-        let shown = format!("--study {name}");
-        let start = shown.len() - name.len();
         Fault::new("unknown-study", String::new(), format!("unknown study `{name}`"), "a study of this file")
             .maybe_help(help)
-            .at(Spot::Outside(shown.clone(), start..shown.len()))
+            .at(caller.given(Asked::Study, name).end(name.len()))
     }
 }

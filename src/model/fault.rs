@@ -19,8 +19,34 @@ pub(crate) enum Spot {
     Bytes(Range<usize>),
     /// The file as a whole.
     Nowhere,
-    /// Bytes of a text given from outside, on the command line.
-    Outside(String, Range<usize>),
+    /// Bytes of a text given from outside, by an option or in a call.
+    Outside(Given, Range<usize>),
+}
+
+/// A text that was given from outside, as messages show it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Given {
+    /// What stands in the place of the name of a file.
+    pub(crate) source: &'static str,
+    /// The text.
+    pub(crate) text: String,
+}
+
+impl Given {
+    /// Bytes of it.
+    pub(crate) fn spot(&self, part: Range<usize>) -> Spot {
+        Spot::Outside(self.clone(), part)
+    }
+
+    /// All of it.
+    pub(crate) fn whole(&self) -> Spot {
+        self.spot(0..self.text.len())
+    }
+
+    /// Its last bytes.
+    pub(crate) fn end(&self, length: usize) -> Spot {
+        self.spot(self.text.len() - length..self.text.len())
+    }
 }
 
 /// A finding with the path of its place.
@@ -79,7 +105,7 @@ impl Fault {
     /// Looks the place up.
     pub(crate) fn diagnostic(&self, file: &str, text: &str, spans: &Spans) -> Diagnostic {
         let (file, at) = match &self.spot {
-            Spot::Outside(source, range) => ("command line", Some(excerpt(source, range.clone()))),
+            Spot::Outside(given, range) => (given.source, Some(excerpt(&given.text, range.clone()))),
             Spot::Nowhere => (file, None),
             Spot::Bytes(range) => (file, Some(excerpt(text, range.clone()))),
             Spot::Value => (file, spans.value(&self.place).map(|range| excerpt(text, range))),

@@ -1,6 +1,7 @@
 //! One reading of a file: which variants and studies, in which order, and decoded models shared by all studies with the
 //! same variants.
 
+use super::asked::Asked;
 use super::decode::{self, Decoder, Outside, Parsed, Scalars, StudyKeys, Taken};
 use super::diagnostics::Report;
 use super::document::{Document, Selection};
@@ -80,7 +81,7 @@ impl<'d, 's> Inquiry<'d, 's> {
         shape::check_file(&self.plain(), Node::Plain(&self.document.root))
     }
 
-    /// The patch of a variant; the fault is reported at `place`, or on the command line.
+    /// The patch of a variant; the fault is reported at its place, or where it was asked for from outside.
     fn patch(&mut self, name: &str, at: Option<&At<'_, '_>>) -> Option<(&'d str, &'d Mapping)> {
         let found = self.document.named("variants").into_iter().find(|(known, _)| *known == name);
         match found {
@@ -93,8 +94,7 @@ impl<'d, 's> Inquiry<'d, 's> {
                 let place = at.map(|at| merge::path(&at.steps())).unwrap_or_default();
                 let mut fault = Fault::new("unknown-variant", place, message, "a variant of this file").maybe_help(help);
                 if at.is_none() {
-                    let shown = format!("--variant {name}");
-                    fault.spot = Spot::Outside(shown.clone(), shown.len() - name.len()..shown.len());
+                    fault.spot = self.selection.caller.given(Asked::Variant, name).end(name.len());
                 }
                 self.faults.push(fault);
                 None
@@ -208,14 +208,18 @@ impl<'d, 's> Inquiry<'d, 's> {
             let (decoder, outside) = &mut decoders[base];
             decoder.parsed = parsed;
             let taken = |study: &str| self.taken(&scalars, study);
-            let decoded =
-                decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], samples: None, files: &self.document.data });
+            let decoded = decoder.study(name, *node, &taken, &self.without_sweep(outside));
             scalars.insert(name, decoded.scalars);
             parsed = std::mem::take(&mut decoder.parsed);
         }
         let decoded = decoders.into_iter().map(|(decoder, _)| decoder.faults);
         faults.extend(once(decoded.zip(&bases).map(|(faults, base)| (faults, &base.variants[..]))));
         faults
+    }
+
+    /// What is given from outside, but for sweeps.
+    fn without_sweep<'o>(&'o self, set: &'o [(usize, Id)]) -> Outside<'o> {
+        Outside { caller: self.selection.caller, set, over: &[], samples: None, files: &self.document.data }
     }
 
     /// Scalars of a study, if it was decoded.
@@ -238,13 +242,12 @@ impl<'d, 's> Inquiry<'d, 's> {
         let mut decoder = Decoder::new(&base.layers, root, &self.selection.externals, std::mem::take(&mut self.parsed));
         form.append(&mut decoder.faults);
         decoder.faults = form;
-        let outside = decoder.outside(&self.selection.sets);
+        let outside = decoder.outside(&self.selection.sets, self.selection.caller);
         let values = decoder.evaluate(&outside, &[]);
         for fault in &mut decoder.faults {
             if fault.code == "cycle" && fault.place.is_empty() {
-                let shown: Vec<String> = self.selection.sets.iter().map(|(name, value)| format!("--set {name}={value}")).collect();
-                let shown = shown.join(" ");
-                fault.spot = Spot::Outside(shown.clone(), 0..shown.len());
+                let sets: Vec<String> = self.selection.sets.iter().map(|(name, value)| format!("{name}={value}")).collect();
+                fault.spot = self.selection.caller.all(Asked::Value, &sets).whole();
             }
         }
         decoder.run_checks(&values, 0);
@@ -273,15 +276,13 @@ impl<'d, 's> Inquiry<'d, 's> {
             if i < last {
                 if let Some((decoder, outside)) = &mut decoders[base] {
                     decoder.parsed = std::mem::take(&mut parsed);
-                    let decoded =
-                        decoder.study(name, *node, &taken, &Outside { set: outside, over: &[], samples: None, files: &self.document.data });
+                    let decoded = decoder.study(name, *node, &taken, &self.without_sweep(outside));
                     scalars.insert(name, decoded.scalars);
                     parsed = std::mem::take(&mut decoder.parsed);
                 }
             } else if let Some((mut decoder, outside)) = decoders[base].take() {
                 decoder.parsed = std::mem::take(&mut parsed);
-                let given =
-                    Outside { set: &outside, over: &self.selection.over, samples: self.selection.samples, files: &self.document.data };
+                let given = Outside { over: &self.selection.over, samples: self.selection.samples, ..self.without_sweep(&outside) };
                 let decoded = node.is_map().then(|| decoder.study(name, *node, &taken, &given));
                 faults.extend(once(std::iter::once((std::mem::take(&mut decoder.faults), &bases[base].variants[..]))));
                 let mut made = decoder.into_model(decoded.as_ref().map_or(&[], |decoded| &decoded.checks));

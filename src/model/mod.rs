@@ -6,6 +6,7 @@
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 
 mod acting;
+mod asked;
 mod bodies;
 mod contacts;
 mod coordinates;
@@ -49,10 +50,12 @@ mod words;
 mod yaml;
 
 pub use crate::expression::ExternalFunction;
+pub use asked::Caller;
 pub use bodies::*;
 pub use contacts::*;
 pub(crate) use coordinates::coordinates as coordinates_of;
 pub(crate) use decode::REST_SPEED;
+pub(crate) use diagnostics::NO_FILE;
 pub use diagnostics::{Diagnostic, Excerpt, Report, Severity};
 pub use document::{Document, Selection};
 pub use entities::*;

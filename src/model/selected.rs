@@ -17,7 +17,7 @@ impl Document {
         let mut faults = inquiry.form();
         if faults.is_empty() {
             match selection.study {
-                Some(name) if self.study_node(name).is_none() => faults.push(self.unknown_study(name)),
+                Some(name) if self.study_node(name).is_none() => faults.push(self.unknown_study(name, selection.caller)),
                 Some(name) => return inquiry.model_for(Some(name)),
                 None => return inquiry.model_for(None),
             }

@@ -312,6 +312,8 @@ pub struct Sweep {
     pub values: Values,
     /// Where it stands.
     pub place: Place,
+    /// The unit in which its first value is written, and the size of that in SI.
+    pub unit: Option<(String, f64)>,
 }
 
 /// Values of a sweep.

@@ -2,7 +2,7 @@
 
 use super::units::pretty;
 use super::{Axis, Curve, Figure, Scale};
-use crate::results::{Column, Plot, PlotAxis, PlotBeside, Results};
+use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results};
 
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;
@@ -94,18 +94,31 @@ fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
     let (x, factor) = axis(plot, Some(over));
     let nowhere = vec![f64::NAN; results.table.rows()];
     let none = Column { values: nowhere, ..Column::default() };
-    let shown = |name: &String| {
+    let right = plot.right.iter().flat_map(|right| &right.show);
+    let names: Vec<&String> = plot.show.iter().chain(right.clone()).collect();
+    let (families, dots) = results.families(plot.over.as_deref());
+    let several = families.len() > 1;
+    let shown = |name: &String, family: &Family| {
         let column = results.table.column(name).unwrap_or(&none);
         let on_right = plot.right.as_ref().is_some_and(|right| right.show.contains(name));
-        curve(name.clone(), column, over.values.iter().copied().zip(column.values.iter().copied()).collect(), plot, on_right)
+        let label = match (several, names.len()) {
+            (true, 1) => pretty(&family.label),
+            (true, _) => format!("{name}, {}", pretty(&family.label)),
+            _ => name.clone(),
+        };
+        let points = family.rows.iter().map(|row| (over.values[*row], column.values[*row])).collect();
+        Curve { dots, ..curve(label, column, points, plot, on_right) }
     };
-    let right = plot.right.iter().flat_map(|right| &right.show);
-    let mut curves: Vec<Curve> = plot.show.iter().chain(right.clone()).map(shown).collect();
+    let mut curves: Vec<Curve> = families.iter().flat_map(|family| names.iter().map(|name| shown(name, family))).collect();
     curves.extend(plot.beside.iter().filter_map(|beside| self::beside(beside, results.table.column(&beside.of)?, plot)));
     scale_x(&mut curves, factor);
     let right = right.clone().next().and_then(|name| results.table.column(name));
     let left: Vec<&Column> = plot.show.iter().filter_map(|name| results.table.column(name)).collect();
-    Some(Figure { x, curves, ..sides(results, plot, &left, right) })
+    let y = match left[..] {
+        [only] if several && names.len() == 1 => Axis { label: only.name.clone(), unit: unit(only, plot.y.as_ref()).0, ..Axis::default() },
+        _ => Axis::default(),
+    };
+    Some(Figure { x, y, curves, ..sides(results, plot, &left, right) })
 }
 
 /// A column by its name, or a curve that only figures show.
@@ -165,7 +178,24 @@ fn scale_x(curves: &mut [Curve], factor: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::ShownIn;
+    use crate::results::{ShownIn, Swept, SweptBy, Table};
+
+    #[test]
+    fn numbers_of_a_grid_are_a_curve_for_each_value_of_the_other_parameter() {
+        let column = |name: &str, values: &[f64]| Column { name: name.into(), values: values.to_vec(), ..Column::default() };
+        let columns =
+            vec![column("l", &[1.0, 1.0, 2.0, 2.0]), column("speed", &[6.0, 9.0, 6.0, 9.0]), column("peak", &[10.0, 20.0, 30.0, 40.0])];
+        let table = Table { columns, reasons: Some(vec![String::new(); 4]), ..Table::default() };
+        let swept = |by| vec![Swept { by, written_in: None }, Swept { by: SweptBy::Grid, written_in: None }];
+        let plot = Plot { name: "peak".into(), show: vec!["peak".into()], of_runs: true, ..Plot::default() };
+        let sweep = Results { table, swept: swept(SweptBy::Grid), plots: vec![plot], ..Results::default() };
+        let figure = figures(&sweep).remove(0).1;
+        let curves: Vec<_> = figure.curves.iter().map(|curve| (curve.label.as_str(), curve.points.clone())).collect();
+        assert_eq!(curves, [("speed = 6", vec![(1.0, 10.0), (2.0, 30.0)]), ("speed = 9", vec![(1.0, 20.0), (2.0, 40.0)])]);
+        assert_eq!((figure.y.label.as_str(), figure.curves[0].dots), ("peak", false));
+        let drawn = Results { swept: swept(SweptBy::Drawn), ..sweep };
+        assert!(figures(&drawn).remove(0).1.curves.iter().all(|curve| curve.dots));
+    }
 
     #[test]
     fn columns_are_in_the_units_that_are_asked_for_and_angles_else_in_degrees() {

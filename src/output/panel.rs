@@ -14,6 +14,8 @@ pub(super) const TICK: f64 = 20.0;
 const LABEL: f64 = 22.0;
 /// Numbers beyond cannot be told from overflow; their differences would be infinite.
 const HUGE: f64 = 1e290;
+/// Dots of a curve that are large, at most.
+const MANY_DOTS: usize = 200;
 
 /// An axis with its numbers: SI values become shown values, `(si - offset) factor`, and those become positions.
 #[derive(Clone, Debug)]
@@ -209,6 +211,11 @@ impl Line {
     fn is_short(&self) -> bool {
         self.points.len() <= 25 || self.dots
     }
+
+    /// The radius of its dots, in pixels: many would cover each other.
+    fn dot(&self) -> f64 {
+        if self.points.len() > MANY_DOTS { 2.5 } else { 5.0 }
+    }
 }
 
 /// One panel of a figure.
@@ -238,7 +245,11 @@ impl Panel {
     /// The pieces of a curve in pixels.
     fn pieces(&self, line: &Line, x: &Ruler, breaks: &[f64]) -> Vec<Vec<Point>> {
         // Few values get a dot each, and so none of them may go.
-        let thinned = |points| if line.is_short() { points } else { thin::thinned(points, line.ordered) };
+        let thinned = |points| match (line.dots, line.is_short()) {
+            (true, _) => thin::dots(points),
+            (_, true) => points,
+            _ => thin::thinned(points, line.ordered),
+        };
         let y = self.right.as_ref().filter(|_| line.right).unwrap_or(&self.y);
         let shown = |at: &(f64, f64)| {
             let known = self.point(x, y, *at).iter().all(|x| x.is_finite());
@@ -271,7 +282,7 @@ impl Panel {
             for piece in self.pieces(line, x, breaks) {
                 empty = false;
                 if line.is_short() || piece.len() == 1 {
-                    piece.iter().for_each(|at| scene.circle(*at, 5.0, Some(line.color), None));
+                    piece.iter().for_each(|at| scene.circle(*at, line.dot(), Some(line.color), None));
                 }
                 if piece.len() > 1 && !line.dots {
                     // A curve that fills the panel would lose its dashes, and hide all others.

@@ -1,5 +1,10 @@
 //! Curves made fit to be drawn: broken where they jump, and with no more points than can be seen.
 
+use std::collections::HashSet;
+
+/// Dots that are all drawn, wherever they stand.
+const MOST_DOTS: usize = 2000;
+
 /// A point in pixels.
 pub(super) type Point = [f64; 2];
 
@@ -45,6 +50,15 @@ pub(super) fn is_ordered(points: &[(f64, f64)]) -> bool {
 pub(super) fn thinned(points: Vec<Point>, ordered: bool) -> Vec<Point> {
     let points = if ordered && points.len() > 2000 { columns(&points) } else { spread(points) };
     simplified(&points, 0.05)
+}
+
+/// Dots of which no more than one stands in a pixel, where there are many.
+pub(super) fn dots(points: Vec<Point>) -> Vec<Point> {
+    if points.len() <= MOST_DOTS {
+        return points;
+    }
+    let mut taken = HashSet::new();
+    points.into_iter().filter(|[x, y]| taken.insert((x.round() as i64, y.round() as i64))).collect()
 }
 
 /// Entry, extremes and exit of each half pixel column, in their order.

@@ -11,6 +11,7 @@ mod plot;
 mod rows;
 pub mod scene;
 mod statistics;
+mod swept;
 mod table;
 mod unknown;
 
@@ -25,6 +26,7 @@ pub use plot::{Plot, PlotAxis, PlotBeside, PlotRight};
 pub use rows::{Rows, Sink};
 pub use scene::Scene;
 pub use statistics::{PERCENTAGES, Part, Statistics};
+pub use swept::{Family, Swept, SweptBy};
 pub use table::{Column, ShownIn, Table};
 pub use unknown::Unknown;
 
@@ -79,6 +81,9 @@ pub struct Results {
     pub plots: Vec<Plot>,
     /// How the numbers of a sweep whose values are drawn are distributed over its runs.
     pub statistics: Vec<Statistics>,
+    /// The parameters of a sweep.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swept: Vec<Swept>,
     /// The runs of a sweep.
     pub runs: Vec<Run>,
 }
@@ -234,6 +239,14 @@ impl Results {
         let known = || self.scalars.iter().map(|scalar| scalar.name.clone()).collect();
         let found = self.scalars.iter().find(|scalar| scalar.name == name).map(|scalar| scalar.value);
         found.ok_or_else(|| Unknown { what: "scalar", name: name.into(), known: known() })
+    }
+
+    /// The runs of a sweep as curves over a column of its table, by default the first parameter: one for each combination of the other
+    /// parameters. With them, whether there are points alone and no lines between them, since values are drawn or come from a list
+    /// of points.
+    #[must_use]
+    pub fn families(&self, over: Option<&str>) -> (Vec<Family>, bool) {
+        swept::families(&self.table, &self.swept, over)
     }
 
     /// The values of a list by its name, if the kind gives it.

@@ -4,6 +4,8 @@ use super::{Column, ShownIn};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+/// Deviations below this part of the mean are round-off.
+const ROUND_OFF: f64 = 1e-12;
 /// The percentages of [`Statistics::percentiles`].
 pub const PERCENTAGES: [f64; 5] = [5.0, 25.0, 50.0, 75.0, 95.0];
 
@@ -27,7 +29,8 @@ pub struct Statistics {
     /// Values below which 5, 25, 50, 75 and 95 of a hundred runs are, interpolated linearly between the runs (Hyndman & Fan, The American
     /// Statistician 50 (1996) 361-365, definition 7).
     pub percentiles: [f64; 5],
-    /// What each parameter with a distribution has to do with it; nothing where there are too few runs, or other parameters vary as well.
+    /// What each parameter with a distribution has to do with it; nothing where there are too few runs, other parameters vary as well, or
+    /// its deviation is round-off, below 1e-12 of its mean.
     pub parts: Vec<Part>,
 }
 
@@ -76,7 +79,7 @@ impl Statistics {
     #[must_use]
     pub fn with_parts(self, column: &Column, drawn: &[&Column]) -> Self {
         let rows: Vec<usize> = (0..column.values.len()).filter(|&i| column.values[i].is_finite()).collect();
-        let varies = !drawn.is_empty() && self.deviation > 0.0 && rows.len() > 2 * drawn.len() + 1;
+        let varies = !drawn.is_empty() && self.deviation > ROUND_OFF * self.mean.abs() && rows.len() > 2 * drawn.len() + 1;
         let parts = if varies { parts(&rows, column, drawn) } else { None };
         Self { parts: parts.unwrap_or_default(), ..self }
     }
@@ -122,6 +125,10 @@ mod tests {
         assert!((shares[0] - 0.8).abs() < 1e-14 && (shares[1] - 0.2).abs() < 1e-14, "{found:?}");
         let still = column("a", vec![1.0; 6]);
         assert!(Statistics::of(&y).unwrap().with_parts(&y, &[&still, &b]).parts.is_empty());
+        // what does not depend on the parameters but for its last digits
+        let constant = column("y", [0.0, 1.0, 0.0, 1.0, 2.0, 0.0].map(|digit| 9.81 * (1.0 + digit * f64::EPSILON)).to_vec());
+        let found = Statistics::of(&constant).unwrap().with_parts(&constant, &[&a, &b]);
+        assert!(found.deviation > 0.0 && found.parts.is_empty(), "{found:?}");
     }
 
     #[test]

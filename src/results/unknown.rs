@@ -1,5 +1,6 @@
 //! A name that there is not.
 
+use crate::expression::nearest;
 use std::fmt;
 
 /// There is nothing of a name.
@@ -14,11 +15,15 @@ pub struct Unknown {
 }
 
 impl Unknown {
-    /// Which names there are.
+    /// Which name was meant, if one is near, and which there are.
     #[must_use]
     pub fn help(&self) -> String {
         let known = self.known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        if known.is_empty() { "there is none".to_string() } else { format!("there are {known}") }
+        match nearest(&self.name, self.known.iter().map(String::as_str)) {
+            _ if known.is_empty() => "there is none".to_string(),
+            Some(near) => format!("did you mean `{near}`? There are {known}"),
+            None => format!("there are {known}"),
+        }
     }
 }
 
@@ -29,3 +34,16 @@ impl fmt::Display for Unknown {
 }
 
 impl std::error::Error for Unknown {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_comes_first() {
+        let help = |name: &str| Unknown { what: "study", name: name.into(), known: vec!["swing".into(), "rest".into()] }.help();
+        assert_eq!(help("swnig"), "did you mean `swing`? There are `swing`, `rest`");
+        assert_eq!(help("x"), "there are `swing`, `rest`");
+        assert_eq!(Unknown { what: "study", name: "x".into(), known: Vec::new() }.help(), "there is none");
+    }
+}

@@ -3,7 +3,7 @@
 use super::common::named::named;
 use super::sweep::{Drawn, Settings, at, single, sweep, together};
 use crate::model::{Beside, Document, Model, Plot, Report, Selection, ShownWhat, Study};
-use crate::results::{Failure, Results};
+use crate::results::{Failure, Family, Results};
 use std::collections::HashMap;
 
 /// Loads models of studies of one document; studies from which others take are run once.
@@ -142,13 +142,23 @@ fn curves(plot: &Plot, other: &Results) -> Result<Vec<Beside>, String> {
             None if of_runs => results.table.columns.first().map(|c| c.values.clone()).unwrap_or_default(),
             None => results.independent.values.clone(),
         };
+        let (families, measured) = if of_runs { other.families(plot.over.as_ref().map(|over| over.name.as_str())) } else { one(x.len()) };
         for shown in plot.show.iter().chain(plot.right.iter().flat_map(|(show, _)| show)) {
             let y = column(results, &shown.name).ok_or_else(|| format!("study `{}` has no `{}`", other.study, shown.name))?;
-            let points = x.iter().copied().zip(y).collect();
-            all.push(Beside { label: format!("{}, {}{label}", shown.name, other.study), of: shown.name.clone(), points, measured: false });
+            for family in &families {
+                let points = family.rows.iter().filter_map(|row| Some((*x.get(*row)?, *y.get(*row)?))).collect();
+                let of_family = if family.label.is_empty() { String::new() } else { format!(", {}", family.label) };
+                let label = format!("{}, {}{label}{of_family}", shown.name, other.study);
+                all.push(Beside { label, of: shown.name.clone(), points, measured });
+            }
         }
     }
     Ok(all)
+}
+
+/// All rows of a table as one curve.
+fn one(rows: usize) -> (Vec<Family>, bool) {
+    (vec![Family { label: String::new(), rows: (0..rows).collect() }], false)
 }
 
 /// Gives a model what its study takes, as far as the studies that it takes from are quickly computed; none if they are not.

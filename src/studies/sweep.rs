@@ -5,10 +5,10 @@ use super::common::named::{self, named};
 pub use super::grid::grid;
 use super::run::run;
 use super::solve::{Solved, Task, solve};
-use crate::model::{Model, Study, Sweep};
+use crate::model::{Model, Study, Sweep, Values};
 use crate::par;
 use crate::results::Failure;
-use crate::results::{self, By, Column, Finding, Results, Solution, Statistics, Table, number};
+use crate::results::{self, By, Column, Finding, Results, ShownIn, Solution, Statistics, Swept, SweptBy, Table, number};
 use crate::studies::common::outcome::Outcome;
 pub use crate::studies::common::settings::{Drawn, Settings};
 use std::collections::HashSet;
@@ -199,6 +199,7 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
         table,
         findings,
         plots: named::plots(model, study),
+        swept: swept(study),
         runs: runs.into_iter().enumerate().map(labelled).collect(),
         ..Results::default()
     }
@@ -225,6 +226,21 @@ fn findings_of(first: usize, runs: &[Run], labels: &[String]) -> Vec<Finding> {
         Finding { message: format!("{others}run {} ({}): {}", first + i + 1, labels[i], finding.message), ..finding.clone() }
     };
     known.into_iter().map(told).collect()
+}
+
+/// How the parameters of a sweep get their values.
+fn swept(study: &Study) -> Vec<Swept> {
+    let beside = |sweep: Option<&Sweep>| sweep.is_some_and(|sweep| matches!(sweep.values, Values::Beside(_)));
+    let by = |(k, sweep): (usize, &Sweep)| {
+        let by = match sweep.values {
+            Values::Normal { .. } | Values::Uniform { .. } => SweptBy::Drawn,
+            _ if beside(Some(sweep)) || beside(study.sweep.get(k + 1)) => SweptBy::Points,
+            _ => SweptBy::Grid,
+        };
+        let written_in = sweep.unit.clone().map(|(unit, size)| ShownIn { unit, size });
+        Swept { by, written_in }
+    };
+    study.sweep.iter().enumerate().map(by).collect()
 }
 
 /// How the numbers of a table are distributed over its rows, behind the parameters that the sweep gives.

@@ -116,6 +116,8 @@ export interface Results {
   scenes: [string, CodedScene][];
   plots: Plot[];
   statistics: Statistics[];
+  /** How the parameters of a sweep get their values, in the order of the first columns of its table. */
+  swept?: { by: 'grid' | 'points' | 'drawn'; written_in: Column['shown_in'] }[];
   rows: RowsShown;
 }
 

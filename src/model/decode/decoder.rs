@@ -2,7 +2,7 @@
 
 use crate::expression::{self, Dimension, Expr, ExternalFunction, Id, Lowered, Pool, SyntaxError};
 use crate::model::entities::Dimensions;
-use crate::model::fault::{At, Fault, Spot};
+use crate::model::fault::{At, Fault, Given, Spot};
 use crate::model::fields::Want;
 use crate::model::keys::Entry;
 use crate::model::merge::{Layers, Node};
@@ -45,7 +45,7 @@ pub(crate) enum Origin<'t> {
     /// A key of the file.
     Key(&'t str),
     /// A text given from outside; the expression begins at a byte of it.
-    Outside(&'t str, usize),
+    Outside(&'t Given, usize),
 }
 
 impl Origin<'_> {
@@ -53,7 +53,7 @@ impl Origin<'_> {
         match self {
             Self::Value(full, offset) => Spot::Within(full.to_owned(), at.start + offset..at.end + offset),
             Self::Key(full) => Spot::WithinKey(full.to_owned(), at),
-            Self::Outside(full, offset) => Spot::Outside(full.to_owned(), at.start + offset..at.end + offset),
+            Self::Outside(given, offset) => given.spot(at.start + offset..at.end + offset),
         }
     }
 }

@@ -27,6 +27,7 @@ mod studies;
 mod sweeps;
 mod units;
 mod values;
+mod written;
 
 pub(crate) use bodies::{BODY, PLACED};
 pub(crate) use clutches::CLUTCH;

@@ -1,9 +1,11 @@
-//! What is given from outside, on the command line: values of parameters, and sweeps in place of a study's own.
+//! What is given from outside, by options of the command line or in a call: values of parameters, and sweeps in place of a study's own.
 
 use super::decoder::{Decoder, Origin};
+use super::written::unit_of;
 use crate::expression::{Dimension, Id, Lowered};
+use crate::model::asked::{Asked, Caller};
 use crate::model::data::DataFiles;
-use crate::model::fault::{At, Spot};
+use crate::model::fault::{At, Given, Spot};
 use crate::model::fields::MOST_RUNS;
 use crate::model::figure::{Plot, ShownWhat};
 use crate::model::rules::Rule;
@@ -15,6 +17,8 @@ use std::ops::Range;
 
 /// What is given for a study.
 pub(crate) struct Outside<'o> {
+    /// Who gives it.
+    pub(crate) caller: Caller,
     /// Parameters with their values.
     pub(crate) set: &'o [(usize, Id)],
     /// Swept parameters with the texts of their values.
@@ -27,34 +31,35 @@ pub(crate) struct Outside<'o> {
 
 /// An argument as it is shown, `--over l3=0.3,0.4`, and where its value begins.
 pub(super) struct Argument {
-    shown: String,
+    caller: Caller,
+    given: Given,
     value: usize,
 }
 
 impl Argument {
-    fn new(flag: &str, name: &str, value: &str) -> Self {
-        let shown = format!("{flag} {name}={value}");
-        Self { value: shown.len() - value.len(), shown }
+    fn new(caller: Caller, asked: Asked, name: &str, value: &str) -> Self {
+        let given = caller.given(asked, &format!("{name}={value}"));
+        Self { caller, value: given.text.len() - value.len(), given }
     }
 
     /// Bytes of the value.
     pub(super) fn spot(&self, part: Range<usize>) -> Spot {
-        Spot::Outside(self.shown.clone(), part.start + self.value..part.end + self.value)
+        self.given.spot(part.start + self.value..part.end + self.value)
     }
 
     /// The name of a parameter, which stands so many bytes before the sign `=`.
     fn name(&self, name: &str, behind: usize) -> Spot {
         let end = self.value - 1 - behind;
-        Spot::Outside(self.shown.clone(), end - name.len()..end)
+        self.given.spot(end - name.len()..end)
     }
 }
 
 impl<'n> Decoder<'n> {
     /// Parameters given from outside as `NAME`, `VALUE`.
-    pub(crate) fn outside(&mut self, sets: &[(String, String)]) -> Vec<(usize, Id)> {
+    pub(crate) fn outside(&mut self, sets: &[(String, String)], caller: Caller) -> Vec<(usize, Id)> {
         let mut found: Vec<(usize, Id)> = Vec::new();
         for (name, value) in sets {
-            let argument = Argument::new("--set", name, value);
+            let argument = Argument::new(caller, Asked::Value, name, value);
             let Some((i, wanted)) = self.named_outside(name, argument.name(name, 0)) else { continue };
             let Some(wanted) = wanted else { continue };
             if let Some(id) = self.given(name, value, 0..value.len(), &argument, wanted, Allow::PARAMETER, &mut Local::default()) {
@@ -92,7 +97,7 @@ impl<'n> Decoder<'n> {
         let inner = text.trim_start();
         let begin = part.start + text.len() - inner.len();
         let inner = inner.trim_end();
-        let origin = Origin::Outside(&argument.shown, argument.value + begin);
+        let origin = Origin::Outside(&argument.given, argument.value + begin);
         let (lowered, _): (Lowered, _) = self.lower(inner, origin, &At::ROOT, allow, local)?;
         match lowered.expect(wanted) {
             Ok(_) => Some(lowered.id),
@@ -110,12 +115,15 @@ impl<'n> Decoder<'n> {
         let mut sweeps: Vec<Sweep> = Vec::new();
         let mut runs: u64 = outside.samples.map_or(1, |samples| samples.count as u64);
         for (names, value) in outside.over {
-            let argument = Argument::new("--over", names, value);
+            let argument = Argument::new(outside.caller, Asked::Over, names, value);
             let Some(parameters) = self.swept_outside(names, &argument, &sweeps, solved) else { continue };
             let (found, count) = match parameters[..] {
                 [(parameter, wanted, name)] => {
                     let (values, count) = self.values_outside(name, value, wanted, &argument, outside, local);
-                    (values.map(|values| Sweep { parameter, values, place: String::new() }).into_iter().collect(), count)
+                    (
+                        values.map(|values| Sweep { parameter, values, place: String::new(), unit: unit_of(value) }).into_iter().collect(),
+                        count,
+                    )
                 }
                 _ => self.points_outside(&parameters, value, &argument, local),
             };
@@ -130,9 +138,9 @@ impl<'n> Decoder<'n> {
         if let (Some(samples), Some((name, value))) = (outside.samples, outside.over.last())
             && outside.over.iter().all(|(_, value)| distribution(value).is_none())
         {
-            let fault = self.fault("nothing-drawn", &At::ROOT, "no parameter has a distribution", "`--over NAME=normal(MEAN, DEVIATION)`");
-            fault.spot = Argument::new("--over", name, value).spot(0..value.len());
-            fault.help = Some(format!("leave `--samples {}` out", samples.count));
+            let fault = self.fault("nothing-drawn", &At::ROOT, "no parameter has a distribution", outside.caller.distribution());
+            fault.spot = Argument::new(outside.caller, Asked::Over, name, value).spot(0..value.len());
+            fault.help = Some(format!("leave {} out", outside.caller.so_many_samples(samples.count)));
         }
         sweeps
     }
@@ -186,8 +194,9 @@ impl<'n> Decoder<'n> {
     fn samples_of(&mut self, outside: &Outside<'_>, argument: &Argument, value: &str) {
         if outside.samples.is_none() {
             let message = "values are drawn from a distribution, and nothing says how many";
-            let fault = self.fault("missing-samples", &At::ROOT, message, "`--samples`");
-            (fault.spot, fault.help) = (argument.spot(0..value.len()), Some("add `--samples 200`".to_owned()));
+            let fault = self.fault("missing-samples", &At::ROOT, message, outside.caller.samples());
+            fault.spot = argument.spot(0..value.len());
+            fault.help = Some(format!("add {}", outside.caller.so_many_samples(200)));
         }
     }
 
@@ -205,7 +214,8 @@ impl<'n> Decoder<'n> {
         let [first, second] = &parts[..] else {
             let form = if normal { "normal(MEAN, DEVIATION)" } else { "uniform(FROM, TO)" };
             let fault = self.fault("bad-range", &At::ROOT, format!("a distribution of {} values", parts.len()), form);
-            (fault.spot, fault.help) = (argument.spot(inner), Some(format!("write two values, as `--over \"{name}=normal(1, 0.01)\"`")));
+            fault.spot = argument.spot(inner);
+            fault.help = Some(format!("write two values, as {}", argument.caller.over(name, "normal(1, 0.01)")));
             return None;
         };
         let part = |of: &Range<usize>| of.start + inner.start..of.end + inner.start;
@@ -236,7 +246,7 @@ impl<'n> Decoder<'n> {
         let Some(colon) = ends.next() else {
             let fault = self.fault("bad-range", &At::ROOT, "a range without the number of its values", form);
             fault.spot = argument.spot(0..value.len());
-            fault.help = Some(format!("for example `--over {name}={value}:11`"));
+            fault.help = Some(format!("for example {}", argument.caller.over(name, &format!("{value}:11"))));
             return (None, 1);
         };
         let end = ends.next().unwrap_or(value.len());
@@ -246,7 +256,7 @@ impl<'n> Decoder<'n> {
             let message = format!("`{}` is no number of values", clip(count_text));
             let fault = self.fault("bad-range", &At::ROOT, message, format!("a whole number from 1 to {MOST_RUNS}"));
             fault.spot = argument.spot(colon + 1..end);
-            fault.help = Some(format!("for example `--over {name}={}:11`", &value[..colon]));
+            fault.help = Some(format!("for example {}", argument.caller.over(name, &format!("{}:11", &value[..colon]))));
         }
         if let Some(word) = spacing.filter(|word| !["log", "linear"].contains(word)) {
             let help = suggest::help(word, ["log", "linear"]);
@@ -285,11 +295,11 @@ impl<'n> Decoder<'n> {
     }
 
     /// Shows faults without a place in the file at the arguments that sweep.
-    pub(super) fn blame_over(&mut self, from: usize, over: &[(String, String)]) {
-        let shown: Vec<String> = over.iter().map(|(name, value)| Argument::new("--over", name, value).shown).collect();
-        let shown = shown.join(" ");
-        for fault in self.faults[from..].iter_mut().filter(|fault| fault.place.is_empty() && !shown.is_empty()) {
-            fault.spot = Spot::Outside(shown.clone(), 0..shown.len());
+    pub(super) fn blame_over(&mut self, from: usize, outside: &Outside<'_>) {
+        let over: Vec<String> = outside.over.iter().map(|(name, value)| format!("{name}={value}")).collect();
+        let given = outside.caller.all(Asked::Over, &over);
+        for fault in self.faults[from..].iter_mut().filter(|fault| fault.place.is_empty() && !over.is_empty()) {
+            fault.spot = given.whole();
         }
     }
 }

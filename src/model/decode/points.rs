@@ -2,6 +2,7 @@
 
 use super::decoder::Decoder;
 use super::outside::{Argument, between_commas};
+use super::written::{unit_in, unit_of};
 use crate::expression::Id;
 use crate::model::fault::At;
 use crate::model::fields::{ANY, Field};
@@ -42,7 +43,7 @@ impl<'n> Decoder<'n> {
             let ids: Vec<Option<Id>> =
                 list.items().iter().enumerate().map(|(i, item)| self.setting(Node::Plain(item), &here.index(i), want, local)).collect();
             let Some(ids) = ids.into_iter().collect() else { continue };
-            swept.push(Sweep { parameter, values: side_by_side(place, ids), place: self.place(&here) });
+            swept.push(Sweep { parameter, values: side_by_side(place, ids), place: self.place(&here), unit: unit_in(*list) });
             place += 1;
         }
         wanted
@@ -87,11 +88,13 @@ impl<'n> Decoder<'n> {
         let lists: Option<Vec<Vec<Id>>> = columns.into_iter().map(|column| column.into_iter().collect()).collect();
         let Some(lists) = lists else { return (Vec::new(), points.len()) };
         let mut sweeps = Vec::new();
+        let first: Vec<&str> = between_commas(value.split(';').next().unwrap_or_default()).into_iter().map(|part| &value[part]).collect();
         for (place, (ids, (parameter, ..))) in lists.into_iter().zip(parameters).enumerate() {
             if self.pool.inputs_of(&ids).is_empty() {
                 self.check_once(Rule::Finite, &ids, &At::ROOT);
             }
-            sweeps.push(Sweep { parameter: *parameter, values: side_by_side(place, ids), place: String::new() });
+            let unit = first.get(place).and_then(|written| unit_of(written));
+            sweeps.push(Sweep { parameter: *parameter, values: side_by_side(place, ids), place: String::new(), unit });
         }
         (sweeps, points.len())
     }

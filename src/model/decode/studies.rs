@@ -152,7 +152,7 @@ impl<'n> Decoder<'n> {
         let from = if all.is_empty() && waiting.is_empty() { first_check } else { 0 };
         let before = self.faults.len();
         self.run_checks(&values, from);
-        self.blame_over(before, outside.over);
+        self.blame_over(before, outside);
         if from == 0 {
             // said so that the reader knows which study made it so
             for fault in &mut self.faults[before..] {

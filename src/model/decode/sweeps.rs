@@ -2,6 +2,7 @@
 
 use super::decoder::Decoder;
 use super::points::POINTS;
+use super::written::unit_in;
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANY, Keys, MOST_RUNS, Shape, Size, Want, one_of};
 use crate::model::keys::{Entry, Words, keys, words};
@@ -58,6 +59,12 @@ keys! {
     }
 }
 
+/// The unit in which values are written.
+fn written(value: Node<'_>) -> Option<(String, f64)> {
+    let keys = SpanKeys::of(value);
+    [keys.from, keys.normal, keys.uniform].into_iter().find_map(|entry| entry.node).map_or_else(|| unit_in(value), unit_in)
+}
+
 impl<'n> Decoder<'n> {
     /// Swept parameters, and how many points are drawn of those with distributions.
     pub(super) fn sweep(&mut self, sweep: Entry<'n>, at: &At<'_, 'n>, local: &mut Local<'n>) -> (Vec<Sweep>, Option<Samples>) {
@@ -85,7 +92,7 @@ impl<'n> Decoder<'n> {
             let Some((parameter, want)) = self.swept(name, &here, &swept) else { continue };
             let Some((values, count)) = self.values(value, &here, want, local) else { continue };
             runs = runs.saturating_mul(count as u64);
-            swept.push(Sweep { parameter, values, place: self.place(&here) });
+            swept.push(Sweep { parameter, values, place: self.place(&here), unit: written(value) });
         }
         let samples = self.samples(&section, &swept, samples, seed);
         runs = runs.saturating_mul(samples.map_or(1, |samples| samples.count as u64));

@@ -167,6 +167,23 @@ fn settings_from_outside_are_checked_and_shown() {
     assert_eq!(error(&[("l3", "1 m +")]).code, "expression");
     assert_eq!(error(&[("m2", "-1")]).code, "negative");
     assert_eq!(error(&[("l1", "l2"), ("l2", "l1")]).code, "cycle");
+    // a program in Rust or Python gives arguments of calls, and no options
+    let called = |selection: Selection<'_>| {
+        let selection = Selection { caller: Caller::Code, ..selection };
+        document.model(&selection).unwrap_err().diagnostics[0].clone()
+    };
+    let shown = |found: &Diagnostic| (found.file.clone(), found.at.as_ref().unwrap().source.clone(), found.column());
+    assert_eq!(shown(&called(select(None, &[], &[("l3", "60 s")]))), ("values".into(), "l3=60 s".into(), 4));
+    assert_eq!(shown(&called(select(None, &["motr"], &[]))), ("variant".into(), "motr".into(), 1));
+    assert_eq!(shown(&called(select(Some("one-trun"), &[], &[]))), ("study".into(), "one-trun".into(), 1));
+    let over = |value: &str| vec![("l3".to_owned(), value.to_owned())];
+    let drawn = called(Selection { over: over("normal(55 cm, 1 mm)"), ..select(Some("one-turn"), &[], &[]) });
+    assert_eq!(
+        (shown(&drawn).0.as_str(), drawn.expected.as_str(), drawn.help.as_deref()),
+        ("over", "`samples`", Some("add `samples=200`"))
+    );
+    let span = called(Selection { over: over("0.3..0.8"), ..select(Some("one-turn"), &[], &[]) });
+    assert_eq!(span.help.as_deref(), Some("for example `0.3..0.8:11` for `l3`"));
     let report = document.model(&select(Some("one-trun"), &[], &[])).unwrap_err();
     assert_eq!(report.diagnostics[0].help.as_deref(), Some("did you mean `one-turn`?"));
     let report = document.model(&select(None, &["motr"], &[])).unwrap_err();

@@ -142,6 +142,7 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
         scenes: Vec::new(),
         plots: results.plots.clone(),
         statistics: results.statistics.clone(),
+        swept: results.swept.clone(),
         runs: Vec::new(),
     };
     // names and numbers alone cannot fail

@@ -39,6 +39,7 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
         scenes: outcome.scenes,
         plots: plots(model, study),
         statistics: Vec::new(),
+        swept: Vec::new(),
         runs: Vec::new(),
     }
 }

@@ -4,6 +4,7 @@ import { column, drawn, fineOf, places, valueAt } from '../curves';
 import { pretty, shownIn } from '../numbers';
 import type { Column, Ends, Num, Plot, PlotAxis, Results, Study } from '../types';
 import type { Curve, Figure } from './chart';
+import { families } from './families';
 
 /** Switches that are marked by lines in a figure, at most. */
 const MOST_MARKED = 16;
@@ -136,15 +137,22 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
   const over = plot.over ? columns.find((c) => c.name === plot.over) : columns[0];
   if (!over) return null;
   const [unit, size] = plot.unit ?? [shownIn(over).unit, shownIn(over).size];
-  const x = over.values.map((v) => (v ?? NaN) / size);
   const found = (name: string) => columns.find((c) => c.name === name);
   const shown = sides(plot).flatMap(({ name, right }) => (found(name) ? [{ c: found(name)!, right }] : []));
-  const curves: Curve[] = shown.map(({ c, right }, k): Curve => {
-    const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
-    return new Later(c.name, own, k, () => ({ x, y: c.values.map((v) => (v ?? NaN) / high) }), right);
-  });
+  const { families: all, dots } = families(study, plot.over);
+  const several = all.length > 1;
+  const curves: Curve[] = [];
+  for (const { label, rows } of all) {
+    for (const { c, right } of shown) {
+      const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
+      const at = (of: Column, by: number) => rows.map((row) => (of.values[row] ?? NaN) / by);
+      const text = !several ? c.name : shown.length > 1 ? `${c.name}, ${label}` : label;
+      curves.push(new Later(text, own, curves.length, () => ({ x: at(over, size), y: at(c, high) }), right, dots));
+    }
+  }
   if (curves.length === 0) return null;
   beside(plot, size, found, curves);
-  const figure: Figure = { x: { label: over.name, unit }, y: '', curves, breaks: [], equal: false, ordered: true, ...ranges(plot, size, found) };
+  const y = several && shown.length === 1 ? shown[0]!.c.name : '';
+  const figure: Figure = { x: { label: over.name, unit }, y, curves, breaks: [], equal: false, ordered: !dots, ...ranges(plot, size, found) };
   return { name: plot.name, figure, moves: false, size, points: [], runs: [] };
 }
