@@ -6,12 +6,13 @@ import json
 import math
 import numbers
 import os
-from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple, Union
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, List, Mapping, NamedTuple, Sequence, Tuple, Union
 
 from . import _grashof
 from .errors import ModelError
+
+if TYPE_CHECKING:
+    import numpy as np
 
 #: A value of a parameter: text as in a model file (``"60 cm"``, ``"l1/2"``), a number in SI, or a quantity of pint.
 Value = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Any]
@@ -31,6 +32,8 @@ class Distribution(NamedTuple):
 
 def value(x: Value, name: str) -> str:
     """A value of what has a name as text; numbers in their shortest form that reads back bit for bit."""
+    import numpy as np
+
     if isinstance(x, str):
         return x
     number = x.to_base_units().magnitude if hasattr(x, "to_base_units") else x
@@ -71,6 +74,8 @@ def _points(names: Sequence[str], points: Any) -> str:
 
 def _each(x: Any) -> List[Any]:
     """The items of a list or array; a single value as a list of one."""
+    import numpy as np
+
     if hasattr(x, "to_numpy"):
         x = x.to_numpy()
     if isinstance(x, np.ndarray):
@@ -105,6 +110,8 @@ def text(sections: Mapping[str, Any]) -> str:
 
 def _plain(x: Any) -> Any:
     """What JSON does not know: arrays and numbers of NumPy, mappings, other sequences."""
+    import numpy as np
+
     if isinstance(x, (np.ndarray, np.generic)):
         return x.tolist()
     if isinstance(x, Mapping):

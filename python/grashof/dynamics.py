@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Tuple
 
-import numpy as np
-
 from . import _grashof
 from .errors import Refused
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
@@ -99,6 +98,8 @@ class Dynamics:
     def inverse(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, multipliers: ArrayLike | None = None, t: ArrayLike = 0.0) -> Array:
         """Inverse dynamics (..., nv), N and N m: the forces along the velocities which, added to f, give accelerations ``a``:
         M a + Gᵀλ − f. Without multipliers λ is 0."""
+        import numpy as np
+
         reactions: Any = np.zeros(self.m) if multipliers is None else multipliers
         lead, (time, at, along, wanted, lagrange) = self._states(
             t,
@@ -117,6 +118,8 @@ class Dynamics:
 
     def _states(self, t: ArrayLike, *parts: Tuple[ArrayLike, int, str]) -> Tuple[Tuple[int, ...], List[Any]]:
         """The common axes in front, and times and parts of the states with one row a state."""
+        import numpy as np
+
         times = np.asarray(t, dtype=np.float64)
         arrays = [np.asarray(part, dtype=np.float64) for part, _, _ in parts]
         for array, (_, size, what) in zip(arrays, parts):

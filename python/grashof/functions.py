@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import inspect
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 
 __all__ = ["Function", "Functions"]
@@ -81,6 +79,8 @@ def described(functions: Mapping[str, Function]) -> List[Tuple[Any, ...]]:
 
 def fingerprint(functions: Mapping[str, Function]) -> str:
     """Tells functions by their sources; values that these refer to do not count."""
+    import hashlib
+
     texts = [
         [name, *(_source(law) for law in (f.law, *f.slopes.values())), str(list(f.slopes)), str(f.switches), str(f.unit)]
         for name, f in functions.items()
@@ -89,6 +89,8 @@ def fingerprint(functions: Mapping[str, Function]) -> str:
 
 
 def _source(law: Callable[..., Any]) -> str:
+    import inspect
+
     try:
         return inspect.getsource(law)
     except (OSError, TypeError):
@@ -96,6 +98,8 @@ def _source(law: Callable[..., Any]) -> str:
 
 
 def _arguments(law: Callable[..., Any]) -> List[str]:
+    import inspect
+
     try:
         parameters = inspect.signature(law).parameters.values()
     except (TypeError, ValueError):

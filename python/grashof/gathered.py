@@ -7,12 +7,11 @@ import shutil
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List
 
-import numpy as np
-
 from . import _grashof, _text
 from .records import Named, Statistics, statistics_of, unknown
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas
     import xarray
     from numpy.typing import NDArray
@@ -78,11 +77,15 @@ class SweepTable:
     @property
     def independent(self) -> Array:
         """The numbers of the runs, from 0 on."""
+        import numpy as np
+
         return np.arange(len(self), dtype=np.float64)
 
     @property
     def table(self) -> Array:
         """All columns as one array, runs × columns."""
+        import numpy as np
+
         return np.column_stack([self[name] for name in self.columns])
 
     @property

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, List, Mapping, Sequence
 
-import numpy as np
-
 from . import _optional
 
 if TYPE_CHECKING:
     import control
+    import numpy as np
     import scipy.signal
     from numpy.typing import NDArray
 
@@ -27,6 +26,8 @@ class Linear:
     """
 
     def __init__(self, facts: Mapping[str, Any]) -> None:
+        import numpy as np
+
         #: Names of x.
         self.states: List[str] = facts["states"]
         #: Names of u.

@@ -7,8 +7,6 @@ import os
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union, overload
 
-import numpy as np
-
 from . import _grashof, _text
 from .errors import StudyError
 from .linear import Linear
@@ -17,6 +15,7 @@ from .records import Checked, Event, Extremes, Finding, Named, Solution, Statist
 
 if TYPE_CHECKING:
     import matplotlib.figure
+    import numpy as np
     import pandas
     import xarray
     from numpy.typing import NDArray
@@ -139,6 +138,8 @@ class Results:
     @property
     def lists(self) -> Dict[str, Array]:
         """Lists that the kind gives, as the ``eigenvalues`` of ``modes``; SI."""
+        import numpy as np
+
         return {each["name"]: np.array(each["values"], dtype=np.float64) for each in self._facts["lists"]}
 
     @property

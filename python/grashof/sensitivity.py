@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple, Union
 
-import numpy as np
-
 from . import _grashof, _optional, _text
 from .errors import Refused
 from .records import Named
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas
 
     from .gathered import SweepTable
@@ -77,6 +76,8 @@ class Sensitivity:
 
 def points(core: _grashof.Model, study: str, over: Sequence[Tuple[str, str]], samples: int, seed: int) -> Any:
     """The points at which a study is to be run: n × parameters."""
+    import numpy as np
+
     if samples < 1 or samples & (samples - 1):
         raise Refused(f"{samples} is no power of two", code="refused", help="give a number of `samples` as 512 or 1024")
     sample = _salib("sample")
@@ -87,6 +88,8 @@ def points(core: _grashof.Model, study: str, over: Sequence[Tuple[str, str]], sa
 
 def indices(results: Union[Results, SweepTable], names: Sequence[str], seed: int, confidence: float) -> Sensitivity:
     """The indices from runs at :func:`points`."""
+    import numpy as np
+
     analyze = _salib("analyze")
     none = Index(np.nan, np.nan, np.nan, np.nan)
 

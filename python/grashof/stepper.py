@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Dict, NamedTuple
 
-import numpy as np
-
 from . import _grashof
 from .records import unknown
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
 __all__ = ["State", "Stepper"]
