@@ -146,6 +146,7 @@ fn declared_switches_are_located_and_others_are_told() {
     assert_eq!(codes(&inside), Vec::<String>::new());
     assert_eq!(codes(&located), ["from-outside"]);
     assert_eq!(codes(&hidden), ["from-outside", "unresolved"]);
+    assert_eq!([&inside, &located, &hidden].map(|r| r.certificate.undeclared), [0, 0, 1]);
 }
 
 #[test]

@@ -280,12 +280,24 @@ start: { O.angle: 0, W.position: ~50 mm }
 measures:
   push: \"if(W.velocity > 0, 800 N, 0 N)\"
 studies:
-  s: { kinematics: { over: 1 turn, samples: 90 }, columns: [O.angle, W.position, push] }
+  s:
+    kinematics: { over: 1 turn, samples: 90 }
+    columns: [O.angle, W.position, push]
+    scalars:
+      far: value(W.position, asin(2/3) - 1e-4 rad)
+      near: value(W.position, asin(2/3) - 1e-10 rad)
 ";
     let outcome = result(text).unwrap_or_else(|f| panic!("{}", f.reason()));
     assert!(outcome.stopped.is_some_and(|why| why.contains("dead point")));
     let [first, last] = [outcome.rows.first(), outcome.rows.last()].map(|row| row.expect("rows"));
     assert!((last[0] - (2.0_f64 / 3.0).asin()).abs() < 1e-9 && first[2].is_nan() && last[2].is_nan());
+    // next to the dead point as well: r cos θ + √(l² − r² sin² θ)
+    for (found, off) in outcome.scalars.iter().zip([1e-4, 1e-10]) {
+        let theta = (2.0_f64 / 3.0).asin() - off;
+        let (r, l) = (0.03, 0.02);
+        let exact = r * theta.cos() + ((l - r * theta.sin()) * (l + r * theta.sin())).sqrt();
+        assert!((found - exact).abs() < 1e-10, "{found} {exact}");
+    }
     // outwards on the way back from the other dead point, inwards behind the dead centre
     let pushes: Vec<f64> = outcome.rows.iter().map(|row| row[2]).filter(|x| x.is_finite()).collect();
     assert!(pushes.len() > 15 && pushes[0] == 800.0 && pushes[pushes.len() - 1] == 0.0, "{pushes:?}");

@@ -122,23 +122,9 @@ impl Scope for Arguments<'_> {
         self.names.iter().any(|name| name == word)
     }
 
-    fn table(&mut self, _: &str) -> Option<(u32, Dimension, Dimension)> {
-        None
-    }
-
-    fn external(&mut self, _: &str) -> Option<u32> {
-        None
-    }
-
-    fn rate(&mut self, _: &mut Pool, _: u32) -> Option<Id> {
-        None
-    }
-
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
         Err(Unknown { found: format!("`{name}`"), expected: "a comparison of arguments".into(), help: None })
     }
-
-    fn leave_functional(&mut self) {}
 
     fn functional(&mut self, _: &mut Pool, name: &str, _: Lowered, _: Option<Lowered>, _: &str) -> Result<Symbol, Unknown> {
         Err(Unknown { found: format!("`{name}`"), expected: "a comparison of arguments".into(), help: None })

@@ -89,19 +89,12 @@ impl Scope for Names {
     fn has_value(&self, _: &str) -> bool {
         false
     }
-    fn table(&mut self, _: &str) -> Option<(u32, Dimension, Dimension)> {
-        None
-    }
     fn external(&mut self, name: &str) -> Option<u32> {
         (name == "stop").then_some(0)
-    }
-    fn rate(&mut self, _: &mut Pool, _: u32) -> Option<Id> {
-        None
     }
     fn enter_functional(&mut self, _: &str) -> Result<(), Unknown> {
         Ok(())
     }
-    fn leave_functional(&mut self) {}
     fn functional(&mut self, pool: &mut Pool, _: &str, _: Lowered, _: Option<Lowered>, _: &str) -> Result<Symbol, Unknown> {
         self.name(pool, "")
     }

@@ -138,15 +138,20 @@ impl ExternalFunction {
     }
 
     /// Its value, or a derivative of it.
-    pub(super) fn value(&self, arguments: &[f64], by: By) -> f64 {
-        let mut by: Vec<usize> = by.into_iter().filter(|i| *i > 0).map(|i| usize::from(i) - 1).collect();
+    pub(super) fn value(&self, arguments: &[f64], mut by: By) -> f64 {
         let mut at = [0.0; MOST_ARGUMENTS];
         let Some(at) = at.get_mut(..arguments.len()) else { return f64::NAN };
         at.copy_from_slice(arguments);
         // a derivative that is known needs one difference less
-        let known = by.iter().position(|i| self.slopes[*i].is_some());
-        let law = known.and_then(|k| self.slopes[by.remove(k)].as_deref()).unwrap_or(&*self.law);
-        derivative(law, at, &by)
+        let slope = |i: u8| self.slopes.get(usize::from(i.checked_sub(1)?))?.as_deref();
+        match by.iter().position(|i| slope(*i).is_some()) {
+            Some(k) => {
+                let law = slope(by[k]).unwrap_or(&*self.law);
+                by[k..].rotate_left(1);
+                derivative(law, at, &by[..by.len() - 1])
+            }
+            None => derivative(&*self.law, at, &by),
+        }
     }
 
     /// Its value, or a derivative of it, on any scalar.
@@ -197,9 +202,10 @@ pub(super) fn and_by(mut by: By, i: usize) -> Option<By> {
     Some(by)
 }
 
-/// The derivative by some arguments, by differences.
-fn derivative(law: &Law, at: &mut [f64], by: &[usize]) -> f64 {
-    let Some((&i, rest)) = by.split_first() else { return law(at) };
+/// The derivative by some arguments, counted from 1 and with 0 behind them, by differences.
+fn derivative(law: &Law, at: &mut [f64], by: &[u8]) -> f64 {
+    let Some((&number, rest)) = by.split_first().filter(|(number, _)| **number > 0) else { return law(at) };
+    let i = usize::from(number) - 1;
     let x = at[i];
     let slope = ridders(x, &mut |x| {
         at[i] = x;

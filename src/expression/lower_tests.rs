@@ -33,9 +33,6 @@ impl Scope for Names {
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         (name == "curve").then_some((0, Dimension::ANGULAR_SPEED, Dimension::TORQUE))
     }
-    fn external(&mut self, _: &str) -> Option<u32> {
-        None
-    }
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {
         match input {
             0 => Some(pool.constant(1.0)),

@@ -76,13 +76,19 @@ pub trait Scope {
     fn has_value(&self, word: &str) -> bool;
 
     /// Number of the table of this name, with the dimensions of x and y.
-    fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)>;
+    fn table(&mut self, _name: &str) -> Option<(u32, Dimension, Dimension)> {
+        None
+    }
 
     /// Number of the external function of this name.
-    fn external(&mut self, name: &str) -> Option<u32>;
+    fn external(&mut self, _name: &str) -> Option<u32> {
+        None
+    }
 
     /// The node that is the time rate of an input leaf; `None` if it has none.
-    fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id>;
+    fn rate(&mut self, _pool: &mut Pool, _input: u32) -> Option<Id> {
+        None
+    }
 
     /// Called before the first argument of `mean integral max min last value first` is lowered: from here on it may name columns.
     ///
@@ -91,7 +97,7 @@ pub trait Scope {
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown>;
 
     /// Called after the first argument of a functional was lowered, with or without faults.
-    fn leave_functional(&mut self);
+    fn leave_functional(&mut self) {}
 
     /// The functional `name` over a whole study of the quantity `of` (for `first`: a condition), `at` only for `value`.
     /// `text` is the call as written.

@@ -26,16 +26,12 @@ impl Scope for Names {
     fn table(&mut self, name: &str) -> Option<(u32, Dimension, Dimension)> {
         ["f", "g"].iter().position(|n| *n == name).map(|i| (i as u32, Dimension::NONE, Dimension::NONE))
     }
-    fn external(&mut self, _: &str) -> Option<u32> {
-        None
-    }
     fn rate(&mut self, pool: &mut Pool, input: u32) -> Option<Id> {
         Some(pool.input(input + 2))
     }
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
         Err(Unknown { found: name.to_owned(), expected: String::new(), help: None })
     }
-    fn leave_functional(&mut self) {}
     fn functional(&mut self, _: &mut Pool, name: &str, _: Lowered, _: Option<Lowered>, _: &str) -> Result<Symbol, Unknown> {
         Err(Unknown { found: name.to_owned(), expected: String::new(), help: None })
     }

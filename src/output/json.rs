@@ -134,6 +134,9 @@ fn certificate(results: &Results) -> Entries {
     if let Some(r) = &c.resolved {
         all.extend([figure("resolved_to", r.width), count("unresolved", r.open), count("looks", r.evaluations)]);
     }
+    if c.undeclared > 0 {
+        all.push(count("undeclared", c.undeclared));
+    }
     match &c.march {
         Some(march) => all.extend(motion(march, &results.events)),
         None => all.push(figure("power_balance", c.power_balance)),

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 /// What certifies results: name, whether it is a count, and what it is.
-const CERTIFICATE: [(&str, bool, &str); 20] = [
+const CERTIFICATE: [(&str, bool, &str); 21] = [
     ("rows", true, "Positions solved for the rows."),
     ("switches", true, "Switches that were located."),
     ("constraint_residual", false, "Largest residual of positions over the rows, m or rad."),
@@ -14,6 +14,7 @@ const CERTIFICATE: [(&str, bool, &str); 20] = [
         true,
         "Columns that are not resolved so far somewhere; of a motion in time parts of steps in which a condition was not.",
     ),
+    ("undeclared", true, "Functions from outside whose switches are not declared, so that none is located."),
     ("looks", true, "Evaluations of the motion for columns between rows."),
     ("velocity_residual", false, "Largest residual of velocities over the rows."),
     ("energy_drift", false, "Largest |E - E(0) - work|, J."),

@@ -1,7 +1,7 @@
 //! What a study has come to, for the terminal.
 
 use super::scalars::{self, ten_digits};
-use crate::results::{By, Results, Scalar, number};
+use crate::results::{By, Finding, Results, Scalar, number};
 
 mod linear;
 mod modes;
@@ -15,7 +15,8 @@ const EVENTS: usize = 6;
 /// The summary of a study: what was found, how far it is to be trusted, its scalars; of a sweep a line for each run.
 pub fn summary(results: &Results) -> String {
     if results.table.reasons.is_some() {
-        return if results.statistics.is_empty() { runs::summary(&results.table) } else { runs::distributed(results) };
+        let table = if results.statistics.is_empty() { runs::summary(&results.table) } else { runs::distributed(results) };
+        return table + &notes(results);
     }
     let of_kind = match results.kind.as_str() {
         "statics" => equilibria(results),
@@ -80,15 +81,14 @@ fn equilibria(results: &Results) -> String {
     results.findings.iter().map(|f| format!("  {}: {}\n", line(&f.code), f.message)).collect()
 }
 
-/// What a reader should know of a motion, in a line each; all of it is in the JSON.
+/// What a reader should know of a motion, or of the runs of a sweep, in a line each; all of it is in the JSON.
 fn notes(results: &Results) -> String {
-    if !["dynamics", "kinematics", "inverse"].contains(&results.kind.as_str()) {
-        return String::new();
-    }
-    let shown = results.findings.iter().take(FINDINGS).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
-    match results.findings.len().saturating_sub(FINDINGS) {
+    // why runs are not whole stands in their lines
+    let findings: Vec<&Finding> = results.findings.iter().filter(|f| f.code != "run-stopped").collect();
+    let shown = findings.iter().take(FINDINGS).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
+    match findings.len().saturating_sub(FINDINGS) {
         0 => shown,
-        more => shown + &format!("  note: {more} more findings are in `{}.json`\n", results.study),
+        more => shown + &format!("  note: {more} more findings are in the JSON file\n"),
     }
 }
 

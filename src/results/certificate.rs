@@ -55,6 +55,9 @@ pub struct Certificate {
     pub constraint: f64,
     /// Largest |driver power + power of applied forces − dT/dt| over the rows, relative to the largest of its terms.
     pub power_balance: f64,
+    /// Functions from outside whose switches are not declared, so that none is located.
+    #[serde(default)]
+    pub undeclared: usize,
     /// How far columns are resolved between their rows.
     pub resolved: Option<Resolution>,
     /// More of a motion in time.

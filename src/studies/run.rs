@@ -28,6 +28,7 @@ pub fn run_in(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool)
         Dimensions::Planar => in_space::<Planar<f64>>(case, coordinates, stop)?,
         Dimensions::Spatial => in_space::<Spatial<f64>>(case, coordinates, stop)?,
     };
+    outcome.certificate.undeclared = case.model.pool.externals_called().iter().filter(|function| !function.is_declared()).count();
     outcome.findings.extend(from_outside(case.model, case.study));
     Ok(outcome)
 }

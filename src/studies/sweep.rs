@@ -205,13 +205,16 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
     }
 }
 
+/// Findings that say what each run has come to: they are results of its own, and question none.
+const OF_EACH: [&str; 3] = ["equilibrium", "further-equilibrium", "stable-regime"];
+
 /// What a reader should know of the runs, each thing once: what the first run with it says, and how many have it.
 fn findings_of(first: usize, runs: &[Run], labels: &[String]) -> Vec<Finding> {
     let mut known: Vec<(usize, usize, &Finding)> = Vec::new();
     for (i, outcome) in runs.iter().enumerate().filter_map(|(i, run)| Some((i, run.result.as_ref().ok()?))) {
         let mut codes: Vec<&str> = Vec::new();
         for finding in &outcome.findings {
-            if codes.contains(&&*finding.code) {
+            if codes.contains(&&*finding.code) || OF_EACH.contains(&&*finding.code) {
                 continue;
             }
             codes.push(&finding.code);

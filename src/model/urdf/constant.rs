@@ -1,6 +1,6 @@
 //! Numbers with units, without names: what `at` and `rpy` of a robot with a free link are.
 
-use crate::expression::{Dimension, Id, Lowered, Pool, Scope, Symbol, Unknown, lower, parse};
+use crate::expression::{Dimension, Lowered, Pool, Scope, Symbol, Unknown, lower, parse};
 use serde_yaml::Value;
 
 /// A reader of numbers.
@@ -46,19 +46,9 @@ impl Scope for Nothing {
     fn has_value(&self, _: &str) -> bool {
         false
     }
-    fn table(&mut self, _: &str) -> Option<(u32, Dimension, Dimension)> {
-        None
-    }
-    fn external(&mut self, _: &str) -> Option<u32> {
-        None
-    }
-    fn rate(&mut self, _: &mut Pool, _: u32) -> Option<Id> {
-        None
-    }
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
         Err(Self::refused(name))
     }
-    fn leave_functional(&mut self) {}
     fn functional(&mut self, _: &mut Pool, name: &str, _: Lowered, _: Option<Lowered>, _: &str) -> Result<Symbol, Unknown> {
         Err(Self::refused(name))
     }

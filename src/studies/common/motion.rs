@@ -13,6 +13,9 @@ use crate::mechanism::Mechanism;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::Resolved;
 
+/// How far beside a located switch its own side is looked for, in parts of the range.
+const BESIDE: [f64; 6] = [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11];
+
 /// A place could not be reached: the message says where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lost {
@@ -156,7 +159,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     if lost.gap.is_some() {
                         return Err(lost);
                     }
-                    let Some(q) = standing.or_else(|| self.smooth(t)).or_else(|| self.dead_beside(s)) else { return Err(lost) };
+                    let Some(q) = standing.or_else(|| self.smooth(t)).or_else(|| self.folded(s)) else { return Err(lost) };
                     self.singular(t, &q);
                     return Ok(false);
                 }
@@ -222,7 +225,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
+        for shift in BESIDE {
             let beside = s + shift * self.clock.length;
             self.solve(beside, Some(piece))?;
             if self.read(beside, out).is_ok() {
@@ -238,7 +241,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let beyond: Vec<f64> = self.distances(s, piece)?.iter().map(|distance| (-distance.root).max(0.0)).collect();
         let crossed = beyond.iter().any(|over| *over > 0.0);
         self.row(s, piece, out)?;
-        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11].into_iter().filter(|_| crossed) {
+        for shift in BESIDE.into_iter().filter(|_| crossed) {
             let beside = s + shift * self.clock.length;
             let Ok(distances) = self.distances(beside, piece) else { continue };
             if distances.iter().zip(&beyond).all(|(distance, over)| distance.root >= *over) {
@@ -272,10 +275,25 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.path.dead[if self.clock.end() < 0.0 { 1 - side } else { side }].as_ref().map(|d| d.1.clone())
     }
 
-    /// Coordinates of a dead point next to which Newton's method has no direction any more.
-    fn dead_beside(&self, s: f64) -> Option<Vec<f64>> {
+    /// Coordinates so near to a dead point that Newton's method has no direction any more. The path turns back there, so that they are a
+    /// series in √d of the distance d from it: its terms in √d and d through the dead point and two regular places.
+    fn folded(&mut self, s: f64) -> Option<Vec<f64>> {
         let end = self.ends.into_iter().find(|end| (end - s).abs() <= 1e-8 * self.clock.length)?;
-        self.dead_at(end)
+        let dead = self.dead_at(end)?;
+        let (inwards, h) = ((s - end).signum(), 1e-6 * self.clock.length);
+        let mut beside = |d: f64| {
+            let t = self.time(end + inwards * d);
+            self.regular(t)?;
+            Some(self.driven.q.clone())
+        };
+        let (one, four) = (beside(h)?, beside(4.0 * h)?);
+        // r = √(d/h) is 1 and 2 at the two places
+        let r = ((end - s).abs() / h).sqrt();
+        let series = |((q, one), four): ((&f64, &f64), &f64)| {
+            let (a, b) = (one - q, four - q);
+            q + r * (0.5 * (4.0 * a - b) + r * 0.5 * (b - 2.0 * a))
+        };
+        Some(dead.iter().zip(&one).zip(&four).map(series).collect())
     }
 
     /// A singular position: coordinates are known, rates are not defined.
@@ -288,6 +306,15 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.driven.dynamics.velocity(&self.driven.v, &self.modes);
     }
 
+    /// Places the mechanism at a time where that is regular.
+    fn regular(&mut self, t: f64) -> Option<()> {
+        let mut q = std::mem::take(&mut self.driven.q);
+        let near = self.path.guess(&self.driven, t, &mut q);
+        self.driven.q = q;
+        self.driven.wind(&mut self.modes, &self.path.nodes[near].turns);
+        self.driven.position(t, &self.modes).ok().map(drop)
+    }
+
     /// Coordinates at a change point, where Newton has no direction: the polynomial through eight regular neighbours.
     fn smooth(&mut self, t: f64) -> Option<Vec<f64>> {
         let reach = 4e-3 * self.clock.end().abs();
@@ -295,11 +322,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let mut sum = vec![0.0; m.nq];
         for k in [-4_i32, -3, -2, -1, 1, 2, 3, 4] {
             let at = t + 0.25 * reach * f64::from(k);
-            let mut q = std::mem::take(&mut self.driven.q);
-            let near = self.path.guess(&self.driven, at, &mut q);
-            self.driven.q = q;
-            self.driven.wind(&mut self.modes, &self.path.nodes[near].turns);
-            self.driven.position(at, &self.modes).ok()?;
+            self.regular(at)?;
             // Lagrange's weight at the middle: Π_{i≠k} i/(i − k)
             let weight: f64 =
                 [-4_i32, -3, -2, -1, 1, 2, 3, 4].iter().filter(|i| **i != k).map(|&i| f64::from(i) / f64::from(i - k)).product();
