@@ -114,7 +114,9 @@ fn operands(op: Op, modes: &[i32], value: impl Fn(u32) -> f64) -> [Option<u32>; 
         Op::Neg(a) | Op::Shift(a, _) | Op::Scale(a, _) | Op::Powi(a, _) | Op::Powf(a, _) => [Some(a), None],
         Op::SinCos(a) | Op::Tan(a) | Op::Asin(a) | Op::Acos(a) | Op::Atan(a) | Op::Sqrt(a) | Op::Exp(a) | Op::Ln(a) => [Some(a), None],
         Op::Log10(a) | Op::Sinh(a) | Op::Cosh(a) | Op::Tanh(a) => [Some(a), None],
-        Op::Call(_, _, a) | Op::Not(a) | Op::Signed(a, _) | Op::Sign(a, _) | Op::Floor(a, _) | Op::Table(_, _, a, _) => [Some(a), None],
+        Op::Call(_, _, a) | Op::Not(a) | Op::Magnitude(a) | Op::Signed(a, _) | Op::Sign(a, _) | Op::Floor(a, _) | Op::Table(_, _, a, _) => {
+            [Some(a), None]
+        }
         Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) | Op::Pow(a, b) | Op::Atan2(a, b) => [Some(a), Some(b)],
         Op::Argument(a, b) | Op::Compare(_, _, a, b) | Op::And(a, b) | Op::Or(a, b) | Op::Select(a, b, _) | Op::Where(a, b) => {
             [Some(a), Some(b)]

@@ -45,6 +45,8 @@ pub(super) enum Op {
     If(u32, u32, u32),
     /// Operand times the mode of a switch.
     Signed(u32, u32),
+    /// Magnitude of the operand.
+    Magnitude(u32),
     /// Operand, the mode of its switch.
     Sign(u32, u32),
     /// Operand, switch: the mode as a number.
@@ -101,6 +103,7 @@ impl Op {
             Self::Not(a) => Self::Not(f(a)),
             Self::If(c, a, b) => Self::If(f(c), f(a), f(b)),
             Self::Signed(a, switch) => Self::Signed(f(a), switch),
+            Self::Magnitude(a) => Self::Magnitude(f(a)),
             Self::Sign(a, switch) => Self::Sign(f(a), switch),
             Self::Floor(a, switch) => Self::Floor(f(a), switch),
             Self::Select(a, b, switch) => Self::Select(f(a), f(b), switch),
@@ -186,6 +189,8 @@ pub(super) fn step<S: Scalar>(program: &Program, op: Op, k: usize, inputs: &[S],
         Op::Not(a) => boolean(!truth(a)).where_finite(at(a)),
         Op::If(c, a, b) => at(if truth(c) { a } else { b }).where_finite(at(c)),
         Op::Signed(a, switch) => at(a).scale(f64::from(mode(switch))),
+        // of what is observed alone
+        Op::Magnitude(a) => at(a).scale(if at(a).value() < 0.0 { -1.0 } else { 1.0 }),
         Op::Sign(a, switch) => S::constant(f64::from(mode(switch))).where_finite(at(a)),
         Op::Floor(a, switch) => S::constant(whole(mode(switch))).where_finite(at(a)),
         Op::Select(a, b, switch) => at(if mode(switch) != 0 { a } else { b }).where_finite(at(a)).where_finite(at(b)),
@@ -208,6 +213,23 @@ pub(super) fn step<S: Scalar>(program: &Program, op: Op, k: usize, inputs: &[S],
 }
 
 impl Program {
+    /// The same for what is observed: |x| is the magnitude of x, also where a place lies beyond the switch of x by rounding. By the mode
+    /// it would be below 0 there, and what is divided by it have the wrong sign. It may not be searched for roots, which wants the
+    /// formula of one side.
+    #[must_use]
+    pub fn observed(&self) -> Self {
+        let own = |a: u32, switch: u32| {
+            let k = self.switches.iter().position(|known| *known == switch);
+            k.is_some_and(|k| self.decisions[k].test == Test::Sign(a))
+        };
+        let observed = |op: &Op| match *op {
+            // the rate of |x| has the switch of x
+            Op::Signed(a, switch) if own(a, switch) => Op::Magnitude(a),
+            op => op,
+        };
+        Self { ops: self.ops.iter().map(observed).collect(), ..self.clone() }
+    }
+
     /// Number of scratch registers that evaluation needs.
     #[must_use]
     pub fn registers(&self) -> usize {

@@ -213,3 +213,18 @@ fn sine_and_cosine_of_an_angle_are_one_instruction() {
     assert_eq!(program.ops, [Op::Input(0), Op::SinCos(0)]);
     assert!(size_of::<Op>() <= 16);
 }
+
+#[test]
+fn what_is_observed_has_no_magnitude_below_zero() {
+    let mut p = Pool::new();
+    let x = p.input(0);
+    let size = p.abs(x, "|x|");
+    let rate = p.rate(size, &mut |p, _| Some(p.constant(3.0))).unwrap();
+    let program = p.program(&[size, rate], &[], &Arc::from([]));
+    let (mut registers, mut out) = (vec![0.0; program.registers()], [0.0; 2]);
+    // beyond the switch by rounding: the rate stays that of the mode
+    program.eval(&[-1e-17], &[1], &mut registers, &mut out);
+    assert_eq!(out, [-1e-17, 3.0]);
+    program.observed().eval(&[-1e-17], &[1], &mut registers, &mut out);
+    assert_eq!(out, [1e-17, 3.0]);
+}

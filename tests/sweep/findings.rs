@@ -39,8 +39,12 @@ fn findings_of_runs_are_told_once() {
 
 #[test]
 fn an_absolute_value_is_not_below_zero_where_its_switch_is() {
-    let results = Model::parse(POLES).unwrap().study("turn").unwrap().run().unwrap();
-    let values = results.column("advantage").unwrap();
-    assert!(values.iter().all(|x| *x > 0.0), "{values:?}");
-    assert!(values.iter().any(|x| *x > 1e9));
+    let in_time =
+        POLES.to_owned() + "  motion:\n    dynamics: { until: 1 s, every: 20 ms }\n    columns: [advantage]\n    undefined: [advantage]\n";
+    for study in ["turn", "motion"] {
+        let results = Model::parse(&in_time).unwrap().study(study).unwrap().run().unwrap();
+        let values = results.column("advantage").unwrap();
+        assert!(values.iter().all(|x| *x > 0.0), "{study}: {values:?}");
+        assert!(values.iter().any(|x| *x > 1e9), "{study}");
+    }
 }

@@ -13,9 +13,6 @@ use crate::mechanism::Mechanism;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::Resolved;
 
-/// How far beside a located switch its own side is looked for, in parts of the range.
-const BESIDE: [f64; 6] = [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11];
-
 /// A place could not be reached: the message says where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lost {
@@ -225,7 +222,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        for shift in BESIDE {
+        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
             let beside = s + shift * self.clock.length;
             self.solve(beside, Some(piece))?;
             if self.read(beside, out).is_ok() {
@@ -233,31 +230,6 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             }
         }
         found
-    }
-
-    /// As [`Self::row`] at a place where switches were located. One of them may lie beyond the end of its mode by rounding; there |x| is
-    /// below 0, and what is divided by it has the wrong sign. Columns that have a pole there take their values from inside of the mode.
-    pub(crate) fn row_at_switch(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
-        let beyond: Vec<f64> = self.distances(s, piece)?.iter().map(|distance| (-distance.root).max(0.0)).collect();
-        let crossed = beyond.iter().any(|over| *over > 0.0);
-        self.row(s, piece, out)?;
-        for shift in BESIDE.into_iter().filter(|_| crossed) {
-            let beside = s + shift * self.clock.length;
-            let Ok(distances) = self.distances(beside, piece) else { continue };
-            if distances.iter().zip(&beyond).all(|(distance, over)| distance.root >= *over) {
-                let mut there = vec![0.0; out.len()];
-                self.row(beside, piece, &mut there)?;
-                // away from a pole it falls, from a zero it grows
-                let falls = |(x, y): (&mut f64, f64)| {
-                    if (*x - y).abs() > 1e-3 * x.abs() && y.abs() <= x.abs() {
-                        *x = y
-                    }
-                };
-                out.iter_mut().zip(there).for_each(falls);
-                break;
-            }
-        }
-        Ok(())
     }
 
     /// Looks again where resolved columns have no value.

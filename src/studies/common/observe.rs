@@ -11,6 +11,8 @@ use crate::model::{Model, Quantity, Study};
 #[derive(Clone, Debug)]
 pub struct Observer<G: Space> {
     program: Program,
+    /// The program that gives the columns their values.
+    seen: Program,
     fills: Vec<(usize, Source<G>)>,
     inputs: Vec<f64>,
     registers: Vec<f64>,
@@ -114,6 +116,7 @@ impl<G: Space<S = f64>> Observer<G> {
             inputs: vec![f64::NAN; model.inputs.len()],
             registers: vec![0.0; program.registers()],
             modes: mechanism.modes(),
+            seen: program.observed(),
             program,
         }
     }
@@ -158,7 +161,7 @@ impl<G: Space<S = f64>> Observer<G> {
 
     /// Columns from the quantities read last.
     pub fn columns(&mut self, modes: &[i32], out: &mut [f64]) {
-        self.program.eval(&self.inputs, modes, &mut self.registers, out);
+        self.seen.eval(&self.inputs, modes, &mut self.registers, out);
     }
 
     /// The first of the columns `out` that has no value by the fault of its own expression, but for those that may be undefined.
@@ -166,7 +169,7 @@ impl<G: Space<S = f64>> Observer<G> {
     pub fn undefined(&self, modes: &[i32], out: &[f64]) -> Option<Gap> {
         let wrong = out.iter().zip(&self.ids).enumerate().filter(|(_, (x, (_, may)))| !x.is_finite() && !may);
         wrong
-            .filter_map(|(k, (_, (id, _)))| match self.program.cause(k, &self.inputs, modes)? {
+            .filter_map(|(k, (_, (id, _)))| match self.seen.cause(k, &self.inputs, modes)? {
                 // the quantity itself is not determined there
                 Cause::Input(_) => None,
                 cause => Some(Gap::Watched(*id, cause)),

@@ -176,14 +176,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             places.extend(std::iter::once(from).chain(grid).chain([to]).map(|s| (s, piece)));
         }
         let mut out = vec![0.0; self.columns()];
-        for (i, &(s, piece)) in places.iter().enumerate() {
-            let beside = |k: Option<&(f64, usize)>| k.is_some_and(|(_, other)| *other != piece);
-            let located = beside(i.checked_sub(1).and_then(|k| places.get(k))) || beside(places.get(i + 1));
-            if located {
-                self.row_at_switch(s, piece, &mut out)?
-            } else {
-                self.row(s, piece, &mut out)?
-            }
+        for (s, piece) in places {
+            self.row(s, piece, &mut out)?;
             recorder.row(s, piece, &out);
         }
         Ok(())
