@@ -3,6 +3,7 @@
 mod chains;
 mod eigensolvers;
 mod many;
+mod many_damped;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};

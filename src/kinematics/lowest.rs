@@ -12,6 +12,7 @@
 //! by a count: the number of eigenvalues below a place, by the signs of the pivots of the shifted matrix (`pair.rs`). Where it says that
 //! some are missing, as the others of a multiple one, the iteration begins again beside those found.
 
+use super::orthonormal::{Orthonormal, dot, scaled};
 use super::pair::Pair;
 use super::pencil::Pencil;
 use super::saddle::Saddle;
@@ -139,7 +140,7 @@ impl<'a> Operator<'a> {
 
     /// Takes the parts of x along all vectors of a basis away, and gives them; then what the rows do not allow, which grows from step to
     /// step by the cancellation.
-    fn clear(&mut self, basis: &Basis, x: &mut [f64]) -> Vec<f64> {
+    fn clear(&mut self, basis: &Orthonormal, x: &mut [f64]) -> Vec<f64> {
         let along = basis.clear(x);
         if let Some(closing) = &mut self.closing {
             let force: Vec<f64> = x.iter().zip(&self.pair.pencil.metric).map(|(x, d)| x * d).collect();
@@ -159,7 +160,7 @@ impl<'a> Operator<'a> {
         steps: &mut usize,
         stop: &dyn Fn() -> bool,
     ) -> Vec<(f64, Vec<f64>)> {
-        let mut basis = Basis::default();
+        let mut basis = Orthonormal::default();
         known.iter().for_each(|(_, x)| basis.push(x.clone(), self.mass(x)));
         // in no special direction
         let n = self.pair.pencil.metric.len();
@@ -177,7 +178,7 @@ impl<'a> Operator<'a> {
             }
             basis.push(scaled(&next, length), scaled(&mx, length));
             *steps += 1;
-            next = self.apply(&basis.mass[first + step]);
+            next = self.apply(&basis.products[first + step]);
             let along = self.clear(&basis, &mut next);
             h = h.resize(step + 1, step + 1, 0.0);
             h.column_mut(step).copy_from_slice(&along[first..]);
@@ -207,48 +208,4 @@ impl<'a> Operator<'a> {
         let kx: Vec<f64> = self.pair.stiffness.lines().map(|line| line.dot(&x)).collect();
         (dot(&x, &kx), x)
     }
-}
-
-/// M-orthonormal vectors, with their products by M.
-#[derive(Default)]
-struct Basis {
-    vectors: Vec<Vec<f64>>,
-    mass: Vec<Vec<f64>>,
-}
-
-impl Basis {
-    fn push(&mut self, x: Vec<f64>, mx: Vec<f64>) {
-        self.vectors.push(x);
-        self.mass.push(mx);
-    }
-
-    /// Takes the parts along all vectors away, twice, and gives them.
-    fn clear(&self, x: &mut [f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; self.vectors.len()];
-        for _ in 0..2 {
-            for ((v, mv), sum) in self.vectors.iter().zip(&self.mass).zip(&mut sum) {
-                let along = dot(mv, x);
-                x.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
-                *sum += along;
-            }
-        }
-        sum
-    }
-
-    /// The combination of the vectors from `first` on.
-    fn combined(&self, first: usize, factors: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; self.vectors.first().map_or(0, Vec::len)];
-        for (v, factor) in self.vectors[first..].iter().zip(factors) {
-            out.iter_mut().zip(v).for_each(|(out, v)| *out += factor * v);
-        }
-        out
-    }
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-fn scaled(x: &[f64], length: f64) -> Vec<f64> {
-    x.iter().map(|x| x / length).collect()
 }

@@ -39,7 +39,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Entries of (K − σM)/size.
-    fn shifted(&self, shift: f64) -> impl Iterator<Item = f64> + '_ {
+    pub(super) fn shifted(&self, shift: f64) -> impl Iterator<Item = f64> + '_ {
         self.stiffness.values().iter().zip(self.mass.values()).map(move |(k, m)| (k - shift * m) / self.size)
     }
 

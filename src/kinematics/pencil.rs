@@ -33,6 +33,8 @@ pub struct Pencil {
     pub mass: Block,
     /// K (nv × nv); symmetric on the motions that G leaves, if forces have a potential.
     pub stiffness: Block,
+    /// C (nv × nv), of the forces that velocities change: only damped modes know of it.
+    pub damping: Block,
     /// G (rows × nv).
     pub rows: Block,
     /// D, the diagonal of the mass metric (nv).
@@ -49,6 +51,12 @@ impl Pencil {
     /// Asymmetry of K along motions that the rows leave, as part of its size: 0 for forces with a potential.
     #[must_use]
     pub fn circulation(&self) -> f64 {
+        self.asymmetry(&self.stiffness)
+    }
+
+    /// Asymmetry of a matrix (nv × nv) along motions that the rows leave, as part of its size.
+    #[must_use]
+    pub fn asymmetry(&self, matrix: &Block) -> f64 {
         let nv = self.metric.len();
         let Some(mut kkt) = self.closing() else { return 0.0 };
         // the part of a force (nv) that accelerates, all masses being D: its work on that motion
@@ -63,7 +71,7 @@ impl Pencil {
         self.closing().iter_mut().for_each(|kkt| kkt.solve(&noise, &vec![0.0; self.row_scale.len()], &mut x, &mut lambda));
         let mut skew = vec![0.0; nv];
         let (mut straight, mut sizes) = (vec![0.0; nv], vec![0.0; nv]);
-        for (i, line) in self.stiffness.lines().enumerate() {
+        for (i, line) in matrix.lines().enumerate() {
             for (j, k) in line.entries() {
                 skew[i] += k * x[j];
                 skew[j] -= k * x[i];
@@ -199,6 +207,7 @@ impl HeldSparse {
             residual: held.phi[..rows].iter().fold(0.0, |m, phi| f64::max(m, phi.abs())),
             pencil: Pencil {
                 stiffness,
+                damping: tangent.c,
                 rows: held.block.select_rows(&(0..rows).collect::<Vec<_>>()),
                 metric: metric.to_vec(),
                 row_scale: held.scale[..rows].to_vec(),

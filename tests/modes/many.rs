@@ -14,7 +14,7 @@ use grashof::studies::modes::eigen::library;
 use std::f64::consts::PI;
 
 /// A mechanism in its assembled start, held there, with sparse matrices.
-fn sparse<S>(text: &str, coordinates: Coordinates) -> HeldSparse
+pub(super) fn sparse<S>(text: &str, coordinates: Coordinates) -> HeldSparse
 where
     S: Space<S = f64>,
     S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,

@@ -7,7 +7,7 @@
 //! A pair μ = −ζω ± iω√(1 − ζ²) is an oscillation with the damping ratio ζ = −Re μ/|μ|, which is negative where it grows.
 
 use crate::kinematics::held::Held;
-use crate::numerics::eigenvalues::{eigenvalues, measurable};
+use crate::numerics::eigenvalues::{eigenvalues, eigenvector, measurable, of_each_pair};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// One of each pair of complex eigenvalues, and every real one.
@@ -61,27 +61,14 @@ pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
     }
     let mut balanced = a.clone();
     nalgebra::linalg::balancing::balance_parlett_reinsch(&mut balanced);
-    let mut values: Vec<Complex<f64>> = eigenvalues(&balanced)?.into_iter().filter(|mu| mu.im >= 0.0).collect();
+    let mut values = of_each_pair(eigenvalues(&balanced)?);
     values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
-    let size = a.norm();
-    Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(a, value, n, size, i), value }).collect())
+    let shape = |i, value| by_largest(&eigenvector(a, value, i).rows(0, n).into_owned());
+    Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(i, value), value }).collect())
 }
 
-/// The coordinates of an eigenvector: three steps of inverse iteration next to its eigenvalue.
-fn shape(a: &DMatrix<f64>, value: Complex<f64>, n: usize, size: f64, seed: usize) -> DVector<Complex<f64>> {
-    let order = a.nrows();
-    let beside = value + Complex::new(f64::EPSILON * size, 0.0);
-    let shifted = DMatrix::from_fn(order, order, |i, j| Complex::from(a[(i, j)]) - if i == j { beside } else { Complex::default() });
-    let factors = shifted.lu();
-    let mut x = DVector::from_fn(order, |i, _| Complex::from(1.0 + (2.39 * (i + 1) as f64 * (seed + 1) as f64).sin()));
-    for _ in 0..3 {
-        if let Some(y) = factors.solve(&x)
-            && y.iter().all(|y| y.re.is_finite() && y.im.is_finite())
-        {
-            x = y.unscale(y.norm());
-        }
-    }
-    let x = x.rows(0, n).into_owned();
+/// A shape by the largest of its coordinates, which becomes 1.
+pub(super) fn by_largest(x: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
     let largest = x.iter().fold(Complex::default(), |m: Complex<f64>, x| if x.norm() > m.norm() * (1.0 + 1e-9) { *x } else { m });
-    if largest.norm() > 0.0 { x.map(|x| x / largest) } else { x }
+    if largest.norm() > 0.0 { x.map(|x| x / largest) } else { x.clone() }
 }

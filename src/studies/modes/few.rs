@@ -68,15 +68,12 @@ where
     }
     if !potential || asked.damped {
         let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
-        let mut found = damped(&a, names.len()).ok_or_else(beyond)?;
-        if asked.lowest.is_some() {
-            found.truncate(wanted);
-        }
+        let found = damped(&a, names.len()).ok_or_else(beyond)?;
         if !potential {
             report.circulates(held.circulation());
         }
-        frequencies = report.damped(&found);
-        drawn = found.iter().map(|d: &Damped| d.shape.map(|x| x.re)).collect();
+        frequencies = report.damped(&found, if asked.lowest.is_some() { wanted } else { found.len() }, 0.0);
+        drawn = found.iter().take(frequencies.len()).map(|d: &Damped| d.shape.map(|x| x.re)).collect();
     }
     let close = |phi: &[f64]| held.partition.follow(&DMatrix::from_column_slice(phi.len(), 1, phi)).as_slice().to_vec();
     let scenes = drawn

@@ -1,5 +1,6 @@
 //! The lowest modes of a mechanism of many bodies, by sparse matrices on the tree on which these are.
 
+use super::damped::{Damped, by_largest};
 use super::picture::picture;
 use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
@@ -9,6 +10,7 @@ use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::held::Pose;
 use crate::kinematics::lowest::{self, Lowest};
+use crate::kinematics::lowest_damped::{LowestDamped, growing, lowest_damped};
 use crate::kinematics::partition::without_mass;
 use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
 use crate::kinematics::undefined::not_finite;
@@ -29,13 +31,13 @@ const MASSLESS: f64 = 1e-13;
 /// Whether a study wants the lowest modes by sparse matrices.
 pub(super) fn is_asked(model: &Model, asked: &Modes) -> bool {
     match asked.methods[..] {
-        [] => model.bodies.len() > MANY && !asked.damped,
-        [Eigensolver::Lanczos] => !asked.damped,
+        [] => model.bodies.len() > MANY,
+        [Eigensolver::Lanczos] => true,
         _ => false,
     }
 }
 
-/// Runs a study of modes; none if forces have no potential.
+/// Runs a study of modes; none if forces have no potential, or if with damping C is not symmetric or there are first-order states.
 ///
 /// # Errors
 /// As those of few bodies, and if the iteration does not converge.
@@ -46,6 +48,9 @@ where
 {
     let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled_for_gauges::<G>(model, parameters)?;
+    if asked.damped && !mechanism.state_starts.is_empty() {
+        return Ok(None);
+    }
     let rest = if asked.at_equilibrium {
         let Some(rest) = equilibrium_of_many::<G>(case, &mechanism, &mechanism.lift(), &start, stop)? else { return Ok(None) };
         rest
@@ -61,7 +66,7 @@ where
         let name = independent.get(shape(independent, &x).iamax()).map_or("", |(c, _)| &c.name);
         return Err(without_mass(name, &study.place));
     }
-    if pencil.circulation() > POTENTIAL {
+    if pencil.circulation() > POTENTIAL || asked.damped && pencil.asymmetry(&pencil.damping) > POTENTIAL {
         return Ok(None);
     }
     let mut report = Report { study, own: &own, lists: Vec::new(), shapes: Vec::new(), findings };
@@ -71,19 +76,28 @@ where
         report.balance(held.unbalanced.iter().zip(own.iter().map(|c| BALANCED * held.work / way(c))));
     }
     let wanted = asked.lowest.unwrap_or(LOWEST);
-    let Lowest { values, mut vectors, steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
+    let Lowest { values, mut vectors, mut steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
-    report.list("steps_lanczos", "", vec![steps as f64]);
     let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(pencil, independent, value, x)).collect();
-    let frequencies = report.frequencies(&modes);
-    if own.len() > values.len() {
-        let message = format!("these are the {} lowest of {} modes; `lowest` asks for more", values.len(), own.len());
+    let (frequencies, drawn) = if asked.damped {
+        let LowestDamped { motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
+        steps += more;
+        let found = motions.iter().map(|motion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) });
+        let frequencies = report.damped(&found.collect::<Vec<_>>(), wanted, omega);
+        growth(&mut report, pencil, motions.iter().filter(|m| m.value.re > 0.0).count());
+        (frequencies, motions.iter().map(|motion| motion.vector.iter().map(|x| x.re).collect()).collect())
+    } else {
+        (report.frequencies(&modes), vectors)
+    };
+    report.list("steps_lanczos", "", vec![steps as f64]);
+    if own.len() > frequencies.len() {
+        let message = format!("these are the {} lowest of {} modes; `lowest` asks for more", frequencies.len(), own.len());
         report.finding("lowest-modes", message);
     }
     let mut closing = pencil.closing();
     let mut close = |phi: &[f64]| closing.as_mut().map_or_else(|| vec![0.0; mechanism.nv], |kkt| Pencil::closed(kkt, phi));
-    let scenes = vectors
+    let scenes = drawn
         .into_iter()
         .take(if case.drawn { DRAWN } else { 0 })
         .map(|x| picture(case, &mechanism, pose, &DVector::from_vec(x), &mut close))
@@ -105,9 +119,34 @@ fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value:
     Undamped { value, shape, noise: ROUND_OFF * (noise + made_of) }
 }
 
+/// The lowest damped motions beside undamped modes, whose frequencies say where they are to be sought.
+fn damped_of(pencil: &Pencil, wanted: usize, modes: &[Undamped], stop: &dyn Fn() -> bool) -> Option<LowestDamped> {
+    let (held, free): (Vec<&Undamped>, Vec<&Undamped>) = modes.iter().partition(|mode| mode.value.abs() > mode.noise);
+    let lowest = held.iter().map(|mode| mode.value.abs()).min_by(f64::total_cmp);
+    lowest_damped(pencil, wanted, lowest, !free.is_empty(), stop)
+}
+
+/// That more motions grow than are listed, or that these cannot be counted.
+fn growth(report: &mut Report<'_>, pencil: &Pencil, listed: usize) {
+    match growing(pencil) {
+        Some(all) if all > listed => report.finding(
+            "unstable",
+            format!("{all} motions leave the pose (as many as the stiffness has negative eigenvalues), {listed} of them are listed; `lowest` asks for more"),
+        ),
+        Some(_) => {}
+        None => report.finding(
+            "not-counted",
+            "a load or damper drives some motion on instead of slowing it down: motions that grow may lie above these modes; `methods: [library]` lists all".into(),
+        ),
+    }
+}
+
 /// The independent coordinates of a vector (nv).
-fn shape(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[f64]) -> DVector<f64> {
-    DVector::from_iterator(independent.len(), independent.iter().map(|(_, line)| line.iter().map(|(j, s)| s * x[*j]).sum()))
+fn shape<T>(independent: &[(Coordinate, Vec<(usize, f64)>)], x: &[T]) -> DVector<T>
+where
+    T: nalgebra::Scalar + Copy + std::ops::Mul<f64, Output = T> + std::iter::Sum,
+{
+    DVector::from_iterator(independent.len(), independent.iter().map(|(_, line)| line.iter().map(|(j, s)| x[*j] * *s).sum()))
 }
 
 /// The iteration for the lowest modes has been stopped, or does not converge.

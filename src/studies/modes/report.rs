@@ -9,7 +9,7 @@ use crate::results::{Certificate, Finding, List, Scene};
 use crate::studies::common::case::Case;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
-use nalgebra::DVector;
+use nalgebra::{Complex, DVector};
 
 /// An eigenvalue below this part of what it is the sum of is round-off: a free motion.
 pub(super) const ROUND_OFF: f64 = 1e-12;
@@ -23,6 +23,8 @@ const RIGID: f64 = 1e-7;
 const GROWS: f64 = 1e-8;
 /// Parts of a shape that count in words, of the largest one.
 const PART: f64 = 0.3;
+/// Imaginary part of a part of a shape, of its real one, that is round-off.
+const AGAINST: f64 = 1e-9;
 /// Most coordinates that a finding names.
 const NAMED: usize = 12;
 
@@ -112,10 +114,13 @@ impl Report<'_> {
         self.finding("circulatory-forces", message);
     }
 
-    /// Lists and shapes of damped modes, with what grows; their frequencies |Im μ|.
-    pub(super) fn damped(&mut self, found: &[Damped]) -> Vec<f64> {
+    /// Lists and shapes of the first `wanted` damped modes, with what grows, also among those that are not listed; their frequencies |Im μ|. What is
+    /// small beside the largest |μ|, and beside a frequency `omega` of the mechanism, is 0.
+    pub(super) fn damped(&mut self, all: &[Damped], wanted: usize, omega: f64) -> Vec<f64> {
+        let size = all.iter().fold(omega, |m, d| m.max(d.value.norm()));
+        let grows = |mode: &Damped| mode.value.re > GROWS * mode.value.norm() && mode.value.norm() > RIGID * size;
+        let (found, beyond) = all.split_at(wanted.min(all.len()));
         let each = |f: &dyn Fn(&Damped) -> f64| -> Vec<f64> { found.iter().map(f).collect() };
-        let size = found.iter().fold(0.0_f64, |m, d| m.max(d.value.norm()));
         let frequencies = each(&|d| d.value.im);
         self.list("eigenvalues_real", "1/s", each(&|d| d.value.re));
         self.list("eigenvalues_imaginary", "1/s", each(&|d| d.value.im));
@@ -123,16 +128,24 @@ impl Report<'_> {
         self.list("frequencies", "rad/s", frequencies.clone());
         for (i, mode) in found.iter().enumerate() {
             let amplitudes = mode.shape.map(|x| x.norm());
-            let named = |c: &Coordinate, x: &nalgebra::Complex<f64>| [(c.name.clone(), x.norm()), (format!("{}.phase", c.name), x.arg())];
+            let named = |c: &Coordinate, x: &Complex<f64>| [(c.name.clone(), x.norm()), (format!("{}.phase", c.name), phase(*x))];
             self.shapes.push(self.own.iter().zip(mode.shape.iter()).flat_map(|(n, x)| named(n, x)).collect());
             if mode.value.norm() <= RIGID * size {
                 let message = format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&amplitudes));
                 self.finding("free-motion", message);
-            } else if mode.value.re > GROWS * mode.value.norm() {
+            } else if grows(mode) {
                 let message =
                     format!("mode {} is unstable, {}: it grows like exp({} t/s)", i + 1, self.parts(&amplitudes), short(mode.value.re));
                 self.finding("unstable", message);
             }
+        }
+        if let Some(fastest) = beyond.iter().filter(|mode| grows(mode)).map(|mode| mode.value.re).max_by(f64::total_cmp) {
+            let count = beyond.iter().filter(|mode| grows(mode)).count();
+            let message = format!(
+                "{count} more of the modes that are not listed are unstable: the fastest grows like exp({} t/s); `lowest` asks for more",
+                short(fastest)
+            );
+            self.finding("unstable", message);
         }
         frequencies
     }
@@ -180,6 +193,11 @@ impl Report<'_> {
             ..Outcome::default()
         }
     }
+}
+
+/// The phase of a part of a shape, from −π to π; against the largest part it is π, whatever the sign of its round-off.
+fn phase(x: Complex<f64>) -> f64 {
+    if x.re < 0.0 && x.im.abs() <= AGAINST * x.re.abs() { std::f64::consts::PI } else { x.arg() }
 }
 
 /// What the title of a drawing says of a mode: its frequency (of rad/s) and damping ratio.

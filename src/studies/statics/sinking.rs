@@ -316,8 +316,9 @@ pub(super) fn of_metric(stiffness: Block, rows: Block, metric: &[f64], row_scale
     let nv = metric.len();
     let mut mass = Block::new(&Sparsity::new(nv, nv, (0..nv).map(|i| (i, i))));
     mass.values_mut().copy_from_slice(metric);
+    let damping = Block::new(&Sparsity::new(nv, nv, []));
     let (metric, row_scale, grain) = (metric.to_vec(), row_scale.to_vec(), vec![0.0; nv]);
-    Pencil { mass, stiffness, rows, metric, row_scale, grain, freedom: nv }
+    Pencil { mass, stiffness, damping, rows, metric, row_scale, grain, freedom: nv }
 }
 
 /// The step by a factored matrix.
