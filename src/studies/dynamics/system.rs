@@ -18,6 +18,7 @@
 
 mod ahead;
 mod contact;
+mod direct;
 mod evaluate;
 mod events;
 mod power;
@@ -33,6 +34,7 @@ use crate::scalar::Dual;
 use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
+use direct::Source;
 use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 pub(crate) use root::{Met, Root, Watched};
 use seen::Seen;
@@ -50,6 +52,8 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     events: Vec<Watched>,
     /// Roots that depend on time alone.
     timed: Vec<Timed>,
+    /// The inputs of the programs of the mechanism, where all roots are decided by the numbers of a state alone.
+    direct: Option<Vec<Vec<(usize, Source)>>>,
     kkt: Kkt,
     friction: Option<Friction>,
     /// Terms of the own solution where friction depends on reactions.
@@ -148,6 +152,7 @@ where
         dynamics.position(&start.q, &start.modes);
         let outputs: Vec<usize> = events.iter().map(|event| event.output).collect();
         let timed = ahead::timed(mechanism, &observer, &roots, &outputs, mechanism.switches + mechanism.windings);
+        let direct = direct::sources(&dynamics, &start.q, &roots);
         let block = tangent_pattern(mechanism);
         let size: Vec<f64> = crate::kinematics::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
         let mut size_q = vec![1.0; mechanism.nq];
@@ -212,6 +217,7 @@ where
             pattern,
             events,
             timed,
+            direct,
             kkt,
         }
     }
@@ -225,6 +231,22 @@ where
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
         &modes[..m.switches + m.windings]
+    }
+
+    /// Roots that the numbers of a state decide alone.
+    fn direct_roots(&mut self, at: &At<'_>, g: &mut [f64]) {
+        let Self { direct: Some(direct), dynamics, roots, inputs, registers, scratch, .. } = self else { return };
+        let mut filled = usize::MAX;
+        for (root, g) in roots.iter().zip(g) {
+            let Root::Force { program, k } = *root else { continue };
+            if filled != program {
+                direct[program].iter().for_each(|(input, source)| inputs[*input] = source.of(at));
+                let program = &dynamics.mechanism.programs()[program].program;
+                program.roots(inputs, at.modes, registers, &mut scratch[..program.switches().len()]);
+            }
+            filled = program;
+            *g = scratch[k];
+        }
     }
 
     /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.
@@ -349,6 +371,9 @@ where
     }
 
     fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {
+        if self.direct.is_some() {
+            return self.direct_roots(&at, g);
+        }
         self.look(&at, Some((a, lambda)));
         let m = self.dynamics.mechanism;
         // whose roots are in the scratch: the programs of the mechanism by number, then that of the columns

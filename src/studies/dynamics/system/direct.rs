@@ -1,0 +1,137 @@
+//! Switches that the numbers of a state decide alone: their roots need no places of bodies.
+
+use super::Root;
+use crate::dynamics::Dynamics;
+use crate::geometry::Space;
+use crate::mechanism::{Gauge, Leaf, Measured, Step};
+use grashof_solvers::At;
+
+/// Where an input of a program stands in a state.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Source {
+    Time,
+    State(usize),
+    /// Of the coordinates q.
+    Position(Sum),
+    /// Of the velocities v.
+    Rate(Sum),
+}
+
+/// A constant and numbers of a state with their factors.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sum {
+    constant: f64,
+    terms: Vec<(usize, f64)>,
+}
+
+impl Sum {
+    fn single(k: usize) -> Self {
+        Self { constant: 0.0, terms: vec![(k, 1.0)] }
+    }
+
+    fn of(&self, x: &[f64]) -> f64 {
+        self.terms.iter().fold(self.constant, |sum, (k, factor)| sum + factor * x[*k])
+    }
+}
+
+impl Source {
+    pub(super) fn of(&self, at: &At<'_>) -> f64 {
+        match self {
+            Self::Time => at.t,
+            Self::State(k) => at.z[*k],
+            Self::Position(sum) => sum.of(at.q),
+            Self::Rate(sum) => sum.of(at.v),
+        }
+    }
+}
+
+/// The inputs of each program of a mechanism with their sources; none unless all roots are switches of programs that read such numbers
+/// alone. The mechanism stands at the coordinates `q`.
+pub(super) fn sources<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], roots: &[Root]) -> Option<Vec<Vec<(usize, Source)>>> {
+    let programs = dynamics.mechanism.programs();
+    let mut sources = vec![Vec::new(); programs.len()];
+    for root in roots {
+        let Root::Force { program, .. } = *root else { return None };
+        if sources[program].is_empty() {
+            let fills = programs[program].fills.iter().map(|&(input, leaf)| Some((input, source(dynamics, q, leaf)?)));
+            sources[program] = fills.collect::<Option<_>>()?;
+        }
+    }
+    Some(sources)
+}
+
+fn source<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], leaf: Leaf) -> Option<Source> {
+    match leaf {
+        Leaf::Time => Some(Source::Time),
+        Leaf::State(k) => Some(Source::State(k)),
+        Leaf::Gauge { gauge, order: order @ (0 | 1) } => {
+            let measured = &dynamics.mechanism.gauges[gauge];
+            let [position, rate] = match measured.measured {
+                Measured::Coordinate { along, .. } => [Sum::single(along.q), Sum::single(along.v)],
+                // in the plane an angle is a sum of coordinates
+                Measured::Angle => angle(dynamics, q, measured, dynamics.work.readings[gauge].x)?,
+                _ => return None,
+            };
+            Some(if order == 0 { Source::Position(position) } else { Source::Rate(rate) })
+        }
+        Leaf::Gauge { .. } | Leaf::Stretch { .. } | Leaf::Spin { .. } => None,
+    }
+}
+
+/// The angle between two bodies in the plane and its rate, by the turns of the joints between them.
+fn angle<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], gauge: &Gauge<G>, x: f64) -> Option<[Sum; 2]> {
+    let mut sums = [Sum { constant: x, terms: Vec::new() }, Sum { constant: 0.0, terms: Vec::new() }];
+    for &(column, sign) in &gauge.columns {
+        let turn = sign * G::spin_component(dynamics.work.columns[column].w, 2);
+        if turn == 0.0 {
+            continue;
+        }
+        let coordinate = dynamics.mechanism.steps.iter().find_map(|step| match *step {
+            Step::Axis { q, v, .. } if v == column => Some(q),
+            _ => None,
+        })?;
+        sums[0].terms.push((coordinate, turn));
+        sums[0].constant -= turn * q[coordinate];
+        sums[1].terms.push((column, turn));
+    }
+    Some(sums)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Mechanical;
+    use crate::geometry::Planar;
+    use crate::mechanism::Coordinates;
+    use crate::model::{Document, Selection};
+    use crate::studies::common::case::parameters;
+    use crate::studies::common::observe::Observer;
+    use crate::studies::dynamics::phases::Phases;
+    use grashof_solvers::{State, System};
+
+    #[test]
+    fn they_are_the_roots_by_the_places_of_bodies() {
+        let text = include_str!("../../../../models/crank_rocker.yaml");
+        let selection = Selection { study: Some("start-up-exact"), ..Selection::default() };
+        let model = Document::read(text, "crank_rocker.yaml").unwrap().model(&selection).unwrap();
+        for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
+            let phases = Phases::<Planar<f64>>::new(&model, &parameters(&model), coordinates).unwrap();
+            let observer = Observer::new(&model, &phases.mechanism, &phases.parameters, &[]);
+            let mut system = Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, Vec::new());
+            let mut state = State::new(system.dims());
+            assert!(state.modes.len() > 2 && system.direct.is_some(), "{coordinates:?}");
+            for k in 0..5 {
+                let noise = |i: usize| (2.39 * (i + 1) as f64 * f64::from(k + 1)).sin();
+                state.q.iter_mut().zip(&phases.start.q).enumerate().for_each(|(i, (q, start))| *q = start + noise(i));
+                state.v.iter_mut().enumerate().for_each(|(i, v)| *v = 20.0 * noise(i + 7));
+                let (mut found, mut right) = (vec![0.0; system.roots.len()], vec![0.0; system.roots.len()]);
+                system.roots(state.at(), &[], &[], &mut found);
+                let direct = system.direct.take();
+                system.roots(state.at(), &[], &[], &mut right);
+                system.direct = direct;
+                for (found, right) in found.iter().zip(&right) {
+                    assert!((found - right).abs() < 1e-13 * (1.0 + right.abs()), "{coordinates:?}: {found} and {right}");
+                }
+            }
+        }
+    }
+}
