@@ -90,6 +90,23 @@ fn an_evaluator_forgets_what_it_has_evaluated() {
 }
 
 #[test]
+fn a_projection_is_on_the_constraints() {
+    for file in ["crank_rocker.yaml", "stewart_platform.yaml", "heavy_top.yaml"] {
+        let mechanism = model(file).mechanism().unwrap();
+        let (q, v) = mechanism.start();
+        let moved = |x: &[f64], by: f64| -> Vec<f64> { x.iter().enumerate().map(|(i, x)| x + by * (3.0 * i as f64).sin()).collect() };
+        let (q, v) = mechanism.project(0.0, &moved(&q, 1e-3), &moved(&v, 0.1)).unwrap();
+        let terms = mechanism.terms(0.0, q.as_slice(), v.as_slice()).unwrap();
+        assert!(terms.phi.amax() < 1e-13, "{file}: {}", terms.phi);
+        let off = (&terms.g * &v - &terms.nu).amax();
+        assert!(off < 1e-12 * (1.0 + v.amax()), "{file}: {off:e}");
+    }
+    let mechanism = model("crank_rocker.yaml").mechanism().unwrap();
+    let (q, v) = mechanism.start();
+    assert!(mechanism.project(0.0, &vec![f64::NAN; q.len()], &v).is_err());
+}
+
+#[test]
 fn placements_are_those_of_each_position() {
     let mechanism = model("stewart_platform.yaml").mechanism().unwrap();
     let (q, _) = mechanism.start();

@@ -110,6 +110,18 @@ class Dynamics:
         )
         return self._core.inverse(time, (at, along), (wanted, lagrange)).reshape(lead + (self.nv,))
 
+    def project(self, q: ArrayLike, v: ArrayLike | None = None, t: ArrayLike = 0.0) -> Tuple[Array, Array]:
+        """The states on the constraints next to given ones: coordinates (..., nq) moved to Φ = 0 and velocities (..., nv) moved to
+        G v = ν, each by the shortest way in the metric M. Without velocities those of rest are moved.
+
+        Raises :class:`grashof.Error` where the constraints cannot be closed from a state."""
+        import numpy as np
+
+        rates: Any = np.zeros(self.nv) if v is None else v
+        lead, (time, at, along) = self._states(t, (q, self.nq, "coordinates"), (rates, self.nv, "velocities"))
+        both = self._core.project(time, at, along)
+        return both[:, : self.nq].reshape(lead + (self.nq,)), both[:, self.nq :].reshape(lead + (self.nv,))
+
     def pose(self, body: str, q: ArrayLike) -> Pose:
         """Where a body of the file is, for coordinates ``q`` (..., nq)."""
         lead, (_, at) = self._states(0.0, (q, self.nq, "coordinates"))

@@ -186,6 +186,18 @@ impl Dynamics {
         })
     }
 
+    /// Coordinates on the constraints next to those given, and behind them the velocities.
+    fn project<'py>(&self, py: Python<'py>, t: Times<'py>, q: States<'py>, v: States<'py>) -> PyResult<Rows<'py>> {
+        let sizes = self.mechanism.sizes();
+        let at = InTime::of(&t, &q, &v, sizes)?;
+        self.each(py, (at.t.len(), sizes.0 + sizes.1), move |evaluator, i, out| {
+            let (q, v) = evaluator.project(at.t[i], at.q.row(i), at.v.row(i))?;
+            out.extend(q);
+            out.extend(v);
+            Ok(())
+        })
+    }
+
     /// Where a body is: its place, then its axes as the columns of a matrix that is written row by row.
     fn pose<'py>(&self, py: Python<'py>, body: &str, q: States<'py>) -> PyResult<Rows<'py>> {
         let count = q.as_array().nrows();

@@ -49,6 +49,36 @@ def test_they_are_one_system(dynamics: grashof.Dynamics) -> None:
     assert len(d.coordinates) == d.nv
 
 
+def test_a_projection_is_the_shortest_way_to_the_constraints(dynamics: grashof.Dynamics) -> None:
+    d = dynamics
+    q0, v0 = d.start()
+    random = np.random.default_rng(2)
+    small = 1e-5
+    q = q0 + small * random.standard_normal((4, d.nq))
+    v = v0 + random.standard_normal((4, d.nv))
+    at, along = d.project(q, v)
+    assert np.abs(d.constraints(at)).max(initial=0.0) < 1e-13
+    for i in range(4):
+        mass, rows = d.mass(at[i]), d.jacobian(at[i])
+        # what is left free: motions along all rows
+        _, sizes, turned = np.linalg.svd(rows) if d.m else (0, np.zeros(0), np.eye(d.nv))
+        free = turned[np.count_nonzero(sizes > 1e-9 * sizes.max(initial=1.0)) :]
+        scale = np.abs(mass).max()
+        assert np.abs(free @ mass @ (along[i] - v[i])).max(initial=0.0) < 1e-7 * scale
+        if d.nq == d.nv:
+            assert np.abs(free @ mass @ (at[i] - q[i])).max(initial=0.0) < 1e-2 * small * scale
+        # drivers move on: rates that were consistent at the start stay so
+        assert np.allclose(rows @ along[i], rows @ d.project(at[i], along[i])[1], atol=1e-12 * (1 + np.abs(along[i]).max()))
+    again, _ = d.project(at)
+    assert np.allclose(again, at, rtol=0, atol=1e-14 * (1 + np.abs(at).max()))
+
+
+def test_a_state_far_from_all_positions_is_refused() -> None:
+    d = grashof.load(CRANK_ROCKER).dynamics()
+    with pytest.raises(grashof.Refused, match="cannot be closed"):
+        d.project(np.full(d.nq, np.nan))
+
+
 def test_a_pose_is_that_of_the_body() -> None:
     d = grashof.parse(PENDULUM).dynamics()
     angles = np.linspace(-1.0, 1.0, 5)[:, np.newaxis]

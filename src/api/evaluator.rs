@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::state::{settle, sized};
-use grashof_solvers::{Kkt, Stage, State, System, Terms};
+use grashof_solvers::{Control, Engine, Kkt, Stage, State, System, Terms};
 
 /// Evaluates the equations of motion of a [`Mechanism`](super::Mechanism) in one state after the other, in memory that it takes once. The numbers do not
 /// depend on what was evaluated before.
@@ -19,6 +19,8 @@ pub struct Evaluator<'m> {
     lambda: Vec<f64>,
     modes: Vec<i32>,
     rest: Vec<f64>,
+    /// What projects, made when it is needed first.
+    engine: Option<Box<Engine>>,
 }
 
 impl<'m> Evaluator<'m> {
@@ -32,6 +34,7 @@ impl<'m> Evaluator<'m> {
             lambda: vec![0.0; dims.rows()],
             modes: begin.modes.clone(),
             rest: vec![0.0; dims.v],
+            engine: None,
             state: begin.clone(),
             begin,
             system,
@@ -98,5 +101,24 @@ impl<'m> Evaluator<'m> {
         sized("multipliers", lambda, self.lambda.len())?;
         self.system.residual(self.state.at(), a, lambda, &mut self.a);
         Ok(&self.a)
+    }
+
+    /// The state on the constraints next to one, as behind each step of a motion: q (nq) moved to Φ = 0 and v (nv) to G v = ν, each by the
+    /// shortest way in the metric M.
+    ///
+    /// # Errors
+    /// If q or v have other sizes than those of the mechanism; if the constraints cannot be closed from there, or mass is missing.
+    pub fn project(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(&[f64], &[f64]), Error> {
+        self.stand(t, q, v)?;
+        let Self { system, state, engine, .. } = self;
+        let engine = engine.get_or_insert_with(|| Box::new(Engine::new(&**system, Control::Steps([1.0; 2]))));
+        let closed = state.q.iter().chain(&state.v).all(|x| x.is_finite()) && engine.project(&mut **system, state).is_ok();
+        if !closed {
+            return Err(Error::Refused {
+                message: "the constraints cannot be closed from this state".into(),
+                help: "begin nearer to a position that the mechanism can take, as one that `start` or a result gives".into(),
+            });
+        }
+        Ok((&state.q, &state.v))
     }
 }

@@ -164,6 +164,16 @@ impl Mechanism {
         Ok(DVector::from_column_slice(self.evaluator().inverse(t, q, v, a, lambda)?))
     }
 
+    /// The state on the constraints next to one: coordinates (nq) and velocities (nv), as [`Evaluator::project`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn project(&self, t: f64, q: &[f64], v: &[f64]) -> Result<(DVector<f64>, DVector<f64>), Error> {
+        let mut evaluator = self.evaluator();
+        let (q, v) = evaluator.project(t, q, v)?;
+        Ok((DVector::from_column_slice(q), DVector::from_column_slice(v)))
+    }
+
     /// What evaluates many states in memory that it takes once.
     #[must_use]
     pub fn evaluator(&self) -> Evaluator<'_> {
