@@ -71,7 +71,7 @@ pub(super) fn frame(drawing: &Drawing, plan: &Plan) -> Scene {
 
 /// The scale and the axes.
 pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
-    let end = marks::scale_bar(scene, plan.sheet.scale, LETTERS);
+    let end = marks::scale_bar(scene, plan.sheet.scale, drawing.length.as_ref(), LETTERS);
     forces::legend(drawing, plan.sheet.scale, plan.forces, scene, end + 40.0, LETTERS);
     if let Some(axes) = drawing.axes {
         marks::triad(scene, axes.map(|[x, y]| [x, -y]), LETTERS);
@@ -330,6 +330,7 @@ mod tests {
             let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
             let gear = super::super::pose::Gear {
                 circles: vec![vec![at; 3]],
+                rims: Vec::new(),
                 line: Some([at; 2]),
                 mesh: Some(at),
                 belt: vec![at; 3],

@@ -69,7 +69,10 @@ pub fn write_dxf(drawing: &Drawing) -> String {
         signed(&mut out, Layer::Links, &back, mm, |scene| signs.link(scene, link.kind, ends, turned));
     }
     for gear in drawing.gears.iter().map(|gear| sheet.gear(gear)) {
-        gear.circles.iter().for_each(|circle| out.path(Layer::Gears, &circle.iter().copied().map(back).collect::<Vec<_>>(), false));
+        gear.circles
+            .iter()
+            .chain(&gear.rims)
+            .for_each(|circle| out.path(Layer::Gears, &circle.iter().copied().map(back).collect::<Vec<_>>(), false));
         gear.line.iter().chain(&gear.rope).for_each(|line| out.path(Layer::Gears, &line.map(back), false));
         out.path(Layer::Gears, &gear.belt.iter().copied().map(back).collect::<Vec<_>>(), true);
     }

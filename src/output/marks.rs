@@ -5,6 +5,7 @@ use super::pose::{Gear, LinkKind, Placement};
 use super::scene::{Anchor, Color, INK, Scene, Stroke};
 use super::symbols::{Signs, direction, off};
 use super::thin::Point;
+use crate::results::ShownIn;
 use std::f64::consts::TAU;
 
 /// Of springs and dampers.
@@ -136,6 +137,7 @@ impl Signs {
     pub(super) fn gear(self, scene: &mut Scene, gear: &Gear) {
         let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
         gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
+        gear.rims.iter().for_each(|rim| scene.line(rim.clone(), Stroke::solid(INK, self.pen(2.5))));
         gear.line.iter().for_each(|line| scene.line(line.to_vec(), stroke));
         if !gear.belt.is_empty() {
             scene.shape(gear.belt.clone(), None, Some(Stroke::solid(BELT, self.pen(4.0))));
@@ -163,18 +165,24 @@ pub(super) fn triad(scene: &mut Scene, axes: [Point; 3], letters: f64) {
     }
 }
 
-/// A bar of round length at the lower left, for `scale` pixels to the metre. Gives where it ends, pixels.
-pub(super) fn scale_bar(scene: &mut Scene, scale: f64, letters: f64) -> f64 {
-    let longest = 200.0 / scale;
+/// A bar of round length at the lower left, for `scale` pixels to the metre, in the unit that is asked for or in m or mm. Gives where it
+/// ends, pixels.
+pub(super) fn scale_bar(scene: &mut Scene, scale: f64, asked: Option<&ShownIn>, letters: f64) -> f64 {
+    let size = asked.map_or(1.0, |asked| asked.size);
+    let longest = 200.0 / (scale * size);
     let power = 10f64.powf(longest.log10().floor());
     let length = [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|length| *length <= longest * (1.0 + 1e-9)).unwrap_or(power);
     let (left, y) = (30.0, scene.height - 26.0);
-    let right = left + length * scale;
+    let right = left + length * size * scale;
     scene.line(vec![[left, y], [right, y]], Stroke::solid(INK, 2.5));
     for x in [left, right] {
         scene.line(vec![[x, y - 7.0], [x, y + 7.0]], Stroke::solid(INK, 2.5));
     }
-    let (length, unit) = if length < 0.0099 { (length * 1e3, "mm") } else { (length, "m") };
+    let (length, unit) = match asked {
+        Some(asked) => (length, asked.unit.as_str()),
+        None if length < 0.0099 => (length * 1e3, "mm"),
+        None => (length, "m"),
+    };
     let text = format!("{} {unit}", super::scalars::significant(length, 6));
     scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
     right + 14.0 + font::width(&text, letters)

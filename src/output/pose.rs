@@ -1,5 +1,7 @@
 //! What a drawing of a mechanism shows.
 
+use crate::results::ShownIn;
+
 /// A mechanism in the plane of its picture, all lengths in metres, y upwards.
 ///
 /// Everything that moves has one entry for each position; the first position is drawn strongly, the others paler and paler.
@@ -8,6 +10,8 @@
 pub struct Drawing {
     /// Above the picture; may be empty.
     pub title: String,
+    /// The unit to show lengths in, if one is asked for.
+    pub length: Option<ShownIn>,
     /// The bodies; the frame is shown by its joints.
     pub bodies: Vec<Outline>,
     /// The joints.
@@ -146,6 +150,8 @@ pub enum LinkKind {
 pub struct Gear {
     /// Pitch circles, as closed lines.
     pub circles: Vec<Vec<[f64; 2]>>,
+    /// Rims around inner teeth, as closed lines.
+    pub rims: Vec<Vec<[f64; 2]>>,
     /// Pitch line of a rack.
     pub line: Option<[[f64; 2]; 2]>,
     /// Where they touch.

@@ -67,6 +67,7 @@ impl Sheet {
     pub(super) fn gear(&self, gear: &Gear) -> Gear {
         Gear {
             circles: gear.circles.iter().map(|circle| self.points(circle)).collect(),
+            rims: gear.rims.iter().map(|rim| self.points(rim)).collect(),
             line: gear.line.filter(|line| line.iter().all(is_usable)).map(|line| line.map(|p| self.point(p))),
             mesh: gear.mesh.filter(is_usable).map(|p| self.point(p)),
             belt: self.points(&gear.belt),
@@ -112,10 +113,9 @@ pub(super) fn extent(drawing: &Drawing) -> [f64; 4] {
     let joints = joints.flat_map(|pose| std::iter::once(pose.at).chain(pose.way.into_iter().flatten()));
     let links = drawing.links.iter().flat_map(|link| link.poses.iter().flatten().copied());
     let traces = drawing.traces.iter().flat_map(|trace| trace.points.iter().copied());
-    let gears = drawing
-        .gears
-        .iter()
-        .flat_map(|gear| gear.circles.iter().flatten().chain(&gear.belt).copied().chain(gear.line.into_iter().chain(gear.rope).flatten()));
+    let gears = drawing.gears.iter().flat_map(|gear| {
+        gear.circles.iter().chain(&gear.rims).flatten().chain(&gear.belt).copied().chain(gear.line.into_iter().chain(gear.rope).flatten())
+    });
     let all = bodies.chain(joints).chain(links).chain(traces).chain(gears).filter(is_usable);
     let [left, bottom, right, top] = all.fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |e, [x, y]| {
         [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)]

@@ -7,7 +7,7 @@ use crate::results::scene::{Place, Shape};
 use std::f64::consts::TAU;
 
 /// Corners of a circle.
-const CORNERS: usize = 48;
+const CORNERS: usize = 96;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
 

@@ -4,6 +4,9 @@ use super::Posed;
 use crate::output::pose::Gear;
 use crate::results::scene::{self, GearKind, Place, Wheel};
 
+/// Radius of the rim of a wheel with inner teeth, as a multiple of that of its pitch circle.
+const RIM: f64 = 1.08;
+
 impl Posed<'_> {
     pub(super) fn gears(&self) -> impl Iterator<Item = Gear> {
         let first = self.frames.first().copied();
@@ -15,12 +18,12 @@ impl Posed<'_> {
         let axis = |wheel: &Wheel| {
             if wheel.axis.len() == 3 { self.scene.direction(poses, wheel.body, &wheel.axis) } else { [0.0, 0.0, 1.0] }
         };
-        let circle = |wheel: &Wheel| {
-            let mut ring: Vec<[f64; 2]> =
-                self.ring(center(wheel), axis(wheel), wheel.radius.abs()).into_iter().map(|p| self.view.flat(p)).collect();
+        let around = |wheel: &Wheel, radius: f64| {
+            let mut ring: Vec<[f64; 2]> = self.ring(center(wheel), axis(wheel), radius).into_iter().map(|p| self.view.flat(p)).collect();
             ring.extend(ring.first().copied());
             ring
         };
+        let circle = |wheel: &Wheel| around(wheel, wheel.radius.abs());
         let (a, b) = (center(&gear.a), center(&gear.b));
         match gear.kind {
             GearKind::Rack => {
@@ -48,7 +51,9 @@ impl Posed<'_> {
                 // a gear within one with inner teeth touches it on the far side
                 let reach = if gear.b.radius < 0.0 { -gear.a.radius } else { gear.a.radius.abs() };
                 let mesh = self.view.flat(std::array::from_fn(|i| a[i] + reach / length * d[i]));
-                Gear { circles: vec![circle(&gear.a), circle(&gear.b)], mesh: Some(mesh), ..Gear::default() }
+                let inner = [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.radius < 0.0);
+                let rims = inner.map(|wheel| around(wheel, RIM * wheel.radius.abs())).collect();
+                Gear { circles: vec![circle(&gear.a), circle(&gear.b)], rims, mesh: Some(mesh), ..Gear::default() }
             }
         }
     }

@@ -70,6 +70,7 @@ impl Posed<'_> {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| self.view.flat(e));
         Drawing {
             title: String::new(),
+            length: self.scene.length.clone(),
             bodies: self.bodies().collect(),
             joints: self.joints().chain(self.pins()).collect(),
             links: self.links().collect(),

@@ -12,6 +12,7 @@ pub use frames::{Frames, interpolate};
 pub use parts::{Arrow, ArrowKind, Body, Gear, GearKind, Joint, Link, LinkKind, Place, Trace, Wheel};
 pub use shape::Shape;
 
+use crate::results::ShownIn;
 use serde::{Deserialize, Serialize};
 
 /// A mechanism as it is drawn, and its motion.
@@ -23,6 +24,8 @@ pub struct Scene {
     pub up: [f64; 3],
     /// What a title says beside the names of model and study: the run of a sweep, the frequency of a mode; may be empty.
     pub caption: String,
+    /// The unit to show lengths in, if the model asks for one.
+    pub length: Option<ShownIn>,
     /// Azimuth and elevation of the eye, rad, if the study asks for them.
     pub view: Option<[f64; 2]>,
     /// Bodies; the first is the ground.

@@ -4,7 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import type { Motion } from '../motion';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
-import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
+import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
 
@@ -74,10 +74,13 @@ export class Plane implements Renderer {
     const { scene } = this.motion;
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
-    scene.gears.forEach((gear, k) => this.toothed(gear, 0.1 * width * (k + 1)));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
-    scene.bodies.forEach((body, index) => body.shapes.forEach((shape) => this.shape(index, shape)));
+    const wheels = this.toothedWheels();
+    scene.bodies.forEach((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).forEach((shape) => this.shape(index, shape)));
+    // a wheel with inner teeth lies around the others
+    [...wheels.values()].sort((a, b) => a.radius - b.radius).forEach((wheel) => this.wheel(wheel));
+    scene.gears.forEach((gear, k) => this.rack(gear, 0.1 * width * (k + 1)));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.forEach((link) => this.link(link));
@@ -87,13 +90,21 @@ export class Plane implements Renderer {
     this.bar(height);
   }
 
-  /** Wheels with teeth, and racks. */
-  private toothed({ kind, a, b }: Gear, reach: number): void {
-    const { pen, inks } = this;
-    if (kind === 'belt' || kind === 'rope') return;
-    const color = (body: number) => inks.curves[(body + 5) % 6] ?? inks.soft;
-    for (const wheel of kind === 'rack' ? [a] : [b, a]) signs.gear(pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, this.place), wheel.radius < 0, color(wheel.body), inks);
-    if (kind === 'rack') signs.rack(pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), reach, inks);
+  /** The pitch circle of each body that is a wheel with teeth; a negative radius is that of inner teeth. */
+  private toothedWheels(): Map<number, Wheel> {
+    const wheels = this.motion.scene.gears.flatMap(({ kind, a, b }) => (kind === 'teeth' ? [a, b] : kind === 'rack' ? [a] : []));
+    return new Map(wheels.map((wheel) => [wheel.body, wheel]));
+  }
+
+  /** A wheel with its teeth, which takes the place of its disc. */
+  private wheel(wheel: Wheel): void {
+    const color = this.inks.curves[(wheel.body + 5) % 6] ?? this.inks.soft;
+    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, this.place), wheel.radius < 0, color, this.inks);
+  }
+
+  /** The toothed line of a rack. */
+  private rack({ kind, b }: Gear, reach: number): void {
+    if (kind === 'rack') signs.rack(this.pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), reach, this.inks);
   }
 
   /** Belts around wheels, and ropes that leave their drums. */

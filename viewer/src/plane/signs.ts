@@ -109,7 +109,7 @@ export function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): v
   pen.path(points).stroke(inks.curves[2]!, 1.6);
 }
 
-/** A pitch circle with teeth, turned by an angle; of an inner gear the teeth point inwards. */
+/** A pitch circle with teeth, turned by an angle; of an inner gear the teeth point inwards from its rim. */
 export function gear(pen: Pen, center: Point, radius: number, angle: number, inner: boolean, color: string, inks: Inks): void {
   const teeth = Math.min(Math.max(Math.round(radius / 3.4), 10), 90);
   const depth = Math.min(5, radius / 6);
@@ -122,6 +122,10 @@ export function gear(pen: Pen, center: Point, radius: number, angle: number, inn
   if (!inner) pen.fill(mixed(inks.paper, color, 0.14));
   pen.stroke(color, 1.4);
   pen.circle(center, radius).stroke(color, 0.8, [4, 4]);
+  if (inner) {
+    pen.circle(center, radius + 3 * depth).stroke(color, 1.8);
+    return;
+  }
   pen.path([center, [center[0] + radius * 0.86 * Math.cos(angle), center[1] - radius * 0.86 * Math.sin(angle)]]).stroke(color, 1);
 }
 

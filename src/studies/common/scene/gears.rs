@@ -11,6 +11,9 @@ use crate::model::{CouplingKind, Model};
 use crate::results::Scene;
 use crate::results::scene::{Body, Gear, GearKind, Shape, Wheel};
 
+/// A disc up to this multiple of a pitch circle is that of the pitch circle.
+const PITCH: f64 = 1.02;
+
 /// The gears of a mechanism whose circles can be told. The frames of the scene are there.
 pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Gear> {
     let rows = mechanism.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
@@ -28,8 +31,15 @@ pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
     .collect()
 }
 
-/// Gives wheels with outer teeth that have no outline of their own the disc of their pitch circle.
+/// Gives wheels with outer teeth that have no outline of their own the disc of their pitch circle, and takes the disc of its pitch circle
+/// from a wheel with inner teeth in the plane, in which the others stand.
 pub(super) fn outline_wheels(gears: &[Gear], bodies: &mut [Body]) {
+    for wheel in
+        gears.iter().flat_map(|gear| [&gear.a, &gear.b]).filter(|wheel| wheel.body > 0 && wheel.radius < 0.0 && wheel.axis.is_empty())
+    {
+        let pitch = |shape: &Shape| matches!(shape, Shape::Disc { radius, .. } if *radius <= PITCH * wheel.radius.abs());
+        bodies[wheel.body].shapes.retain(|shape| !pitch(shape));
+    }
     for gear in gears.iter().filter(|gear| matches!(gear.kind, GearKind::Teeth | GearKind::Rack)) {
         for wheel in [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.body > 0 && wheel.radius > 0.0) {
             let shapes = &mut bodies[wheel.body].shapes;

@@ -15,6 +15,8 @@ pub(crate) use places::extent;
 
 use super::case::Case;
 use super::motion::Motion;
+use super::named::shown_in;
+use crate::expression::Dimension;
 use crate::geometry::{Pose, Space};
 use crate::mechanism::Mechanism;
 use crate::model::{Side, View};
@@ -58,6 +60,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         let mut scene = Scene {
             dimensions: G::VECTOR,
             view: view(case),
+            length: shown_in(case.model, Dimension::LENGTH),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
             frames,
