@@ -20,7 +20,7 @@ space: planar
 gravity: none
 ground: {{ O: [0, 0] }}
 bodies:
-  crank: {{ bar: {{ length: 5 cm }} }}
+  crank: {{ bar: {{ length: 5 cm, mass: 0 }} }}
   link: {{ bar: {{ length: 15 cm, mass: 0.6 kg }} }}
   piston: {{ mass: 0.5 kg }}
 joints:

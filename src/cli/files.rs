@@ -1,7 +1,7 @@
 //! Reading the model file and naming the place of its results.
 
 use super::interrupt::{interrupted, uncut};
-use super::terminal::{print_error, print_report};
+use super::terminal::{print_error, print_failure, print_report};
 use super::{Common, code, print_note};
 use grashof::api::{beside, explained, why};
 use grashof::model::{Document, Report, Selection};
@@ -217,7 +217,7 @@ pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
 
 /// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
 pub(super) fn explain(document: &Document, failure: &Failure, study: &str, common: &Common) -> u8 {
-    print_report(&explained(document, study, failure), common.colored());
+    print_failure(study, &explained(document, study, failure), common.colored());
     match failure {
         Failure::Model(_) | Failure::Study { .. } => code::INPUT,
         Failure::Unsolved(_) | Failure::Undefined(_) | Failure::Numerical { .. } => code::NUMERICAL,

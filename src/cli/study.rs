@@ -245,11 +245,10 @@ impl Job<'_> {
         let mut code = code::DONE;
         for e in results.expectations.iter().filter(|e| !e.met) {
             code = code::UNMET;
-            let message = format!("`{}` is {}, not {} within {:e}", e.text, e.found, e.wanted, e.tolerance);
             let report = Report::new(vec![self.document.diagnostic(
                 "expectation",
                 &e.place,
-                message,
+                e.message.clone(),
                 "the value that the file expects",
                 Some(help.into()),
             )]);

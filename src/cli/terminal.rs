@@ -6,6 +6,7 @@
 use grashof::model::{Diagnostic, Excerpt, Report, Severity};
 use serde_json::{Value, json};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -16,6 +17,8 @@ static FAILED: AtomicBool = AtomicBool::new(false);
 static SAID: AtomicBool = AtomicBool::new(false);
 /// Errors that were printed and not yet taken.
 static ERRORS: Mutex<Vec<Value>> = Mutex::new(Vec::new());
+/// Why studies did not begin, as far as it was told: code, place, message.
+static TOLD: Mutex<BTreeSet<(String, String, String)>> = Mutex::new(BTreeSet::new());
 
 /// A line on stdout. A closed pipe is no error: somebody has read enough.
 pub(crate) fn print_out(text: &str) {
@@ -63,17 +66,37 @@ pub(crate) fn print_interrupted(message: &str) {
 
 /// Tells what was found at places of a file, as a compiler does.
 pub(crate) fn print_report(report: &Report, colored: bool) {
+    keep_all(report);
+    let visible = Report { diagnostics: report.diagnostics.iter().map(visible).collect() };
+    let text = visible.render(colored);
+    if !text.is_empty() {
+        let _ = writeln!(std::io::stderr().lock(), "{}", text.trim_end());
+    }
+}
+
+/// Tells why a study did not begin: in one line where an earlier one did not for the same reason.
+pub(crate) fn print_failure(study: &str, report: &Report, colored: bool) {
+    let key = |found: &Diagnostic| (found.code.to_owned(), found.place.clone(), found.message.clone());
+    let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    let new = report.diagnostics.iter().filter(|found| told.insert(key(found))).count();
+    drop(told);
+    let [first, ..] = &report.diagnostics[..] else { return };
+    if new > 0 || study.is_empty() {
+        return print_report(report, colored);
+    }
+    keep_all(report);
+    let place = first.at.as_ref().map_or_else(String::new, |at| format!(" at {}:{}:{}", first.file, at.line, at.column));
+    print_note(&format!("error[{}]: study `{study}` does not begin for the same reason{place}", first.code));
+}
+
+/// Keeps the errors of a report.
+fn keep_all(report: &Report) {
     for found in report.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
         let place = found.at.as_ref().map(|at| (at.line, at.column));
         keep(json!({
             "code": found.code, "message": found.message, "expected": found.expected, "help": found.help, "path": found.place,
             "file": found.file, "line": place.map(|p| p.0), "column": place.map(|p| p.1),
         }));
-    }
-    let visible = Report { diagnostics: report.diagnostics.iter().map(visible).collect() };
-    let text = visible.render(colored);
-    if !text.is_empty() {
-        let _ = writeln!(std::io::stderr().lock(), "{}", text.trim_end());
     }
 }
 

@@ -187,7 +187,9 @@ fn meant(word: &str) -> Option<String> {
     // torques are what people glue together
     (1..letters.len()).rev().find_map(|i| {
         let (first, rest) = letters.split_at(i);
-        (matches!(first, "N" | "kN" | "MN" | "kg" | "W" | "V" | "A") && unit(rest).is_some()).then(|| format!("{first} {rest}{power}"))
+        let [one, other] = [first, rest].map(|word| unit(word).map(|(_, dimension)| dimension));
+        (matches!(first, "N" | "kN" | "MN" | "kg" | "W" | "V" | "A") && other.is_some() && one != other)
+            .then(|| format!("{first} {rest}{power}"))
     })
 }
 

@@ -48,6 +48,24 @@ pub struct Body {
     pub place: Place,
 }
 
+impl Body {
+    /// Whether the model file says anything of its mass, if only that it is 0.
+    #[must_use]
+    pub fn mass_is_said(&self) -> bool {
+        let of_shape = match &self.shape {
+            Some(
+                Shape::Bar { mass, .. }
+                | Shape::BarBetween { mass, .. }
+                | Shape::Disc { mass, .. }
+                | Shape::Plate { mass, .. }
+                | Shape::Ball { mass, .. },
+            ) => mass.is_some(),
+            None => false,
+        };
+        of_shape || self.mass.is_some() || !self.inertia.is_empty() || !self.attached.is_empty()
+    }
+}
+
 /// A circle that a body is drawn as.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Circle {

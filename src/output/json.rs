@@ -185,10 +185,7 @@ fn findings(results: &Results) -> Value {
     let stopped = results.stopped.iter().map(|reason| entry("stopped", reason, &results.place));
     let found = |f: &Finding| entry(&f.code, &f.message, &f.path);
     let own = results.findings.iter().chain(results.solution.iter().flat_map(|s| &s.findings)).map(found);
-    let unmet = results.expectations.iter().filter(|e| !e.met).map(|e| {
-        let message = format!("{} is {}, not {} within {}", e.text, e.found, e.wanted, e.tolerance);
-        entry("expectation", &message, &e.place)
-    });
+    let unmet = results.expectations.iter().filter(|e| !e.met).map(|e| entry("expectation", &e.message, &e.place));
     stopped.chain(own).chain(unmet).collect()
 }
 

@@ -27,6 +27,8 @@ pub struct Checked {
     pub tolerance: f64,
     /// Whether it is met.
     pub met: bool,
+    /// What is wrong where it is not met, in the units that the model asks for; else empty.
+    pub message: String,
     /// Path in the file.
     pub place: String,
 }

@@ -30,6 +30,7 @@ pub fn run_in(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool)
     };
     outcome.certificate.undeclared = case.model.pool.externals_called().iter().filter(|function| !function.is_declared()).count();
     outcome.findings.extend(from_outside(case.model, case.study));
+    outcome.findings.extend(forgotten_mass(case.model, case.study));
     Ok(outcome)
 }
 
@@ -49,6 +50,35 @@ fn from_outside(model: &Model, study: &Study) -> Vec<Finding> {
         }
     }
     findings
+}
+
+/// Most bodies that a finding names.
+const NAMED: usize = 3;
+
+/// That the model says nothing of the mass of bodies whose mass counts in a study.
+fn forgotten_mass(model: &Model, study: &Study) -> Option<Finding> {
+    let weighs = !model.attractions.is_empty() || model.gravity.iter().any(|&g| model.pool.constant_value(g) != Some(0.0));
+    let counts = match study.kind {
+        Kind::Kinematics(_) => false,
+        Kind::Statics => weighs,
+        _ => true,
+    };
+    let moving = &model.bodies[1..];
+    let missing: Vec<String> = moving.iter().filter(|body| !body.mass_is_said()).map(|body| format!("`{}`", body.name)).collect();
+    if !counts || missing.is_empty() || !weighs && missing.len() == moving.len() {
+        return None;
+    }
+    let named = missing[..missing.len().min(NAMED)].join(", ");
+    let (who, whose) = match missing.len() {
+        1 => (format!("{named} has"), "its"),
+        n if n > NAMED => (format!("{named} and {} more bodies have", n - NAMED), "their"),
+        _ => (format!("{named} have"), "their"),
+    };
+    Some(Finding {
+        code: "no-mass".into(),
+        message: format!("{who} no mass, so that {whose} weight and inertia do not count; give `mass`, or `mass: 0` if that is meant"),
+        path: study.place.clone(),
+    })
 }
 
 /// The kinds of studies.

@@ -45,6 +45,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             // numbers, units, expressions
             "wrong-unit",
             "misspelt-unit",
+            "unit-twice",
+            "range-of-a-coordinate",
             "units-of-results",
             "misspelt-function",
             "parameter-without-unit",

@@ -41,14 +41,58 @@ fn expectations_are_those_of_the_file_s_own_values() {
         assert!(place.json("results/model/turn.json")["findings"].as_array().unwrap().is_empty());
         assert!(place.run(&[&turn[..], change, &["-q"]].concat()).ends(0).stderr.is_empty());
         let judged = place.run(&[&turn[..], change, &["--expect"]].concat()).ends(1).stderr;
-        assert!(judged.contains("not 1 within 1e-3"), "{judged}");
+        assert!(judged.contains("not 1 rad within 1e-3 rad"), "{judged}");
     }
     let sweep = ["sweep", "model.yaml", "--study", "turn", "--over", "l1=14 cm,15 cm", "--no-plots"];
     assert_eq!(place.run(&sweep).ends(0).stderr, note("--over` changes"));
     place.run(&[&sweep[..], &["--expect"]].concat()).ends(1);
     // what the study sets itself is its own
     let judged = place.run(&turn).ends(1).stderr;
-    assert!(judged.contains("not 1 within 1e-3") && !judged.contains("note:"), "{judged}");
+    assert!(judged.contains("not 1 rad within 1e-3 rad") && !judged.contains("note:"), "{judged}");
+}
+
+#[test]
+fn what_was_expected_is_told_in_the_units_of_the_model() {
+    let place = Place::new("expected-units");
+    let text = with("    expect: { swing: { is: 60 deg, within: 0.1 deg } }").replace("space: planar", "space: planar\nunits: [deg]");
+    place.put("model.yaml", &text);
+    let done = place.run(&["run", "model.yaml", "--study", "turn", "--no-plots"]).ends(1);
+    assert!(done.stderr.contains(" deg, not 60 deg within 1e-1 deg"), "{}", done.stderr);
+}
+
+#[test]
+fn the_same_reason_is_told_once() {
+    let place = Place::new("same-reason");
+    let text = model().replace("coupler.angle: ~25 deg", "coupler.angle: 60 deg");
+    place.put("model.yaml", &text);
+    let both = ["run", "model.yaml", "--study", "turn", "--study", "turn-again", "--no-plots"];
+    let done = place.run(&both).ends(2);
+    assert_eq!(done.stderr.matches("put `~` before").count(), 1, "{}", done.stderr);
+    assert!(done.stderr.contains("does not begin for the same reason at model.yaml:"), "{}", done.stderr);
+    // each study has its error in the JSON
+    let told: serde_json::Value = serde_json::from_str(&place.run(&[&both[..], &["--json"]].concat()).ends(2).stdout).unwrap();
+    let each = told.as_array().unwrap();
+    assert!(each.len() == 2 && each.iter().all(|study| study["errors"][0]["code"] == "start-cannot-hold"), "{told}");
+}
+
+#[test]
+fn a_body_whose_mass_is_forgotten_is_a_finding() {
+    let place = Place::new("forgotten-mass");
+    let codes = |text: &str, study: &str| -> Vec<String> {
+        place.put("model.yaml", text);
+        place.run(&["run", "model.yaml", "--study", study, "--no-plots"]).ends(0);
+        let report = place.json(&format!("results/model/{study}.json"));
+        report["findings"].as_array().unwrap().iter().map(|f| f["code"].as_str().unwrap().to_owned()).collect()
+    };
+    let without = model().replace("length: l2, mass: 6 kg", "length: l2");
+    assert_ne!(without, model());
+    assert_eq!(codes(&without, "turn"), ["no-mass"]);
+    let report = place.json("results/model/turn.json");
+    let message = report["findings"][0]["message"].as_str().unwrap();
+    assert!(message.starts_with("`coupler` has no mass, so that its weight and inertia do not count"), "{message}");
+    assert_eq!(codes(&model().replace("length: l2, mass: 6 kg", "length: l2, mass: 0"), "turn"), [""; 0]);
+    // where forces do not count, nothing is said
+    assert_eq!(codes(&without, "turn-again"), [""; 0]);
 }
 
 #[test]

@@ -20,55 +20,58 @@ impl<G: Space<S = f64>> System<'_, G> {
 
     /// The loops and exact values that stay open at the position evaluated last.
     pub(super) fn explain(&self) -> AssemblyFault {
+        let loops = self.open_loops();
+        let mut parts: Vec<String> = loops.iter().map(OpenLoop::words).collect();
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        let mut parts = Vec::new();
-        let mut place = String::from("start");
-        let mut help = "check lengths and points, or give guesses in `start` that are nearer to an assembly".to_owned();
-        for (index, joint) in m.joints.iter().enumerate() {
-            let (mut gap, mut tilt) = (0.0_f64, 0.0_f64);
-            for (row, phi) in m.rows.iter().zip(&w.phi).filter(|(r, _)| r.owner == RowOwner::Joint(index)) {
-                if row.angular { tilt += phi * phi } else { gap += phi * phi }
-            }
-            if gap.sqrt() > 1e-9 * self.size || tilt.sqrt() > 1e-9 {
-                let path = describe_loop(m, joint);
-                let shared: Vec<&Joint<G>> = m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).collect();
-                let others: Vec<&str> = shared.iter().map(|j| j.name.as_str()).collect();
-                let too_long = too_long(m, &shared);
-                if let Some((body, _)) = &too_long {
-                    help = format!("make `{body}` shorter, or the others longer");
-                }
-                parts.push(format!(
-                    "the loop {path} stays open at joint `{}` by {} mm and {} deg (joints {} share it){}",
-                    joint.name,
-                    short(gap.sqrt() * 1e3),
-                    short(tilt.sqrt().to_degrees()),
-                    others.join(", "),
-                    too_long.map_or_else(String::new, |(_, words)| words)
-                ));
-                if place == "start" {
-                    place = format!("joints.{}", joint.name);
-                }
-            }
-        }
         for (row, phi) in m.rows.iter().zip(&w.phi) {
             if !row.anchored && !matches!(row.owner, RowOwner::Joint(_)) && phi.abs() > 1e-9 {
                 let what = if matches!(row.owner, RowOwner::Coupling) { format!("coupling `{}`", row.label) } else { "a driver".into() };
                 parts.push(format!("{what} stays off by {}", short(*phi)));
             }
         }
-        AssemblyFault { code: "not-assembled", message: format!("the mechanism cannot be assembled: {}", parts.join("; ")), place, help }
+        let long = loops.iter().rev().find_map(|open| open.too_long.as_ref());
+        AssemblyFault {
+            code: "not-assembled",
+            message: format!("the mechanism cannot be assembled: {}", parts.join("; ")),
+            place: loops.first().map_or_else(|| "start".to_owned(), |open| format!("joints.{}", open.joint)),
+            help: long.map_or_else(
+                || "check lengths and points, or give guesses in `start` that are nearer to an assembly".to_owned(),
+                |(body, _)| format!("make `{body}` shorter, or the others longer"),
+            ),
+        }
     }
 
-    /// The exact values that keep the mechanism open; evaluated at the nearest position without them.
-    pub(super) fn explain_start(&self) -> AssemblyFault {
+    /// The loops that stay open at the position evaluated last.
+    pub(super) fn open_loops(&self) -> Vec<OpenLoop> {
+        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
+        let mut found = Vec::new();
+        for (index, joint) in m.joints.iter().enumerate() {
+            let (mut gap, mut tilt) = (0.0_f64, 0.0_f64);
+            for (row, phi) in m.rows.iter().zip(&w.phi).filter(|(r, _)| r.owner == RowOwner::Joint(index)) {
+                if row.angular { tilt += phi * phi } else { gap += phi * phi }
+            }
+            let (gap, tilt) = (gap.sqrt(), tilt.sqrt());
+            if gap > 1e-9 * self.size || tilt > 1e-9 {
+                let path = describe_loop(m, joint);
+                let shared: Vec<&Joint<G>> = m.joints.iter().filter(|j| path.contains(&format!("-{}-", j.name))).collect();
+                let sharers = shared.iter().map(|j| j.name.clone()).collect();
+                found.push(OpenLoop { joint: joint.name.clone(), path, sharers, gap, tilt, too_long: too_long(m, &shared) });
+            }
+        }
+        found
+    }
+
+    /// The exact values that keep the mechanism open; evaluated at the nearest position without them. `open` are the loops that they leave
+    /// open.
+    pub(super) fn explain_start(&self, open: &[OpenLoop]) -> AssemblyFault {
         let w = &self.dynamics.work;
         let of_position = |asked| matches!(asked, Asked::Gauge { order: 0, .. } | Asked::Orientation(_));
         let exact = |start: &&Start| !start.guess && of_position(start.asked);
         let starts: Vec<&Start> = self.dynamics.mechanism.starts.iter().filter(exact).collect();
-        let list = |value: &dyn Fn(&Start) -> f64| -> String {
-            starts.iter().map(|s| format!("{} = {}", s.name, short(value(s)))).collect::<Vec<_>>().join(", ")
-        };
         let m = self.dynamics.mechanism;
+        let list = |value: &dyn Fn(&Start) -> f64| -> String {
+            starts.iter().map(|s| format!("{} = {}", s.name, written(value(s), unit(m, s.asked)))).collect::<Vec<_>>().join(", ")
+        };
         let found = |start: &Start| match start.asked {
             Asked::Gauge { gauge, .. } => w.readings[gauge].x,
             Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r).0,
@@ -78,15 +81,50 @@ impl<G: Space<S = f64>> System<'_, G> {
         AssemblyFault {
             code: "start-cannot-hold",
             message: format!(
-                "no assembly has the exact start value{} {} (SI); one nearby has {}",
+                "no assembly has the exact start value{} {}{}; one nearby has {}",
                 if one { "" } else { "s" },
                 list(&|s| s.value),
+                open.first().map_or_else(String::new, |open| format!(", with which the loop {} does not close", open.path)),
                 list(&found)
             ),
             place: starts.last().map_or_else(|| "start".into(), |s| s.place.clone()),
             help: format!("put `~` before {}, so that it may give way, or check the lengths", if one { "it" } else { "one of them" }),
         }
     }
+}
+
+/// A loop that stays open.
+pub(super) struct OpenLoop {
+    /// The joint at which it does.
+    joint: String,
+    /// Bodies and joints around it, in words.
+    path: String,
+    /// Names of the joints that share it.
+    sharers: Vec<String>,
+    /// By how much, m and rad.
+    gap: f64,
+    tilt: f64,
+    /// A body that is longer than all others together, with the sentence that says so.
+    too_long: Option<(String, String)>,
+}
+
+impl OpenLoop {
+    fn words(&self) -> String {
+        format!(
+            "the loop {} stays open at joint `{}` by {} mm and {} deg (joints {} share it){}",
+            self.path,
+            self.joint,
+            short(self.gap * 1e3),
+            short(self.tilt.to_degrees()),
+            self.sharers.join(", "),
+            self.too_long.as_ref().map_or("", |(_, words)| words)
+        )
+    }
+}
+
+/// A start value in the units of drawings: degrees, else SI.
+fn written(x: f64, unit: &str) -> String {
+    if unit == "rad" { format!("{} deg", short(x.to_degrees())) } else { format!("{} {unit}", short(x)) }
 }
 
 /// The body of a loop of hinges that is longer between its two than all others together, so that no position closes the loop,

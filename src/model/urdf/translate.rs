@@ -302,7 +302,9 @@ impl Work<'_, '_, '_> {
         let path = format!("bodies.{}", self.names.links[index]);
         self.place(path.clone(), opening(link.node));
         let mut out = Mapping::new();
-        if !link.massless() {
+        if link.massless() {
+            out.insert("mass".into(), 0.into());
+        } else {
             self.mass(link, &path, &mut out);
         }
         let mut own = Mapping::new();

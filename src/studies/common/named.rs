@@ -51,7 +51,7 @@ pub(crate) fn column(model: &Model, name: &str, dimension: Dimension, values: Ve
 }
 
 /// The unit in which the model asks to show numbers of a dimension.
-fn shown_in(model: &Model, dimension: Dimension) -> Option<ShownIn> {
+pub(crate) fn shown_in(model: &Model, dimension: Dimension) -> Option<ShownIn> {
     let asked = model.units.iter().find(|unit| unit.dimension.is_shown_as(dimension))?;
     Some(ShownIn { unit: asked.name.clone(), size: asked.size })
 }

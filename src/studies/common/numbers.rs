@@ -1,8 +1,9 @@
 //! The numbers of a study: scalars and expectations from functionals and results.
 
 use super::case::Case;
+use super::named::shown_in;
 use crate::expression::{Cause, Id, LookupTable, Program};
-use crate::model::{FunctionalKind, Quantity, Tolerance};
+use crate::model::{Expectation, FunctionalKind, Model, Quantity, Tolerance};
 use crate::results::{Checked, Finding, Undefined};
 use std::sync::Arc;
 
@@ -71,7 +72,9 @@ impl Sources<'_> {
                 Tolerance::Relative(_) => x[2] * x[1].abs(),
             };
             let met = (x[0] - x[1]).abs() <= tolerance;
-            expectations.push(Checked { text: e.text.clone(), found: x[0], wanted: x[1], tolerance, met, place: e.place.clone() });
+            let message = if met { String::new() } else { unmet(self.case.model, e, [x[0], x[1], tolerance]) };
+            let (text, place) = (e.text.clone(), e.place.clone());
+            expectations.push(Checked { text, found: x[0], wanted: x[1], tolerance, met, message, place });
         }
         if undefined.is_some() {
             expectations.clear();
@@ -112,4 +115,15 @@ impl Sources<'_> {
             _ => Some(self.case.model.why_undefined(cause)),
         }
     }
+}
+
+/// That a value is not the one expected.
+fn unmet(model: &Model, e: &Expectation, [found, wanted, tolerance]: [f64; 3]) -> String {
+    let (unit, size) = shown_in(model, e.dimension).map_or_else(|| (e.dimension.si(), 1.0), |asked| (asked.unit, asked.size));
+    let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
+    // as many digits as tell the two apart: numbers divided by a unit end in noise
+    let rounded = |x: f64, digits: usize| format!("{:.digits$e}", x / size).parse::<f64>().unwrap_or(x / size);
+    let digits = (9..16).find(|&digits| rounded(found, digits) != rounded(wanted, digits)).unwrap_or(16);
+    let shown = |x: f64| rounded(x, digits);
+    format!("`{}` is {}{unit}, not {}{unit} within {:e}{unit}", e.text, shown(found), shown(wanted), rounded(tolerance, 3))
 }

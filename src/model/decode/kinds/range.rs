@@ -51,7 +51,15 @@ impl<'n> Decoder<'n> {
         let samples = samples.count()?;
         let over_at = at.key(over);
         let over = over.node?;
-        let (lowered, _) = self.any(over, &over_at, Allow::CONSTANT, &mut Local::default())?;
+        let before = self.faults.len();
+        let Some((lowered, _)) = self.any(over, &over_at, Allow { what: "`over`", ..Allow::CONSTANT }, &mut Local::default()) else {
+            for fault in self.faults.iter_mut().skip(before).filter(|fault| fault.code == "wrong-level") {
+                let help =
+                    "it is how far the driven coordinate goes on from its start, such as `1 turn`, or a time; `start` says from where";
+                fault.help = Some(help.to_owned());
+            }
+            return None;
+        };
         if lowered.dimension == Dimension::TIME {
             self.check(Rule::Positive("the time"), &[lowered.id], &over_at);
             return Some((Range { over: Over::Time(lowered.id), samples }, offers(Dimension::TIME, None)));
