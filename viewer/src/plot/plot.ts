@@ -3,11 +3,13 @@
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
 import { digits, heading, words } from '../numbers';
-import { type Curve, type Layout, type View, DASHES, axisOf, color, draw, layout } from './chart';
+import { type Curve, type Layout, type View, DASHES, axisOf, below, color, draw, layout } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
 
+/** Entries of a legend that are all in view. */
+const MANY = 16;
 /** Pixels of a drag that is no click. */
 const DRAG = 5;
 
@@ -17,7 +19,11 @@ export interface PlotKept { view: View; hidden: string[] }
 export class PlotView {
   readonly element: HTMLElement;
   private readonly stage = h('div', { class: 'plot-stage', tabindex: 0, role: 'group' });
+  private readonly entries: HTMLElement[] = [];
   private readonly values: HTMLElement[] = [];
+  private readonly note = h('p', { class: 'note', role: 'status', hidden: true });
+  /** The run of a sweep that is looked at. */
+  private run: number | null = null;
   private view: View = { width: 0, log: false, x: null, y: null };
   private place!: Layout;
   private overlay!: SVGGElement;
@@ -49,7 +55,7 @@ export class PlotView {
       button('SVG', `${title}: save as SVG`, () => saveSvg(file, this.title(), this.of.figure, this.view)),
       button('CSV', `${title}: save as CSV`, () => saveCsv(file, this.of.figure)),
       remove && button(icon('M4 4l8 8M12 4l-8 8'), `${title}: remove`, remove));
-    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage);
+    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage, this.note);
     this.stage.setAttribute('aria-label', `${title}; arrow keys move the cursor, + and − zoom, escape shows the whole range`);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.stage);
@@ -86,6 +92,30 @@ export class PlotView {
     if (this.overlay && !this.stale && this.cursor === null) this.mark();
   }
 
+  /** Draws the curves of a run strong, the others faint. */
+  choose(run: number): void {
+    this.run = run;
+    const { runs } = this.of;
+    if (new Set(runs).size < 2) return;
+    this.entries.forEach((entry, k) => entry.classList.toggle('strong', runs[k] === run));
+    this.stale = true;
+    if (this.near) this.refresh();
+  }
+
+  /** How the figure is seen, with the run that is looked at. */
+  private look(): View {
+    const { runs } = this.of;
+    const several = this.run !== null && runs.includes(this.run) && new Set(runs).size > 1;
+    return several ? { ...this.view, strong: (k) => runs[k] === undefined || runs[k] === this.run } : this.view;
+  }
+
+  /** Tells what a logarithmic axis leaves out. */
+  private tellBelow(): void {
+    const count = this.view.log ? below(this.of.figure, this.place) : 0;
+    this.note.hidden = count === 0;
+    this.note.textContent = count === 0 ? '' : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
+  }
+
   private title(): string {
     return `${this.study}: ${words(this.of.name)}`;
   }
@@ -103,9 +133,10 @@ export class PlotView {
         entry.setAttribute('aria-pressed', String(own.shown));
         this.draw();
       } }, line, h('span', {}, curve.right ? `${curve.label} (right)` : curve.label), value);
+      this.entries.push(entry);
       return entry;
     });
-    return h('div', { class: 'legend' }, ...entries);
+    return h('div', { class: curves.length > MANY ? 'legend many' : 'legend' }, ...entries);
   }
 
   private fit(): void {
@@ -120,7 +151,8 @@ export class PlotView {
     if (this.view.width === 0) return;
     this.stale = false;
     this.place = layout(this.of.figure, this.view);
-    const svg = draw(this.of.figure, this.view, this.place, this.title());
+    const svg = draw(this.of.figure, this.look(), this.place, this.title());
+    this.tellBelow();
     this.overlay = s('g', { class: 'overlay' });
     svg.append(this.overlay);
     this.stage.replaceChildren(svg);
@@ -151,7 +183,7 @@ export class PlotView {
       this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${heading('', curve.unit).replace(/^ \[|\]$/g, '')}`.trim() : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
       const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
-      if (px < -1e-9 || px > 1 + 1e-9 || py < 0 || py > 1) return;
+      if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
       this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve.color, figure.curves.length), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });
   }
