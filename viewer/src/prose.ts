@@ -22,7 +22,10 @@ function paragraphs(text: string): { text: string; drawn: boolean }[] {
   return out;
 }
 
+/** Lines that must stay lines also where there is little room. */
+const LISTED = /^\s*(?:[-*•]|\d+[.)])\s|\S {2,}\S/m;
+
 /** A text as it is to be read. */
 export function prose(text: string): Child[] {
-  return paragraphs(text).map(({ text: part, drawn }) => (drawn ? h('pre', { tabindex: 0, role: 'group', 'aria-label': 'drawing' }, part) : h('p', { class: 'prose' }, ...coded(part))));
+  return paragraphs(text).map(({ text: part, drawn }) => (drawn ? h('pre', { tabindex: 0, role: 'group', 'aria-label': 'drawing' }, part) : h('p', { class: LISTED.test(part) ? 'prose listed' : 'prose' }, ...coded(part))));
 }

@@ -7,6 +7,8 @@ export function wide(box: HTMLElement, height?: number): HTMLElement {
   const frame = h('div', { class: 'wide' }, box);
   const look = () => {
     const { scrollLeft, scrollWidth, clientWidth, offsetHeight, clientHeight } = box;
+    const first = box.querySelector('th')?.getBoundingClientRect();
+    frame.style.setProperty('--first', `${first ? Math.round(first.width) + 1 : 1}px`);
     frame.classList.toggle('more-left', scrollLeft > 1);
     frame.classList.toggle('more-right', scrollLeft + clientWidth < scrollWidth - 1);
     // what the bar takes must not cut a row

@@ -2,14 +2,18 @@
 
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
-import { digits, heading, words } from '../numbers';
+import { digits, pretty, words } from '../numbers';
 import { type Curve, type Layout, type View, DASHES, axisOf, below, color, draw, layout } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
 
-/** Entries of a legend that are all in view. */
+/** Entries of a legend from which on they stand close, and that are all in view. */
+const DENSE = 8;
 const MANY = 16;
+/** Letters of a value, and the width of a letter, em. */
+const VALUE = 9;
+const LETTER = 0.52;
 /** Pixels of a drag that is no click. */
 const DRAG = 5;
 
@@ -136,7 +140,10 @@ export class PlotView {
       this.entries.push(entry);
       return entry;
     });
-    return h('div', { class: curves.length > MANY ? 'legend many' : 'legend' }, ...entries);
+    const legend = h('div', { class: `legend${curves.length >= DENSE ? ' dense' : ''}${curves.length > MANY ? ' many' : ''}` }, ...entries);
+    const longest = Math.max(0, ...curves.map(({ label }) => label.length));
+    legend.style.setProperty('--entry', `calc(${LETTER * (longest + VALUE)}em + 30px)`);
+    return legend;
   }
 
   private fit(): void {
@@ -177,10 +184,12 @@ export class PlotView {
       const line = { x1: u(at), x2: u(at), y1: panels[0]!.top, y2: last.top + last.height, stroke: 'var(--accent)', 'stroke-width': this.cursor === null ? 1.4 : 1, 'stroke-dasharray': this.cursor === null ? 'none' : '3 3', class: 'now', 'data-at': at };
       this.overlay.append(s('line', line));
     }
+    // many curves of one unit have it at their axis
+    const close = figure.curves.length >= DENSE && new Set(figure.curves.map(({ unit }) => unit)).size === 1;
     figure.curves.forEach((curve, k) => {
       const point = this.point(k, at, points);
       const panel = panels.find((p) => p.curves.includes(curve));
-      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${heading('', curve.unit).replace(/^ \[|\]$/g, '')}`.trim() : '';
+      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${close ? '' : pretty(curve.unit)}`.trim() : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
       const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
       if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
