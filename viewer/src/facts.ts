@@ -44,7 +44,7 @@ function findings(results: Results, show: ShowPlace): HTMLElement | null {
   const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, h('span', {}, ...coded(message)), ' ', link(place, show));
   const all = [
     ...(results.stopped ? [entry('bad', results.stopped, results.undefined?.place || results.place)] : []),
-    ...results.expectations.filter((e) => !e.met).map((e) => entry('bad', e.message, e.place)),
+    ...results.expectations.filter((e) => !e.met).map((e) => entry('bad', e.message ?? `${e.text} is ${digits(e.found, 10)}, not ${digits(e.wanted, 10)} within ${digits(e.tolerance, 3)}`, e.place)),
     ...[...results.findings, ...(results.solution?.findings ?? [])].map((f) => entry('', f.message, f.path)),
   ];
   return all.length === 0 ? null : h('ul', { class: 'findings' }, ...all);

@@ -109,7 +109,7 @@ export interface Results {
   shapes: [string, Num][][];
   linear: LinearSystem | null;
   events: { name: string; at: Num }[];
-  expectations: { text: string; found: Num; wanted: Num; tolerance: Num; met: boolean; message: string; place: string }[];
+  expectations: { text: string; found: Num; wanted: Num; tolerance: Num; met: boolean; message?: string; place: string }[];
   findings: Finding[];
   certificate: Certificate;
   solution: Solution | null;
