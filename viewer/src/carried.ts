@@ -52,7 +52,7 @@ export interface Writing {
 
 const missing = (x: Num): x is null => x === null || !Number.isFinite(x);
 
-/** With the same decimals in all rows, as few as tell them; `decimal` undefined: with significant digits. */
+/** Numbers with the same decimals in all rows: as few as tell them, and at most so many. */
 function fixed(values: readonly Num[], most: number): (x: Num) => string {
   const whole = (count: number) => values.every((x) => missing(x) || Math.abs(Math.round(x * 10 ** count) * 10 ** (most - count) - Math.round(x * 10 ** most)) < 0.5);
   let count = 0;

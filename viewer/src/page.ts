@@ -68,6 +68,8 @@ export class Page {
   /** Whether the file has another text than is shown. */
   private stale = false;
   private later = 0;
+  /** Whether a reader has moved the contents since a study was shown. */
+  private browsed = false;
 
   constructor(private data: Data, private entries: Entry[], root: HTMLElement, private readonly more: More = {}) {
     this.file = source(data.model.source, data.model.path);
@@ -106,8 +108,8 @@ export class Page {
     this.view = study ? this.viewOf(study) : null;
     this.main.replaceChildren(this.view?.element ?? this.waiting(entry));
     this.mark();
-    this.fit();
-    this.reveal(this.links[this.entries.indexOf(entry)]!);
+    this.browsed = false;
+    this.showEntry();
     document.title = `${name} – ${this.data.model.name}`;
     this.more.viewed?.(name);
     if (focus) this.begin();
@@ -125,6 +127,14 @@ export class Page {
   /** The contents end with the window, also where they begin below the header. */
   private fit(): void {
     this.side.style.maxHeight = `${Math.max(LEAST, innerHeight - Math.max(0, this.side.getBoundingClientRect().top) - EDGE)}px`;
+  }
+
+  /** Brings the study in view into view in the contents, too, unless a reader looks for another one there. */
+  private showEntry(): void {
+    this.fit();
+    if (this.browsed) return;
+    const link = this.links[this.entries.findIndex((entry) => entry.name === this.name)];
+    if (link) this.reveal(link);
   }
 
   /** Brings an entry of the contents into view, below their heading. */
@@ -264,6 +274,9 @@ export class Page {
 
   private listen(): void {
     begin(() => this.view?.stage.redraw());
+    for (const event of ['wheel', 'touchmove', 'pointerdown', 'keydown']) this.nav.addEventListener(event, () => (this.browsed = true), { passive: true });
+    const sized = new ResizeObserver(() => this.showEntry());
+    for (const part of [this.nav, this.list]) sized.observe(part);
     for (const event of ['scroll', 'resize']) addEventListener(event, () => this.fit(), { passive: true });
     addEventListener('hashchange', () => {
       const compact = document.activeElement === this.chooser;
