@@ -92,6 +92,30 @@ export async function a_variable_that_falls_falls_in_play(open) {
   near(await time(tab), end + (begin - end) / 200, 1e-9, 'one step back');
 }
 
+export async function what_is_at_rest_has_no_transport(open) {
+  for (const [model, study] of [['truss', 'loaded'], ['truss', 'path'], ['cart_pole', 'linear']]) {
+    const { tab } = await open(model, { study });
+    await tab.locator('.canvas canvas').waitFor();
+    for (const part of ['.play', '.scrub', '.time', '[aria-label=speed]', '[aria-label="again and again"]']) assert.equal(await tab.locator(part).isVisible(), false, `${part} in ${study}`);
+    assert.ok(await tab.locator('[aria-label="whole mechanism"]').isVisible());
+    const before = await time(tab);
+    await tab.locator('#study-title').focus();
+    await tab.keyboard.press(' ');
+    await tab.waitForTimeout(100);
+    assert.equal(await time(tab), before, study);
+  }
+}
+
+export async function a_motion_without_time_says_how_long_it_takes(open) {
+  const { tab } = await open('crank_rocker', { study: 'lengths' });
+  const speed = tab.locator('[aria-label=speed]');
+  assert.match(await speed.inputValue(), /^(runs|turns) in 4 s$/);
+  assert.ok((await speed.locator('option').allInnerTexts()).every((text) => !text.includes('×')));
+  assert.doesNotMatch(await tab.locator('.time').innerText(), / s$/);
+  await tab.evaluate(() => grashof.study('one-turn'));
+  await tab.waitForFunction(() => document.querySelector('[aria-label=speed]').value === '1×');
+}
+
 export async function the_slider_scrubs(open) {
   const { tab } = await open('crank_rocker', { study: 'start-up-exact' });
   await tab.locator('.scrub').click();

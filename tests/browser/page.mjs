@@ -71,6 +71,74 @@ export async function tables_sort_and_show_what_they_left_out(open) {
   assert.ok(values.length < 60, 'all rows were made');
 }
 
+/** The texts of all rows of a table, of which only those in view are made. */
+const rowsOf = (tab, title) => tab.evaluate((name) => {
+  const box = document.querySelector(`.rows[aria-label="${name}"]`);
+  const seen = new Map();
+  for (let top = 0; top <= box.scrollHeight; top += 200) {
+    box.scrollTop = top;
+    box.dispatchEvent(new Event('scroll'));
+    for (const row of box.querySelectorAll('tbody tr:not([aria-hidden])')) {
+      const side = row.querySelector('.side')?.textContent ?? '';
+      seen.set(row.getAttribute('aria-rowindex'), { side, cells: [...row.cells].map((cell, k) => (k === 0 ? cell.textContent.slice(side.length) : cell.textContent)) });
+    }
+  }
+  return [...seen.values()];
+}, title);
+
+export async function tables_have_the_digits_that_their_columns_carry(open) {
+  const { tab } = await open('clamp', { study: 'close' });
+  const heads = await tab.locator('.rows[aria-label=Rows] th').allInnerTexts();
+  const angle = heads.findIndex((head) => head.startsWith('A.angle'));
+  const rows = await rowsOf(tab, 'Rows');
+  assert.ok(rows.length > 10, `${rows.length} rows`);
+  // its rows are at whole degrees, of which the page has a rounded number of radians
+  for (const { cells } of rows) assert.match(cells[angle], /^\d+(\.0+)?$/);
+  const lengths = new Set(rows.map(({ cells }) => (cells[angle].split('.')[1] ?? '').length));
+  assert.equal(lengths.size, 1, 'the same decimals in all rows');
+}
+
+export async function rows_on_both_sides_of_a_switch_say_which(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const rows = await rowsOf(tab, 'Rows');
+  const [before, after] = ['before', 'after'].map((side) => rows.filter((row) => row.side === side));
+  assert.ok(before.length > 0 && before.length < 4, `${before.length} switches`);
+  assert.deepEqual(before.map(({ cells }) => cells[0]), after.map(({ cells }) => cells[0]));
+  // where nothing jumps there is one row
+  rows.forEach(({ cells }, i) => assert.ok(i === 0 || cells.join() !== rows[i - 1].cells.join(), `two rows are alike: ${cells[0]}`));
+}
+
+/** Whether a part of the page lies within a box of it and within the window. */
+const within = (tab, inner, outer) => tab.evaluate(([a, b]) => {
+  const [own, box] = [document.querySelector(a).getBoundingClientRect(), document.querySelector(b).getBoundingClientRect()];
+  return own.height > 0 && own.top >= box.top - 1 && own.bottom <= Math.min(box.bottom, innerHeight) + 1;
+}, [inner, outer]);
+
+export async function the_chosen_study_is_in_view_in_the_contents(open) {
+  for (const study of ['one-turn', 'fluctuation', 'modes-k0']) {
+    const { tab } = await open('crank_rocker', { study });
+    for (const part of ['nav [aria-current]', 'nav h2']) assert.ok(await within(tab, part, 'nav'), `${part} with ${study}`);
+    await tab.evaluate(() => (location.hash = 'stiffness-small'));
+    await tab.waitForFunction(() => document.getElementById('study-title').textContent === 'stiffness-small');
+    for (const part of ['nav [aria-current]', 'nav h2']) assert.ok(await within(tab, part, 'nav'), `${part} from ${study}`);
+    const [head, link] = await tab.evaluate(() => ['nav h2', 'nav [aria-current]'].map((part) => document.querySelector(part).getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })));
+    assert.ok(link.top >= head.bottom - 1, 'the heading lies over the chosen study');
+  }
+}
+
+export async function narrow_windows_have_a_compact_list_of_studies(open) {
+  const { tab } = await open('crank_rocker', { study: 'modes', width: 390, height: 844 });
+  const list = tab.getByLabel('study', { exact: true });
+  assert.deepEqual([await tab.locator('nav ol').isVisible(), await list.isVisible(), await list.inputValue()], [false, true, 'modes']);
+  assert.ok((await tab.locator('nav').boundingBox()).height < 80);
+  await list.focus();
+  await list.selectOption('start-up-exact');
+  await tab.waitForFunction(() => document.getElementById('study-title').textContent === 'start-up-exact');
+  assert.ok(await within(tab, '#study-title', 'body'), 'the title is out of view');
+  assert.equal(await tab.evaluate(() => document.activeElement.getAttribute('aria-label')), 'study');
+  assert.match(tab.url(), /#start-up-exact$/);
+}
+
 export async function light_and_dark_follow_the_system_and_the_switch(open) {
   const { tab } = await open('crank_rocker', { colorScheme: 'dark' });
   const paper = () => tab.evaluate(() => getComputedStyle(document.querySelector('.card')).backgroundColor);

@@ -83,6 +83,42 @@ export async function a_logarithmic_axis_and_a_column_of_ones_own(open) {
   assert.equal(await own.count(), 0);
 }
 
+export async function a_logarithmic_axis_tells_what_it_leaves_out(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const figure = plot(tab, 'angles');
+  const log = figure.getByText('log', { exact: true });
+  assert.equal(await figure.locator('.note').isVisible(), false);
+  await log.click();
+  assert.match(await figure.locator('.note').innerText(), /^\d+ values ≤ 0 are not shown/);
+  // phi3 is negative there
+  await seek(tab, 1.5);
+  assert.ok((await value(tab, 'angles', 1)) < 0);
+  const [top, bottom] = await figure.locator('clipPath rect').evaluate((box) => [box.y.baseVal.value, box.y.baseVal.value + box.height.baseVal.value]);
+  const marks = await figure.locator('.overlay circle').evaluateAll((all) => all.map((mark) => mark.cy.baseVal.value));
+  assert.equal(marks.length, 1);
+  assert.ok(marks.every((y) => y >= top && y <= bottom), marks.join());
+  await log.click();
+  assert.equal(await figure.locator('.note').isVisible(), false);
+}
+
+export async function legends_show_all_their_curves(open) {
+  for (const width of [390, 1280]) {
+    const { tab } = await open('crank_rocker', { study: 'fluctuation', width });
+    const legend = plot(tab, 'speed').locator('.legend');
+    const [all, seen] = await legend.evaluate((box) => [box.scrollHeight, box.clientHeight]);
+    assert.ok(all <= seen + 1, `${all} of ${seen} in ${width}`);
+    // the run that is looked at is drawn strong
+    const strong = () => legend.locator('button').evaluateAll((entries) => entries.map((entry) => entry.classList.contains('strong')).indexOf(true));
+    assert.equal(await strong(), 0);
+    await tab.locator('[aria-label=run]').selectOption({ index: 5 });
+    assert.equal(await strong(), 5);
+    await plot(tab, 'speed').scrollIntoViewIfNeeded();
+    await tab.waitForTimeout(100);
+    const widths = await plot(tab, 'speed').locator('svg.chart g[clip-path] path').evaluateAll((lines) => lines.map((line) => Number(line.getAttribute('stroke-width'))));
+    assert.equal(widths.indexOf(Math.max(...widths)), 5);
+  }
+}
+
 export async function numbers_of_runs_are_drawn(open) {
   const { tab, directory } = await open('crank_rocker', { study: 'fluctuation' });
   const { delta } = csv(`${directory}/fluctuation.csv`);

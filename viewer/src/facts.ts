@@ -1,7 +1,7 @@
 // What a study has come to beside its rows: scalars, extremes, findings, the certificate, events, lists, matrices.
 
 import { type Child, h } from './dom';
-import { digits, heading, shownIn, valued } from './numbers';
+import { broken, coded, digits, heading, hinted, shownIn, valued } from './numbers';
 import { plain } from './table';
 import type { Certificate, Column, Results, Scalar, Solution, Statistics, Study } from './types';
 
@@ -14,23 +14,24 @@ function part(title: string, open: boolean, ...content: Child[]): HTMLElement | 
 }
 
 /** Names and values, one below the other. */
-function list(entries: [string, string][]): HTMLElement {
-  return h('dl', { class: 'values' }, ...entries.map(([name, value]) => h('div', {}, h('dt', {}, name), h('dd', {}, value))));
+function list(entries: [string, Child][]): HTMLElement {
+  return h('dl', { class: 'values' }, ...entries.map(([name, value]) => h('div', {}, h('dt', {}, ...broken(name)), h('dd', {}, value))));
 }
 
 function scalars(all: Scalar[]): HTMLElement | null {
   if (all.length === 0) return null;
   return list(all.map((scalar) => {
-    const { text, unit } = valued(scalar, scalar.value);
-    return [scalar.name, `${text} ${unit}`.trim()];
+    const { text, full, unit } = valued(scalar, scalar.value);
+    const value = `${text} ${unit}`.trim();
+    return [scalar.name, text === full ? value : h('span', { title: `${full} ${unit}`.trim() }, value)];
   }));
 }
 
 function solution(solved: Solution | null): HTMLElement | null {
   if (!solved) return null;
-  const { text, unit } = valued(solved.parameter, solved.parameter.value);
-  return h('p', { class: 'lead' }, 'solved: ', h('strong', {}, `${solved.parameter.name} = ${text} ${unit}`.trim()),
-    `, with which ${solved.of} is ${digits(solved.found, 8)} (${solved.runs} runs)`);
+  const { text, full, unit } = valued(solved.parameter, solved.parameter.value);
+  return h('p', { class: 'lead' }, 'solved: ', h('strong', { title: `${full} ${unit}`.trim() }, `${solved.parameter.name} = ${text} ${unit}`.trim()),
+    `, with which ${solved.of} is `, hinted(solved.found), ` (${solved.runs} runs)`);
 }
 
 /** A button that leads to a place of the model file. */
@@ -40,7 +41,7 @@ function link(place: string, show: ShowPlace): HTMLElement | null {
 
 /** Why it stopped, what was found, and which expectations are not met. */
 function findings(results: Results, show: ShowPlace): HTMLElement | null {
-  const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, h('span', {}, message), ' ', link(place, show));
+  const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, h('span', {}, ...coded(message)), ' ', link(place, show));
   const all = [
     ...(results.stopped ? [entry('bad', results.stopped, results.undefined?.place || results.place)] : []),
     ...results.expectations.filter((e) => !e.met).map((e) => entry('bad', e.message, e.place)),
@@ -49,6 +50,9 @@ function findings(results: Results, show: ShowPlace): HTMLElement | null {
   return all.length === 0 ? null : h('ul', { class: 'findings' }, ...all);
 }
 
+/** Part of the other extreme of a column below which one of them is round-off. */
+const ROUND_OFF = 1e-12;
+
 function extremes(results: Results): HTMLElement | null {
   const columns = new Map(results.table.columns.map((c) => [c.name, c]));
   const place = shownIn(results.independent);
@@ -56,12 +60,16 @@ function extremes(results: Results): HTMLElement | null {
     const column: Column | undefined = columns.get(name);
     if (!both || !column) return [];
     const { unit, size } = shownIn(column);
-    const value = (x: number | null, by: number, count: number) => digits(x === null ? null : x / by, count);
-    return [[heading(name, unit), value(both.min.value, size, 8), value(both.min.at, place.size, 6), value(both.max.value, size, 8), value(both.max.at, place.size, 6)]];
+    const { min, max } = both;
+    const noise = ROUND_OFF * Math.max(Math.abs(min.value ?? 0), Math.abs(max.value ?? 0));
+    const value = (x: number | null) => hinted(x === null ? null : Math.abs(x) <= noise ? 0 : x / size);
+    const at = (x: number | null) => hinted(x === null ? null : x / place.size);
+    return [[heading(name, unit), value(min.value), at(min.at), value(max.value), at(max.at)]];
   });
-  if (rows.length === 0) return null;
+  // of one position each number is both
+  if (rows.length === 0 || results.independent.values.length === 1) return null;
   const at = heading('at', place.unit);
-  return plain(['', 'least', at, 'greatest', at], rows);
+  return plain('Extremes', ['', 'least', at, 'greatest', at], rows);
 }
 
 function certificate(c: Certificate, results: Results): HTMLElement | null {
@@ -92,22 +100,22 @@ function distributions(study: Study): Child[] {
   const row = (s: Statistics) => {
     const { unit, size } = shownIn(s);
     const values = [s.mean, s.deviation, ...s.percentiles, ...s.range];
-    return [heading(s.name, unit), ...values.map((x) => digits(x === null ? null : x / size, 6))];
+    return [heading(s.name, unit), ...values.map((x) => hinted(x === null ? null : x / size))];
   };
   const varied = study.statistics.filter((s) => s.parts.length > 0);
   const parameters = varied[0]?.parts.map((p) => p.parameter) ?? [];
   const share = (x: number | null) => (x === null ? '' : `${digits(Math.round(1000 * x) / 10 + 0, 4)} %`);
   return [
-    study.statistics.length === 0 ? null : plain(['', 'mean', 'deviation', '5 %', '25 %', '50 %', '75 %', '95 %', 'least', 'most'], study.statistics.map(row)),
+    study.statistics.length === 0 ? null : plain('Distribution', ['', 'mean', 'deviation', '5 %', '25 %', '50 %', '75 %', '95 %', 'least', 'most'], study.statistics.map(row)),
     varied.length === 0 ? null : h('h4', {}, 'Shares of the variance'),
-    varied.length === 0 ? null : plain(['', ...parameters], varied.map((s) => [s.name, ...s.parts.map((p) => share(p.share))])),
+    varied.length === 0 ? null : plain('Shares of the variance', ['', ...parameters], varied.map((s) => [s.name, ...s.parts.map((p) => share(p.share))])),
   ];
 }
 
 function lists(results: Results): Child[] {
-  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), values.map((v) => digits(v, 8)).join(',  ')]);
+  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), h('span', {}, ...values.flatMap((v, i) => (i > 0 ? [',  ', hinted(v)] : [hinted(v)])))]);
   const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
-  return all.length + shapes.length > 0 ? [plain(['', 'values'], [...all, ...shapes], true)] : [];
+  return all.length + shapes.length > 0 ? [plain('Modes', ['', 'values'], [...all, ...shapes], true)] : [];
 }
 
 function matrices(results: Results): Child[] {
@@ -117,25 +125,24 @@ function matrices(results: Results): Child[] {
   const rows: Record<string, string[]> = { A: linear.states, B: linear.states, C: linear.outputs, D: linear.outputs };
   return linear.matrices.filter(([, m]) => m.length > 0 && (m[0]?.length ?? 0) > 0).flatMap(([name, matrix]) => [
     h('h4', {}, name),
-    plain(['', ...(heads[name] ?? linear.coordinates)], matrix.map((row, i) => [(rows[name] ?? linear.coordinates)[i] ?? '', ...row.map((x) => digits(x, 6))])),
+    plain(`Matrix ${name}`, ['', ...(heads[name] ?? linear.coordinates)], matrix.map((row, i) => [(rows[name] ?? linear.coordinates)[i] ?? '', ...row.map(hinted)])),
   ]);
 }
 
 function events(results: Results): HTMLElement | null {
   const { independent } = results;
   const { unit, size } = shownIn(independent);
-  return results.events.length === 0 ? null : plain(['event', heading('at', unit)], results.events.map((e) => [e.name, digits(e.at === null ? null : e.at / size, 8)]));
+  return results.events.length === 0 ? null : plain('Events', ['event', heading('at', unit)], results.events.map((e) => [e.name, hinted(e.at === null ? null : e.at / size)]));
 }
 
-/** All of it. */
+/** All of it: first what it has come to, then the parts that can be opened. */
 export function facts(study: Study, show: ShowPlace): HTMLElement {
   const found = findings(study, show);
   const own = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by !== 'kind') : study.scalars;
   const rest = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by === 'kind') : [];
+  const summary = [solution(study.solution), scalars(own), found && h('div', {}, h('h3', {}, 'Findings'), found)].filter((child) => child !== null);
   return h('div', { class: 'facts card' },
-    solution(study.solution),
-    scalars(own),
-    found && h('div', {}, h('h3', {}, 'Findings'), found),
+    summary.length > 0 && h('div', { class: 'summary' }, ...summary),
     part('Distribution', true, ...distributions(study)),
     part('Modes', true, ...lists(study)),
     part('Results of the kind', false, scalars(rest)),

@@ -1,5 +1,6 @@
 // Numbers and units as a reader wants them.
 
+import { type Child, h } from './dom';
 import type { Column, Num, Scalar } from './types';
 
 const RAISED: Record<string, string> = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹' };
@@ -30,10 +31,38 @@ export function digits(x: Num | undefined, count = 7): string {
   return text.replace('-', '−');
 }
 
-/** A value in the unit to show it in, with that unit. */
-export function valued(of: Pick<Scalar, 'unit' | 'shown_in'>, value: Num, count = 10): { text: string; unit: string } {
+/** Digits of a number that a reader is told, those of a number that is told whole, and all that there are worth knowing. */
+const TOLD = 5;
+const WHOLE = 7;
+const ALL = 12;
+
+/** A number for a reader: five digits, or as it is where it has few. */
+export function told(x: Num | undefined): string {
+  const short = x !== null && x !== undefined && Math.abs(Number(x.toPrecision(WHOLE)) - x) <= 1e-12 * Math.abs(x);
+  return digits(x, short ? WHOLE : TOLD);
+}
+
+/** A value in the unit to show it in, with that unit; `full` has all of its digits. */
+export function valued(of: Pick<Scalar, 'unit' | 'shown_in'>, value: Num): { text: string; full: string; unit: string } {
   const { unit, size } = shownIn(of);
-  return { text: digits(value === null ? null : value / size, count), unit: pretty(unit) };
+  const x = value === null ? null : value / size;
+  return { text: told(x), full: digits(x, ALL), unit: pretty(unit) };
+}
+
+/** A number that has all of its digits in its title. */
+export function hinted(x: Num | undefined): Child {
+  const [text, full] = [told(x), digits(x, ALL)];
+  return text === full ? text : h('span', { title: full }, text);
+}
+
+/** Words in backticks as code. */
+export function coded(text: string): (HTMLElement | string)[] {
+  return text.split(/`([^`]+)`/).map((part, i) => (i % 2 === 1 ? h('code', {}, part) : part));
+}
+
+/** A name that may be broken behind underscores and points, and only there. */
+export function broken(name: string): Child[] {
+  return name.split(/(?<=[_.])(?=.)/).flatMap((part, i) => (i > 0 ? [h('wbr'), part] : [part]));
 }
 
 /** `torque [N m]`; of a number the name alone. */

@@ -2,6 +2,8 @@
 
 import { Clock } from './clock';
 import { button, h, icon } from './dom';
+import { coded } from './numbers';
+import { prose } from './prose';
 import { type Source, source } from './source';
 import { StudyView } from './study';
 import { begin, isDark, toggle } from './theme';
@@ -22,6 +24,9 @@ declare global {
 
 const SUN = 'M8 4.5a3.5 3.5 0 1 1 0 7a3.5 3.5 0 0 1 0-7zM8 1v1.5M8 13.5V15M1 8h1.5M13.5 8H15M3 3l1 1M12 12l1 1M3 13l1-1M12 4l1-1';
 
+/** Pixels of the height of the contents at least, and below them. */
+const LEAST = 200;
+const EDGE = 16;
 /** Milliseconds until the text of a file that has changed is made anew. */
 const LATER = 250;
 
@@ -51,6 +56,10 @@ export class Page {
   private readonly clock = new Clock();
   private readonly main = h('main', { id: 'main' });
   private readonly list = h('ol');
+  private readonly side = h('div', { class: 'side' });
+  private readonly nav = h('nav', { class: 'contents', 'aria-label': 'studies' });
+  /** In narrow windows instead of the list. */
+  private readonly chooser = h('select', { class: 'compact', 'aria-label': 'study', change: () => this.choose() });
   private header: HTMLElement;
   private file: Source;
   private links: HTMLAnchorElement[] = [];
@@ -59,10 +68,14 @@ export class Page {
   /** Whether the file has another text than is shown. */
   private stale = false;
   private later = 0;
+  /** Whether a reader has moved the contents since a study was shown. */
+  private browsed = false;
 
   constructor(private data: Data, private entries: Entry[], root: HTMLElement, private readonly more: More = {}) {
     this.file = source(data.model.source, data.model.path);
     this.header = this.top();
+    this.nav.append(h('h2', {}, 'Studies'), this.chooser, this.list);
+    this.side.append(this.nav, ...(more.values ? [more.values] : []));
     this.contents();
     root.append(
       h('a', { href: '#main', class: 'skip', click: (event) => {
@@ -71,7 +84,7 @@ export class Page {
       } }, 'to the study'),
       this.header,
       h('div', { class: 'body' },
-        h('div', { class: 'side' }, h('nav', { class: 'contents', 'aria-label': 'studies' }, h('h2', {}, 'Studies'), this.list), more.values),
+        this.side,
         h('div', { class: 'content' }, more.notices, this.main, this.file.element)));
     this.clock.tell(() => this.view?.tick());
     this.clock.tellState(() => this.view?.stage.state());
@@ -95,17 +108,47 @@ export class Page {
     this.view = study ? this.viewOf(study) : null;
     this.main.replaceChildren(this.view?.element ?? this.waiting(entry));
     this.mark();
-    const link = this.links[this.entries.indexOf(entry)]!;
-    const nav = link.closest('nav');
-    const seen = nav && link.offsetTop >= nav.scrollTop && link.offsetTop + link.offsetHeight <= nav.scrollTop + nav.clientHeight;
-    if (nav && !seen) nav.scrollTop = link.offsetTop - nav.clientHeight / 2;
+    this.browsed = false;
+    this.showEntry();
     document.title = `${name} – ${this.data.model.name}`;
     this.more.viewed?.(name);
-    if (focus) {
-      scrollTo(0, 0);
-      document.getElementById('study-title')?.focus({ preventScroll: true });
-    }
+    if (focus) this.begin();
     return true;
+  }
+
+  /** Goes to the beginning of the study in view, of which a reader sees the title. */
+  private begin(focus = true): void {
+    const title = document.getElementById('study-title');
+    scrollTo(0, 0);
+    if (title && title.getBoundingClientRect().bottom > innerHeight / 2) title.closest('header')!.scrollIntoView();
+    if (focus) title?.focus({ preventScroll: true });
+  }
+
+  /** The contents end with the window, also where they begin below the header. */
+  private fit(): void {
+    this.side.style.maxHeight = `${Math.max(LEAST, innerHeight - Math.max(0, this.side.getBoundingClientRect().top) - EDGE)}px`;
+  }
+
+  /** Brings the study in view into view in the contents, too, unless a reader looks for another one there. */
+  private showEntry(): void {
+    this.fit();
+    if (this.browsed) return;
+    const link = this.links[this.entries.findIndex((entry) => entry.name === this.name)];
+    if (link) this.reveal(link);
+  }
+
+  /** Brings an entry of the contents into view, below their heading. */
+  private reveal(link: HTMLElement): void {
+    const { nav } = this;
+    const [box, own] = [nav.getBoundingClientRect(), link.getBoundingClientRect()];
+    const head = nav.firstElementChild!.getBoundingClientRect().height;
+    if (own.top < box.top + head || own.bottom > box.bottom) nav.scrollTop += own.top - box.top - head - Math.max(0, (box.height - head - own.height) / 2);
+  }
+
+  /** Shows the study of the compact list, which keeps the focus. */
+  private choose(): void {
+    const { name } = this.entries[this.chooser.selectedIndex] ?? { name: this.name };
+    location.hash = encodeURIComponent(name);
   }
 
   /** Takes a study that was computed anew; what a reader has chosen in it stays. */
@@ -199,6 +242,7 @@ export class Page {
   }
 
   private mark(): void {
+    this.chooser.selectedIndex = this.entries.findIndex((entry) => entry.name === this.name);
     this.links.forEach((link, k) => (this.entries[k]?.name === this.name ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current')));
   }
 
@@ -211,23 +255,33 @@ export class Page {
     }, { class: 'line theme', 'aria-pressed': String(isDark()) });
     const about = model.about?.trimEnd() ?? '';
     const first = /^.*?\.(?=\s|$)|^.*/.exec((about.split(/\n\s*\n/)[0] ?? '').replace(/\s+/g, ' ').trim())![0];
+    // a mechanism of which no mass is told has none to show
+    const told = overview.filter(({ label, value }) => label !== 'mass' || parseFloat(value) !== 0);
     const rest = about.replace(/\s+/g, ' ') !== first;
     return h('header', { class: 'page' },
       h('div', { class: 'top' }, h('h1', {}, model.name), h('span', { class: 'soft version' }, `Grashof ${version}`), this.more.status, theme),
-      first !== '' && h('p', { class: 'lead' }, first),
-      overview.length > 0 && h('dl', { class: 'overview' }, ...overview.map(({ label, value }) => h('div', {}, h('dt', {}, label), h('dd', {}, value)))),
-      rest && h('details', { class: 'about-model' }, h('summary', {}, 'more about the model'), h('pre', {}, about)));
+      first !== '' && h('p', { class: 'lead' }, ...coded(first)),
+      told.length > 0 && h('dl', { class: 'overview' }, ...told.map(({ label, value }) => h('div', {}, h('dt', {}, label), h('dd', {}, value)))),
+      rest && h('details', { class: 'about-model' }, h('summary', {}, 'more about the model'), h('div', { class: 'prose-box' }, ...prose(about))));
   }
 
   private contents(): void {
     this.links = this.entries.map(({ name, about, bad, state }) =>
-      h('a', { href: `#${encodeURIComponent(name)}` }, h('span', { class: `name ${bad ? 'bad' : ''} ${state ?? ''}`.trim() }, name), about !== '' && h('span', { class: 'what' }, about)));
+      h('a', { href: `#${encodeURIComponent(name)}` }, h('span', { class: `name ${bad ? 'bad' : ''} ${state ?? ''}`.trim() }, name), about !== '' && h('span', { class: 'what' }, ...coded(about))));
+    this.chooser.replaceChildren(...this.entries.map(({ name, bad }) => h('option', {}, bad ? `${name} !` : name)));
     this.list.replaceChildren(...this.links.map((link) => h('li', {}, link)));
   }
 
   private listen(): void {
     begin(() => this.view?.stage.redraw());
-    addEventListener('hashchange', () => this.show(decodeURIComponent(location.hash.slice(1)), true));
+    for (const event of ['wheel', 'touchmove', 'pointerdown', 'keydown']) this.nav.addEventListener(event, () => (this.browsed = true), { passive: true });
+    const sized = new ResizeObserver(() => this.showEntry());
+    for (const part of [this.nav, this.list]) sized.observe(part);
+    for (const event of ['scroll', 'resize']) addEventListener(event, () => this.fit(), { passive: true });
+    addEventListener('hashchange', () => {
+      const compact = document.activeElement === this.chooser;
+      if (this.show(decodeURIComponent(location.hash.slice(1)), !compact) && compact) this.begin(false);
+    });
     addEventListener('keydown', (event) => {
       const target = event.target as HTMLElement;
       const busy = event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea, [contenteditable], .rows');

@@ -6,13 +6,15 @@ import { scene as decoded } from './data';
 import { button, h, icon } from './dom';
 import { Motion, falling } from './motion';
 import { digits, heading, pretty, shownIn } from './numbers';
-import { type Pace, pace } from './pace';
+import { type Pace, WHOLE, pace } from './pace';
 import { Plane } from './plane/plane';
 import { FIRST, type Options, type Renderer } from './renderer';
 import { inks } from './theme';
 import type { CodedScene, Results, Run, Scene, Study } from './types';
 
 const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
+/** Seconds in which a motion without time may be shown. */
+const SPANS = [32, 16, 8, WHOLE, 2, 1];
 /** A motion that takes less is slowed down to what can be followed, s. */
 const BLINK = 0.15;
 const SEEN = 2;
@@ -33,6 +35,11 @@ function drawnRuns({ runs }: Study): { run: Run; index: number }[] {
   return runs.map((run, index) => ({ run, index })).filter(({ run }) => run.results && run.results.scenes.length > 0);
 }
 
+/** Whether results are of one position. */
+function rests({ kind, independent }: Results): boolean {
+  return independent.values.length === 1 || (kind === 'statics' && independent.values.length === 0);
+}
+
 /** What there is to choose from. */
 function choicesOf(study: Study): string {
   const names = ({ scenes }: Results) => scenes.map(([name, { dimensions }]) => `${name} ${dimensions}`);
@@ -51,7 +58,9 @@ export class Stage {
   private readonly slider = h('input', { type: 'range', min: 0, max: 10_000, step: 1, value: 0, 'aria-label': 'place of the motion', class: 'scrub' });
   private readonly time = h('output', { class: 'time', 'aria-live': 'polite' });
   private readonly playing = button(icon(PLAY), 'play', () => this.clock.play(), { class: 'play' });
-  private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = SPEEDS[this.speed.selectedIndex] ?? 1) }, ...SPEEDS.map((s) => h('option', {}, `${s}×`)));
+  private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = this.speeds[this.speed.selectedIndex]?.[1] ?? 1) });
+  /** How fast it may play, in words, and what the clock makes of it. */
+  private speeds: [string, number][] = [];
   private readonly shown = h('div', { class: 'shown', role: 'group', 'aria-label': 'what is shown' });
   private readonly note = h('p', { class: 'note' });
   private readonly drawings = h('select', { 'aria-label': 'drawing' });
@@ -144,8 +153,8 @@ export class Stage {
       Home: () => this.clock.seek(this.clock.from),
       End: () => this.clock.seek(this.clock.to),
     };
-    const step = this.motion && steps[event.key];
-    step?.call(null);
+    const step = this.motion && this.clock.from !== this.clock.to ? steps[event.key] : undefined;
+    step?.();
     return Boolean(step);
   }
 
@@ -215,17 +224,19 @@ export class Stage {
     this.drawing = results.scenes[index]?.[0] ?? '';
     if (!this.kept || !coded) this.clock.play(false);
     this.element.hidden = !coded;
+    this.element.parentElement?.toggleAttribute('hidden', !coded);
     if (!coded) return;
     const scene = sceneOf(coded);
     const motion = new Motion(scene, falling(results.independent.values, scene.frames.at));
     this.motion = motion;
-    this.pace = pace(results, motion.begin, motion.end);
+    this.pace = pace(results, motion.begin, motion.end, scene.arrows.filter(({ kind }) => kind !== 'reaction').map(({ name }) => name));
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
     if (this.kept?.dimensions === motion.scene.dimensions) this.renderer?.outlook(this.kept.look);
     this.kept = undefined;
-    this.element.classList.toggle('still', motion.to <= motion.from);
+    const still = motion.to <= motion.from || rests(results);
+    this.element.classList.toggle('still', still);
     this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
     const kinds = arrows.kinds();
     this.options.arrows = new Set([...this.options.arrows].filter((kind) => kinds.includes(kind)));
@@ -233,18 +244,37 @@ export class Stage {
     this.begun = true;
     this.showOptions(kinds, arrows);
     const { error } = motion.scene.frames;
-    this.note.textContent = error > 0 && motion.to > motion.from ? `poses between frames within ${digits(error, 2)} m` : '';
+    this.note.textContent = error > 0 && !still ? `poses between frames within ${digits(error, 2)} m` : '';
     const { seconds, place } = this.pace;
+    this.offer(again);
     if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));
-    this.clock.range(motion.begin, motion.end, seconds, place);
+    this.clock.range(still ? motion.end : motion.begin, motion.end, seconds, place);
     this.state();
+  }
+
+  /** Speeds to choose from: parts of that of the motion, or how long a motion takes that has none; the one that was chosen stays. */
+  private offer(again: boolean): void {
+    const { real } = this.pace!;
+    const before = this.speed.selectedIndex;
+    this.speeds = real ? SPEEDS.map((s) => [`${s}×`, s]) : SPANS.map((span) => [`${this.does()} in ${span} s`, WHOLE / span]);
+    this.speed.replaceChildren(...this.speeds.map(([text]) => h('option', {}, text)));
+    this.speed.title = real ? 'parts of the speed of the motion' : 'the study says nothing of time';
+    if (again) this.speed.selectedIndex = Math.min(before, this.speeds.length - 1);
+  }
+
+  /** What a motion without time does once. */
+  private does(): string {
+    const { independent } = this.results;
+    if (independent.values.length === 0) return 'swings';
+    const way = Math.abs(this.motion!.to - this.motion!.from);
+    return independent.unit === 'rad' && Math.abs(way - 2 * Math.PI) < 1e-6 ? 'turns' : 'runs';
   }
 
   /** The speed at first: that of the motion, unless it is over at once. */
   private pick(duration: number): void {
-    const fit = duration < BLINK ? SPEEDS.findLastIndex((s) => duration / s >= SEEN) : SPEEDS.indexOf(1);
+    const fit = this.pace!.real && duration < BLINK ? SPEEDS.findLastIndex((s) => duration / s >= SEEN) : this.speeds.findIndex(([, speed]) => speed === 1);
     this.speed.selectedIndex = Math.max(fit, 0);
-    this.clock.speed = SPEEDS[this.speed.selectedIndex]!;
+    this.clock.speed = this.speeds[this.speed.selectedIndex]![1];
   }
 
   private showOptions(kinds: Kind[], arrows: Arrows): void {

@@ -4,7 +4,7 @@ import type { Clock } from './clock';
 import { column } from './curves';
 import { h } from './dom';
 import { type ShowPlace, facts, rowsInWords } from './facts';
-import { heading, pretty, shownIn } from './numbers';
+import { coded, heading, pretty, shownIn } from './numbers';
 import { drawable } from './plot/curves';
 import { type PlotKept, PlotView } from './plot/plot';
 import { Stage, type StageKept } from './stage';
@@ -62,8 +62,8 @@ export class StudyView {
         h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
         h('h2', { id: 'study-title', tabindex: -1 }, study.study),
         this.about),
-      h('div', { class: 'left' }, this.stage.element, this.facts),
-      h('div', { class: 'right' }, this.figures, this.chooser(), this.rows));
+      h('div', { class: 'left' }, this.stage.element),
+      h('div', { class: 'right' }, this.facts, this.figures, this.chooser(), this.rows));
     this.tables(study.table.reasons ? null : study);
     for (const part of parts(this.element)) part.open = kept?.open.get(title(part)) ?? part.open;
   }
@@ -106,7 +106,7 @@ export class StudyView {
   }
 
   private tellAbout(): void {
-    this.about.textContent = this.study.about;
+    this.about.replaceChildren(...coded(this.study.about).filter((part) => part !== ''));
     this.about.hidden = this.study.about === '';
   }
 
@@ -135,6 +135,7 @@ export class StudyView {
       this.own.splice(this.own.indexOf(plot), 1);
       view.element.remove();
     } : undefined, this.kept?.plots.get(plot.name));
+    if (this.run !== null) view.choose(this.run);
     this.plots.push(view);
     this.figures.append(view.element);
   }
@@ -167,6 +168,7 @@ export class StudyView {
 
   private choose(run: number): void {
     this.run = run;
+    this.plots.forEach((plot) => plot.choose(run));
     this.tables(this.study.runs[run]?.results ?? null, this.study.runs[run]?.label);
   }
 
@@ -180,8 +182,10 @@ export class StudyView {
     }
     if (results && results.independent.values.length > 0) {
       const { independent } = results;
-      const columns = results.table.columns.some((c) => c.name === independent.name) ? results.table.columns : [independent, ...results.table.columns];
-      const rows = table(label ? `Rows, ${pretty(label)}` : 'Rows', `${study.study}-rows`, columns);
+      // one position has no place along a motion
+      const own = results.table.columns.some((c) => c.name === independent.name) || (independent.values.length === 1 && results.table.columns.length > 0);
+      const columns = own ? results.table.columns : [independent, ...results.table.columns];
+      const rows = table(label ? `Rows, ${pretty(label)}` : 'Rows', `${study.study}-rows`, columns, [], results.rows?.breaks);
       const note = rowsInWords(results);
       if (note) rows.append(h('p', { class: 'note' }, note));
       parts.push(rows);

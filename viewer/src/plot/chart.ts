@@ -39,6 +39,8 @@ export interface View {
   /** Chosen ranges; the vertical one of figures of one panel alone. */
   x: [number, number] | null;
   y: [number, number] | null;
+  /** The curve among many that is drawn strong. */
+  strong?: (curve: number) => boolean;
 }
 
 interface Scaled { axis: Axis; factor: number; unit: string; own: string }
@@ -47,17 +49,18 @@ export interface Layout { left: number; right: number; width: number; height: nu
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
 export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'];
-/** For many curves: dark blue to amber, rising in lightness. */
-const SCALE = [[0, 32, 96], [66, 78, 107], [124, 123, 120], [188, 160, 90], [235, 190, 30]] as const;
+/** For many curves the page has a scale of this many colours, rising in lightness, from `--scale-0` on. */
+const STOPS = 5;
 const LETTER = 6.7;
+/** How much is seen of a curve beside the chosen one. */
+const FAINT = 0.62;
 
 /** The colour of a curve; many curves take a scale. */
 export function color(index: number, count: number): string {
   if (count <= COLORS.length) return `var(--curve-${index % COLORS.length})`;
-  const place = (index / (count - 1)) * (SCALE.length - 1);
-  const low = Math.min(Math.floor(place), SCALE.length - 2);
-  const channels = SCALE[low]!.map((x, k) => Math.round(x + (SCALE[low + 1]![k]! - x) * (place - low)));
-  return `color-mix(in srgb, rgb(${channels.join(', ')}), white var(--lift))`;
+  const place = (index / (count - 1)) * (STOPS - 1);
+  const low = Math.min(Math.floor(place), STOPS - 2);
+  return `color-mix(in srgb, var(--scale-${low}), var(--scale-${low + 1}) ${Math.round(1000 * (place - low)) / 10}%)`;
 }
 
 /** Where everything stands. */
@@ -106,6 +109,13 @@ function scaledRight({ unit, range }: { unit: string; range: Ends }, curves: Cur
   const fitted = limited(range, unit, false, 44, axis(within(curves, seen), unit, false, false, 44));
   const { unit: name, factor } = scaled(unit, Math.max(Math.abs(fitted.low), Math.abs(fitted.high)));
   return { axis: fitted, factor, unit: name, own: unit };
+}
+
+/** Values in view that a logarithmic axis cannot show. */
+export function below(figure: Figure, { x: { low, high } }: Layout): number {
+  let count = 0;
+  for (const y of within(figure.curves.filter((curve) => curve.shown && !curve.right), [low, high])) if (y <= 0) count++;
+  return count;
 }
 
 /** The vertical axis of a curve. */
@@ -199,8 +209,11 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       if (x > left && x < right) svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--faint)', 'stroke-dasharray': '2 3' }));
     }
     svg.append(s('path', { d: `M${left} ${top}V${top + height}H${right}`, fill: 'none', stroke: 'var(--line)' }));
-    const lines = panel.curves.map((curve) =>
-      s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': curve.dots ? 5 : 1.8, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt', 'stroke-dasharray': (!curve.dots && DASHES[curve.dash % DASHES.length]) || 'none' }));
+    const lines = panel.curves.map((curve) => {
+      const strong = view.strong?.(figure.curves.indexOf(curve));
+      const width = curve.dots ? 5 : strong ? 3 : strong === false ? 1.4 : 1.8;
+      return s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': width, 'stroke-opacity': strong === false ? FAINT : 1, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt', 'stroke-dasharray': (!curve.dots && DASHES[curve.dash % DASHES.length]) || 'none' });
+    });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);
     const name = figure.y || (own.length === 1 ? own[0]!.label : '');

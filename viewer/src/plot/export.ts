@@ -2,14 +2,18 @@
 
 import { save } from '../dom';
 import { heading } from '../numbers';
+import { mixed } from '../theme';
 import { COLORS, type Figure, draw, layout } from './chart';
 
 const LIGHT: Record<string, string> = { grid: '#e8e8e8', line: '#555', soft: '#333', faint: '#999' };
 
+/** The colours of the page for many curves on white. */
+const SCALE = ['#002060', '#0a62a8', '#1d8f7a', '#a98600', '#c94f1c'];
+
 /** Colours instead of the variables of the page. */
 function plain(text: string): string {
   return text
-    .replace(/color-mix\(in srgb, (rgb\([^)]*\)), white var\(--lift\)\)/g, '$1')
+    .replace(/color-mix\(in srgb, var\(--scale-(\d)\), var\(--scale-\d\) ([\d.]+)%\)/g, (_, low: string, part: string) => mixed(SCALE[Number(low)]!, SCALE[Number(low) + 1]!, Number(part) / 100))
     .replace(/var\(--curve-(\d)\)/g, (_, index: string) => COLORS[Number(index)]!)
     .replace(/var\(--(\w+)\)/g, (_, name: string) => LIGHT[name] ?? '#333');
 }

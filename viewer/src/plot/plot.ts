@@ -2,12 +2,18 @@
 
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
-import { digits, heading, words } from '../numbers';
-import { type Curve, type Layout, type View, DASHES, axisOf, color, draw, layout } from './chart';
+import { digits, pretty, words } from '../numbers';
+import { type Curve, type Layout, type View, DASHES, axisOf, below, color, draw, layout } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
 
+/** Entries of a legend from which on they stand close, and that are all in view. */
+const DENSE = 8;
+const MANY = 16;
+/** Letters of a value, and the width of a letter, em. */
+const VALUE = 9;
+const LETTER = 0.52;
 /** Pixels of a drag that is no click. */
 const DRAG = 5;
 
@@ -17,7 +23,11 @@ export interface PlotKept { view: View; hidden: string[] }
 export class PlotView {
   readonly element: HTMLElement;
   private readonly stage = h('div', { class: 'plot-stage', tabindex: 0, role: 'group' });
+  private readonly entries: HTMLElement[] = [];
   private readonly values: HTMLElement[] = [];
+  private readonly note = h('p', { class: 'note', role: 'status', hidden: true });
+  /** The run of a sweep that is looked at. */
+  private run: number | null = null;
   private view: View = { width: 0, log: false, x: null, y: null };
   private place!: Layout;
   private overlay!: SVGGElement;
@@ -49,7 +59,7 @@ export class PlotView {
       button('SVG', `${title}: save as SVG`, () => saveSvg(file, this.title(), this.of.figure, this.view)),
       button('CSV', `${title}: save as CSV`, () => saveCsv(file, this.of.figure)),
       remove && button(icon('M4 4l8 8M12 4l-8 8'), `${title}: remove`, remove));
-    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage);
+    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage, this.note);
     this.stage.setAttribute('aria-label', `${title}; arrow keys move the cursor, + and − zoom, escape shows the whole range`);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.stage);
@@ -86,6 +96,30 @@ export class PlotView {
     if (this.overlay && !this.stale && this.cursor === null) this.mark();
   }
 
+  /** Draws the curves of a run strong, the others faint. */
+  choose(run: number): void {
+    this.run = run;
+    const { runs } = this.of;
+    if (new Set(runs).size < 2) return;
+    this.entries.forEach((entry, k) => entry.classList.toggle('strong', runs[k] === run));
+    this.stale = true;
+    if (this.near) this.refresh();
+  }
+
+  /** How the figure is seen, with the run that is looked at. */
+  private look(): View {
+    const { runs } = this.of;
+    const several = this.run !== null && runs.includes(this.run) && new Set(runs).size > 1;
+    return several ? { ...this.view, strong: (k) => runs[k] === undefined || runs[k] === this.run } : this.view;
+  }
+
+  /** Tells what a logarithmic axis leaves out. */
+  private tellBelow(): void {
+    const count = this.view.log ? below(this.of.figure, this.place) : 0;
+    this.note.hidden = count === 0;
+    this.note.textContent = count === 0 ? '' : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
+  }
+
   private title(): string {
     return `${this.study}: ${words(this.of.name)}`;
   }
@@ -103,9 +137,13 @@ export class PlotView {
         entry.setAttribute('aria-pressed', String(own.shown));
         this.draw();
       } }, line, h('span', {}, curve.right ? `${curve.label} (right)` : curve.label), value);
+      this.entries.push(entry);
       return entry;
     });
-    return h('div', { class: 'legend' }, ...entries);
+    const legend = h('div', { class: `legend${curves.length >= DENSE ? ' dense' : ''}${curves.length > MANY ? ' many' : ''}` }, ...entries);
+    const longest = Math.max(0, ...curves.map(({ label }) => label.length));
+    legend.style.setProperty('--entry', `calc(${LETTER * (longest + VALUE)}em + 30px)`);
+    return legend;
   }
 
   private fit(): void {
@@ -120,7 +158,8 @@ export class PlotView {
     if (this.view.width === 0) return;
     this.stale = false;
     this.place = layout(this.of.figure, this.view);
-    const svg = draw(this.of.figure, this.view, this.place, this.title());
+    const svg = draw(this.of.figure, this.look(), this.place, this.title());
+    this.tellBelow();
     this.overlay = s('g', { class: 'overlay' });
     svg.append(this.overlay);
     this.stage.replaceChildren(svg);
@@ -145,13 +184,15 @@ export class PlotView {
       const line = { x1: u(at), x2: u(at), y1: panels[0]!.top, y2: last.top + last.height, stroke: 'var(--accent)', 'stroke-width': this.cursor === null ? 1.4 : 1, 'stroke-dasharray': this.cursor === null ? 'none' : '3 3', class: 'now', 'data-at': at };
       this.overlay.append(s('line', line));
     }
+    // many curves of one unit have it at their axis
+    const close = figure.curves.length >= DENSE && new Set(figure.curves.map(({ unit }) => unit)).size === 1;
     figure.curves.forEach((curve, k) => {
       const point = this.point(k, at, points);
       const panel = panels.find((p) => p.curves.includes(curve));
-      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${heading('', curve.unit).replace(/^ \[|\]$/g, '')}`.trim() : '';
+      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${close ? '' : pretty(curve.unit)}`.trim() : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
       const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
-      if (px < -1e-9 || px > 1 + 1e-9 || py < 0 || py > 1) return;
+      if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
       this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve.color, figure.curves.length), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });
   }
