@@ -23,6 +23,7 @@ mod frames;
 mod friction;
 mod functions;
 mod hand_written;
+mod impulses;
 mod joints;
 mod kills;
 mod large;

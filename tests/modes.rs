@@ -307,6 +307,56 @@ studies: { v: { modes: { damped: true } } }
 }
 
 #[test]
+fn damped_free_motions_are_told_apart() {
+    // two masses on a spring between them, and a rotor by itself
+    let text = "grashof: 1
+name: free
+space: planar
+gravity: none
+bodies: { a: { mass: 1 kg }, b: { mass: 2 kg }, c: { mass: 1 kg, inertia: 0.1 } }
+joints:
+  A: { slider: [ground, a.origin], axis: [1, 0] }
+  B: { slider: [ground, b.origin], axis: [1, 0] }
+  C: { revolute: [ground, c.origin], damping: 0.2 }
+springs: { s: { stretch: b.x - a.x, stiffness: 50 N/m, damping: 4 N s/m } }
+studies: { v: { modes: { damped: true } } }
+";
+    let outcome = study(text, "v", Coordinates::Joint);
+    let free: Vec<&str> = outcome.findings.iter().filter(|f| f.code == "free-motion").map(|f| f.message.as_str()).collect();
+    // the masses have a position and a velocity of their own, the rotor comes to rest anywhere
+    assert_eq!(free.len(), 3, "{free:?}");
+    assert!(free.iter().any(|m| m.contains("of `C.angle`:")), "{free:?}");
+    assert!(free.iter().any(|m| m.contains("of `A.position`, `B.position`:")), "{free:?}");
+}
+
+#[test]
+fn a_state_knows_nothing_of_what_its_rate_does_not_name() {
+    // a sensor on one slide drives a motor on another shaft: the two are blocks of a triangle, whose poles are those of each
+    let text = "grashof: 1
+name: sensor
+space: planar
+gravity: none
+bodies: { a: { mass: 1 kg }, c: { mass: 1 kg, inertia: 0.1 } }
+joints:
+  A: { slider: [ground, a.origin], axis: [1, 0] }
+  C: { revolute: [ground, c.origin], damping: 0.2 }
+springs: { s: { joint: A, stiffness: 50 N/m, damping: 4 N s/m }, kc: { joint: C, stiffness: 1.3 } }
+states: { y: { start: 0 m, rate: (A.position - y)/0.2 s } }
+loads: { f: { joint: C, torque: -3 N*y } }
+start: { A.position: 0 m, C.angle: 0 deg }
+studies:
+  v: { modes: { damped: true } }
+  l: { linearize: {} }
+";
+    let outcome = study(text, "v", Coordinates::Joint);
+    close("Re μ", list(&outcome, "eigenvalues_real"), &[-1.0, -5.0, -2.0], 1e-12);
+    close("Im μ", list(&outcome, "eigenvalues_imaginary"), &[12f64.sqrt(), 0.0, 46f64.sqrt()], 1e-12);
+    let linear = study(text, "l", Coordinates::Joint).linear.expect("matrices");
+    let a = &linear.matrices.iter().find(|(name, _)| name == "A").expect("A").1;
+    assert_eq!(a.last().map(Vec::as_slice), Some(&[5.0, 0.0, 0.0, 0.0, -5.0][..]));
+}
+
+#[test]
 fn ziegler_s_column_flutters_where_he_says() {
     // P l/k = 7/2 − √2 (Ziegler, Ing.-Arch. 20 (1952) 49-56; Bolotin, Nonconservative Problems, section 2.1)
     let text = |p: f64| {

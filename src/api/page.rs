@@ -19,6 +19,8 @@ pub fn told<T>(document: &Document, selection: Option<&Selection<'_>>, path: &st
 fn overview(survey: &Survey) -> Vec<(String, String)> {
     let m = &survey.mobility;
     let mass: f64 = survey.bodies.iter().map(|(_, mass, ..)| mass).sum();
+    // five digits are enough at a glance
+    let mass = format!("{mass:.4e}").parse().unwrap_or(mass);
     let mut out = vec![
         ("bodies", survey.bodies.len().to_string()),
         ("joints", survey.joints.len().to_string()),

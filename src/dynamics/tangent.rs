@@ -54,6 +54,8 @@ pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
     /// Columns of each colour, and the step of each column.
     colors: Vec<Vec<usize>>,
     steps: Vec<usize>,
+    /// Whether the rates of states know a column: others may share its lane.
+    rated: Vec<bool>,
     q: Vec<Dual<LANES>>,
     v: Vec<Dual<LANES>>,
     a: Vec<Dual<LANES>>,
@@ -74,6 +76,8 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         let coloring = Coloring::new(&Sparsity::new(nv + nz, nv, pattern.places().chain(states)));
         let mut colors = vec![Vec::new(); coloring.count];
         coloring.color.iter().enumerate().for_each(|(k, color)| colors[*color].push(k));
+        let mut rated = vec![false; nv];
+        known.iter().for_each(|&k| rated[k] = true);
         let mut steps = vec![0; nv];
         for (i, step) in lifted.steps.iter().enumerate() {
             match *step {
@@ -88,6 +92,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
             columns,
             colors,
             steps,
+            rated,
             q: zeros(nq),
             v: zeros(nv),
             a: zeros(nv),
@@ -138,7 +143,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
                 target.values_mut()[place] = self.r[i].d[lane];
             }
             for j in 0..at.z.len() {
-                states.set(j, k, self.dynamics.work.zdot[j].d[lane]);
+                states.set(j, k, if self.rated[k] { self.dynamics.work.zdot[j].d[lane] } else { 0.0 });
             }
         }
     }

@@ -92,12 +92,17 @@ fn notes(results: &Results) -> String {
     }
 }
 
+/// A work with its sign: six decimals, or digits behind a point where it is very small or large.
+fn signed(x: f64) -> String {
+    if (1e-3..1e7).contains(&x.abs()) { format!("{x:+.6}") } else { format!("{x:+.6e}") }
+}
+
 /// The certificate of a motion in time in three lines: energy, constraints, work.
 fn march(results: &Results) -> String {
     let Some(m) = &results.certificate.march else { return String::new() };
     let (c, k) = (&results.certificate, &m.counts);
     let works = m.works().into_iter().filter(|(_, x)| x.abs() > 1e-12 * m.energy_scale);
-    let works: Vec<String> = works.map(|(name, x)| format!("{} {x:+.6} J", name.trim_start_matches("work_"))).collect();
+    let works: Vec<String> = works.map(|(name, x)| format!("{} {} J", name.trim_start_matches("work_"), signed(x))).collect();
     let works = if works.is_empty() { String::new() } else { format!("; {}", works.join(", ")) };
     let relative = if m.energy_scale > 0.0 { m.energy_drift / m.energy_scale } else { 0.0 };
     let control = m.tolerance.map_or("fixed step".to_string(), |t| format!("tolerance {t:.0e}"));

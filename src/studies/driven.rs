@@ -25,11 +25,14 @@ use crate::numerics::resolve::Resolved;
 use crate::results::{Certificate, Failure, Finding};
 use crate::studies::common::outcome::Outcome;
 
+/// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
+const STILL: f64 = 1e-9;
+
 /// A study of a motion that its drivers prescribe.
 pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates: Coordinates) -> Result<Outcome, Failure> {
     let Case { model, study, parameters, .. } = case;
     let (mut mechanism, start) = prepared::<G>(case, coordinates)?;
-    let mut results = Vec::new();
+    let (mut results, mut unbalanced) = (Vec::new(), None);
     if let Kind::Balance { moved, .. } = &study.kind {
         let observer = Observer::new(model, &mechanism, parameters, &[]);
         let mut motion = trace(case, &mechanism, &start, clock(case, &mechanism, &start, range)?, observer, 0)?;
@@ -49,8 +52,11 @@ pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates:
         }
         results = offsets.distances;
         results.push(offsets.residual);
+        unbalanced = still_moves(case, offsets.residual, start.size);
     }
-    observe(case, &mechanism, &start, range, results)
+    let mut outcome = observe(case, &mechanism, &start, range, results)?;
+    outcome.findings.extend(unbalanced);
+    Ok(outcome)
 }
 
 /// The mechanism at the start of a study whose motion its drivers prescribe.
@@ -166,6 +172,8 @@ fn observe<G: Space<S = f64>>(
     stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
     findings.extend(open);
+    findings.extend(jumps(case, &mut motion, &name));
+    findings.extend(backwards(case, &motion, &name));
     findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
 
     let complete = motion.path.dead == [None, None];
@@ -296,6 +304,52 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
         });
     }
     out
+}
+
+/// That no place of the masses holds the centre of mass still; `residual` is how far it moves, m.
+fn still_moves(case: Case<'_>, residual: f64, size: f64) -> Option<Finding> {
+    (residual > STILL * size).then(|| Finding {
+        code: "not-balanced".into(),
+        message: format!(
+            "the centre of mass still moves, by {} m at most from its middle: the masses that are moved cannot hold it, only keep it as still as they can",
+            short(residual)
+        ),
+        path: case.study.place.clone(),
+    })
+}
+
+/// That velocities jump on the way, which takes impulses.
+fn jumps<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>, name: &str) -> Option<Finding> {
+    let places = motion.jumps();
+    let first = places.first()?;
+    let others = if places.len() > 1 { format!(" and {} more places", places.len() - 1) } else { String::new() };
+    let left_out = if matches!(case.study.kind, Kind::Inverse(_)) { "accelerations and forces" } else { "accelerations" };
+    Some(Finding {
+        code: "velocity-jump".into(),
+        message: format!(
+            "velocities jump at {name} = {}{others}: a law there has a kink, and {left_out} are impulses, which no row, extreme, mean or integral holds; a law without kinks has none, as a table `between: cubic`",
+            short(*first)
+        ),
+        path: case.study.place.clone(),
+    })
+}
+
+/// That a negative range of a driver is followed back in time.
+fn backwards<G: Space<S = f64>>(case: Case<'_>, motion: &Motion<'_, G>, name: &str) -> Option<Finding> {
+    let back = motion.clock.is_driver() && motion.clock.end() < 0.0;
+    back.then(|| Finding {
+        code: "backwards".into(),
+        message: format!(
+            "the range is negative: it is followed against the driver, back in time, to {name} = {}; a positive one goes the way of the driver",
+            short(motion.clock.value(motion.clock.length))
+        ),
+        path: format!("{}.over", case.study.place),
+    })
+}
+
+/// Six significant digits.
+fn short(x: f64) -> String {
+    format!("{x:.5e}").parse::<f64>().unwrap_or(x).to_string()
 }
 
 /// Residuals over the rows.

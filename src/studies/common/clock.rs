@@ -119,7 +119,7 @@ impl Clock {
     /// Time at progress s.
     pub fn time<G: Space<S = f64>>(&self, dynamics: &mut Dynamics<'_, G>, modes: &mut [i32], s: f64) -> f64 {
         if let Some(speed) = self.speed {
-            return s / speed;
+            return s / speed + 0.0;
         }
         let Some(output) = self.driver else { return s };
         if s >= self.length {

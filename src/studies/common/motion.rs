@@ -13,6 +13,9 @@ use crate::mechanism::Mechanism;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::Resolved;
 
+/// Part of a velocity by which its values on two sides of a switch may differ by round-off.
+const JUMP: f64 = 1e-7;
+
 /// A place could not be reached: the message says where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lost {
@@ -187,6 +190,25 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             self.observer.set_modes(&mut self.modes);
         }
         Ok(())
+    }
+
+    /// Places (in the independent variable) at which velocities jump, as where the law of a driver has a kink.
+    pub(crate) fn jumps(&mut self) -> Vec<f64> {
+        let mut places = Vec::new();
+        for piece in 1..self.pieces.len() {
+            let s = self.breaks[piece];
+            let mut sides = [piece - 1, piece].map(|piece| {
+                let solved = self.solve(s, Some(piece)).is_ok();
+                if solved { self.driven.v.clone() } else { Vec::new() }
+            });
+            let largest = sides.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let [before, after] = &mut sides;
+            let differs = |(a, b): (&f64, &f64)| (a - b).abs() > JUMP * (a.abs() + b.abs()) && (a - b).abs() > JUMP * largest;
+            if before.iter().zip(after.iter()).any(differs) {
+                places.push(self.clock.value(s));
+            }
+        }
+        places
     }
 
     /// Lets the motion end where all is defined last before a place (in the independent variable) where something is not; what is

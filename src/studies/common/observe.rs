@@ -358,6 +358,9 @@ fn gauge_order<G: Space<S = f64>>(d: &Dynamics<'_, G>, gauge: usize, order: usiz
     }
 }
 
+/// ω²/|α| of a driver, rad or m, below which it counts as turning round.
+const TURNING: f64 = 1e-9;
+
 /// I = 2T/ω² of the one driver, and dI/dx = (2Ṫ/ω² − 4Tα/ω³)/ω with Ṫ the power of the inertial forces.
 fn equivalent_inertia<G: Space<S = f64>>(d: &Dynamics<'_, G>, a: &[f64], r: &Reactions<G>) -> (f64, f64) {
     let m = d.mechanism;
@@ -373,5 +376,8 @@ fn equivalent_inertia<G: Space<S = f64>>(d: &Dynamics<'_, G>, a: &[f64], r: &Rea
         rate += rotor.inertia * d.work.readings[rotor.gauge].rate * gauge_order(d, rotor.gauge, 2, a);
     }
     let square = omega * omega;
-    (2.0 * energy / square, (2.0 * rate / square - 4.0 * energy * alpha / (square * omega)) / omega)
+    // where the driver turns round, both parts of the slope grow beyond what their difference keeps
+    let slope =
+        if square > TURNING * alpha.abs() { (2.0 * rate / square - 4.0 * energy * alpha / (square * omega)) / omega } else { f64::NAN };
+    (2.0 * energy / square, slope)
 }

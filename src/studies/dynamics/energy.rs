@@ -43,6 +43,8 @@ pub(super) struct Balance {
     impacts: f64,
     /// What blows at rigid end stops took.
     blows: f64,
+    /// What drivers did by impulses: at blows, and where their law has a kink.
+    kinks: f64,
     drift: f64,
     scale: f64,
     /// Largest |E|: what round-off is a part of.
@@ -86,7 +88,7 @@ impl Balance {
                 (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic);
             }
             // the drift so far is not known apart from it, and begins anew
-            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows,
+            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows - self.kinks,
             Begins::Rests => {}
         }
         self.before = self.work;
@@ -124,7 +126,7 @@ impl Balance {
             *work = before + now;
         }
         let [kinetic, e] = energy(system, node);
-        let off = e - self.start - self.done() - self.impacts - self.blows;
+        let off = e - self.start - self.done() - self.impacts - self.blows - self.kinks;
         self.largest = self.largest.max(e.abs());
         self.drift = self.drift.max(off.abs());
         let largest = self.work.iter().fold(kinetic.max((e - kinetic - self.start + self.kinetic).abs()), |m, w| m.max(w.abs()));
@@ -140,8 +142,17 @@ impl Balance {
         if before.state.v != after.state.v {
             let [_, e0] = energy(system, before);
             let [_, e1] = energy(system, after);
-            let events = crossed.iter().any(|root| matches!(system.roots.get(*root), Some(Root::Event(_))));
-            *if events { &mut self.impacts } else { &mut self.blows } += e1 - e0;
+            let driven = system.driven_work([&before.state, &after.state], crossed);
+            let met = |of: fn(&Root) -> bool| crossed.iter().filter_map(|root| system.roots.get(*root)).any(of);
+            let events = met(|root| matches!(root, Root::Event(_)));
+            let stops = met(|root| matches!(root, Root::Stop(_)));
+            self.kinks += driven;
+            match (events, stops) {
+                (true, _) => self.impacts += e1 - e0 - driven,
+                (false, true) => self.blows += e1 - e0 - driven,
+                // the law of a driver or coupling has a kink; else it is the drift of a correction
+                (false, false) => {}
+            }
         }
     }
 
@@ -185,7 +196,7 @@ impl Balance {
             },
             energy_drift: self.drift,
             energy_scale: self.scale,
-            drivers: self.work[0],
+            drivers: self.work[0] + self.kinks,
             loads: self.work[1],
             dampers: self.work[2],
             stops: self.work[3] + self.blows,

@@ -17,6 +17,7 @@
 //! left just now (1): then the motion may go beyond it by as much as rounding asks, until it is clear of it.
 
 mod ahead;
+mod blow;
 mod contact;
 mod direct;
 mod evaluate;

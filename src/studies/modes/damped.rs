@@ -10,6 +10,9 @@ use crate::kinematics::held::Held;
 use crate::numerics::eigenvalues::{eigenvalues, eigenvector, measurable, of_each_pair};
 use nalgebra::{Complex, DMatrix, DVector};
 
+/// Part of the largest stiffness against inertia below which a motion is free.
+const FREE: f64 = 1e-12;
+
 /// One of each pair of complex eigenvalues, and every real one.
 #[derive(Clone, Debug)]
 pub struct Damped {
@@ -65,6 +68,44 @@ pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
     values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
     let shape = |i, value| by_largest(&eigenvector(a, value, i).rows(0, n).into_owned());
     Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(i, value), value }).collect())
+}
+
+/// Gives modes without a rate, |μ| ≤ `zero`, the free motions that the stiffness (n × n) leaves as their shapes, one after the other: inverse
+/// iteration gives any mixture of them. Each has coordinates of its own, as far as there are such.
+pub(super) fn tell_free_apart(found: &mut [Damped], held: &Held, zero: f64) {
+    let free = free_motions(held);
+    let at_rest = found.iter_mut().filter(|mode| mode.value.norm() <= zero);
+    for (mode, motion) in at_rest.zip(free.iter().cycle()) {
+        mode.shape = by_largest(&motion.map(Complex::from));
+    }
+}
+
+/// A basis of the motions with K x = 0, each 1 in a coordinate in which the others are 0.
+fn free_motions(held: &Held) -> Vec<DVector<f64>> {
+    let n = held.mass.nrows();
+    if n == 0 {
+        return Vec::new();
+    }
+    let unit = held.mass.diagonal().map(|m| m.sqrt().recip());
+    let scaled = DMatrix::from_fn(n, n, |i, j| unit[i] * held.stiffness[(i, j)] * unit[j]);
+    let svd = scaled.svd(false, true);
+    let Some(turned) = &svd.v_t else { return Vec::new() };
+    let least = FREE * svd.singular_values.iter().copied().fold(0.0, f64::max);
+    let rows = svd.singular_values.iter().enumerate().filter(|(_, size)| **size <= least);
+    let mut basis: Vec<DVector<f64>> = rows.map(|(i, _)| turned.row(i).transpose().component_mul(&unit)).collect();
+    let mut taken = Vec::new();
+    for k in 0..basis.len() {
+        let sizes = (0..n).filter(|i| !taken.contains(i)).map(|i| (i, basis[k][i].abs() / unit[i]));
+        let Some((pivot, _)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        taken.push(pivot);
+        let own = &basis[k] / basis[k][pivot];
+        for (_, x) in basis.iter_mut().enumerate().filter(|(other, _)| *other != k) {
+            let part = x[pivot];
+            *x -= &own * part;
+        }
+        basis[k] = own;
+    }
+    basis
 }
 
 /// A shape by the largest of its coordinates, which becomes 1.

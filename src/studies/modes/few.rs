@@ -1,8 +1,8 @@
 //! Modes of a mechanism of few bodies: all of them, by full matrices and several methods.
 
-use super::damped::{Damped, damped, state_matrix};
+use super::damped::{Damped, damped, state_matrix, tell_free_apart};
 use super::eigen::{self, Eigen};
-use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{LANES, Linearizer};
@@ -68,7 +68,9 @@ where
     }
     if !potential || asked.damped {
         let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
-        let found = damped(&a, names.len()).ok_or_else(beyond)?;
+        let mut found = damped(&a, names.len()).ok_or_else(beyond)?;
+        let largest = found.iter().fold(0.0, |m: f64, mode| m.max(mode.value.norm()));
+        tell_free_apart(&mut found, &held, RIGID * largest);
         if !potential {
             report.circulates(held.circulation());
         }

@@ -18,7 +18,7 @@ pub(super) const BALANCED: f64 = 1e-8;
 /// Modes that are drawn.
 pub(super) const DRAWN: usize = 12;
 /// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.
-const RIGID: f64 = 1e-7;
+pub(super) const RIGID: f64 = 1e-7;
 /// Re μ above this part of |μ| is growth.
 const GROWS: f64 = 1e-8;
 /// Parts of a shape that count in words, of the largest one.

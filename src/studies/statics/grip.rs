@@ -48,7 +48,8 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    if pose.basis.ncols() != 1 || !holds(rest, pose) {
+    let frictionless = rest.system.dynamics.mechanism.contacts.is_empty();
+    if frictionless || pose.basis.ncols() != 1 || !holds(rest, pose) {
         return None;
     }
     let mut ends = [-1.0, 1.0].map(|sense| end(rest, pose, sense));

@@ -1,0 +1,79 @@
+//! What drivers do at a blow, or where their law has a kink: their impulses work, since they move on meanwhile.
+
+use super::{Mechanical, Root};
+use crate::dynamics::LANES;
+use crate::geometry::Space;
+use crate::mechanism::StretchOf;
+use crate::scalar::Dual;
+use grashof_solvers::{Stage, State, System, Terms};
+use nalgebra::{DMatrix, DVector};
+
+impl<G, D> Mechanical<'_, G, D>
+where
+    G: Space<S = f64>,
+    D: Space<S = Dual<LANES>>,
+{
+    /// Work of the rows that move with time, J, while the velocities jump from one state to another of the same position; `crossed` are
+    /// the roots that were met.
+    ///
+    /// ```text
+    /// M Δv = Σ p W + Gᵀκ,   work = ½ κ·(ν before + ν after)
+    /// ```
+    ///
+    /// with the unit forces W of the stops that were met. They are told from the rows by y, which the rows leave: M y + Gᵀμ = W, G y = 0,
+    /// so that yᵀM Δv = Σ p yᵀW.
+    pub(crate) fn driven_work(&mut self, [before, after]: [&State; 2], crossed: &[usize]) -> f64 {
+        let mut terms = Terms::new(self.dims, &self.pattern);
+        self.terms(before.at(), Stage::Velocity, &mut terms);
+        let nu_before = terms.nu.clone();
+        self.terms(after.at(), Stage::Velocity, &mut terms);
+        if nu_before.iter().chain(&terms.nu).all(|nu| *nu == 0.0) || self.kkt.factor(terms.mass.values(), terms.g.values()).is_err() {
+            return 0.0;
+        }
+        let jump: Vec<f64> = after.v.iter().zip(&before.v).map(|(after, before)| after - before).collect();
+        let mut rest: Vec<f64> = terms.mass.lines().map(|line| line.dot(&jump)).collect();
+        let unit_forces: Vec<Vec<f64>> = self.met(crossed).into_iter().map(|gauge| self.unit_force(gauge)).collect();
+        let free: Vec<Vec<f64>> = unit_forces.iter().map(|w| self.resolved(w).0).collect();
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let n = free.len();
+        if n > 0 {
+            let sizes = DMatrix::from_fn(n, n, |i, k| dot(&free[i], &unit_forces[k]));
+            let wanted = DVector::from_fn(n, |i, _| dot(&free[i], &rest));
+            let Ok(impulses) = sizes.svd(true, true).solve(&wanted, f64::EPSILON) else { return 0.0 };
+            for (w, p) in unit_forces.iter().zip(&impulses) {
+                rest.iter_mut().zip(w).for_each(|(rest, w)| *rest -= p * w);
+            }
+        }
+        let kappa = self.resolved(&rest).1;
+        0.5 * kappa.iter().zip(nu_before.iter().zip(&terms.nu)).map(|(k, (before, after))| k * (before + after)).sum::<f64>()
+    }
+
+    /// Gauges of the stops that were met, each once.
+    fn met(&self, crossed: &[usize]) -> Vec<usize> {
+        let stops = &self.dynamics.mechanism.stops;
+        let mut gauges = Vec::new();
+        for root in crossed.iter().filter_map(|root| self.roots.get(*root)) {
+            let gauge = match *root {
+                Root::Stop(stop) => Some(stops[stop].gauge),
+                Root::Event(event) => stops.iter().find(|stop| stop.event == Some(event)).map(|stop| stop.gauge),
+                _ => None,
+            };
+            gauges.extend(gauge.filter(|gauge| !gauges.contains(gauge)));
+        }
+        gauges
+    }
+
+    /// The generalised force (nv) of a unit force along a gauge, at the state evaluated last.
+    fn unit_force(&self, gauge: usize) -> Vec<f64> {
+        let mut force = vec![0.0; self.dims.v];
+        self.dynamics.extent_gradient(StretchOf::Gauge(gauge), |k, x| force[k] += x);
+        force
+    }
+
+    /// A force (nv) as M x + Gᵀκ with G x = 0: x (nv) and κ (rows).
+    fn resolved(&mut self, force: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut x, mut kappa) = (vec![0.0; self.dims.v], vec![0.0; self.dims.rows()]);
+        self.kkt.solve(force, &vec![0.0; self.dims.rows()], &mut x, &mut kappa);
+        (x, kappa)
+    }
+}

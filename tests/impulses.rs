@@ -1,0 +1,123 @@
+//! Impulses of drivers: at blows, where the law of one has a kink; and what a mechanism does where its driver turns round.
+
+use crate::common::{close, study};
+use grashof::mechanism::Coordinates;
+use grashof::studies::common::outcome::Outcome;
+use std::f64::consts::TAU;
+
+fn codes(outcome: &Outcome) -> Vec<&str> {
+    outcome.findings.iter().map(|f| &*f.code).collect()
+}
+
+/// A carriage that is driven, and a mass that slides on it between stops.
+fn carriage(driver: &str, limits: &str, start: &str) -> String {
+    format!(
+        "grashof: 1
+name: carriage
+space: planar
+gravity: none
+tables: {{ lift: {{ points: [[0 s, 0 m], [1 s, 0 m], [2 s, 1 m], [3 s, 1 m]] }} }}
+bodies: {{ a: {{ mass: 1 kg }}, b: {{ mass: 2 kg }} }}
+joints:
+  A: {{ slider: [ground, a.origin], axis: [1, 0] }}
+  B: {{ slider: [a.origin, b.origin], axis: [1, 0]{limits} }}
+drivers: {{ d: {{ joint: A, {driver} }} }}
+start: {{ {start} }}
+studies:
+  s:
+    dynamics: {{ until: 0.2 s, every: 0.05 s, tolerance: 1e-10 }}
+    columns: [b.x]
+    scalars: {{ drivers: work_drivers, stops: work_stops, gain: \"last(energy.total) - value(energy.total, 0 s)\" }}
+  long:
+    dynamics: {{ until: 3 s, every: 0.25 s, tolerance: 1e-10 }}
+    columns: [b.x]
+    scalars: {{ drivers: work_drivers, stops: work_stops, gain: \"last(energy.total) - value(energy.total, 0 s)\" }}
+"
+    )
+}
+
+#[test]
+fn a_driven_carriage_picks_up_a_mass_at_rest() {
+    // 2 kg come to 1 m/s: the driver's impulse does 2 J, of which the plastic blow takes 1 J
+    let text =
+        carriage("speed: 1 m/s", ", limits: { from: -5 cm, restitution: 0 }", "A.position: 0 m, B.position: 0 m, B.velocity: -1 m/s");
+    for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+        close("J", &study(&text, "s", coordinates).scalars, &[2.0, -1.0, 1.0], 1e-8);
+    }
+}
+
+#[test]
+fn a_stop_on_a_driven_joint_only_takes_energy() {
+    let text = carriage(
+        "position: \"10 cm*sin(6 rad/s*t)\"",
+        ", limits: { from: -5 cm, to: 5 cm, restitution: 0.4 }",
+        "B.position: 0 m, B.velocity: -0.6 m/s",
+    );
+    let outcome = study(&text, "long", Coordinates::Joint);
+    let [drivers, stops, gain] = outcome.scalars[..] else { panic!("{:?}", outcome.scalars) };
+    // an independent integration between the blows, each with its own balance of impulses
+    close("J", &[drivers, stops], &[3.5266, -3.4417], 1e-4);
+    close("gain", &[drivers + stops], &[gain], 1e-8);
+}
+
+#[test]
+fn a_kink_in_the_law_of_a_driver_is_its_own_work() {
+    let text = carriage("position: lift(t)", "", "B.position: 0 m, B.velocity: 0 m/s").replace("until: 3 s", "until: 1.5 s");
+    let outcome = study(&text, "long", Coordinates::Joint);
+    // 1 kg is set to 1 m/s, the other one stays where it is
+    close("J", &outcome.scalars, &[0.5, 0.0, 0.5], 1e-8);
+}
+
+#[test]
+fn velocities_that_jump_in_a_driven_motion_are_told() {
+    let text = "grashof: 1
+name: kink
+space: planar
+gravity: none
+tables: { lift: { points: [[0 s, 0 m], [1 s, 0 m], [2 s, 1 m], [3 s, 1 m]] }, smooth: { points: [[0 s, 0 m], [1 s, 0 m], [2 s, 1 m]], between: cubic } }
+bodies: { a: { mass: 2 kg } }
+joints: { A: { slider: [ground, a.origin], axis: [1, 0] } }
+drivers: { d: { joint: A, position: LAW(t) } }
+studies: { s: { inverse: { over: 1.5 s, samples: 3 }, columns: [d.force] } }
+";
+    let kinked = study(&text.replace("LAW", "lift"), "s", Coordinates::Joint);
+    assert_eq!(codes(&kinked), ["velocity-jump"]);
+    assert!(kinked.findings[0].message.starts_with("velocities jump at time = 1: "), "{}", kinked.findings[0].message);
+    assert_eq!(codes(&study(&text.replace("LAW", "smooth"), "s", Coordinates::Joint)), [""; 0]);
+}
+
+#[test]
+fn a_negative_range_is_told_to_go_back_in_time() {
+    let text = |over: &str| {
+        format!(
+            "grashof: 1\nname: bar\nspace: planar\ngravity: none\nbodies: {{ a: {{ bar: {{ length: 20 cm, mass: 1 kg }} }} }}\njoints: {{ O: {{ revolute: [ground, a.start] }} }}\ndrivers: {{ d: {{ joint: O, speed: -60 rpm }} }}\nstudies: {{ s: {{ kinematics: {{ over: {over}, samples: 2 }}, columns: [O.angle] }} }}\n"
+        )
+    };
+    assert_eq!(codes(&study(&text("90 deg"), "s", Coordinates::Joint)), [""; 0]);
+    assert_eq!(codes(&study(&text("-90 deg"), "s", Coordinates::Joint)), ["backwards"]);
+}
+
+#[test]
+fn the_slope_of_an_equivalent_inertia_is_blank_where_the_driver_turns_round() {
+    let text = "grashof: 1
+name: yoke
+space: planar
+gravity: none
+bodies: { crank: { bar: { length: 10 cm, mass: 1 kg } }, ram: { mass: 2 kg } }
+joints:
+  O: { revolute: [ground, crank.start] }
+  yoke: { pin-in-slot: [ram.origin, crank.end], axis: [0, 1] }
+  W: { slider: [ground, ram.origin], axis: [1, 0] }
+drivers: { drive: { joint: O, angle: 1 rad*sin(2*pi*t/1 s) } }
+studies: { s: { inverse: { over: 1 s, samples: 4 }, columns: [O.angle, inertia_eq, inertia_eq_slope], scalars: { most: max(inertia_eq_slope) } } }
+";
+    let outcome = study(text, "s", Coordinates::Joint);
+    for row in &outcome.rows {
+        let (angle, slope) = (row[0], row[2]);
+        // 2 m r² sin θ cos θ
+        let right = 2.0 * 2.0 * 0.01 * angle.sin() * angle.cos();
+        assert!(slope.is_nan() || (slope - right).abs() < 1e-6, "{angle}: {slope} for {right}");
+    }
+    assert!(outcome.rows.iter().any(|row| row[2].is_nan()), "the driver turns round at a quarter of {TAU}");
+    close("most", &outcome.scalars, &[0.02], 1e-6);
+}
