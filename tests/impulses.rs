@@ -69,6 +69,27 @@ fn a_kink_in_the_law_of_a_driver_is_its_own_work() {
 }
 
 #[test]
+fn a_step_that_ends_where_a_law_has_its_kink_crosses_it() {
+    // at rest until half a second, to which steps of a tenth lead exactly
+    let text = "grashof: 1
+name: shaken
+space: planar
+gravity: [0, -9.81 m/s^2]
+tables: { lift: { points: [[0 s, 0 m], [0.5 s, 0 m], [1 s, 0.5 m], [2 s, 0.5 m]] } }
+bodies: { a: { mass: 1 kg }, p: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { A: { slider: [ground, a.origin], axis: [1, 0] }, P: { revolute: [a.origin, p.start] } }
+drivers: { d: { joint: A, position: lift(t) } }
+start: { P.angle: -90 deg, P.omega: 0 rad/s }
+studies: { s: { dynamics: { until: 2 s, tolerance: 1e-10 }, columns: [P.angle], scalars: { kicked: \"value(P.omega, 0.500000001 s)\" } } }
+";
+    // the hinge comes to 1 m/s above a bar at rest, which stays behind: ω = −v (l/2)/(l²/3)
+    for integrator in ["", ", integrator: radau5"] {
+        let text = text.replace("1e-10 }", &format!("1e-10{integrator} }}"));
+        close("ω", &study(&text, "s", Coordinates::Joint).scalars, &[-1.5], 1e-6);
+    }
+}
+
+#[test]
 fn velocities_that_jump_in_a_driven_motion_are_told() {
     let text = "grashof: 1
 name: kink

@@ -26,6 +26,7 @@ pub(super) struct Names {
     metric: Vec<f64>,
     /// Whether joints have friction, which does not count.
     has_friction: bool,
+    has_stops: bool,
 }
 
 impl Names {
@@ -43,6 +44,7 @@ impl Names {
             preferred: preferred(m),
             metric: metric.to_vec(),
             has_friction: model.joints.iter().any(|j| j.friction.is_some()),
+            has_stops: !m.stops.is_empty(),
         }
     }
 
@@ -92,7 +94,12 @@ impl Names {
         };
         let friction =
             if self.has_friction { "; the friction of joints does not count here, where it may hold: see with `dynamics`" } else { "" };
-        unsolved(format!("there is no equilibrium: {how}, {what}{friction}"), place, help)
+        let stops = if self.has_stops {
+            "; rigid stops do not hold here (`limits` with `restitution`): give them a `stiffness`, or see with `dynamics`"
+        } else {
+            ""
+        };
+        unsolved(format!("there is no equilibrium: {how}, {what}{friction}{stops}"), place, help)
     }
 
     /// The failure of a search that has gone through a rigid stop.

@@ -70,31 +70,40 @@ impl Timed {
         (if self.side.is_some_and(|side| modes[side] < 0) { -bounds } else { bounds }, size)
     }
 
+    /// How long it takes from a zero on until it is known not to be negative, at most to a time; none if it becomes negative.
+    fn moment(&mut self, zero: f64, to: f64, unit: f64, modes: &[i32]) -> Option<f64> {
+        let mut moment = 4.0 * unit;
+        loop {
+            let (_, size) = self.bounds(zero, zero + moment, modes);
+            let value = self.value(zero + moment, modes);
+            if value < -TOUCH * size {
+                return None;
+            }
+            if value > TOUCH * size || zero + moment >= to {
+                return Some(moment);
+            }
+            moment *= 4.0;
+        }
+    }
+
     /// The first crossing in [from, to].
     pub(super) fn ahead(&mut self, from: f64, to: f64, modes: &[i32]) -> Ahead {
         let unit = 2.0 * f64::EPSILON * from.abs().max(to.abs());
         let mut scale: f64 = 0.0;
         let mut a = from;
         if self.value(a, modes) <= 0.0 {
-            // just crossed, or about to be: what it is a moment later
-            let mut moment = 4.0 * unit;
-            loop {
-                let (_, size) = self.bounds(a, a + moment, modes);
-                let value = self.value(a + moment, modes);
-                if value < -TOUCH * size {
-                    return Ahead::Crossing(from, self.root);
-                }
-                if value > TOUCH * size || a + moment >= to {
-                    break;
-                }
-                moment *= 4.0;
+            // just crossed, or about to be
+            match self.moment(a, to, unit, modes) {
+                None => return Ahead::Crossing(from, self.root),
+                Some(moment) => a = (a + moment).min(to),
             }
-            a = (a + moment).min(to);
         }
         let mut width = to - a;
         for _ in 0..MOST {
             if a >= to {
-                return Ahead::Clear;
+                // zero at the very end: a step may well end there by itself
+                let crosses = to > from && self.value(to, modes) <= 0.0 && self.moment(to, 2.0 * to - from, unit, modes).is_none();
+                return if crosses { Ahead::Crossing(to, self.root) } else { Ahead::Clear };
             }
             let b = if a + 1.5 * width >= to { to } else { a + width };
             let (bounds, size) = self.bounds(a, b, modes);
