@@ -1,6 +1,6 @@
 //! Impulses of drivers: at blows, where the law of one has a kink; and what a mechanism does where its driver turns round.
 
-use crate::common::{close, study};
+use crate::common::{close, model, study};
 use grashof::mechanism::Coordinates;
 use grashof::studies::common::outcome::Outcome;
 use std::f64::consts::TAU;
@@ -141,4 +141,22 @@ studies: { s: { inverse: { over: 1 s, samples: 4 }, columns: [O.angle, inertia_e
     }
     assert!(outcome.rows.iter().any(|row| row[2].is_nan()), "the driver turns round at a quarter of {TAU}");
     close("most", &outcome.scalars, &[0.02], 1e-6);
+}
+
+#[test]
+fn a_law_that_jumps_is_no_dead_point() {
+    let text = "grashof: 1
+name: jump
+space: planar
+gravity: none
+bodies: { a: { mass: 2 kg } }
+joints: { A: { slider: [ground, a.origin], axis: [1, 0] } }
+drivers: { d: { joint: A, position: \"if(t < 1 s, 0 m, 5 cm)\" } }
+studies: { s: { inverse: { over: 1.5 s, samples: 3 }, columns: [d.force] } }
+";
+    let model = model(text, Some("s"));
+    let study = model.study.clone().unwrap();
+    let case = grashof::studies::common::case::Case::new(&model, &study, &[]);
+    let stopped = grashof::studies::run::run(case, &|| false).unwrap().stopped.unwrap();
+    assert!(stopped.contains("the law of the driver `d` jumps at time = 1.000000, from 0 to 0.05 (SI)"), "{stopped}");
 }

@@ -31,8 +31,8 @@ const SAME: f64 = 1e-6;
 const EXHAUSTED: f64 = 1e-11;
 /// Part of |μ| within which two are equal.
 const EQUAL: f64 = 1e-7;
-/// Part of the largest damping or stiffness below which a negative eigenvalue is round-off.
-const NEGATIVE: f64 = 1e-10;
+/// Part of the largest damping or stiffness below which an eigenvalue is round-off.
+const ROUND_OFF: f64 = 1e-10;
 /// Steps between looks at what has converged, and most rounds.
 const LOOK: usize = 10;
 const ROUNDS: usize = 60;
@@ -58,13 +58,13 @@ pub struct LowestDamped {
 }
 
 /// The `count` motions of the lowest |μ|, one of each pair, or all if there are fewer; none if the iteration does not converge. `lowest` is
-/// the size of the undamped eigenvalue next to zero, 1/s², if one is known that is none of a free motion; `free` says whether there are
-/// free motions. `stop` ends it.
+/// the size of the undamped eigenvalue next to zero, 1/s², if one is known that is none of a free motion. `stop` ends it.
 #[must_use]
-pub fn lowest_damped(pencil: &Pencil, count: usize, lowest: Option<f64>, free: bool, stop: &dyn Fn() -> bool) -> Option<LowestDamped> {
+pub fn lowest_damped(pencil: &Pencil, count: usize, lowest: Option<f64>, stop: &dyn Fn() -> bool) -> Option<LowestDamped> {
     let all = 2 * pencil.freedom;
     let pair = Pair::new(pencil);
     let omega = lowest.map_or(BESIDE * pair.size.sqrt(), f64::sqrt);
+    let free = pair.below(ROUND_OFF * pair.size)? > pair.below(-ROUND_OFF * pair.size)?;
     let mut map = Inverted::new(&pair, omega, if free { BESIDE * omega } else { 0.0 })?;
     let mut space = Orthonormal::default();
     let (mut steps, mut most) = (0, 8 * count + 40);
@@ -85,7 +85,7 @@ pub fn lowest_damped(pencil: &Pencil, count: usize, lowest: Option<f64>, free: b
             continue;
         }
         let before = space.vectors.len();
-        new.into_iter().for_each(|(_, parts)| parts.into_iter().for_each(|x| map.add(&mut space, x)));
+        new.into_iter().for_each(|x| map.add(&mut space, x));
         let found = map.motions(&space)?;
         let lower = |motions: &[DampedMotion]| motions.iter().filter(|m| m.value.norm() < place * (1.0 - EQUAL)).count();
         if missing == 0 && space.vectors.len() > before && lower(&found) == lower(&motions) {
@@ -102,9 +102,9 @@ pub fn growing(pencil: &Pencil) -> Option<usize> {
     let pair = Pair::new(pencil);
     let damping = halves(&pencil.damping);
     let size = damping.iter().map(|(i, j, c)| c.abs() / (pencil.metric[*i] * pencil.metric[*j]).sqrt()).fold(0.0, f64::max);
-    let unit = pencil.metric.iter().enumerate().map(|(i, d)| (i, i, NEGATIVE * d));
+    let unit = pencil.metric.iter().enumerate().map(|(i, d)| (i, i, ROUND_OFF * d));
     let takes = || pair.beside_rows(damping.iter().map(|(i, j, c)| (*i, *j, c / size)).chain(unit)).is_some_and(|found| found.below == 0);
-    if size == 0.0 || takes() { pair.below(-NEGATIVE * pair.size) } else { None }
+    if size == 0.0 || takes() { pair.below(-ROUND_OFF * pair.size) } else { None }
 }
 
 /// The entries of the symmetric part of a matrix.
@@ -187,8 +187,8 @@ impl<'a> Inverted<'a> {
         }
     }
 
-    /// Up to `wanted` eigenvalues of the largest |ν| beside a space that the map keeps, in at most `most` steps: of each that has
-    /// converged, real and imaginary part of the vector.
+    /// Up to `wanted` motions of the largest |ν| beside a space that the map keeps, in at most `most` steps: of each that has converged,
+    /// real and imaginary part of the vector.
     fn converged(
         &mut self,
         space: &Orthonormal,
@@ -197,7 +197,7 @@ impl<'a> Inverted<'a> {
         round: usize,
         steps: &mut usize,
         stop: &dyn Fn() -> bool,
-    ) -> Vec<(Complex<f64>, Vec<Vec<f64>>)> {
+    ) -> Vec<Vec<f64>> {
         let mut basis = space.clone();
         let first = space.vectors.len();
         // in no special direction
@@ -240,7 +240,7 @@ impl<'a> Inverted<'a> {
             }
             parts
         };
-        found.into_iter().map(|(value, y)| (value, parts(&y, value))).collect()
+        found.into_iter().flat_map(|(value, y)| parts(&y, value)).collect()
     }
 
     /// The motions of a space that the map keeps, by rising |μ|; none if it has no eigenvalues.

@@ -25,6 +25,9 @@ use crate::numerics::resolve::Resolved;
 use crate::results::{Certificate, Failure, Finding};
 use crate::studies::common::outcome::Outcome;
 
+/// How far beside the end of a motion laws of drivers are looked at, as part of the whole range.
+const BESIDE: f64 = 1e-7;
+
 /// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
 const STILL: f64 = 1e-9;
 
@@ -179,6 +182,13 @@ fn observe<G: Space<S = f64>>(
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
+        if let Some((driver, [before, after])) = law_that_jumps(&mut motion) {
+            return format!(
+                "the law of the driver `{driver}` jumps at {name} = {at:.6}, from {} to {} (SI): what is driven has to get from one place to the other",
+                short(before),
+                short(after)
+            );
+        }
         if let Some(row) = motion.path.open {
             return format!(
                 "{name} cannot go beyond {at:.6}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
@@ -304,6 +314,24 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
         });
     }
     out
+}
+
+/// The driver whose law jumps where the motion ends, with its values on both sides, SI.
+fn law_that_jumps<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Option<(String, [f64; 2])> {
+    let beside = BESIDE * motion.clock.end().abs();
+    let ends: Vec<f64> = motion.path.dead.iter().flatten().map(|(t, _)| *t).collect();
+    let mut modes = motion.modes.clone();
+    let dynamics = &mut motion.driven.dynamics;
+    let laws = dynamics.mechanism.drives.iter().filter(|drive| drive.speed.is_none());
+    laws.flat_map(|drive| ends.iter().map(move |t| (drive, *t))).find_map(|(drive, t)| {
+        let [far_before, before, after, far_after] = [-2.0, -1.0, 1.0, 2.0].map(|k| {
+            dynamics.follow_time(t + k * beside, &mut modes);
+            dynamics.work.motions[drive.output]
+        });
+        let steady = (before - far_before).abs() + (far_after - after).abs();
+        ((after - before).abs() > 1e3 * steady + f64::EPSILON * before.abs().max(after.abs()))
+            .then(|| (drive.name.clone(), [before, after]))
+    })
 }
 
 /// That no place of the masses holds the centre of mass still; `residual` is how far it moves, m.

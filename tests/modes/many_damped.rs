@@ -76,7 +76,7 @@ where
     for &coordinates in all {
         let held = sparse::<S>(text, coordinates);
         assert!(held.pencil.asymmetry(&held.pencil.damping) < 1e-12, "{coordinates:?}");
-        let LowestDamped { motions, .. } = lowest_damped(&held.pencil, count, Some(10.0), false, &|| false).expect("convergence");
+        let LowestDamped { motions, .. } = lowest_damped(&held.pencil, count, Some(10.0), &|| false).expect("convergence");
         same(&format!("{coordinates:?}"), &motions.iter().map(|m| m.value).collect::<Vec<_>>(), &right, tolerance);
     }
 }

@@ -121,9 +121,8 @@ fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value:
 
 /// The lowest damped motions beside undamped modes, whose frequencies say where they are to be sought.
 fn damped_of(pencil: &Pencil, wanted: usize, modes: &[Undamped], stop: &dyn Fn() -> bool) -> Option<LowestDamped> {
-    let (held, free): (Vec<&Undamped>, Vec<&Undamped>) = modes.iter().partition(|mode| mode.value.abs() > mode.noise);
-    let lowest = held.iter().map(|mode| mode.value.abs()).min_by(f64::total_cmp);
-    lowest_damped(pencil, wanted, lowest, !free.is_empty(), stop)
+    let held = modes.iter().filter(|mode| mode.value.abs() > mode.noise);
+    lowest_damped(pencil, wanted, held.map(|mode| mode.value.abs()).min_by(f64::total_cmp), stop)
 }
 
 /// That more motions grow than are listed, or that these cannot be counted.
