@@ -114,7 +114,7 @@ class Dynamics:
         """The states on the constraints next to given ones: coordinates (..., nq) moved to Φ = 0 and velocities (..., nv) moved to
         G v = ν, each by the shortest way in the metric M. Without velocities those of rest are moved.
 
-        Raises :class:`grashof.Error` where the constraints cannot be closed from a state."""
+        Raises :class:`Refused` where the constraints cannot be closed from a state."""
         import numpy as np
 
         rates: Any = np.zeros(self.nv) if v is None else v
