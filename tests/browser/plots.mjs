@@ -68,6 +68,13 @@ export async function keys_move_the_cursor_of_a_figure(open) {
   assert.ok((await time(tab)) > 1.2);
 }
 
+export async function dotted_lines_are_explained(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  assert.match(await plot(tab, 'angles').locator('.dotted').innerText(), /switches/);
+  const swept = await open('crank_rocker', { study: 'fluctuation' });
+  assert.equal(await swept.tab.locator('.plot .dotted').count(), 0);
+}
+
 export async function a_logarithmic_axis_and_a_column_of_ones_own(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const log = plot(tab, 'reactions').getByText('log', { exact: true });

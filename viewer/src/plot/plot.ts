@@ -59,7 +59,8 @@ export class PlotView {
       button('SVG', `${title}: save as SVG`, () => saveSvg(file, this.title(), this.of.figure, this.view)),
       button('CSV', `${title}: save as CSV`, () => saveCsv(file, this.of.figure)),
       remove && button(icon('M4 4l8 8M12 4l-8 8'), `${title}: remove`, remove));
-    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage, this.note);
+    const dotted = figure.breaks.length > 0 && h('p', { class: 'dotted soft' }, 'dotted lines: switches, where a formula changes');
+    this.element = h('figure', { class: 'plot card', 'data-plot': name }, h('figcaption', {}, h('h4', {}, title), tools), this.legend(), this.stage, dotted, this.note);
     this.stage.setAttribute('aria-label', `${title}; arrow keys move the cursor, + and − zoom, escape shows the whole range`);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.stage);
