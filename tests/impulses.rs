@@ -103,7 +103,7 @@ studies: { s: { inverse: { over: 1.5 s, samples: 3 }, columns: [d.force] } }
 ";
     let kinked = study(&text.replace("LAW", "lift"), "s", Coordinates::Joint);
     assert_eq!(codes(&kinked), ["velocity-jump"]);
-    assert!(kinked.findings[0].message.starts_with("velocities jump at time = 1: "), "{}", kinked.findings[0].message);
+    assert!(kinked.findings[0].message.starts_with("velocities jump at time = 1 s: "), "{}", kinked.findings[0].message);
     assert_eq!(codes(&study(&text.replace("LAW", "smooth"), "s", Coordinates::Joint)), [""; 0]);
 }
 
@@ -115,7 +115,9 @@ fn a_negative_range_is_told_to_go_back_in_time() {
         )
     };
     assert_eq!(codes(&study(&text("90 deg"), "s", Coordinates::Joint)), [""; 0]);
-    assert_eq!(codes(&study(&text("-90 deg"), "s", Coordinates::Joint)), ["backwards"]);
+    let back = study(&text("-90 deg"), "s", Coordinates::Joint);
+    assert_eq!(codes(&back), ["backwards"]);
+    assert!(back.findings[0].message.contains("to O.angle = 90 deg;"), "{}", back.findings[0].message);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::state::{settle, sized};
-use grashof_solvers::{Control, Engine, Kkt, Stage, State, System, Terms};
+use grashof_solvers::{Control, Engine, Kkt, Stage, State, System, Terms, Why};
 
 /// Evaluates the equations of motion of a [`Mechanism`](super::Mechanism) in one state after the other, in memory that it takes once. The numbers do not
 /// depend on what was evaluated before.
@@ -83,10 +83,7 @@ impl<'m> Evaluator<'m> {
     pub fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(&[f64], &[f64]), Error> {
         self.terms(t, q, v)?;
         let Self { terms, kkt, a, lambda, .. } = self;
-        kkt.factor(terms.mass.values(), terms.g.values()).map_err(|_| Error::Refused {
-            message: "the accelerations are not determined: mass is missing".into(),
-            help: "give each body that moves a mass".into(),
-        })?;
+        kkt.factor(terms.mass.values(), terms.g.values()).map_err(|_| without_mass("accelerations are"))?;
         kkt.solve(&terms.force, &terms.gamma, a, lambda);
         Ok((a, lambda))
     }
@@ -112,13 +109,19 @@ impl<'m> Evaluator<'m> {
         self.stand(t, q, v)?;
         let Self { system, state, engine, .. } = self;
         let engine = engine.get_or_insert_with(|| Box::new(Engine::new(&**system, Control::Steps([1.0; 2]))));
-        let closed = state.q.iter().chain(&state.v).all(|x| x.is_finite()) && engine.project(&mut **system, state).is_ok();
-        if !closed {
-            return Err(Error::Refused {
+        let finite = state.q.iter().chain(&state.v).all(|x| x.is_finite());
+        match engine.project(&mut **system, state) {
+            Ok(()) if finite => Ok((&state.q, &state.v)),
+            Err(Why::Singular) if finite => Err(without_mass("shortest way to the constraints is")),
+            _ => Err(Error::Refused {
                 message: "the constraints cannot be closed from this state".into(),
                 help: "begin nearer to a position that the mechanism can take, as one that `start` or a result gives".into(),
-            });
+            }),
         }
-        Ok((&state.q, &state.v))
     }
+}
+
+/// That something is not determined by the masses.
+fn without_mass(what: &str) -> Error {
+    Error::Refused { message: format!("the {what} not determined: mass is missing"), help: "give each body that moves a mass".into() }
 }

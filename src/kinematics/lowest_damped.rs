@@ -163,8 +163,8 @@ impl<'a> Inverted<'a> {
     /// Takes the parts along all vectors of a basis away, and gives them; then what the rows do not allow.
     fn clear(&mut self, basis: &Orthonormal, x: &mut [f64]) -> Vec<f64> {
         let along = basis.clear(x);
+        let force = self.metric(x);
         if let Some(closing) = &mut self.closing {
-            let force: Vec<f64> = x.iter().zip(self.pencil.metric.iter().cycle()).map(|(x, d)| x * d).collect();
             let zeros = vec![0.0; self.pencil.row_scale.len()];
             let (nv, mut lambda) = (self.pencil.metric.len(), zeros.clone());
             for (x, force) in x.chunks_exact_mut(nv).zip(force.chunks_exact(nv)) {

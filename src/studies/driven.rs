@@ -28,6 +28,9 @@ use crate::studies::common::outcome::Outcome;
 /// How far beside the end of a motion laws of drivers are looked at, as part of the whole range.
 const BESIDE: f64 = 1e-7;
 
+/// Part of its value by which a law that does not jump may differ on two sides by round-off.
+const STEADY: f64 = 1e-9;
+
 /// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
 const STILL: f64 = 1e-9;
 
@@ -175,8 +178,9 @@ fn observe<G: Space<S = f64>>(
     stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
     findings.extend(open);
-    findings.extend(jumps(case, &mut motion, &name));
-    findings.extend(backwards(case, &motion, &name));
+    let unit = unit(mechanism, clock);
+    findings.extend(jumps(case, &mut motion, &name, unit));
+    findings.extend(backwards(case, &motion, &name, unit));
     findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
 
     let complete = motion.path.dead == [None, None];
@@ -196,11 +200,6 @@ fn observe<G: Space<S = f64>>(
             );
         }
         let mover = if mechanism.drives.is_empty() { "coupling" } else { "driver" };
-        let unit = if clock.is_driver() && drives_angle(mechanism) {
-            (180.0 / std::f64::consts::PI, "deg")
-        } else {
-            (1.0, if clock.is_driver() { "m" } else { "s" })
-        };
         format!(
             "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the {mover} cannot move them on",
             at.max(clock.value(motion.ends[0])) * unit.0,
@@ -269,6 +268,15 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     Ok(Seen { resolved, extremes, rows, functionals, findings })
 }
 
+/// In what the independent variable is told: how much of it a unit of SI is, and its name.
+fn unit<G: Space>(mechanism: &Mechanism<G>, clock: Clock) -> (f64, &'static str) {
+    match (clock.is_driver(), drives_angle(mechanism)) {
+        (true, true) => (180.0 / std::f64::consts::PI, "deg"),
+        (true, false) => (1.0, "m"),
+        (false, _) => (1.0, "s"),
+    }
+}
+
 fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
     mechanism.drives.first().is_some_and(|d| d.turns)
 }
@@ -329,8 +337,8 @@ fn law_that_jumps<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Option<(Stri
             dynamics.work.motions[drive.output]
         });
         let steady = (before - far_before).abs() + (far_after - after).abs();
-        ((after - before).abs() > 1e3 * steady + f64::EPSILON * before.abs().max(after.abs()))
-            .then(|| (drive.name.clone(), [before, after]))
+        let jumps = (after - before).abs() > 1e3 * steady + STEADY * before.abs().max(after.abs());
+        jumps.then(|| (drive.name.clone(), [before, after]))
     })
 }
 
@@ -347,7 +355,7 @@ fn still_moves(case: Case<'_>, residual: f64, size: f64) -> Option<Finding> {
 }
 
 /// That velocities jump on the way, which takes impulses.
-fn jumps<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>, name: &str) -> Option<Finding> {
+fn jumps<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>, name: &str, unit: (f64, &str)) -> Option<Finding> {
     let places = motion.jumps();
     let first = places.first()?;
     let others = if places.len() > 1 { format!(" and {} more places", places.len() - 1) } else { String::new() };
@@ -355,21 +363,23 @@ fn jumps<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>, name: &s
     Some(Finding {
         code: "velocity-jump".into(),
         message: format!(
-            "velocities jump at {name} = {}{others}: a law there has a kink, and {left_out} are impulses, which no row, extreme, mean or integral holds; a law without kinks has none, as a table `between: cubic`",
-            short(*first)
+            "velocities jump at {name} = {} {}{others}: a law there has a kink, and {left_out} are impulses, which no row, extreme, mean or integral holds; a law without kinks has none, as a table `between: cubic`",
+            short(first * unit.0),
+            unit.1
         ),
         path: case.study.place.clone(),
     })
 }
 
 /// That a negative range of a driver is followed back in time.
-fn backwards<G: Space<S = f64>>(case: Case<'_>, motion: &Motion<'_, G>, name: &str) -> Option<Finding> {
+fn backwards<G: Space<S = f64>>(case: Case<'_>, motion: &Motion<'_, G>, name: &str, unit: (f64, &str)) -> Option<Finding> {
     let back = motion.clock.is_driver() && motion.clock.end() < 0.0;
     back.then(|| Finding {
         code: "backwards".into(),
         message: format!(
-            "the range is negative: it is followed against the driver, back in time, to {name} = {}; a positive one goes the way of the driver",
-            short(motion.clock.value(motion.clock.length))
+            "the range is negative: it is followed against the driver, back in time, to {name} = {} {}; a positive one goes the way of the driver",
+            short(motion.clock.value(motion.clock.length) * unit.0),
+            unit.1
         ),
         path: format!("{}.over", case.study.place),
     })

@@ -173,6 +173,7 @@ export type ArrowKind = 'load' | 'reaction' | 'torque';
 
 interface Parts<A> {
   dimensions: 2 | 3;
+  length: Column['shown_in'];
   up: [number, number, number];
   bodies: { name: string; shapes: Shape[] }[];
   joints: Joint[];

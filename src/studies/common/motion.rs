@@ -197,14 +197,14 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let mut places = Vec::new();
         for piece in 1..self.pieces.len() {
             let s = self.breaks[piece];
-            let mut sides = [piece - 1, piece].map(|piece| {
+            let sides = [piece - 1, piece].map(|piece| {
                 let solved = self.solve(s, Some(piece)).is_ok();
                 if solved { self.driven.v.clone() } else { Vec::new() }
             });
             let largest = sides.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
-            let [before, after] = &mut sides;
+            let [before, after] = &sides;
             let differs = |(a, b): (&f64, &f64)| (a - b).abs() > JUMP * (a.abs() + b.abs()) && (a - b).abs() > JUMP * largest;
-            if before.iter().zip(after.iter()).any(differs) {
+            if before.iter().zip(after).any(differs) {
                 places.push(self.clock.value(s));
             }
         }

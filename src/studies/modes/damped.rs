@@ -22,7 +22,15 @@ pub struct Damped {
     pub shape: DVector<Complex<f64>>,
 }
 
+/// Re μ above this part of |μ| is growth.
+const GROWS: f64 = 1e-8;
+
 impl Damped {
+    /// Whether it grows; one with |μ| ≤ `zero` is a free motion.
+    pub(super) fn grows(&self, zero: f64) -> bool {
+        self.value.norm() > zero && self.value.re > GROWS * self.value.norm()
+    }
+
     /// ζ = −Re μ/|μ|; 1 for a real eigenvalue that decays, NaN for 0.
     #[must_use]
     pub fn ratio(&self) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::damped::{Damped, by_largest};
 use super::picture::picture;
-use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use crate::dynamics::LANES;
 use crate::geometry::Space;
@@ -10,7 +10,7 @@ use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::held::Pose;
 use crate::kinematics::lowest::{self, Lowest};
-use crate::kinematics::lowest_damped::{LowestDamped, growing, lowest_damped};
+use crate::kinematics::lowest_damped::{DampedMotion, LowestDamped, growing, lowest_damped};
 use crate::kinematics::partition::without_mass;
 use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
 use crate::kinematics::undefined::not_finite;
@@ -83,9 +83,10 @@ where
     let (frequencies, drawn) = if asked.damped {
         let LowestDamped { motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
         steps += more;
-        let found = motions.iter().map(|motion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) });
-        let frequencies = report.damped(&found.collect::<Vec<_>>(), wanted, omega);
-        growth(&mut report, pencil, motions.iter().filter(|m| m.value.re > 0.0).count());
+        let damped = |motion: &DampedMotion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) };
+        let found: Vec<Damped> = motions.iter().map(damped).collect();
+        let frequencies = report.damped(&found, wanted, omega);
+        growth(&mut report, pencil, found.iter().filter(|mode| mode.grows(RIGID * omega)).count());
         (frequencies, motions.iter().map(|motion| motion.vector.iter().map(|x| x.re).collect()).collect())
     } else {
         (report.frequencies(&modes), vectors)

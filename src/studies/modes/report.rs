@@ -19,8 +19,6 @@ pub(super) const BALANCED: f64 = 1e-8;
 pub(super) const DRAWN: usize = 12;
 /// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.
 pub(super) const RIGID: f64 = 1e-7;
-/// Re μ above this part of |μ| is growth.
-const GROWS: f64 = 1e-8;
 /// Parts of a shape that count in words, of the largest one.
 const PART: f64 = 0.3;
 /// Imaginary part of a part of a shape, of its real one, that is round-off.
@@ -114,11 +112,11 @@ impl Report<'_> {
         self.finding("circulatory-forces", message);
     }
 
-    /// Lists and shapes of the first `wanted` damped modes, with what grows, also among those that are not listed; their frequencies |Im μ|. What is
-    /// small beside the largest |μ|, and beside a frequency `omega` of the mechanism, is 0.
+    /// Lists and shapes of the first `wanted` damped modes, with what grows, also among those that are not listed; their frequencies
+    /// |Im μ|. What is small beside the largest |μ|, and beside a frequency `omega` of the mechanism, is 0.
     pub(super) fn damped(&mut self, all: &[Damped], wanted: usize, omega: f64) -> Vec<f64> {
         let size = all.iter().fold(omega, |m, d| m.max(d.value.norm()));
-        let grows = |mode: &Damped| mode.value.re > GROWS * mode.value.norm() && mode.value.norm() > RIGID * size;
+        let grows = |mode: &Damped| mode.grows(RIGID * size);
         let (found, beyond) = all.split_at(wanted.min(all.len()));
         let each = |f: &dyn Fn(&Damped) -> f64| -> Vec<f64> { found.iter().map(f).collect() };
         let frequencies = each(&|d| d.value.im);

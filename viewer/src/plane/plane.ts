@@ -304,15 +304,18 @@ export class Plane implements Renderer {
     }
   }
 
-  /** A bar of round length at the lower left. */
+  /** A bar of round length at the lower left, in the unit that the model asks for, else in m or mm. */
   private bar(height: number): void {
-    const longest = 110 / this.scale;
+    const asked = this.motion.scene.length;
+    const size = asked?.size ?? 1;
+    const longest = 110 / (this.scale * size);
     const power = 10 ** Math.floor(Math.log10(longest));
     const length = [5, 2, 1].map((m) => m * power).find((l) => l <= longest * (1 + 1e-9)) ?? power;
     const [x, y] = [16, height - 14];
-    const end = x + length * this.scale;
+    const end = x + length * size * this.scale;
     this.pen.path([[x, y - 4], [x, y], [end, y], [end, y - 4]]).stroke(this.inks.faint, 1.4);
-    const text = length < 0.0099 ? `${Number((length * 1e3).toPrecision(3))} mm` : `${Number(length.toPrecision(3))} m`;
+    const [shown, unit] = asked ? [length, asked.unit] : length < 0.0099 ? [length * 1e3, 'mm'] : [length, 'm'];
+    const text = `${Number(shown.toPrecision(3))} ${unit}`;
     this.pen.text(text, [end + 8, y + 2], this.inks.soft, this.inks.paper, 11);
   }
 }

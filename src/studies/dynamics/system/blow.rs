@@ -5,7 +5,7 @@ use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::StretchOf;
 use crate::scalar::Dual;
-use grashof_solvers::{Stage, State, System, Terms};
+use grashof_solvers::{Power, Stage, State, System, Terms};
 use nalgebra::{DMatrix, DVector};
 
 impl<G, D> Mechanical<'_, G, D>
@@ -23,6 +23,10 @@ where
     /// with the unit forces W of the stops that were met. They are told from the rows by y, which the rows leave: M y + Gᵀμ = W, G y = 0,
     /// so that yᵀM Δv = Σ p yᵀW.
     pub(crate) fn driven_work(&mut self, [before, after]: [&State; 2], crossed: &[usize]) -> f64 {
+        // powers depend on reactions where rows move with time
+        if self.pattern.power != Power::Reactions {
+            return 0.0;
+        }
         let mut terms = Terms::new(self.dims, &self.pattern);
         self.terms(before.at(), Stage::Velocity, &mut terms);
         let nu_before = terms.nu.clone();
