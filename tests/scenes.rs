@@ -199,6 +199,16 @@ fn pitch_circles_follow_from_the_ratio() {
 }
 
 #[test]
+fn a_wheel_with_inner_teeth_is_no_disc() {
+    let (_, scene) = scenes("planetary_gear", "turn").remove(0);
+    let inner = scene.gears.iter().flat_map(|gear| [&gear.a, &gear.b]).find(|wheel| wheel.radius < 0.0).expect("the ring");
+    let discs = |body: usize| scene.bodies[body].shapes.iter().filter(|shape| matches!(shape, Shape::Disc { .. })).count();
+    assert_eq!((scene.bodies[inner.body].name.as_str(), discs(inner.body)), ("ring", 0));
+    // lengths are shown in the unit that the model asks for
+    assert_eq!(scene.length.map(|length| (length.unit, length.size)), Some(("mm".into(), 1e-3)));
+}
+
+#[test]
 fn a_rope_ends_at_what_it_moves() {
     let racked = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
     let text = racked.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");

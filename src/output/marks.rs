@@ -187,3 +187,26 @@ pub(super) fn scale_bar(scene: &mut Scene, scale: f64, asked: Option<&ShownIn>, 
     scene.text([right + 14.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
     right + 14.0 + font::width(&text, letters)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::Item;
+    use super::*;
+
+    #[test]
+    fn the_bar_is_as_long_as_it_says() {
+        let asked = |unit: &str, size: f64| Some(ShownIn { unit: unit.into(), size });
+        for (scale, asked, text, metres) in [
+            (1000.0, None, "0.2 m", 0.2),
+            (1e5, None, "2 mm", 2e-3),
+            (1000.0, asked("mm", 1e-3), "200 mm", 0.2),
+            (100.0, asked("ft", 0.3048), "5 ft", 1.524),
+        ] {
+            let mut scene = Scene { width: 1000.0, height: 500.0, ..Scene::default() };
+            scale_bar(&mut scene, scale, asked.as_ref(), 20.0);
+            let [Item::Path { points, .. }, .., Item::Text(label)] = &scene.items[..] else { panic!("{:?}", scene.items) };
+            assert_eq!(label.text, text);
+            assert!((points[1][0] - points[0][0] - metres * scale).abs() < 1e-9, "{text}: {points:?}");
+        }
+    }
+}

@@ -187,3 +187,12 @@ fn stability_with_states_and_velocities_is_that_of_the_motion() {
         assert_eq!(upright.map(|(_, stable)| stable), Some(stable), "{gain}, {damping}: {:?}", outcome.findings);
     }
 }
+
+#[test]
+fn what_has_no_friction_is_not_held_by_it() {
+    // the start is the equilibrium to the last bit
+    let text = "bodies: { p: { mass: 1 kg } }\njoints: { P: { slider: [ground, p.origin], axis: [1, 0] } }\nsprings: { s: { joint: P, stiffness: 1 N/m } }\nstart: { P.position: 0 m }";
+    let outcome = planar("none", text, "");
+    assert_eq!(findings(&outcome, "held-by-friction"), [""; 0]);
+    assert_eq!(sorted(&outcome, "P.position"), [(0.0, 1.0)]);
+}
