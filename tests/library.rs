@@ -169,6 +169,32 @@ fn forces_from_outside_allocate_nothing() {
 }
 
 #[test]
+fn terms_that_hold_a_position_are_those_of_terms_that_hold_nothing() {
+    // two evaluators of one mechanism write into the same terms, in any order of stages and states
+    let mechanism = bars("spatial", "");
+    let [mut one, mut other, mut fresh] = [0; 3].map(|_| mechanism.system());
+    let dims = one.dims();
+    let state = |k: usize| {
+        let mut state = State { q: mechanism.start().0, ..State::new(dims) };
+        state.q.iter_mut().enumerate().for_each(|(i, q)| *q += 0.1 * ((7 * i + 3 * (k / 2)) as f64).sin());
+        state.v.iter_mut().enumerate().for_each(|(i, v)| *v = ((5 * i + k) as f64).cos());
+        state
+    };
+    let mut terms = Terms::new(dims, one.pattern());
+    for (k, stage) in [Stage::Position, Stage::Velocity, Stage::Dynamics, Stage::Dynamics].into_iter().cycle().take(60).enumerate() {
+        let system = if k % 5 == 3 { &mut other } else { &mut one };
+        let now = state(k / 3);
+        system.terms(now.at(), stage, &mut terms);
+        let mut expected = Terms::new(dims, fresh.pattern());
+        fresh.terms(now.at(), stage, &mut expected);
+        assert_eq!((&terms.mass, &terms.g, &terms.phi), (&expected.mass, &expected.g, &expected.phi), "{k}");
+        if stage == Stage::Dynamics {
+            assert_eq!(terms, expected, "{k}");
+        }
+    }
+}
+
+#[test]
 fn a_point_that_is_not_there_is_named() {
     let error = bars("planar", "").with_force(&["lower.tip"], spring).unwrap_err();
     assert!(error.to_string().contains("lower.tip"), "{error}");

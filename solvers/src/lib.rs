@@ -63,5 +63,5 @@ pub use settings::Settings;
 pub use sigma::Sigma;
 pub use sparsity::Sparsity;
 pub use state::{At, Dims, Span, State};
-pub use system::{Ahead, Effect, Stage, System, Tangent, Terms};
+pub use system::{Ahead, Effect, Position, Stage, System, Tangent, Terms};
 pub use why::{Rejected, Why};

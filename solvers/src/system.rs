@@ -34,6 +34,19 @@ pub struct Terms {
     pub gamma: Vec<f64>,
     /// ż (nz).
     pub zdot: Vec<f64>,
+    /// Of which position M, Φ and G are: whoever changes them sets it to 0.
+    pub position: Position,
+}
+
+/// A number that a system gives to each position of which it evaluates M, Φ and G, and to no other one, so that terms which hold
+/// them need not get them again; 0 where a system does not count. Terms of different numbers may be equal.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Position(pub u64);
+
+impl PartialEq for Position {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Terms {
@@ -48,6 +61,7 @@ impl Terms {
             nu: vec![0.0; m],
             gamma: vec![0.0; m],
             zdot: vec![0.0; dims.z],
+            position: Position::default(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A solution that can be evaluated anywhere, and what is known of it: breaks and samples.
+//! A solution that can be evaluated anywhere, with its breaks.
 //!
 //! Integrals ([`quadrature`](super::quadrature)), extremes ([`extremum`](super::extremum)) and places where a condition changes
 //! ([`root`](super::root)) are taken on the continuous solution, never on the samples of a plot. No mechanics is known here.
@@ -18,6 +18,14 @@ pub trait Curve {
     /// Values of all columns at `x` on the piece number `piece`; a value that is not defined there is NaN.
     fn eval(&mut self, x: f64, piece: usize, out: &mut [f64]) -> Result<(), Self::Error>;
 
+    /// [`Curve::eval`], or nearly the same for less: values to the part of their size that the curve is followed to.
+    ///
+    /// # Errors
+    /// As there.
+    fn look(&mut self, x: f64, piece: usize, out: &mut [f64]) -> Result<(), Self::Error> {
+        self.eval(x, piece, out)
+    }
+
     /// Where a stretch of a piece is best cut in two, between its ends.
     fn middle(&self, from: f64, to: f64, _piece: usize) -> f64 {
         0.5 * (from + to)
@@ -31,36 +39,6 @@ pub trait Curve {
     /// Whether a place is so near to a singular position that what depends on constraints multiplies the errors of the state.
     fn singular(&mut self, _at: f64, _piece: usize) -> bool {
         false
-    }
-}
-
-/// Samples of a [`Curve`].
-///
-/// Places never fall; the ends of each piece are among them, so a break stands there twice, once with either piece.
-#[derive(Clone, Copy, Debug)]
-pub struct Samples<'a> {
-    /// Where the columns were evaluated (n).
-    pub places: &'a [f64],
-    /// On which piece (n).
-    pub pieces: &'a [usize],
-    /// The values, column after column (columns × n).
-    pub values: &'a [f64],
-}
-
-impl<'a> Samples<'a> {
-    /// The samples of one column.
-    pub fn column(&self, column: usize) -> &'a [f64] {
-        let n = self.places.len();
-        &self.values[column * n..(column + 1) * n]
-    }
-
-    /// The range of samples that belong to each piece, in order; pieces without samples are left out.
-    pub fn runs(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
-        let mut start = 0;
-        self.pieces.chunk_by(|a, b| a == b).map(move |run| {
-            start += run.len();
-            start - run.len()..start
-        })
     }
 }
 

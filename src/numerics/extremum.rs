@@ -1,6 +1,8 @@
 //! Global extremes of all columns of a curve, on the continuous solution.
 //!
-//! A grid only tells where an extreme could be. Every local extreme of the samples that could be the global one is refined:
+//! Samples, and the polynomials of a resolved curve between them, tell where an extreme could be and how high it could be at most.
+//! Where the polynomials tell the place of a peak, its height is the curve's value there, which an error of the place changes by
+//! its square only; the highest peak is then refined, and where nothing is known between samples all that could be the highest are:
 //! the curve is evaluated at twelve Chebyshev nodes between the neighbouring samples, and the derivative of the interpolant is
 //! solved. The bracket is then made narrower until twelve nodes resolve the curve, or wider where round-off in the values, not
 //! the polynomial, limits the place: noise ε in the values of y displaces the extreme by about 12 ε / (H |y″|), H the half-width
@@ -8,9 +10,11 @@
 
 use super::chebyshev;
 use super::chebyshev::{Basis, NODES};
-use super::continuous::{Curve, Samples};
+use super::continuous::Curve;
+use super::panel;
 use super::peaks;
 use super::peaks::{Candidate, peaks};
+use super::samples::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -65,6 +69,7 @@ pub fn extrema<C: Curve>(curve: &mut C, samples: Samples<'_>, breaks: &[f64]) ->
         samples,
         breaks,
         basis: Basis::new(),
+        polynomials: panel::Basis::new(),
         first: HashMap::new(),
         nodes: vec![0.0; NODES * columns],
         out: vec![0.0; columns],
@@ -118,6 +123,8 @@ struct Search<'a, C: Curve> {
     samples: Samples<'a>,
     breaks: &'a [f64],
     basis: Basis,
+    /// Of the polynomials between samples.
+    polynomials: panel::Basis,
     /// Values at the nodes (NODES × columns) of the bracket around a sample, by its index.
     first: HashMap<usize, Vec<f64>>,
     /// The same for any other bracket.
@@ -138,25 +145,48 @@ impl<C: Curve> Search<'_, C> {
         }
         // the best sample takes part whatever becomes of its peak: of noise, only the most promising peaks are looked into
         let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
-        let mut found = vec![Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] }];
+        let looked = Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] };
+        let mut found = vec![self.exact(column, sign, looked)];
+        best = found[0].y;
         let mut peaks = peaks(samples, values, sign, best, &mut found);
+        for (sample, bound) in peaks.iter_mut().filter(|(_, bound)| *bound >= best - tie(best, magnitude)) {
+            *bound = bound.min(samples.reach(&self.polynomials, *sample, column, sign, magnitude));
+        }
         // the most promising first, so that the others can be left out
         let noisy = peaks.len() > 16 + values.len() / 6;
         peaks.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         peaks.truncate(if noisy { MOST_NOISY } else { MOST_BRACKETS });
+        // where polynomials tell the place, one value tells which peak is the highest, and that one is refined in the end
+        let mut coarse = Vec::new();
         for (sample, bound) in peaks {
             if bound < best - tie(best, magnitude) {
                 break;
             }
-            // next to a dead point places can no longer be reached: there the sample counts
             let itself = Candidate { y: sign * values[sample], at: samples.places[sample], piece: samples.pieces[sample] };
-            let candidate = self.refine(column, sign, sample).unwrap_or(itself);
+            let candidate = match samples.crest(&self.polynomials, sample, column, sign, magnitude) {
+                Some(at) => {
+                    coarse.push((at, itself.piece, sample));
+                    self.exact(column, sign, Candidate { at, ..itself })
+                }
+                // next to a dead point places can no longer be reached: there the sample counts
+                None => self.refine(column, sign, sample).unwrap_or(itself),
+            };
             best = best.max(candidate.y);
             found.push(candidate);
         }
         let level = best - tie(best, magnitude);
-        let first = found.iter().filter(|c| c.y >= level).min_by(|a, b| a.at.total_cmp(&b.at).then(a.piece.cmp(&b.piece)));
-        first.map(|c| Extremum { value: sign * c.y, at: c.at, piece: c.piece })
+        let first = found.iter().filter(|c| c.y >= level).min_by(|a, b| a.at.total_cmp(&b.at).then(a.piece.cmp(&b.piece)))?;
+        let sample = coarse.iter().find(|(at, piece, _)| *at == first.at && *piece == first.piece).map(|c| c.2);
+        let first = sample.and_then(|sample| self.refine(column, sign, sample).ok()).filter(|c| c.y >= level).unwrap_or(*first);
+        Some(Extremum { value: sign * first.y, at: first.at, piece: first.piece })
+    }
+
+    /// A candidate with the value of the curve; as it is where there is none.
+    fn exact(&mut self, column: usize, sign: f64, candidate: Candidate) -> Candidate {
+        match self.curve.eval(candidate.at, candidate.piece, &mut self.out) {
+            Ok(()) if self.out[column].is_finite() => Candidate { y: sign * self.out[column], ..candidate },
+            _ => candidate,
+        }
     }
 
     /// The best place around a sample, or the sample itself where there is nothing better.
@@ -164,7 +194,7 @@ impl<C: Curve> Search<'_, C> {
         let (places, pieces, values) = (self.samples.places, self.samples.pieces, self.samples.column(column));
         let piece = pieces[sample];
         let by_itself = |k: usize| Candidate { y: sign * values[k], at: places[k], piece };
-        let itself = by_itself(sample);
+        let itself = self.exact(column, sign, by_itself(sample));
         let neighbour = |k: usize| (pieces.get(k) == Some(&piece) && !values[k].is_nan()).then_some(k);
         let left = sample.checked_sub(1).and_then(neighbour).unwrap_or(sample);
         let right = neighbour(sample + 1).unwrap_or(sample);

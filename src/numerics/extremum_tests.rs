@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 fn of(columns: usize, breaks: &[f64], n: usize, function: impl FnMut(f64, usize, &mut [f64])) -> (Vec<Option<Extremes>>, usize) {
     let mut curve = Closed::new(columns, function);
     let (places, pieces, values) = curve.sampled(breaks, n);
-    let samples = Samples { places: &places, pieces: &pieces, values: &values };
+    let samples = Samples { places: &places, pieces: &pieces, values: &values, between: None };
     let found = extrema(&mut curve, samples, breaks);
     (found, curve.evaluations)
 }
@@ -153,6 +153,6 @@ fn nothing_has_no_extremes() {
     let (found, _) = of(1, &[0.0, 0.0], 1, |_, _, out| out[0] = 2.0);
     assert_eq!(found[0].unwrap().max.value, 2.0);
     let mut curve = Closed::new(1, |_, _, _: &mut [f64]| {});
-    let samples = Samples { places: &[], pieces: &[], values: &[] };
+    let samples = Samples { places: &[], pieces: &[], values: &[], between: None };
     assert_eq!(extrema(&mut curve, samples, &[]), [None]);
 }

@@ -12,4 +12,5 @@ mod peaks;
 pub mod quadrature;
 pub mod resolve;
 pub mod root;
+pub mod samples;
 pub(crate) mod sampling;

@@ -10,6 +10,9 @@ use super::continuous::Curve;
 /// Number of places.
 pub(crate) const NODES: usize = 15;
 
+/// Number of the places that Kronrod added to Gauss's, which alternate with them and begin and end.
+const FEW: usize = NODES / 2 + 1;
+
 /// Kronrod nodes x ≥ 0 with their weights, and the Gauss weight of every second one.
 const RULE: [(f64, f64, f64); 8] = [
     (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
@@ -43,10 +46,43 @@ impl Panel {
     pub(crate) fn of<C: Curve>(curve: &mut C, from: f64, to: f64, piece: usize) -> Result<Self, C::Error> {
         let columns = curve.columns();
         let mut panel = Self { from, to, piece, values: vec![0.0; NODES * columns] };
-        for j in 0..NODES {
-            curve.eval(panel.place(j), piece, &mut panel.values[j * columns..(j + 1) * columns])?;
-        }
+        (0..NODES).try_for_each(|j| panel.look(curve, j))?;
         Ok(panel)
+    }
+
+    /// As [`Panel::of`] on a stretch where little is to be expected of a curve; whether every second place was enough: there it is
+    /// looked at first, and where the polynomial through those leaves out of no column more than `left` (values of a column, its
+    /// number) allows, the others are its values.
+    pub(crate) fn sparing<C: Curve>(
+        curve: &mut C,
+        basis: &Basis,
+        (from, to, piece): (f64, f64, usize),
+        mut left: impl FnMut(&[f64; FEW], usize) -> f64,
+    ) -> Result<(Self, bool), C::Error> {
+        let columns = curve.columns();
+        let mut panel = Self { from, to, piece, values: vec![0.0; NODES * columns] };
+        (0..NODES).step_by(2).try_for_each(|j| panel.look(curve, j))?;
+        let known = |panel: &Self, column: usize| -> [f64; FEW] { std::array::from_fn(|i| panel.values[2 * i * columns + column]) };
+        let enough = (0..columns).all(|column| {
+            let values = known(&panel, column);
+            basis.few_tail(&values) <= left(&values, column)
+        });
+        for j in (1..NODES).step_by(2) {
+            if !enough {
+                panel.look(curve, j)?;
+                continue;
+            }
+            for column in 0..columns {
+                panel.values[j * columns + column] = basis.between(&known(&panel, column), j / 2);
+            }
+        }
+        Ok((panel, enough))
+    }
+
+    /// Takes the values of a curve at a node.
+    fn look<C: Curve>(&mut self, curve: &mut C, j: usize) -> Result<(), C::Error> {
+        let columns = curve.columns();
+        curve.look(self.place(j), self.piece, &mut self.values[j * columns..(j + 1) * columns])
     }
 
     pub(crate) fn width(&self) -> f64 {
@@ -56,6 +92,11 @@ impl Panel {
     /// The place of a node.
     pub(crate) fn place(&self, j: usize) -> f64 {
         0.5 * (self.from + self.to) + 0.5 * self.width() * node(j).0
+    }
+
+    /// A place in units of half the width, from the middle.
+    pub(crate) fn relative(&self, x: f64) -> f64 {
+        (2.0 * x - self.from - self.to) / self.width()
     }
 
     /// The values of one column.
@@ -69,6 +110,10 @@ impl Panel {
 pub(crate) struct Basis {
     /// Rows of the inverse of T_k(x_j).
     inverse: [[f64; NODES]; NODES],
+    /// The same of every second node, by its last three rows.
+    few_inverse: [[f64; FEW]; 3],
+    /// The polynomial through values at those nodes, at the nodes between them.
+    between: [[f64; FEW]; FEW - 1],
 }
 
 impl Basis {
@@ -76,7 +121,29 @@ impl Basis {
         let cosine = nalgebra::SMatrix::<f64, NODES, NODES>::from_fn(|j, k| (k as f64 * node(j).0.acos()).cos());
         // the nodes are distinct, so that the matrix has an inverse
         let inverse = cosine.try_inverse().unwrap_or_else(nalgebra::SMatrix::zeros);
-        Self { inverse: std::array::from_fn(|k| std::array::from_fn(|j| inverse[(k, j)])) }
+        let few = nalgebra::SMatrix::<f64, FEW, FEW>::from_fn(|i, k| cosine[(2 * i, k)]);
+        let few_inverse = few.try_inverse().unwrap_or_else(nalgebra::SMatrix::zeros);
+        let at = nalgebra::SMatrix::<f64, { FEW - 1 }, FEW>::from_fn(|i, k| cosine[(2 * i + 1, k)]);
+        let between = at * few_inverse;
+        Self {
+            inverse: std::array::from_fn(|k| std::array::from_fn(|j| inverse[(k, j)])),
+            few_inverse: std::array::from_fn(|k| std::array::from_fn(|i| few_inverse[(FEW - 3 + k, i)])),
+            between: std::array::from_fn(|i| std::array::from_fn(|k| between[(i, k)])),
+        }
+    }
+
+    /// The largest of the last three coefficients of the polynomial through values at every second node.
+    fn few_tail(&self, values: &[f64; FEW]) -> f64 {
+        self.few_inverse.iter().fold(0.0, |m, row| {
+            let c: f64 = row.iter().zip(values).map(|(w, y)| w * y).sum();
+            // what is not defined leaves out everything
+            if c.is_finite() { f64::max(m, c.abs()) } else { f64::INFINITY }
+        })
+    }
+
+    /// That polynomial at the node number i between them.
+    fn between(&self, values: &[f64; FEW], i: usize) -> f64 {
+        self.between[i].iter().zip(values).map(|(w, y)| w * y).sum()
     }
 
     /// Coefficients c of the polynomial Σ c_k T_k through values at the nodes.
@@ -123,7 +190,7 @@ pub(crate) fn noise<C: Curve>(curve: &mut C, at: f64, step: f64, piece: usize) -
     let columns = curve.columns();
     let mut rows = vec![vec![0.0; columns]; PLACES];
     for (i, row) in rows.iter_mut().enumerate() {
-        curve.eval(at + step * (i as f64 - 3.0), piece, row)?;
+        curve.look(at + step * (i as f64 - 3.0), piece, row)?;
     }
     let spread = |c: usize| {
         let mut square = 0.0;

@@ -1,6 +1,6 @@
 //! What samples tell of the curve between them: where it could be highest, and by how much it could be higher.
 
-use super::continuous::Samples;
+use super::samples::{Samples, bend};
 
 /// Samples within this part of the largest magnitude are level.
 const LEVEL: f64 = 1e-13;
@@ -54,42 +54,15 @@ pub(crate) fn peaks(samples: Samples<'_>, values: &[f64], sign: f64, best: f64, 
     peaks
 }
 
-/// How much the samples around sample i bend: |difference of the slopes| · width; four times what a parabola can hide between
-/// two of them is half of it.
-pub(crate) fn bend(x: &[f64], y: &[f64], i: usize) -> f64 {
-    let at = |k: usize| {
-        let (h0, h1) = (x[k] - x[k - 1], x[k + 1] - x[k]);
-        let slopes = (y[k + 1] - y[k]) / h1 - (y[k] - y[k - 1]) / h0;
-        // equal places or an undefined neighbour: nothing is known
-        if slopes.is_finite() { slopes.abs() * h0.max(h1) } else { 0.0 }
-    };
-    let inner = i.saturating_sub(1).max(1)..(i + 2).min(x.len().saturating_sub(1));
-    if x.len() < 3 {
-        return if x.len() == 2 { (y[1] - y[0]).abs() } else { 0.0 };
-    }
-    inner.map(at).fold(0.0, f64::max)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn bend_bounds_what_a_parabola_hides() {
-        // the greatest of −(x − s)² over its samples is lower than the top by s² at most, s ≤ ½
-        let x: Vec<f64> = (-3..=3).map(f64::from).collect();
-        let y: Vec<f64> = x.iter().map(|x| -(x - 0.5) * (x - 0.5)).collect();
-        assert_eq!(bend(&x, &y, 3), 2.0);
-        assert_eq!(bend(&x, &y, 0), 2.0);
-        assert_eq!(bend(&x[..2], &y[..2], 0), (y[1] - y[0]).abs());
-        assert_eq!(bend(&x[..1], &y[..1], 0), 0.0);
-    }
-
-    #[test]
     fn hills_are_local_maxima_and_dwells_are_not() {
         let y = [0.0, 1.0, 0.5, 0.5, 0.7, 0.7, 0.2, 2.0, 2.0, 2.0, 2.0, 2.0, 0.0];
         let x: Vec<f64> = (0..y.len()).map(|k| k as f64).collect();
-        let samples = Samples { places: &x, pieces: &[0; 13], values: &y };
+        let samples = Samples { places: &x, pieces: &[0; 13], values: &y, between: None };
         let mut found = Vec::new();
         let peaks: Vec<usize> = peaks(samples, &y, 1.0, 2.0, &mut found).iter().map(|h| h.0).collect();
         assert_eq!(peaks, [1, 4]);

@@ -5,8 +5,9 @@
 //! its round-off, which is measured). Work goes level by level, so that a place that cannot be resolved takes nothing from the
 //! others; what is left when the effort is spent is named in [`Resolved::open`].
 
-use super::continuous::{Curve, Samples};
+use super::continuous::Curve;
 use super::panel::{Basis, NODES, Panel, noise};
+use super::samples::{Between, Samples};
 use serde::{Deserialize, Serialize};
 
 /// How far the columns of a motion are resolved: what extremes, means and integrals are taken of.
@@ -55,6 +56,11 @@ const MEASURED: [f64; 3] = [0.1178, 0.4337, 0.7963];
 const MANY: usize = 30;
 const DEEPEST: usize = 4;
 
+/// Panels that are at most so many steps of an integrator wide, and at most this part of the first panels of any curve, are first
+/// looked at in every second place.
+const STEPS: f64 = 1.5;
+const PART: f64 = 0.5;
+
 /// Repeated evaluations lie this part of the range apart.
 const APART: f64 = 1e-11;
 
@@ -97,7 +103,8 @@ pub struct Resolved {
 impl Resolved {
     /// The known values for a search of extremes.
     pub fn samples(&self) -> Samples<'_> {
-        Samples { places: &self.places, pieces: &self.pieces, values: &self.values }
+        let between = Between { panels: &self.panels, width: self.width, noise: &self.noise };
+        Samples { places: &self.places, pieces: &self.pieces, values: &self.values, between: Some(between) }
     }
 
     /// Places where a column has no value, with their pieces, rising.
@@ -153,7 +160,7 @@ pub(crate) fn on<C: Curve>(curve: &mut C, stretches: &[(f64, f64, usize)], break
             }
         }
         for &(from, to) in &parts {
-            match Panel::of(work.curve, from, to, piece) {
+            match work.panel(from, to, piece) {
                 Ok(panel) => panels.push(panel),
                 // next to a dead point, where steps have become short, places can no longer be reached
                 Err(_) if to - from < NEXT_TO * work.range => {}
@@ -169,7 +176,10 @@ pub(crate) fn on<C: Curve>(curve: &mut C, stretches: &[(f64, f64, usize)], break
 /// # Errors
 /// If the curve cannot be evaluated somewhere.
 pub(crate) fn resolve<C: Curve>(curve: &mut C, panels: Vec<Panel>, breaks: &[f64], width: f64) -> Result<Resolved, C::Error> {
-    Work::new(curve, breaks, width)?.map_or_else(|| Ok(Resolved::default()), |work| work.resolve(panels))
+    let Some(mut work) = Work::new(curve, breaks, width)? else { return Ok(Resolved::default()) };
+    work.evaluations += panels.len() * NODES;
+    panels.iter().for_each(|panel| work.sized(panel));
+    work.resolve(panels)
 }
 
 struct Work<'a, C: Curve> {
@@ -220,17 +230,14 @@ impl<'a, C: Curve> Work<'a, C> {
         for part in MEASURED {
             let (from, to, piece) = stretches[(part * stretches.len() as f64) as usize];
             // what cannot be evaluated is met again where it matters
-            let Ok(panel) = Panel::of(self.curve, from, to, piece) else { return Ok(0) };
-            self.evaluations += NODES;
-            self.sized(&panel);
+            let Ok(panel) = self.panel(from, to, piece) else { return Ok(0) };
             tried.push(panel);
         }
         let mut depths = [0; MEASURED.len()];
         for (mut panel, depth) in tried.into_iter().zip(&mut depths) {
             while *depth < DEEPEST && !self.resolved(&panel) {
                 let middle = self.curve.middle(panel.from, panel.to, panel.piece);
-                let Ok(half) = Panel::of(self.curve, panel.from, middle, panel.piece) else { return Ok(0) };
-                self.evaluations += NODES;
+                let Ok(half) = self.panel(panel.from, middle, panel.piece) else { return Ok(0) };
                 (panel, *depth) = (half, *depth + 1);
             }
         }
@@ -240,10 +247,8 @@ impl<'a, C: Curve> Work<'a, C> {
 
     /// Halves panels until they are resolved.
     fn resolve(mut self, panels: Vec<Panel>) -> Result<Resolved, C::Error> {
-        self.evaluations += panels.len() * NODES;
-        let most = MOST_EVALUATIONS.max(4 * self.evaluations);
+        let most = MOST_EVALUATIONS.max(4 * NODES * panels.len());
         let mut level: Vec<Waiting> = panels.into_iter().map(|panel| Waiting { panel, depth: 0 }).collect();
-        level.iter().for_each(|w| self.sized(&w.panel));
         let mut done = Vec::new();
         while !level.is_empty() {
             let mut next = Vec::new();
@@ -258,6 +263,24 @@ impl<'a, C: Curve> Work<'a, C> {
         done.sort_by(|a, b| (a.piece, a.from).partial_cmp(&(b.piece, b.from)).unwrap_or(std::cmp::Ordering::Equal));
         self.doubt(&mut done);
         self.finish(done)
+    }
+
+    /// A panel, with less work where a step of an integrator is as wide: the motion is smooth on it.
+    fn panel(&mut self, from: f64, to: f64, piece: usize) -> Result<Panel, C::Error> {
+        let width = to - from;
+        let spares = width <= PART * self.range / FIRST_PANELS as f64 && width <= STEPS * self.curve.smooth(0.5 * (from + to), piece);
+        let Self { curve, basis, size, noise, width, .. } = self;
+        let (panel, spared) = if spares {
+            Panel::sparing(*curve, basis, (from, to, piece), |values, c| {
+                let size = values.iter().fold(size[c], |m, y| f64::max(m, y.abs()));
+                f64::max(*width * size, ROUND_OFF * noise[c])
+            })?
+        } else {
+            (Panel::of(*curve, from, to, piece)?, false)
+        };
+        self.evaluations += if spared { NODES / 2 + 1 } else { NODES };
+        self.sized(&panel);
+        Ok(panel)
     }
 
     /// Takes the values of a panel into the sizes of columns.
@@ -299,8 +322,7 @@ impl<'a, C: Curve> Work<'a, C> {
             return Ok(Err(panel));
         }
         let middle = self.curve.middle(panel.from, panel.to, panel.piece);
-        let half = |curve: &mut C, from, to| Panel::of(curve, from, to, panel.piece);
-        let halves = match (half(self.curve, panel.from, middle), half(self.curve, middle, panel.to)) {
+        let halves = match (self.panel(panel.from, middle, panel.piece), self.panel(middle, panel.to, panel.piece)) {
             (Ok(first), Ok(second)) => [first, second],
             // next to a dead point places can no longer be reached
             (Err(_), _) | (_, Err(_)) if panel.width() < NEXT_TO * self.range => {
@@ -309,8 +331,6 @@ impl<'a, C: Curve> Work<'a, C> {
             }
             (Err(lost), _) | (_, Err(lost)) => return Err(lost),
         };
-        self.evaluations += 2 * NODES;
-        halves.iter().for_each(|half| self.sized(half));
         Ok(Ok(halves.map(|panel| Waiting { panel, depth: depth + 1 })))
     }
 

@@ -97,3 +97,63 @@ fn smooth_motions_cost_little() {
     });
     assert!(found.open.is_empty() && found.evaluations < 600, "{}", found.evaluations);
 }
+
+/// What steps of a width leave of a curve: a value is known nearly for less, and the curve is smooth on each step.
+struct Stepped<F> {
+    step: f64,
+    function: F,
+    evaluations: [usize; 2],
+}
+
+impl<F: Fn(f64) -> f64> Curve for Stepped<F> {
+    type Error = std::convert::Infallible;
+
+    fn columns(&self) -> usize {
+        1
+    }
+
+    fn smooth(&self, _: f64, _: usize) -> f64 {
+        self.step
+    }
+
+    fn eval(&mut self, x: f64, _: usize, out: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluations[0] += 1;
+        out[0] = (self.function)(x);
+        Ok(())
+    }
+
+    fn look(&mut self, x: f64, _: usize, out: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluations[1] += 1;
+        out[0] = (self.function)(x) * (1.0 + 1e-9 * (1e9 * x).sin());
+        Ok(())
+    }
+}
+
+#[test]
+fn on_a_step_every_second_place_is_enough_and_extremes_are_those_of_the_curve() {
+    // forty equal waves on a slope, a hundred steps to a wave; each step a panel
+    let f = |x: f64| (TAU * 40.0 * x).sin() + 1e-7 * x;
+    let run = |step: f64, width: f64| {
+        let mut curve = Stepped { step, function: f, evaluations: [0; 2] };
+        let all: Vec<(f64, f64, usize)> = (0..4000).map(|i| (f64::from(i) / 4e3, f64::from(i + 1) / 4e3, 0)).collect();
+        let found = on(&mut curve, &all, &[0.0, 1.0], width).unwrap();
+        assert!(found.open.is_empty());
+        let looks = curve.evaluations[1];
+        curve.evaluations = [0; 2];
+        let max = extrema(&mut curve, found.samples(), &[0.0, 1.0])[0].unwrap().max;
+        (looks, curve.evaluations, max)
+    };
+    let (few, [exact, looks], max) = run(1.0 / 4e3, 1e-7);
+    let (many, _, _) = run(0.0, 1e-7);
+    assert!(few < 4000 * 8 + 100 && many > 4000 * 15, "{few} of {many}");
+    // one value for each wave that could be the highest, and the place of the one that is
+    assert!(looks == 0 && exact < 40 + 100, "{exact} {looks}");
+    let top = 39.25 / 40.0;
+    assert!((max.at - top).abs() < 1e-10 && (max.value - f(top)).abs() < 1e-13, "{max:?}");
+    // what eight places do not resolve is looked at in all fifteen
+    let wave = |x: f64| (TAU * 4000.0 * x).sin();
+    let mut curve = Stepped { step: 1.0 / 4e3, function: wave, evaluations: [0; 2] };
+    let stretches: Vec<(f64, f64, usize)> = (0..4000).map(|i| (f64::from(i) / 4e3, f64::from(i + 1) / 4e3, 0)).collect();
+    let found = on(&mut curve, &stretches, &[0.0, 1.0], 1e-5).unwrap();
+    assert!(found.open.is_empty() && curve.evaluations[1] > 4000 * 15, "{:?}", curve.evaluations);
+}

@@ -1,6 +1,6 @@
 //! Places where a condition changes.
 
-use super::peaks::bend;
+use super::samples::bend;
 
 /// A change of sign, held between two places with nothing but round-off (or the tolerance) between them.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -210,7 +210,7 @@ where
             restless: None,
             met: Vec::with_capacity(mechanism.contacts.len()),
             loosened: false,
-            seen: Seen::default(),
+            seen: Seen::nothing(),
             dynamics,
             observer,
             roots,
@@ -274,23 +274,28 @@ where
     }
 
     fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
-        self.stand(&at, true);
+        let there = self.seen.is_in(out.position, &at);
+        self.stand(&at, !there);
         if stage >= Stage::Velocity {
             self.velocities(&at);
         }
         if stage >= Stage::Dynamics {
             self.dynamics.forces(at.modes);
             self.seen.loads(&at);
-        } else {
+        } else if !there {
             self.dynamics.inertias();
         }
-        self.dynamics.mass();
-        self.seen.without_rows();
-        let w = &mut self.dynamics.work;
-        out.phi.copy_from_slice(&w.phi);
-        // the same entries are written at every evaluation, the others are zero in both
-        out.g.swap_values(&mut w.g);
-        out.mass.swap_values(&mut w.mass);
+        if !there {
+            self.dynamics.mass();
+            self.seen.without_rows();
+            let w = &mut self.dynamics.work;
+            out.phi.copy_from_slice(&w.phi);
+            // the same entries are written at every evaluation, the others are zero in both
+            out.g.swap_values(&mut w.g);
+            out.mass.swap_values(&mut w.mass);
+            out.position = self.seen.number();
+        }
+        let w = &self.dynamics.work;
         if stage >= Stage::Velocity {
             out.nu.copy_from_slice(&w.nu);
             out.gamma.copy_from_slice(&w.gamma);

@@ -268,9 +268,14 @@ where
     /// the constraints.
     pub(crate) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
         let own = self.take(t, piece)?;
+        self.accelerate(t, piece, own)
+    }
+
+    /// Evaluates the state that was taken at `t` with its accelerations, where it is or moved to the constraints.
+    fn accelerate(&mut self, t: f64, piece: usize, stays: bool) -> Result<(), Off> {
         let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
         // next to a singular position a state may not be moved to the constraints: there it counts as it is
-        if own || engine.settle(system, &mut self.node).is_err() {
+        if stays || engine.settle(system, &mut self.node).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
             engine.accelerate(system, &mut self.node).map_err(|_| Off { at: t, gap: None })?;
         }
@@ -294,12 +299,16 @@ where
     /// size stays where it is.
     fn glance(&mut self, t: f64, piece: usize, part: f64) -> Result<(), Off> {
         let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
-        if self.phases[phase].system.observer.needs_forces() {
+        let forces = self.phases[phase].system.observer.needs_forces();
+        if forces && part == 0.0 {
             return self.go(t, piece);
         }
         let own = self.take(t, piece)?;
         let PhaseSystem { system, engine, .. } = &mut self.phases[phase];
         let near = own || part > 0.0 && engine.is_near(system, &self.node.state, part);
+        if forces {
+            return self.accelerate(t, piece, near);
+        }
         if !near && engine.project(system, &mut self.node.state).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
         }
@@ -307,8 +316,8 @@ where
         Ok(())
     }
 
-    /// The state at `t` on a piece as the integrator's continuous solution has it; whether it is the end of a step, which is the
-    /// integrator's own.
+    /// The state at `t` on a piece as the integrator's continuous solution has it; whether it is the begin or the end of a step,
+    /// which is the integrator's own.
     fn take(&mut self, t: f64, piece: usize) -> Result<bool, Off> {
         let off = Off { at: t, gap: None };
         let Some(p) = self.pieces.get(piece) else { return Err(off) };
@@ -330,7 +339,7 @@ where
         if self.follow {
             engine.follow_modes(system, &mut self.node.state);
         }
-        Ok(t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h)
+        Ok(t == step.begin || t == step.end && (step.end - step.begin - step.h).abs() <= 1e-12 * step.h)
     }
 
     /// Largest residuals of Φ and of G v − ν at the state evaluated last, in units of size (per second).
@@ -437,12 +446,21 @@ where
     }
 
     fn eval(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
-        match self.row_near(t, piece, self.near_enough, out) {
-            Err(Off { gap: Some(_), .. }) => {
-                out.fill(f64::NAN);
-                Ok(())
-            }
-            found => found,
+        blank(self.row_near(t, piece, 0.0, out), out)
+    }
+
+    fn look(&mut self, t: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        blank(self.row_near(t, piece, self.near_enough, out), out)
+    }
+}
+
+/// What is not defined by its own fault has no value, which is no error.
+fn blank(found: Result<(), Off>, out: &mut [f64]) -> Result<(), Off> {
+    match found {
+        Err(Off { gap: Some(_), .. }) => {
+            out.fill(f64::NAN);
+            Ok(())
         }
+        found => found,
     }
 }

@@ -151,6 +151,11 @@ impl<G: Space<S = f64>> Curve for Turn<'_, '_, G> {
         let t = self.time(s, piece)?;
         self.trajectory.eval(t, piece, out)
     }
+
+    fn look(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Off> {
+        let t = self.time(s, piece)?;
+        self.trajectory.look(t, piece, out)
+    }
 }
 
 /// One column of a trajectory over time.

@@ -1,6 +1,13 @@
 //! The state whose kinematics stand in the evaluator, so that nothing is evaluated there again.
 
-use grashof_solvers::At;
+use grashof_solvers::{At, Position};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Positions that one evaluator may count before its numbers could be those of the next one.
+const NUMBERS: u64 = 1 << 40;
+
+/// Numbers of positions begin anew with every evaluator.
+static FIRST: AtomicU64 = AtomicU64::new(1);
 
 /// What was evaluated last.
 #[derive(Clone, Debug, Default)]
@@ -17,9 +24,26 @@ pub(super) struct Seen {
     /// Whether forces are there as well: whatever else is asked for takes them away.
     loads: bool,
     z: Vec<f64>,
+    /// The number of the position.
+    number: u64,
 }
 
 impl Seen {
+    /// Nothing yet.
+    pub(super) fn nothing() -> Self {
+        Self { number: FIRST.fetch_add(NUMBERS, Ordering::Relaxed), ..Self::default() }
+    }
+
+    /// Whether terms that hold M, Φ and G of a numbered position hold those of a state.
+    pub(super) fn is_in(&self, position: Position, at: &At<'_>) -> bool {
+        position.0 == self.number && self.is_placed(at, false)
+    }
+
+    /// The number of the position.
+    pub(super) fn number(&self) -> Position {
+        Position(self.number)
+    }
+
     /// Whether positions are those of a state, with G if that is asked for.
     pub(super) fn is_placed(&self, at: &At<'_>, rows: bool) -> bool {
         self.placed && (self.rows || !rows) && self.t == at.t && self.q == at.q && self.modes == at.modes && self.live == at.live
@@ -36,6 +60,7 @@ impl Seen {
         copy(&mut self.q, at.q);
         copy(&mut self.modes, at.modes);
         copy(&mut self.live, at.live);
+        self.number += 1;
         (self.placed, self.rows, self.moving, self.loads) = (true, true, false, false);
     }
 
