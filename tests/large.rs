@@ -223,3 +223,39 @@ fn a_row_in_space_passes_flat_positions_as_in_the_plane() {
     let (plane, space) = (angle(150, false, short), angle(150, true, short));
     assert!((plane - space).abs() < 1e-12, "{plane} and {space}");
 }
+
+/// A chain begins where the angles of its bodies say, exact ones and guesses, with hinges either way round and slides between.
+#[test]
+fn a_long_chain_begins_at_the_angles_that_are_asked_of_its_bodies() {
+    let n = 1500;
+    let angle = |i: usize| (37 * i % 360) as f64 - 180.0;
+    let each = |line: &dyn Fn(usize) -> String| (0..n).map(line).collect::<String>();
+    let joint = |i: usize| {
+        let before = if i == 0 { "ground".into() } else { format!("b{}.end", i - 1) };
+        match i % 5 {
+            3 => format!("  J{i}: {{ pin-in-slot: [{before}, b{i}.start], axis: [1, 0] }}\n"),
+            2 => format!("  J{i}: {{ revolute: [b{i}.start, {before}] }}\n"),
+            _ => format!("  J{i}: {{ revolute: [{before}, b{i}.start] }}\n"),
+        }
+    };
+    let start = |i: usize| format!("  b{i}.angle: {}{} deg\n", if i % 3 == 1 { "" } else { "~" }, angle(i));
+    let text = format!(
+        "grashof: 1\nname: chain\nspace: planar\ngravity: none\nbodies:\n{}joints:\n{}start:\n{}studies: {{ it: {{ dynamics: {{ until: 1 us, every: 1 us }}, columns: [{}, b{}.end.x, b{}.end.y] }} }}\n",
+        each(&|i| format!("  b{i}: {{ bar: {{ length: 0.1 m, mass: 1 kg }} }}\n")),
+        each(&joint),
+        each(&start),
+        (0..n).step_by(100).map(|i| format!("b{i}.angle")).collect::<Vec<_>>().join(", "),
+        n - 1,
+        n - 1,
+    );
+    let model = Model::parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    let results = run(&model);
+    let first = |k: usize| results.table.columns[k].values[0];
+    for (k, i) in (0..n).step_by(100).enumerate() {
+        assert!((first(k) - angle(i).to_radians()).abs() < 1e-9, "b{i}: {}", first(k).to_degrees());
+    }
+    let end = |f: &dyn Fn(f64) -> f64| 0.1 * (0..n).map(|i| f(angle(i).to_radians())).sum::<f64>();
+    for (k, expected) in [(15, end(&f64::cos)), (16, end(&f64::sin))] {
+        assert!((first(k) - expected).abs() < 1e-9, "{} for {expected}", first(k));
+    }
+}

@@ -430,8 +430,8 @@ fn product(a: &Block, x: &[f64]) -> Vec<f64> {
 fn project<G: Space<S = f64>>(d: &Dynamics<'_, G>, on: &[Force<G>], along: &[f64]) -> Vec<f64> {
     let m = d.mechanism;
     let mut out = vec![0.0; m.nv];
-    for (body, f) in m.bodies.iter().zip(on) {
-        for &k in &body.path {
+    for (body, f) in on.iter().enumerate() {
+        for k in m.path(body) {
             out[k] += f.power(d.work.columns[k]);
         }
     }
@@ -444,10 +444,10 @@ fn project<G: Space<S = f64>>(d: &Dynamics<'_, G>, on: &[Force<G>], along: &[f64
 /// A pair of wrenches of a gauge along each column, by the twists of both bodies.
 fn pair_along<G: Space<S = f64>>(d: &Dynamics<'_, G>, gauge: usize, size: f64, out: &mut [f64]) {
     let (g, wrench) = (&d.mechanism.gauges[gauge], d.work.readings[gauge].wrench * size);
-    for &k in &d.mechanism.bodies[g.b].path {
+    for k in d.mechanism.path(g.b) {
         out[k] += wrench.power(d.work.columns[k]);
     }
-    for &k in &d.mechanism.bodies[g.a].path {
+    for k in d.mechanism.path(g.a) {
         out[k] -= wrench.power(d.work.columns[k]);
     }
 }

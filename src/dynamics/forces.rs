@@ -169,7 +169,9 @@ impl<G: Space> Dynamics<'_, G> {
             let whole = composite[node.body];
             for k in node.columns.clone() {
                 let momentum = whole * columns[k];
-                for &j in &m.ancestors[k] {
+                let mut road = Some(k);
+                while let Some(j) = road {
+                    road = m.above[j];
                     let x = momentum.power(columns[j]);
                     if full {
                         (values[j * nv + k], values[k * nv + j]) = (x, x);

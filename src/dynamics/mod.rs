@@ -25,7 +25,7 @@ mod workspace;
 
 pub use evaluator::Dynamics;
 pub use friction::slack;
-pub use patterns::{friction_pattern, mass_pattern, row_pattern, tangent_pattern};
+pub use patterns::{depths, friction_pattern, mass_pattern, row_pattern, tangent_pattern};
 pub use reaction::Reactions;
 pub use tangent::{LANES, Linearizer, Point, RowTangent};
 pub use workspace::Workspace;

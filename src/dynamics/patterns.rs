@@ -7,14 +7,24 @@ use grashof_solvers::Sparsity;
 /// Entries that M may have: columns i and k meet if one is behind the other on the tree, or if a rotor turns with both.
 #[must_use]
 pub fn mass_pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
-    let known: usize = m.ancestors.iter().map(|columns| 2 * columns.len() - 1).sum();
+    let known: usize = depths(m).iter().map(|depth| 2 * depth + 1).sum();
     if Sparsity::is_nearly_full(m.nv, m.nv, known) {
         return Sparsity::dense(m.nv, m.nv);
     }
-    let paths = (0..m.nv).flat_map(|k| m.ancestors[k].iter().flat_map(move |&j| [(j, k), (k, j)]));
+    let paths = (0..m.nv).flat_map(|k| m.road(Some(k)).flat_map(move |j| [(j, k), (k, j)]));
     let rotors = m.rotors.iter().map(|rotor| &m.gauges[rotor.gauge].columns);
     let rotors = rotors.flat_map(|columns| columns.iter().flat_map(move |(j, _)| columns.iter().map(move |(k, _)| (*j, *k))));
     Sparsity::new(m.nv, m.nv, paths.chain(rotors)).or_dense()
+}
+
+/// For each velocity column the number of others on its road to the ground.
+#[must_use]
+pub fn depths<G: Space>(m: &Mechanism<G>) -> Vec<usize> {
+    let mut depths = Vec::with_capacity(m.nv);
+    for above in &m.above {
+        depths.push(above.map_or(0, |above| depths[above] + 1));
+    }
+    depths
 }
 
 /// Entries that G may have.
@@ -51,7 +61,7 @@ pub fn friction_pattern<G: Space>(m: &Mechanism<G>) -> Sparsity {
 
 /// Columns i and k that one body's path, one gauge or one force law knows both.
 pub(super) fn known_together<G: Space>(m: &Mechanism<G>) -> Sparsity {
-    let mut groups: Vec<Vec<usize>> = m.bodies.iter().map(|b| b.path.clone()).collect();
+    let mut groups: Vec<Vec<usize>> = (0..m.bodies.len()).map(|body| m.path(body)).collect();
     groups.extend((0..m.active_gauges).map(|g| of_gauge(m, g)));
     for f in &m.functions {
         groups.push(f.gauges.iter().flat_map(|&g| of_gauge(m, g)).collect());
@@ -60,7 +70,7 @@ pub(super) fn known_together<G: Space>(m: &Mechanism<G>) -> Sparsity {
     let law = known_by(m, &m.force_program);
     if m.force_program.outputs > 0 {
         for pull in &m.point_loads {
-            groups.push([law.clone(), m.bodies[pull.body].path.clone(), m.bodies[pull.frame].path.clone()].concat());
+            groups.push([law.clone(), m.path(pull.body), m.path(pull.frame)].concat());
         }
         for effort in &m.efforts {
             groups.push([law.clone(), of_stretch(m, effort.along)].concat());
@@ -72,7 +82,7 @@ pub(super) fn known_together<G: Space>(m: &Mechanism<G>) -> Sparsity {
 /// Columns that a gauge knows.
 fn of_gauge<G: Space>(m: &Mechanism<G>, gauge: usize) -> Vec<usize> {
     let g = &m.gauges[gauge];
-    [m.bodies[g.a].path.clone(), m.bodies[g.b].path.clone()].concat()
+    [m.path(g.a), m.path(g.b)].concat()
 }
 
 /// Columns that a stretch knows.
@@ -91,7 +101,7 @@ pub(super) fn known_by<G: Space>(m: &Mechanism<G>, program: &StagedProgram) -> V
             Leaf::Time | Leaf::State(_) => {}
             Leaf::Gauge { gauge, .. } => columns.extend(of_gauge(m, gauge)),
             Leaf::Stretch { spring, .. } => columns.extend(of_stretch(m, m.stretches[spring].of)),
-            Leaf::Spin { body, .. } => columns.extend(&m.bodies[body].path),
+            Leaf::Spin { body, .. } => columns.extend(m.path(body)),
         }
     }
     columns

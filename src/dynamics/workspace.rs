@@ -153,12 +153,12 @@ impl<G: Space> Workspace<G> {
     }
 }
 
-/// Places in M of each column with its ancestors, from the last node to the first; none if the matrix is full.
+/// Places in M of each column with those on its road, from the last node to the first; none if the matrix is full.
 fn mass_places<G: Space>(m: &Mechanism<G>, pattern: &Sparsity) -> Vec<[usize; 2]> {
     if pattern.is_full() {
         return Vec::new();
     }
     let columns = m.nodes.iter().rev().flat_map(|node| node.columns.clone());
-    let pairs = columns.flat_map(|k| m.ancestors[k].iter().map(move |&j| [(j, k), (k, j)]));
+    let pairs = columns.flat_map(|k| m.road(Some(k)).map(move |j| [(j, k), (k, j)]));
     pairs.filter_map(|[above, below]| Some([pattern.place(above.0, above.1)?, pattern.place(below.0, below.1)?])).collect()
 }

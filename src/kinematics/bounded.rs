@@ -6,7 +6,7 @@
 
 use super::assemble::Assembled;
 use super::undefined::assembled;
-use crate::dynamics::{mass_pattern, row_pattern};
+use crate::dynamics::{depths, mass_pattern, row_pattern};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::{Dimensions, Model};
@@ -33,16 +33,16 @@ pub fn cheapest(model: &Model, parameters: &[f64]) -> Coordinates {
 }
 
 fn among<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Coordinates {
-    let cost = |coordinates: Coordinates| {
-        let mechanism = build::<G>(model, parameters, coordinates).ok()?;
-        Some(Kkt::cost(&mass_pattern(&mechanism), &row_pattern(&mechanism)))
-    };
-    let plain = cost(Coordinates::Joint);
-    let bounded = DEPTHS.into_iter().map(Coordinates::Bounded).filter_map(|tree| Some((cost(tree)?, tree)));
-    match (plain, bounded.min_by_key(|(cost, _)| *cost)) {
-        (Some(plain), Some((cost, tree))) if CHEAPER * cost <= plain => tree,
-        _ => Coordinates::Joint,
-    }
+    let cost = |mechanism: &Mechanism<G>| Kkt::cost(&mass_pattern(mechanism), &row_pattern(mechanism));
+    let bounded = DEPTHS.into_iter().map(Coordinates::Bounded).filter_map(|tree| {
+        let mechanism = build::<G>(model, parameters, tree).ok()?;
+        Some((cost(&mechanism), tree))
+    });
+    let Some((least, tree)) = bounded.min_by_key(|(cost, _)| *cost) else { return Coordinates::Joint };
+    let Ok(plain) = build::<G>(model, parameters, Coordinates::Joint) else { return Coordinates::Joint };
+    // the pattern of a long road has the square of its length: it is not made where that is seen to be too much
+    let at_least = Kkt::least_cost(plain.nv + plain.rows.len(), &depths(&plain));
+    if CHEAPER * least <= at_least || CHEAPER * least <= cost(&plain) { tree } else { Coordinates::Joint }
 }
 
 /// The mechanism on the cheapest tree on which all coordinates of joints are measured by gauges, along which a force can hold them; with

@@ -28,8 +28,8 @@ pub struct Body<G: Space> {
     pub drawn: Vec<G::Vector>,
     /// Its shape, if the model gives one.
     pub outline: Option<Outline>,
-    /// Velocity columns that move it, from the root.
-    pub path: Vec<usize>,
+    /// The last of the velocity columns that move it; none for what does not move. See [`Mechanism::path`].
+    pub column: Option<usize>,
 }
 
 /// A mass on a body.
@@ -77,8 +77,8 @@ pub struct Mechanism<G: Space> {
     pub nq: usize,
     /// Number of velocities.
     pub nv: usize,
-    /// For each velocity column: the columns of its ancestors and itself, from the root.
-    pub ancestors: Vec<Vec<usize>>,
+    /// For each velocity column the next one on the road to the ground; none for the last on it. See [`Mechanism::road`].
+    pub above: Vec<Option<usize>>,
     /// Joints in file order.
     pub joints: Vec<Joint<G>>,
     /// The joint that each node carries; none for a body that is free of its own.
@@ -147,6 +147,19 @@ pub struct Mechanism<G: Space> {
 }
 
 impl<G: Space> Mechanism<G> {
+    /// Velocity columns that move what a column moves, from that one on towards the ground, falling.
+    pub fn road(&self, from: Option<usize>) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(from, |k| self.above[*k])
+    }
+
+    /// Velocity columns that move a body, rising: from the ground on.
+    #[must_use]
+    pub fn path(&self, body: usize) -> Vec<usize> {
+        let mut columns: Vec<usize> = self.road(self.bodies[body].column).collect();
+        columns.reverse();
+        columns
+    }
+
     /// The coordinates as drawn: zeros, quaternions (1, 0, 0, 0).
     #[must_use]
     pub fn drawn(&self) -> Vec<f64> {
@@ -352,7 +365,7 @@ impl<G: Space> Mechanism<G> {
             steps: self.steps.iter().map(Step::lift).collect(),
             nq: self.nq,
             nv: self.nv,
-            ancestors: self.ancestors.clone(),
+            above: self.above.clone(),
             joints: self.joints.iter().map(Joint::lift).collect(),
             joint_of_node: self.joint_of_node.clone(),
             gauges: self.gauges.iter().map(Gauge::lift).collect(),
@@ -405,7 +418,7 @@ impl<G: Space> Body<G> {
             points: self.points.iter().map(|(n, p)| (n.clone(), G::lift_vector::<D>(*p))).collect(),
             drawn: self.drawn.iter().map(|p| G::lift_vector::<D>(*p)).collect(),
             outline: self.outline,
-            path: self.path.clone(),
+            column: self.column,
         }
     }
 }

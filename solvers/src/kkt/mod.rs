@@ -35,7 +35,7 @@ pub mod sparse;
 pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
-use crate::sparsity::DENSE_UP_TO;
+use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
 use crate::{Pattern, Sparsity};
 use blocks::Blocks;
 use definite::Definite;
@@ -120,6 +120,16 @@ impl Kkt {
     pub fn cost(mass: &Sparsity, g: &Sparsity) -> usize {
         let blocks = Blocks([mass.clone(), g.clone()]);
         definite_cost(blocks.order()).min(quasi::ordered(blocks.velocities(), &blocks.whole()).0)
+    }
+
+    /// What [`Kkt::cost`] is at least for n unknowns, the first of which are velocities that meet each other along the roads of a tree: for
+    /// each of them the number of others on its road to the root, `depths`.
+    ///
+    /// Without rows such an M has no fill if leaves are eliminated first, and no order makes fewer products: the pairs of neighbours of
+    /// what is eliminated, with it, are the triangles of the graph, of which fill only makes more.
+    pub fn least_cost(unknowns: usize, depths: &[usize]) -> usize {
+        let products: usize = depths.iter().map(|depth| depth * depth).sum();
+        definite_cost(unknowns).min(SPARSE_COST * products / 2)
     }
 
     fn with(blocks: Blocks, form: Form) -> Self {

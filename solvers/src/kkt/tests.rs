@@ -244,3 +244,26 @@ fn a_singular_position_and_a_massless_freedom_are_told_apart() {
     held.solve(&[1.0, 2.0], &[3.0], &mut a, &mut lambda);
     assert!(distance(&a, &[1.0, 3.0]) < 1e-12 && (lambda[0] - 2.0).abs() < 1e-7);
 }
+
+#[test]
+fn no_order_of_a_tree_costs_less_than_its_roads() {
+    let mut seed = 3u64;
+    let mut chance = |most: usize| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 33) as usize % most.max(1)
+    };
+    for (n, reach) in [(5, 1), (40, 1), (80, 1), (80, 3), (120, 10), (200, 200)] {
+        // each column hangs on one of those before it
+        let above: Vec<Option<usize>> = (0..n).map(|k: usize| (k > 0).then(|| k - 1 - chance(k.min(reach)))).collect();
+        let road = |k: usize| std::iter::successors(Some(k), |k| above[*k]);
+        let depths: Vec<usize> = (0..n).map(|k| road(k).count() - 1).collect();
+        let mass = Sparsity::new(n, n, (0..n).flat_map(|k| road(k).flat_map(move |j| [(j, k), (k, j)])));
+        for rows in [0, 7] {
+            let g = Sparsity::new(rows, n, (0..rows).map(|i| (i, 11 * i % n)));
+            let (cost, least) = (Kkt::cost(&mass, &g), Kkt::least_cost(n + rows, &depths));
+            assert!(least <= cost, "{n} {reach} {rows}: {least} of {cost}");
+            // and it is no empty bound
+            assert!(4 * least >= cost || least < 1000, "{n} {reach} {rows}: {least} of {cost}");
+        }
+    }
+}

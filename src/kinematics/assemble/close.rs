@@ -29,6 +29,8 @@ pub(super) struct System<'a, G: Space<S = f64>> {
     pub(super) size: f64,
     /// Metric of the search (nv).
     pub(super) metric: Vec<f64>,
+    /// What names each coordinate, by its velocity column (nv).
+    pub(super) named: Vec<Option<Named>>,
 }
 
 /// Which values of `start` are rows of a closing.
@@ -37,6 +39,15 @@ pub(super) enum Held {
     Nothing,
     Exact,
     All,
+}
+
+/// What names a coordinate that needs no search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// Exact values.
+    Exactly,
+    /// Guesses, alone or beside exact values.
+    ByGuess,
 }
 
 /// Where a start value is to be held.
@@ -61,7 +72,8 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         };
         let targets = mechanism.starts.iter().map(|s| target(s.asked, s.value)).collect();
         let (size, metric) = (mechanism.size(), joint_metric(mechanism));
-        Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, targets, size, metric }
+        let named = vec![None; mechanism.nv];
+        Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, targets, size, metric, named }
     }
 
     pub(super) fn evaluate(&mut self, q: &[f64]) {
@@ -121,7 +133,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                     let slope = rotation::slope(&theta) * found.transpose();
                     r.extend(theta.iter());
                     for i in 0..3 {
-                        jacobian.push(m.bodies[body].path.iter().map(|&k| (k, (slope * spin(&w.columns[k]))[i])));
+                        jacobian.push(m.road(m.bodies[body].column).map(|k| (k, (slope * spin(&w.columns[k]))[i])));
                     }
                 }
                 _ => {}

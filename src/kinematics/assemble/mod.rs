@@ -22,6 +22,7 @@ mod explain;
 mod fault;
 mod found;
 mod metric;
+mod named;
 mod nearest;
 mod position;
 mod rotation;

@@ -101,21 +101,14 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
-    /// Jᵀr over the coordinates that no exact value fixes.
+    /// Jᵀr over the coordinates that nothing held names.
     fn slope(&self, r: &[f64], jacobian: &Rows) -> Vec<f64> {
         let m = self.dynamics.mechanism;
         let mut sum = vec![0.0; m.nv];
         for (r, row) in r.iter().zip(jacobian.lines()) {
             row.iter().for_each(|&(k, x)| sum[k] += r * x);
         }
-        let held = |guess: bool| self.held == Held::All || self.held == Held::Exact && !guess;
-        for start in m.starts.iter().filter(|s| held(s.guess)) {
-            if let Asked::Gauge { gauge, order: 0 } = start.asked
-                && let Measured::Coordinate { along, .. } = m.gauges[gauge].measured
-            {
-                sum[along.v] = 0.0;
-            }
-        }
+        sum.iter_mut().enumerate().filter(|(k, _)| self.is_named(*k)).for_each(|(_, sum)| *sum = 0.0);
         sum
     }
 
@@ -170,7 +163,7 @@ impl<G: Space<S = f64>> System<'_, G> {
             let slope = if rates { nalgebra::Matrix3::identity() } else { rotation::slope(&-theta) } * ra.transpose();
             for i in 0..3 {
                 let of_body =
-                    |(body, sign): (usize, f64)| m.bodies[body].path.iter().map(move |&k| (k, sign * (slope * spin(&w.columns[k]))[i]));
+                    |(body, sign): (usize, f64)| m.road(m.bodies[body].column).map(move |k| (k, sign * (slope * spin(&w.columns[k]))[i]));
                 row(theta[i], &mut [(b, 1.0), (a, -1.0)].into_iter().flat_map(of_body));
             }
         }

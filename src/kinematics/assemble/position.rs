@@ -107,14 +107,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn name(&mut self, q: &mut [f64]) {
         let m = self.dynamics.mechanism;
         orient(m, q);
-        let mut named = vec![false; m.nv];
-        for start in &m.starts {
-            let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
-            if let Measured::Coordinate { along, .. } = m.gauges[gauge].measured {
-                q[along.q] = start.value;
-                named[along.v] = true;
-            }
-        }
+        self.take_named(q);
         let asked = m.starts.iter().filter_map(|s| match s.asked {
             Asked::Gauge { gauge, order: 0 } => Some((gauge, s.value, false)),
             _ => None,
@@ -130,19 +123,19 @@ impl<G: Space<S = f64>> System<'_, G> {
             // an asked angle that is less than a turn away is reached by the way
             let turns = if held { turns.round() } else { turns.trunc() };
             if turns != 0.0 {
-                self.turn(q, gauge, turns, &named);
+                self.turn(q, gauge, turns);
             }
         }
     }
 
     /// Adds whole turns of the plane to the outermost hinge that a gauge depends on and nobody named.
-    fn turn(&self, q: &mut [f64], gauge: usize, turns: f64, named: &[bool]) {
+    fn turn(&self, q: &mut [f64], gauge: usize, turns: f64) {
         let m = self.dynamics.mechanism;
         for &(column, sign) in m.gauges[gauge].columns.iter().rev() {
             for step in &m.steps {
                 if let Step::Axis { u, turns: true, q: k, v, .. } = *step
                     && v == column
-                    && !named[v]
+                    && self.named[v].is_none()
                 {
                     q[k] += turns * sign * TAU * G::spin_component(u, 2).signum();
                     return;

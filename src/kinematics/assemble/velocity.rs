@@ -51,8 +51,8 @@ impl<G: Space<S = f64>> System<'_, G> {
         match start.asked {
             Asked::Gauge { gauge, order: 1 } => Some((self.slopes(gauge, 1.0), self.gauge_scale(gauge))),
             Asked::Spin { body, axis, own } => {
-                let spin = |&k: &usize| (k, G::spin_component(self.dynamics.in_axes(body, own, w.columns[k].w), axis));
-                Some((m.bodies[body].path.iter().map(spin).collect(), 1.0))
+                let spin = |k: usize| (k, G::spin_component(self.dynamics.in_axes(body, own, w.columns[k].w), axis));
+                Some((m.road(m.bodies[body].column).map(spin).collect(), 1.0))
             }
             _ => None,
         }

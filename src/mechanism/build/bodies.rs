@@ -90,7 +90,7 @@ impl<G: Space> Builder<'_, G> {
             });
             let outline = round.or(outline);
             let drawn = body.drawn.iter().map(|at| G::vector(&self.triple(at, place))).collect();
-            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, outline, path: vec![] });
+            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, outline, column: None });
         }
     }
 

@@ -75,15 +75,28 @@ impl<G: Space> Builder<'_, G> {
 
     /// Adds a gauge between two bodies.
     pub(super) fn gauge(&mut self, a: usize, b: usize, measured: Measured<G>, shift: f64) -> usize {
-        let (pa, pb) = (&self.mechanism.bodies[a].path, &self.mechanism.bodies[b].path);
-        // common ancestors move both bodies alike: they do not change what is measured between them
-        let common = pa.iter().zip(pb).take_while(|(x, y)| x == y).count();
         let columns = match measured {
             Measured::Coordinate { along, .. } => vec![(along.v, 1.0)],
-            _ => pb[common..].iter().map(|k| (*k, 1.0)).chain(pa[common..].iter().map(|k| (*k, -1.0))).collect(),
+            _ => self.columns_between(a, b),
         };
         self.mechanism.gauges.push(Gauge { a, b, measured, shift, columns });
         self.mechanism.gauges.len() - 1
+    }
+
+    /// Velocity columns that move b (1) or a (−1) against the other, each rising. What is on both roads to the ground moves both bodies
+    /// alike.
+    fn columns_between(&self, a: usize, b: usize) -> Vec<(usize, f64)> {
+        let m = &self.mechanism;
+        let [mut of_a, mut of_b] = [a, b].map(|body| m.bodies[body].column);
+        let (mut moves_a, mut moves_b) = (Vec::new(), Vec::new());
+        // columns fall on the way to the ground, so that the larger one is on one of the roads only
+        while of_a != of_b {
+            let (road, found, sign) = if of_a > of_b { (&mut of_a, &mut moves_a, -1.0) } else { (&mut of_b, &mut moves_b, 1.0) };
+            let Some(k) = *road else { break };
+            found.push((k, sign));
+            *road = m.above[k];
+        }
+        moves_b.into_iter().rev().chain(moves_a.into_iter().rev()).collect()
     }
 
     /// The gauge of a joint's coordinate.

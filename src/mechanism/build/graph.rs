@@ -200,22 +200,18 @@ impl<G: Space> Builder<'_, G> {
         let (before, axes, after) = tree::placed::<G>(shape, reversed, planar);
         let m = &mut self.mechanism;
         let (first_step, first_column) = (m.steps.len(), m.nv);
-        let mut path = m.bodies[branch.parent].path.clone();
+        let mut last = m.bodies[branch.parent].column;
         for axis in axes {
             m.steps.push(Step::new(axis, reversed, m.nq, m.nv));
             let (nq, nv) = axis.sizes();
             for _ in 0..nv {
-                path.push(m.nv);
+                m.above.push(last);
+                last = Some(m.nv);
                 m.nv += 1;
-                m.ancestors.push(path.clone());
-            }
-            // columns of a ball are ancestors of each other: one block
-            for k in m.nv - nv..m.nv {
-                m.ancestors[k] = path.clone();
             }
             m.nq += nq;
         }
-        m.bodies[branch.body].path = path;
+        m.bodies[branch.body].column = last;
         let after = (after != Pose::identity()).then_some(after);
         m.nodes.push(TreeNode {
             body: branch.body,

@@ -31,7 +31,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 steps: vec![],
                 nq: 0,
                 nv: 0,
-                ancestors: vec![],
+                above: vec![],
                 joints: vec![],
                 joint_of_node: vec![],
                 gauges: vec![],

@@ -1,0 +1,69 @@
+//! Coordinates that asked values name: those asked for themselves, and hinges of the plane that an asked angle leaves as the only unknown
+//! between its bodies.
+//!
+//! What is named needs no search. Along a chain of n bodies whose angles are all asked, rows of the search would have n²/2 entries.
+
+use super::close::{Held, Named, System};
+use crate::geometry::Space;
+use crate::mechanism::{Asked, Measured, Mechanism, Step};
+
+impl<G: Space<S = f64>> System<'_, G> {
+    /// Coordinates that asked values name take the values that these give them.
+    pub(super) fn take_named(&mut self, q: &mut [f64]) {
+        let m = self.dynamics.mechanism;
+        for start in &m.starts {
+            let Asked::Gauge { gauge, order: 0 } = start.asked else { continue };
+            if let Measured::Coordinate { along, .. } = m.gauges[gauge].measured {
+                q[along.q] = start.value;
+                self.named[along.v] = Some(if start.guess { Named::ByGuess } else { Named::Exactly });
+            }
+        }
+        self.evaluate(q);
+        let hinges = hinges(m);
+        let mut turned = vec![0.0; m.nv];
+        let asked = m.starts.iter().filter_map(|start| match start.asked {
+            Asked::Gauge { gauge, order: 0 } if m.gauges[gauge].measured == Measured::Angle => Some((gauge, start)),
+            _ => None,
+        });
+        // what is nearer to the ground names what hangs on it
+        let mut angles: Vec<_> = asked.collect();
+        angles.sort_by_key(|(gauge, _)| m.gauges[*gauge].columns.len());
+        for (gauge, start) in angles {
+            let (mut unknown, mut by_guess, mut known) = (None, start.guess, self.dynamics.work.readings[gauge].x);
+            let mut single = true;
+            for &(k, sign) in &m.gauges[gauge].columns {
+                let Some((_, spin)) = hinges[k] else { continue };
+                known += sign * spin * turned[k];
+                match self.named[k] {
+                    Some(named) => by_guess |= named == Named::ByGuess,
+                    None => single &= unknown.replace((k, sign * spin)).is_none(),
+                }
+            }
+            let (true, Some((k, spin))) = (single, unknown) else { continue };
+            let Some((place, _)) = hinges[k] else { continue };
+            turned[k] = spin * (start.value - known);
+            q[place] += turned[k];
+            self.named[k] = Some(if by_guess { Named::ByGuess } else { Named::Exactly });
+        }
+    }
+
+    /// Whether what is held names the coordinate of a column.
+    pub(super) fn is_named(&self, column: usize) -> bool {
+        match self.named[column] {
+            Some(Named::Exactly) => self.held != Held::Nothing,
+            Some(Named::ByGuess) => self.held == Held::All,
+            None => false,
+        }
+    }
+}
+
+/// For each velocity column that turns what hangs on it in the plane, its coordinate and the sense, 1 or −1.
+fn hinges<G: Space<S = f64>>(m: &Mechanism<G>) -> Vec<Option<(usize, f64)>> {
+    let mut hinges = vec![None; m.nv];
+    for step in &m.steps {
+        if let Step::Axis { u, turns: true, q, v, .. } = *step {
+            hinges[v] = Some((q, G::spin_component(u, 2).signum()));
+        }
+    }
+    hinges
+}
