@@ -88,6 +88,12 @@ pub struct Tangent {
 }
 
 impl Tangent {
+    /// Whether all derivatives are numbers.
+    pub fn is_finite(&self) -> bool {
+        let Self { k, c, r_z, r_lambda, z_q, z_v, z_z } = self;
+        [k, c, r_z, r_lambda, z_q, z_v, z_z].iter().all(|block| block.values().iter().all(|x| x.is_finite()))
+    }
+
     /// Zeros of the patterns of a system.
     pub fn new(pattern: &Pattern) -> Self {
         Self {

@@ -1,8 +1,9 @@
 //! `grashof check`: a look at a model before it moves.
 
 use super::{Common, code, files, print_out};
+use grashof::expression::parse_unit;
 use grashof::kinematics::survey::{Survey, survey};
-use grashof::model::{Document, Kind};
+use grashof::model::{Document, Kind, Model};
 use grashof::output::{json_number, json_numbers};
 use grashof::studies::common::case::parameters;
 use grashof::studies::loader::quickly;
@@ -43,7 +44,7 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
         all["notes"] = document.notes().into();
         print_out(&serde_json::to_string_pretty(&all).unwrap_or_default());
     } else {
-        print(&model.name, &survey, &findings, &document);
+        print(&model, &survey, &findings, &document);
         print_notes(&document.notes());
     }
     if arguments.strict && !findings.is_empty() { code::UNMET } else { code::DONE }
@@ -99,14 +100,46 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     out
 }
 
-fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) {
+/// A number of a unit of SI, and a list of such, in the unit in which the model asks for results.
+struct In<'m> {
+    unit: &'m str,
+    size: f64,
+}
+
+impl<'m> In<'m> {
+    fn of(model: &'m Model, si: &'m str) -> Self {
+        let dimension = parse_unit(si).map(|(_, dimension)| dimension);
+        let asked = dimension.and_then(|dimension| model.units.iter().find(|unit| unit.dimension.is_shown_as(dimension)));
+        asked.map_or(Self { unit: si, size: 1.0 }, |asked| Self { unit: &asked.name, size: asked.size })
+    }
+
+    fn number(&self, x: f64) -> String {
+        short(x / self.size)
+    }
+
+    fn list(&self, values: &[f64]) -> String {
+        values.iter().map(|x| self.number(*x)).collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn print(model: &Model, survey: &Survey, findings: &[String], document: &Document) {
+    let name = &model.name;
+    let [mass_in, length_in, inertia_in] = ["kg", "m", "kg m^2"].map(|si| In::of(model, si));
     let m = &survey.mobility;
     let (nq, nv, rows) = survey.sizes;
     let (bodies, joints) = (counted(survey.bodies.len(), "body", "bodies"), counted(survey.joints.len(), "joint", "joints"));
     print_out(&format!("{name}: {bodies}, {joints}, {}", counted(document.study_names().len(), "study", "studies")));
     print_out("\nmasses");
     for (name, mass, com, inertia) in &survey.bodies {
-        print_out(&format!("  {name:<14} {:>12} kg   com ({}) m   inertia {} kg m^2", short(*mass), list(com), list(inertia)));
+        print_out(&format!(
+            "  {name:<14} {:>12} {}   com ({}) {}   inertia {} {}",
+            mass_in.number(*mass),
+            mass_in.unit,
+            length_in.list(com),
+            length_in.unit,
+            inertia_in.list(inertia),
+            inertia_in.unit
+        ));
     }
     print_out("\ntopology");
     for (name, kind, a, b, tree) in &survey.joints {
@@ -121,10 +154,10 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
     print_out(&format!("  coordinates, velocities   {nq}, {nv}"));
     print_out(&format!("  constraint rows, rank     {rows}, {}", m.rank));
     if let Some(g) = &survey.grashof {
-        let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", short(*l))).collect();
+        let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", length_in.number(*l))).collect();
         print_out("\nfour-bar");
         print_out(&format!("  Grashof class             {}", g.class));
-        print_out(&format!("  links [m]                 {}", lengths.join(", ")));
+        print_out(&format!("  {:<25} {}", format!("links [{}]", length_in.unit), lengths.join(", ")));
         print_out(&match g.range {
             None => "  range of the input        full turn".to_string(),
             Some((a, b)) => format!(
@@ -138,12 +171,15 @@ fn print(name: &str, survey: &Survey, findings: &[String], document: &Document) 
         print_out("\nstart                        asked            found");
         for f in &survey.start {
             let tilde = if f.guess { "~" } else { " " };
-            print_out(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, short(f.asked), short(f.found), f.unit));
+            let of = In::of(model, f.unit);
+            print_out(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, of.number(f.asked), of.number(f.found), of.unit));
         }
     }
     if !survey.lengths.is_empty() {
         print_out("\ndistances as at the start");
-        survey.lengths.iter().for_each(|(name, length)| print_out(&format!("  {name:<22} {:>14} m", short(*length))));
+        for (name, length) in &survey.lengths {
+            print_out(&format!("  {name:<22} {:>14} {}", length_in.number(*length), length_in.unit));
+        }
     }
     if !findings.is_empty() {
         print_out("\nfindings");
@@ -196,10 +232,6 @@ fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
         "lengths": survey.lengths.iter().map(|(name, length)| json!({ "name": name, "length": json_number(*length) })).collect::<Vec<_>>(),
         "findings": findings,
     })
-}
-
-fn list(values: &[f64]) -> String {
-    values.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
 }
 
 /// Eight significant digits, without trailing zeros.

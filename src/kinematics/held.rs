@@ -104,6 +104,9 @@ impl Held {
         let at = Point { t: 0.0, q: pose.q, v: &rest, z: pose.z, a: &rest, lambda: lambda.as_slice(), modes: &modes };
         let mut tangent = Tangent::new(&linearizer.pattern(nz));
         linearizer.tangents(&at, &mut tangent);
+        if !tangent.is_finite() {
+            return Err(Singular);
+        }
         let matrix = |rows: usize, columns: usize, x: &Block| DMatrix::from_row_slice(rows, columns, &x.to_dense());
         let r = g.transpose() * &lambda - &force;
         let (mut k, c) = (matrix(nv, nv, &tangent.k), matrix(nv, nv, &tangent.c));

@@ -184,6 +184,9 @@ impl HeldSparse {
         let mut linearizer = Linearizer::new(&lifted);
         let mut tangent = Tangent::new(&linearizer.pattern(pose.z.len()));
         linearizer.tangents(&at, &mut tangent);
+        if !tangent.is_finite() {
+            return Err(Singular);
+        }
         let mut r: Vec<f64> = held.force.iter().map(|f| -f).collect();
         held.block.lines().zip(&lambda).take(of_rows).for_each(|(line, lambda)| line.add_to(*lambda, &mut r));
         let mut stiffness = tangent.k;

@@ -5,7 +5,7 @@ use super::held::{Pose, settled};
 use crate::dynamics::Dynamics;
 use crate::expression::{Cause, Id};
 use crate::geometry::Space;
-use crate::mechanism::{self, Coordinates, Mechanism, build};
+use crate::mechanism::{self, Coordinates, Measured, Mechanism, Stretch, StretchOf, build};
 use crate::model::{Model, Study};
 use crate::results::{Failure, Undefined};
 
@@ -110,8 +110,32 @@ pub(crate) fn in_state<G: Space<S = f64>>(
 pub(crate) fn not_finite<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, pose: Pose<'_>) -> Failure {
     let rest = vec![0.0; mechanism.nv];
     let undefined = in_state(model, mechanism, [pose.q, &rest, pose.z], pose.modes, "the pose");
+    let undefined = undefined.or_else(|| without_direction(model, mechanism, pose));
     let unknown = || Failure::numerical("a force in the pose is not a number", "look at tables and expressions of loads");
     undefined.map_or_else(unknown, Failure::Undefined)
+}
+
+/// That a spring has no direction, and so no stiffness, in a pose where its ends meet.
+pub(crate) fn without_direction<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, pose: Pose<'_>) -> Option<Undefined> {
+    let mut dynamics = Dynamics::without_mass(mechanism);
+    dynamics.time(0.0, pose.modes);
+    dynamics.position(pose.q, pose.modes);
+    meeting(model, &dynamics, "in the pose")
+}
+
+/// The same in the pose that was evaluated last; `there` says where that is: `at t = 0.5 s`.
+pub(crate) fn meeting<G: Space<S = f64>>(model: &Model, dynamics: &Dynamics<'_, G>, there: &str) -> Option<Undefined> {
+    let m = dynamics.mechanism;
+    let meets = |stretch: &Stretch<G>| match stretch.of {
+        StretchOf::Gauge(k) => matches!(m.gauges[k].measured, Measured::Distance { .. }) && dynamics.work.readings[k].x == 0.0,
+        StretchOf::Function(_) => false,
+    };
+    let name = &model.springs.get(m.stretches.iter().position(meets)?)?.name;
+    Some(Undefined {
+        message: format!("the ends of the spring `{name}` meet {there}: it has no direction there, so that its stiffness is not defined"),
+        help: "let its ends be apart there, or give it a coordinate to work along, as `stretch: B.position - A.position`".into(),
+        place: format!("springs.{name}"),
+    })
 }
 
 /// [`assemble`], where it fails because a law has no value told so.

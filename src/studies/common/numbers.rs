@@ -125,5 +125,8 @@ fn unmet(model: &Model, e: &Expectation, [found, wanted, tolerance]: [f64; 3]) -
     let rounded = |x: f64, digits: usize| format!("{:.digits$e}", x / size).parse::<f64>().unwrap_or(x / size);
     let digits = (9..16).find(|&digits| rounded(found, digits) != rounded(wanted, digits)).unwrap_or(16);
     let shown = |x: f64| rounded(x, digits);
+    if found.is_nan() {
+        return format!("`{}` is not defined; expected was {}{unit}", e.text, shown(wanted));
+    }
     format!("`{}` is {}{unit}, not {}{unit} within {:e}{unit}", e.text, shown(found), shown(wanted), rounded(tolerance, 3))
 }

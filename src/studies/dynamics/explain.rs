@@ -6,7 +6,7 @@ use super::system::{Mechanical, Met, Root};
 use crate::dynamics::{Dynamics, LANES};
 use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
-use crate::kinematics::undefined::Gap;
+use crate::kinematics::undefined::{Gap, meeting};
 use crate::mechanism::{BuildFault, Contact, Mechanism};
 use crate::model::{Model, Parameter, Study};
 use crate::results::{Failure, Finding, Happened, Undefined};
@@ -63,7 +63,9 @@ where
     G: Space<S = f64>,
     D: Space<S = Dual<LANES>>,
 {
-    system.dynamics.undefined(modes).map(|law| Gap::Law(law).explain(model, study, &format!("t = {t:.6} s")))
+    let at = format!("t = {t:.6} s");
+    let law = system.dynamics.undefined(modes).map(|law| Gap::Law(law).explain(model, study, &at));
+    law.or_else(|| meeting(model, &system.dynamics, &format!("at {at}")))
 }
 
 /// Why a run ends at an event that has set parameters to what no mechanism can have.

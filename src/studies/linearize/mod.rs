@@ -23,10 +23,10 @@ use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::coordinates;
-use crate::kinematics::held::settled;
+use crate::kinematics::held::{Pose, settled};
 use crate::kinematics::linear::{Linear, Reduced};
 use crate::kinematics::partition::{Partition, preferred, with_mass};
-use crate::kinematics::undefined::assembled;
+use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
@@ -168,6 +168,9 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let mut linearizer = Linearizer::new(lifted);
         let point = Point { t: 0.0, q: &at.q, v: &at.v, z: &at.z, a: &answer.a, lambda: &answer.lambda, modes: &at.modes };
         let linear = Linear::new(m, &mut linearizer, &point, &self.start.metric).map_err(|_| undetermined())?;
+        if !linear.tangent.is_finite() {
+            return Err(not_finite(self.case.model, m, Pose { q: &at.q, z: &at.z, modes: &at.modes }));
+        }
         let partition = linear.partition(&preferred(m));
         let own: Vec<String> = partition.independent.iter().map(|&i| names.coordinates[i].clone()).collect();
         with_mass(&(partition.p.transpose() * &linear.mass * &partition.p), &own, &self.case.study.place)?;

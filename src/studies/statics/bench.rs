@@ -4,7 +4,7 @@ use super::explain::{Names, place, six, undefined};
 use super::grip::{self, Gripped};
 use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
-use super::rest::Rest;
+use super::rest::{Lost, Rest};
 use super::search::{Ended, Found};
 use crate::dynamics::LANES;
 use crate::expression::Id;
@@ -58,15 +58,18 @@ where
         Self { case, rest: Rest::new(system, start.size), names: Names::new(case.model, mechanism, &start.metric), held: None }
     }
 
+    /// Why the start, or what is next to it, cannot be evaluated.
+    fn lost(&self, lost: Lost, start: &Assembled) -> Failure {
+        let mechanism = self.rest.system.dynamics.mechanism;
+        undefined(self.case, mechanism, start).unwrap_or_else(|| self.names.lost(lost, &self.case.study.place))
+    }
+
     /// The equilibrium from the start.
     pub(super) fn settle(&mut self, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<Settled, Failure> {
         let states = self.rest.system.dynamics.mechanism.state_starts.clone();
         let begin = match self.rest.at(&start.q, &states, &start.modes) {
             Ok(begin) => begin,
-            Err(lost) => {
-                let mechanism = self.rest.system.dynamics.mechanism;
-                return Err(undefined(self.case, mechanism, start).unwrap_or_else(|| self.names.lost(lost, &self.case.study.place)));
-            }
+            Err(lost) => return Err(self.lost(lost, start)),
         };
         match self.search(&begin, stop) {
             Ok((found, passed)) => match self.rest.beyond(self.case, &found.pose.position) {
@@ -75,7 +78,7 @@ where
             },
             Err(ended) => match *ended {
                 (_, Ended::Stopped) => Err(Failure::interrupted()),
-                (_, Ended::Lost(lost)) => Err(self.names.lost(lost, &self.case.study.place)),
+                (_, Ended::Lost(lost)) => Err(self.lost(lost, start)),
                 (best, why) => {
                     let partition = self.partition(&best);
                     let force = &partition.p.transpose() * &self.rest.net(&best);

@@ -7,9 +7,10 @@ use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
+use crate::kinematics::held;
 use crate::kinematics::held::settled;
 use crate::kinematics::partition::{Partition, preferred};
-use crate::kinematics::undefined::in_state;
+use crate::kinematics::undefined::{in_state, without_direction};
 use crate::mechanism::{Mechanism, Step};
 use crate::model::Model;
 use crate::results::{Failure, Unsolved};
@@ -154,7 +155,8 @@ pub(super) fn place(coordinates: &[Coordinate], values: &[f64]) -> String {
 pub(super) fn undefined<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
     let (rest, states) = (vec![0.0; start.v.len()], &mechanism.state_starts);
     let modes = settled(mechanism, [&start.q, &rest, states], &start.modes);
-    in_state(case.model, mechanism, [&start.q, &rest, states], &modes, "the start").map(Failure::Undefined)
+    let law = in_state(case.model, mechanism, [&start.q, &rest, states], &modes, "the start");
+    law.or_else(|| without_direction(case.model, mechanism, held::Pose { q: &start.q, z: states, modes: &modes })).map(Failure::Undefined)
 }
 
 fn unsolved(message: String, place: &str, help: &str) -> Failure {

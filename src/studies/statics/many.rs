@@ -5,7 +5,7 @@
 
 use super::explain::{Names, undefined, verdict};
 use super::report::{Report, Told, not_stable, without_friction};
-use super::rest::{Position, Rest, Still};
+use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
 use super::sinking::{Sinking, Stand, of_metric};
 use crate::dynamics::LANES;
@@ -149,14 +149,17 @@ where
         Self { case, sinking: Sinking::new(rest, &start.q, &start.modes, turns), names, modes: start.modes.len() }
     }
 
+    /// Why the start, or what is next to it, cannot be evaluated.
+    fn lost(&self, lost: Lost, start: &Assembled) -> Failure {
+        let mechanism = self.sinking.rest.system.dynamics.mechanism;
+        undefined(self.case, mechanism, start).unwrap_or_else(|| self.names.lost(lost, &self.case.study.place))
+    }
+
     /// The equilibrium from the start; none if full matrices must be used.
     fn settle(&mut self, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<Option<Settled>, Failure> {
         let begin = match self.sinking.at(&start.q, &start.modes) {
             Ok(begin) => begin,
-            Err(lost) => {
-                let mechanism = self.sinking.rest.system.dynamics.mechanism;
-                return Err(undefined(self.case, mechanism, start).unwrap_or_else(|| self.names.lost(lost, &self.case.study.place)));
-            }
+            Err(lost) => return Err(self.lost(lost, start)),
         };
         let held = self.held(&begin)?;
         if held.pencil.circulation() > POTENTIAL {
@@ -165,7 +168,7 @@ where
         let (found, passed) = match self.search(&begin, stop)? {
             Ok(both) => both,
             Err(Ended::Stopped) => return Err(Failure::interrupted()),
-            Err(Ended::Lost(lost)) => return Err(self.names.lost(lost, &self.case.study.place)),
+            Err(Ended::Lost(lost)) => return Err(self.lost(lost, start)),
             Err(why) => {
                 let of: Vec<Coordinate> = held.independent.iter().map(|(coordinate, _)| coordinate.clone()).collect();
                 return Err(self.names.unbalanced(&of, &held.unbalanced, self.sinking.rest.size, why, &self.case.study.place));

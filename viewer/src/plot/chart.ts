@@ -52,6 +52,9 @@ export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'
 /** For many curves the page has a scale of this many colours, rising in lightness, from `--scale-0` on. */
 const STOPS = 5;
 const LETTER = 6.7;
+/** Letters that the ticks of an axis have room for where there is room, so that figures one below the other begin alike. */
+const TICK = 6;
+const NARROW = 420;
 /** How much is seen of a curve beside the chosen one. */
 const FAINT = 0.62;
 
@@ -89,7 +92,7 @@ export function layout(figure: Figure, view: View): Layout {
   const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
   const beside = panels.flatMap(({ right, height: room }) => (right ? scaledTicks(right.axis, right.factor, right.own, room).map((tick) => tick.text.length) : []));
   const aside = beside.length > 0 ? 34 + LETTER * Math.max(1, ...beside) : 14;
-  const left = Math.min(34 + LETTER * Math.max(1, ...labels), view.width / 3);
+  const left = Math.min(34 + LETTER * Math.max(view.width > NARROW ? TICK : 1, ...labels), view.width / 3);
   const bottom = panels[panels.length - 1];
   const out: Layout = { left, right: view.width - aside, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, xFactor: horizontal.factor, panels };
   if (figure.equal && panels.length === 1) equalise(out, panels[0]!, figure, view);
