@@ -100,7 +100,9 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
     if axis.label.is_empty() || indices.len() < figure.curves.len() {
         // The names are in the legend anyway: on the axis they stand only if they are few.
         let joined = names.join(", ");
-        axis.label = if names.len() <= 3 && joined.chars().count() <= 36 { joined } else { String::new() };
+        let mut quantities = curves().filter(|curve| !curve.right).map(|curve| &curve.quantity);
+        let quantity = quantities.next().filter(|first| quantities.all(|other| other == *first)).cloned();
+        axis.label = if names.len() <= 3 && joined.chars().count() <= 36 { joined } else { quantity.unwrap_or_default() };
     }
     if let Some((_, quantity)) = figure.quantities.iter().find(|(known, _)| known == unit) {
         axis.label.clone_from(quantity);
@@ -254,6 +256,20 @@ mod tests {
             }
         }
         assert!(svg(&Figure::default()).contains("no values"));
+    }
+
+    #[test]
+    fn an_axis_of_many_names_says_what_they_are_of() {
+        let curves = |count: usize, quantity: &str| -> Vec<Curve> {
+            let of =
+                |k: usize| Curve { quantity: quantity.into(), ..curve(&format!("joint{k}.f"), Some("N"), vec![(0.0, 1.0), (1.0, 2.0)]) };
+            (0..count).map(of).collect()
+        };
+        let text = |curves| svg(&Figure { x: axis("time", "s"), curves, ..Figure::default() });
+        assert!(text(curves(4, "force")).contains("force in N"), "{}", text(curves(4, "force")));
+        assert!(text(curves(2, "force")).contains("joint0.f, joint1.f in N"));
+        let mixed = [curves(2, "force"), curves(2, "tension")].concat();
+        assert!(!text(mixed).contains("force in N"));
     }
 
     #[test]

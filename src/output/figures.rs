@@ -154,7 +154,7 @@ fn curve(label: String, column: &Column, mut points: Vec<(f64, f64)>, plot: &Plo
     let axis = if right { plot.right.as_ref().map(|right| &right.axis) } else { plot.y.as_ref() };
     let (unit, size) = unit(column, axis);
     points.iter_mut().for_each(|point| point.1 /= size);
-    Curve { label, unit: Some(unit), points, right, dots: false }
+    Curve { label, unit: Some(unit), quantity: column.quantity.clone(), points, right, dots: false }
 }
 
 /// The unit in which figures show a column, and its size in SI: that of an axis for its quantity, else that of the model, else degrees

@@ -76,6 +76,8 @@ pub struct Curve {
     pub label: String,
     /// Its unit, if it is not the axis' own.
     pub unit: Option<String>,
+    /// What it is of, as `force`: what an axis says whose curves have too many names. May be empty.
+    pub quantity: String,
     /// Its points; NaN breaks the line, and so does a pair of equal x if x else runs one way.
     pub points: Vec<(f64, f64)>,
     /// Whether it is drawn over the axis on the right.

@@ -7,8 +7,9 @@ import { type Axis, axis, over, scaled } from './axis';
 
 export interface Curve {
   label: string;
-  /** Unit of y as shown. */
+  /** Unit of y as shown, and what y is of, as `force`. */
   unit: string;
+  quantity: string;
   x: number[];
   y: number[];
   color: number;
@@ -55,6 +56,9 @@ const LETTER = 6.7;
 /** Letters that the ticks of an axis have room for where there is room, so that figures one below the other begin alike. */
 const TICK = 6;
 const NARROW = 420;
+/** Names of curves on an axis at most, and their letters. */
+const NAMES = 3;
+const SPACE = 36;
 /** How much is seen of a curve beside the chosen one. */
 const FAINT = 0.62;
 
@@ -219,7 +223,7 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);
-    const name = figure.y || (own.length === 1 ? own[0]!.label : '');
+    const name = figure.y || said(own);
     const text = heading(name, panel.unit) || '';
     const upright = label(text, 0, 0, 'middle');
     upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);
@@ -236,6 +240,14 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
   const unit = scaled(figure.x.unit, figure.x.unit === '' ? 1 : 1 / out.xFactor).unit;
   svg.append(label(heading(figure.x.label, unit), (left + right) / 2, out.height - 8, 'middle'));
   return svg;
+}
+
+/** What an axis says of its curves: their names if they are few, else what they are of. */
+function said(curves: Curve[]): string {
+  const names = [...new Set(curves.map(({ label: name }) => name))];
+  const quantities = new Set(curves.map(({ quantity }) => quantity));
+  if (names.length <= NAMES && names.join(', ').length <= SPACE) return names.join(', ');
+  return quantities.size === 1 ? [...quantities][0]! : '';
 }
 
 function label(text: string, x: number, y: number, anchor: string): SVGTextElement {

@@ -27,7 +27,7 @@ class Later implements Curve {
   shown = true;
   private points: { x: number[]; y: number[] } | null = null;
 
-  constructor(readonly label: string, readonly unit: string, readonly color: number, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
+  constructor(readonly label: string, readonly unit: string, readonly color: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
 
   get dash(): number {
     return this.color;
@@ -67,7 +67,7 @@ function beside(plot: Plot, size: number, found: (name: string) => Column | unde
     const right = plot.right?.show.includes(of) ?? false;
     const { unit, size: high } = unitOf(like, right ? plot.right!.axis : plot.y);
     const by = (values: Num[], part: number) => values.map((v) => (v ?? NaN) / part);
-    curves.push(new Later(label, unit, curves.length, () => ({ x: by(x, size), y: by(y, high) }), right, measured));
+    curves.push(new Later(label, unit, curves.length, like.quantity, () => ({ x: by(x, size), y: by(y, high) }), right, measured));
   }
 }
 
@@ -108,7 +108,7 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
       if (!vertical) continue;
       const { unit, size: high } = unitOf(vertical, right ? plot.right!.axis : plot.y);
       const text = !several ? name : sides(plot).length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
-      curves.push(new Later(text, unit, curves.length, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
+      curves.push(new Later(text, unit, curves.length, vertical.quantity, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
       points.push((at) => [(plot.over ? value(horizontal.values, at) : at) / size, value(vertical.values, at) / high]);
       numbers.push(index);
     }
@@ -147,7 +147,7 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
       const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
       const at = (of: Column, by: number) => rows.map((row) => (of.values[row] ?? NaN) / by);
       const text = !several ? c.name : shown.length > 1 ? `${c.name}, ${label}` : label;
-      curves.push(new Later(text, own, curves.length, () => ({ x: at(over, size), y: at(c, high) }), right, dots));
+      curves.push(new Later(text, own, curves.length, c.quantity, () => ({ x: at(over, size), y: at(c, high) }), right, dots));
     }
   }
   if (curves.length === 0) return null;
