@@ -192,6 +192,14 @@ fn terms_that_hold_a_position_are_those_of_terms_that_hold_nothing() {
             assert_eq!(terms, expected, "{k}");
         }
     }
+    // an evaluator that stands where it stood does not take what another one has written for its own
+    let [here, there] = [state(0), state(2)];
+    let mut others = Terms::new(dims, other.pattern());
+    other.terms(here.at(), Stage::Dynamics, &mut others);
+    one.terms(there.at(), Stage::Dynamics, &mut terms);
+    other.terms(here.at(), Stage::Dynamics, &mut terms);
+    assert_ne!(terms.mass, Terms::new(dims, other.pattern()).mass);
+    assert_eq!(terms, others);
 }
 
 #[test]

@@ -67,3 +67,44 @@ fn hinges<G: Space<S = f64>>(m: &Mechanism<G>) -> Vec<Option<(usize, f64)>> {
     }
     hinges
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Planar;
+    use crate::kinematics::assemble::close::CONVERGED;
+    use crate::mechanism::{Coordinates, build};
+    use crate::model::{Document, Selection};
+
+    #[test]
+    fn what_is_named_leaves_nothing_to_a_search() {
+        // hinges either way round, a slide between, more than a turn, and a body of which nothing is asked
+        let text = "
+grashof: 1
+name: chain
+space: planar
+gravity: none
+bodies:
+  a: { bar: { length: 1 m, mass: 1 kg } }
+  b: { bar: { length: 1 m, mass: 1 kg } }
+  c: { bar: { length: 1 m, mass: 1 kg } }
+  d: { bar: { length: 1 m, mass: 1 kg } }
+  e: { bar: { length: 1 m, mass: 1 kg } }
+joints:
+  A: { revolute: [ground, a.start] }
+  B: { revolute: [b.start, a.end] }
+  C: { pin-in-slot: [b.end, c.start], axis: [1, 0] }
+  D: { revolute: [d.start, c.end] }
+  E: { revolute: [d.end, e.start] }
+start: { d.angle: 700 deg, c.angle: ~-50 deg, a.angle: ~20 deg, B.angle: 30 deg }
+";
+        let model = Document::read(text, "chain.yaml").unwrap().model(&Selection::default()).unwrap();
+        let mechanism = build::<Planar<f64>>(&model, &[], Coordinates::Joint).unwrap();
+        let mut system = System::new(&mechanism);
+        let mut q = mechanism.drawn();
+        system.take_named(&mut q);
+        assert!(system.miss(&q) < CONVERGED, "{:e}", system.miss(&q));
+        let named: Vec<bool> = (0..mechanism.nv).map(|k| system.named[k].is_some()).collect();
+        assert_eq!(named.iter().filter(|named| **named).count(), 4, "{named:?}");
+    }
+}
