@@ -155,10 +155,10 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn mass(&mut self) {
         let m = self.mechanism;
         let nv = m.nv;
-        let Workspace { composite, inertias, columns, mass, mass_places, readings, .. } = &mut self.work;
+        let Workspace { composite, inertias, columns, mass, mass_places, mass_roads, readings, .. } = &mut self.work;
         let full = mass.pattern().is_full();
         debug_assert!(full || !mass_places.is_empty(), "an evaluator without M");
-        let mut places = mass_places.iter();
+        let (mut places, mut roads) = (&mass_places[..], mass_roads.iter());
         composite.copy_from_slice(inertias);
         if !m.rotors.is_empty() {
             // a rotor between two branches adds to entries that no ancestor writes
@@ -169,14 +169,18 @@ impl<G: Space> Dynamics<'_, G> {
             let whole = composite[node.body];
             for k in node.columns.clone() {
                 let momentum = whole * columns[k];
-                let mut road = Some(k);
+                let mut road = Some(k).filter(|_| full);
                 while let Some(j) = road {
                     road = m.above[j];
                     let x = momentum.power(columns[j]);
-                    if full {
-                        (values[j * nv + k], values[k * nv + j]) = (x, x);
-                    } else if let Some(&[above, below]) = places.next() {
-                        (values[above], values[below]) = (x, x);
+                    (values[j * nv + k], values[k * nv + j]) = (x, x);
+                }
+                if let (false, Some(&length)) = (full, roads.next()) {
+                    let (own, others) = places.split_at(length as usize);
+                    places = others;
+                    for &[j, above, below] in own {
+                        let x = momentum.power(columns[j as usize]);
+                        (values[above as usize], values[below as usize]) = (x, x);
                     }
                 }
             }

@@ -72,9 +72,11 @@ pub struct Workspace<G: Space> {
     pub force: Vec<G::S>,
     /// Mass matrix M (nv × nv).
     pub mass: Block<G::S>,
-    /// Places in it of what [`Dynamics::mass`](super::Dynamics::mass) writes, in its order: an entry and the one across the diagonal;
-    /// empty where the matrix is full.
-    pub(super) mass_places: Vec<[usize; 2]>,
+    /// What [`Dynamics::mass`](super::Dynamics::mass) writes in it, in its order: the other column, and the places of the entry and the one
+    /// across the diagonal; empty where the matrix is full.
+    pub(super) mass_places: Vec<[u32; 3]>,
+    /// How many of them belong to each column, in that order.
+    pub(super) mass_roads: Vec<u32>,
     /// Wrench sums along the tree.
     pub(super) sums: Vec<Force<G>>,
 
@@ -112,6 +114,7 @@ impl<G: Space> Workspace<G> {
             let after = node.after.map_or_else(Quaternion::identity, |pose| Quaternion::of_rotation::<G>(pose.r));
             [Quaternion::of_rotation::<G>(node.before.r), after]
         });
+        let (mass_places, mass_roads) = mass_places(mechanism, of_mass);
         Self {
             motions: zeros(mechanism.time_program.outputs),
             references: vec![G::Vector::default(); mechanism.groups.len()],
@@ -140,7 +143,8 @@ impl<G: Space> Workspace<G> {
             z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
             zdot: zeros(mechanism.state_starts.len()),
             force: zeros(nv),
-            mass_places: mass_places(mechanism, of_mass),
+            mass_places,
+            mass_roads,
             mass: Block::new(of_mass),
             sums: vec![Force::default(); bodies],
             line: zeros(nv),
@@ -153,12 +157,18 @@ impl<G: Space> Workspace<G> {
     }
 }
 
-/// Places in M of each column with those on its road, from the last node to the first; none if the matrix is full.
-fn mass_places<G: Space>(m: &Mechanism<G>, pattern: &Sparsity) -> Vec<[usize; 2]> {
+/// Places in M of each column with those on its road, from the last node to the first, and the number of them for each; none if the
+/// matrix is full.
+fn mass_places<G: Space>(m: &Mechanism<G>, pattern: &Sparsity) -> (Vec<[u32; 3]>, Vec<u32>) {
+    let (mut places, mut roads) = (Vec::new(), Vec::new());
     if pattern.is_full() {
-        return Vec::new();
+        return (places, roads);
     }
-    let columns = m.nodes.iter().rev().flat_map(|node| node.columns.clone());
-    let pairs = columns.flat_map(|k| m.road(Some(k)).map(move |j| [(j, k), (k, j)]));
-    pairs.filter_map(|[above, below]| Some([pattern.place(above.0, above.1)?, pattern.place(below.0, below.1)?])).collect()
+    for k in m.nodes.iter().rev().flat_map(|node| node.columns.clone()) {
+        let before = places.len();
+        let pair = |j: usize| Some([j, pattern.place(j, k)?, pattern.place(k, j)?].map(|x| x as u32));
+        places.extend(m.road(Some(k)).filter_map(pair));
+        roads.push((places.len() - before) as u32);
+    }
+    (places, roads)
 }

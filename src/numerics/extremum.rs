@@ -146,7 +146,8 @@ impl<C: Curve> Search<'_, C> {
         // the best sample takes part whatever becomes of its peak: of noise, only the most promising peaks are looked into
         let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
         let looked = Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] };
-        let mut found = vec![self.exact(column, sign, looked)];
+        // the values at the ends of pieces are those of the curve
+        let mut found = vec![if samples.is_end(top) { looked } else { self.exact(column, sign, looked) }];
         best = found[0].y;
         let mut peaks = peaks(samples, values, sign, best, &mut found);
         for (sample, bound) in peaks.iter_mut().filter(|(_, bound)| *bound >= best - tie(best, magnitude)) {
@@ -164,6 +165,7 @@ impl<C: Curve> Search<'_, C> {
             }
             let itself = Candidate { y: sign * values[sample], at: samples.places[sample], piece: samples.pieces[sample] };
             let candidate = match samples.crest(&self.polynomials, sample, column, sign, magnitude) {
+                Some(at) if at == itself.at && samples.is_end(sample) => itself,
                 Some(at) => {
                     coarse.push((at, itself.piece, sample));
                     self.exact(column, sign, Candidate { at, ..itself })

@@ -51,6 +51,12 @@ impl<'a> Samples<'a> {
         })
     }
 
+    /// Whether a sample is the first or the last of its piece.
+    pub(crate) fn is_end(&self, sample: usize) -> bool {
+        let own = self.pieces.get(sample);
+        sample == 0 || self.pieces.get(sample - 1) != own || self.pieces.get(sample + 1) != own
+    }
+
     /// Upper bound of sign · column, of the largest magnitude `size`, between the neighbours of a sample, as the polynomials tell it;
     /// infinite where they tell nothing.
     pub(crate) fn reach(&self, basis: &Basis, sample: usize, column: usize, sign: f64, size: f64) -> f64 {
