@@ -4,10 +4,10 @@ mod chains;
 mod eigensolvers;
 mod many;
 mod many_damped;
+mod meeting;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};
-use grashof::Model;
 use grashof::dynamics::{Dynamics, LANES, Linearizer};
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::held::{Held, Pose, settled};
@@ -472,43 +472,4 @@ fn the_command_needs_no_study() {
     assert!(json["scalars"]["damping_ratios"][0].as_f64().is_some_and(|x| x > 0.0), "{json}");
     assert!(json["scalars"]["shapes"][0]["O.angle"].as_f64() == Some(1.0), "{json}");
     std::fs::remove_dir_all(&directory).expect("removed");
-}
-
-/// A spring whose ends meet has no direction, and is named by every study that needs its stiffness; motions by explicit schemes do not.
-#[test]
-fn a_spring_whose_ends_meet_has_no_stiffness() {
-    let text = "
-grashof: 1
-name: two-masses
-space: planar
-gravity: none
-bodies:
-  a: { mass: 1 kg, inertia: 1 kg m^2 }
-  b: { mass: 1 kg, inertia: 1 kg m^2 }
-joints:
-  A: { slider: [ground, a], axis: [1, 0] }
-  B: { slider: [ground, b], axis: [1, 0] }
-springs:
-  one: { joint: A, stiffness: 100 N/m, damping: 1 N s/m }
-  two: { between: [a, b], stiffness: 50 N/m, damping: 0.5 N s/m }
-start: { A.velocity: 1 m/s }
-studies:
-  undamped: { modes: { at: start } }
-  damped: { modes: { at: start, damped: true } }
-  sparse: { modes: { at: start, methods: [lanczos] } }
-  linear: { linearize: { at: start } }
-  rest: { statics: { from: start }, columns: [A.position] }
-  implicit: { dynamics: { until: 1 s, integrator: bdf }, columns: [A.position] }
-  explicit: { dynamics: { until: 1 s, integrator: dop853 }, columns: [A.position] }
-";
-    for study in ["undamped", "damped", "sparse", "linear", "rest", "implicit"] {
-        // an implicit scheme needs it where they stay together
-        let still = text.replace("A.velocity: 1 m/s", "A.velocity: 0");
-        let model = Model::parse(if study == "implicit" { &still } else { text }).unwrap_or_else(|e| panic!("{e}"));
-        let error = model.study(study).unwrap().run().unwrap_err().to_string();
-        assert!(error.contains("the ends of the spring `two` meet"), "{study}: {error}");
-    }
-    let model = Model::parse(text).unwrap_or_else(|e| panic!("{e}"));
-    let results = model.study("explicit").unwrap().run().unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(results.stopped, None);
 }

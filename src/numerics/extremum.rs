@@ -139,17 +139,17 @@ impl<C: Curve> Search<'_, C> {
         let samples = self.samples;
         let values = samples.column(column);
         let magnitude = peaks::magnitude(values);
-        let mut best = values.iter().fold(f64::NEG_INFINITY, |m, y| f64::max(m, sign * y));
-        if best == f64::NEG_INFINITY {
+        let highest = values.iter().fold(f64::NEG_INFINITY, |m, y| f64::max(m, sign * y));
+        if highest == f64::NEG_INFINITY {
             return None;
         }
         // the best sample takes part whatever becomes of its peak: of noise, only the most promising peaks are looked into
-        let top = values.iter().position(|y| sign * y == best).unwrap_or(0);
-        let looked = Candidate { y: best, at: samples.places[top], piece: samples.pieces[top] };
+        let top = values.iter().position(|y| sign * y == highest).unwrap_or(0);
+        let looked = Candidate { y: highest, at: samples.places[top], piece: samples.pieces[top] };
         // the values at the ends of pieces are those of the curve
         let mut found = vec![if samples.is_end(top) { looked } else { self.exact(column, sign, looked) }];
-        best = found[0].y;
-        let mut peaks = peaks(samples, values, sign, best, &mut found);
+        let mut best = found[0].y;
+        let mut peaks = peaks(samples, values, sign, highest, &mut found);
         for (sample, bound) in peaks.iter_mut().filter(|(_, bound)| *bound >= best - tie(best, magnitude)) {
             *bound = bound.min(samples.reach(&self.polynomials, *sample, column, sign, magnitude));
         }
@@ -179,7 +179,12 @@ impl<C: Curve> Search<'_, C> {
         let level = best - tie(best, magnitude);
         let first = found.iter().filter(|c| c.y >= level).min_by(|a, b| a.at.total_cmp(&b.at).then(a.piece.cmp(&b.piece)))?;
         let sample = coarse.iter().find(|(at, piece, _)| *at == first.at && *piece == first.piece).map(|c| c.2);
-        let first = sample.and_then(|sample| self.refine(column, sign, sample).ok()).filter(|c| c.y >= level).unwrap_or(*first);
+        let first = match sample {
+            Some(sample) => self.refine(column, sign, sample).ok().filter(|c| c.y >= level).unwrap_or(*first),
+            None if self.breaks.contains(&first.at) => *first,
+            // the begin of a dwell is a sample
+            None => self.exact(column, sign, *first),
+        };
         Some(Extremum { value: sign * first.y, at: first.at, piece: first.piece })
     }
 
