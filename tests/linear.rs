@@ -1,14 +1,13 @@
 //! The linearised motion: against differences of accelerations, closed forms, and small motions in time.
 
 use crate::common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
-use grashof::dynamics::{Dynamics, LANES, Linearizer, Point};
+use grashof::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::assemble::Assembled;
 use grashof::kinematics::linear::{Linear, Reduced};
 use grashof::kinematics::partition::preferred;
-use grashof::mechanism::{Coordinates, Mechanism, Step};
+use grashof::mechanism::{Coordinates, Step};
 use grashof::results::LinearSystem;
-use grashof::scalar::Dual;
 use grashof::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
 
@@ -84,7 +83,7 @@ fn alone() -> String {
 
 /// A mechanism in its assembled start, with its accelerations.
 struct Base<G: Space<S = f64>> {
-    mechanism: Mechanism<G>,
+    mechanism: Differentiable<G>,
     start: Assembled,
     z: Vec<f64>,
     a: Vec<f64>,
@@ -94,7 +93,6 @@ struct Base<G: Space<S = f64>> {
 impl<G> Base<G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     fn new(text: &str) -> Self {
         let (mechanism, start) = assembled::<G>(text, Coordinates::Joint);
@@ -105,14 +103,13 @@ where
             d.terms(0.0, &start.q, &start.v, &start.modes);
             accelerate(&d)
         };
-        Self { mechanism, start, z, a, lambda }
+        Self { mechanism: Differentiable::new(mechanism), start, z, a, lambda }
     }
 
     fn reduced(&self) -> Reduced {
-        let lifted = self.mechanism.lift();
         let s = &self.start;
         let at = Point { t: 0.0, q: &s.q, v: &s.v, z: &self.z, a: &self.a, lambda: &self.lambda, modes: &s.modes };
-        let linear = Linear::new(&self.mechanism, &mut Linearizer::new(&lifted), &at, &s.metric).expect("regular");
+        let linear = Linear::new(&self.mechanism, &mut Linearizer::new(&self.mechanism), &at, &s.metric).expect("regular");
         linear.reduce(&preferred(&self.mechanism)).expect("regular")
     }
 
@@ -207,15 +204,13 @@ fn matrix_on_all_coordinates_is_the_derivative_of_accelerations() {
     fn check<G>(text: &str, coordinates: Coordinates)
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let mut m = mechanism::<G>(text, coordinates);
         // as many rows as leave some freedom; they need not hold in the state
         m.rows.truncate(m.nv / 2);
         let rows = m.rows.len();
         m.drives.retain(|d| d.row < rows);
-        let m = m;
-        let lifted = m.lift();
+        let m = Differentiable::new(m);
         for seed in 1..3 {
             let s = State::random(&m, seed);
             let mut d = Dynamics::new(&m);
@@ -223,7 +218,7 @@ fn matrix_on_all_coordinates_is_the_derivative_of_accelerations() {
             let (a, lambda) = accelerate(&d);
             let metric: Vec<f64> = (0..m.nv).map(|i| d.work.mass.at(i, i)).collect();
             let at = Point { t: s.t, q: &s.q, v: &s.v, z: &[], a: &a, lambda: &lambda, modes: &s.modes };
-            let matrix = Linear::new(&m, &mut Linearizer::new(&lifted), &at, &metric).expect("regular").state_matrix();
+            let matrix = Linear::new(&m, &mut Linearizer::new(&m), &at, &metric).expect("regular").state_matrix();
             for j in 0..2 * m.nv {
                 let right = slope(H, |e| {
                     let mut next = s.clone();

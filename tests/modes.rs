@@ -8,12 +8,11 @@ mod meeting;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};
-use grashof::dynamics::{Dynamics, LANES, Linearizer};
+use grashof::dynamics::{Differentiable, Dynamics, Linearizer};
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::held::{Held, Pose, settled};
 use grashof::kinematics::partition::preferred;
 use grashof::mechanism::{Coordinates, Mechanism};
-use grashof::scalar::Dual;
 use grashof::studies::common::outcome::Outcome;
 use grashof::studies::modes::damped::{damped, state_matrix};
 use grashof::studies::modes::eigen::library;
@@ -33,23 +32,21 @@ fn codes(outcome: &Outcome) -> Vec<&str> {
 }
 
 /// A mechanism in its assembled start, held there.
-fn held<S>(text: &str, coordinates: Coordinates) -> (Mechanism<S>, Vec<f64>, Vec<i32>, Held)
+fn held<S>(text: &str, coordinates: Coordinates) -> (Differentiable<S>, Vec<f64>, Vec<i32>, Held)
 where
     S: Space<S = f64>,
-    S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (m, start) = assembled::<S>(text, coordinates);
     let modes = settled(&m, [&start.q, &vec![0.0; m.nv], &m.state_starts], &start.modes);
-    let lifted = m.lift();
+    let m = Differentiable::new(m);
     let pose = Pose { q: &start.q, z: &m.state_starts, modes: &modes };
-    let held = Held::new(&m, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&m)).expect("numbers");
+    let held = Held::new(&m, &mut Linearizer::new(&m), pose, &start.metric, &preferred(&m)).expect("numbers");
     (m, start.q, modes, held)
 }
 
 fn eigenvalues<S>(text: &str, coordinates: Coordinates) -> Vec<f64>
 where
     S: Space<S = f64>,
-    S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (.., held) = held::<S>(text, coordinates);
     assert_eq!(held.circulation(), 0.0);

@@ -5,15 +5,14 @@ use super::evaluator::Evaluator;
 use super::force::{Element, Elements, PointMotion, Wrench};
 use super::simulation::Simulation;
 use super::state::{settle, sized};
-use crate::dynamics::{Dynamics, LANES};
+use crate::dynamics::{Differentiable, Dynamics};
 use crate::geometry::{Planar, Space, Spatial};
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::coordinates;
 use crate::kinematics::undefined::assembled;
-use crate::mechanism::{self, Coordinates};
+use crate::mechanism::Coordinates;
 use crate::model::{Dimensions, Model};
 use crate::results::{Failure, Unknown};
-use crate::scalar::Dual;
 use crate::studies::common::case::parameters;
 use crate::studies::common::observe::Observer;
 use crate::studies::dynamics::system::Mechanical;
@@ -40,13 +39,8 @@ enum Of {
 }
 
 #[derive(Clone, Debug)]
-struct Built<G: Space>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
-    mechanism: mechanism::Mechanism<G>,
-    /// The same on dual numbers, for exact tangents.
-    lifted: mechanism::Mechanism<G::Lift<Dual<LANES>>>,
+struct Built<G: Space<S = f64>> {
+    mechanism: Differentiable<G>,
     start: Assembled,
 }
 
@@ -260,17 +254,15 @@ impl Mechanism {
 impl<G> Built<G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     fn new(model: &Model) -> Result<Self, Failure> {
         let (mechanism, start) = assembled::<G>(model, &parameters(model), Coordinates::Joint)?;
-        let lifted = mechanism.lift();
-        Ok(Self { mechanism, lifted, start })
+        Ok(Self { mechanism: Differentiable::new(mechanism), start })
     }
 
     fn system<'m>(&'m self, model: &Model, elements: &'m [Element]) -> Box<dyn System + 'm> {
         let observer = Observer::new(model, &self.mechanism, &parameters(model), &[]);
-        let own = Box::new(Mechanical::new(&self.mechanism, &self.lifted, &self.start, observer, Vec::new()));
+        let own = Box::new(Mechanical::new(&self.mechanism, &self.start, observer, Vec::new()));
         if elements.is_empty() {
             return own;
         }

@@ -1,12 +1,10 @@
 //! A motion in time that is advanced from outside by the integrator of its study.
 
 use super::error::Error;
-use crate::dynamics::LANES;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::model::{Dimensions, Document, Forward, Kind, Model, Selection, Study};
 use crate::par;
 use crate::results::{Failure, Unknown};
-use crate::scalar::Dual;
 use crate::studies::dynamics::stepping;
 use crate::studies::loader::Loader;
 use grashof_solvers::State;
@@ -166,7 +164,6 @@ trait Flow {
 impl<G> Flow for stepping::Flow<'_, G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     fn advance(&mut self, t: f64, stop: &dyn Fn() -> bool) -> Result<(), String> {
         self.advance(t, stop)

@@ -27,5 +27,5 @@ pub use evaluator::Dynamics;
 pub use friction::slack;
 pub use patterns::{depths, friction_pattern, mass_pattern, row_pattern, tangent_pattern};
 pub use reaction::Reactions;
-pub use tangent::{LANES, Linearizer, Point, RowTangent};
+pub use tangent::{Differentiable, LANES, Linearizer, Point, RowTangent};
 pub use workspace::Workspace;

@@ -9,6 +9,8 @@ use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
 use crate::scalar::{Dual, Scalar};
 use grashof_solvers::{Coloring, Dims, Pattern, Sparsity, Tangent};
+use std::ops::Deref;
+use std::sync::OnceLock;
 
 /// Directions carried in one pass.
 pub const LANES: usize = 4;
@@ -44,10 +46,37 @@ pub struct RowTangent {
     pub acceleration_v: Vec<f64>,
 }
 
+/// A mechanism, and the same on dual numbers from when a tangent is asked for first: explicit schemes never ask.
+#[derive(Clone, Debug)]
+pub struct Differentiable<G: Space<S = f64>> {
+    mechanism: Mechanism<G>,
+    lifted: OnceLock<Mechanism<G::Lift<Dual<LANES>>>>,
+}
+
+impl<G: Space<S = f64>> Differentiable<G> {
+    /// A mechanism whose tangents may be asked for.
+    #[must_use]
+    pub fn new(mechanism: Mechanism<G>) -> Self {
+        Self { mechanism, lifted: OnceLock::new() }
+    }
+
+    fn lifted(&self) -> &Mechanism<G::Lift<Dual<LANES>>> {
+        self.lifted.get_or_init(|| self.mechanism.lift())
+    }
+}
+
+impl<G: Space<S = f64>> Deref for Differentiable<G> {
+    type Target = Mechanism<G>;
+
+    fn deref(&self) -> &Mechanism<G> {
+        &self.mechanism
+    }
+}
+
 /// Exact tangents of a mechanism; sized once, then free of allocation.
 #[derive(Clone, Debug)]
-pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
-    dynamics: Dynamics<'m, D>,
+pub struct Linearizer<'m, G: Space<S = f64>> {
+    dynamics: Dynamics<'m, G::Lift<Dual<LANES>>>,
     /// Rows that each column of K and C knows, and the places of these entries in the blocks.
     columns: Sparsity,
     places: Vec<usize>,
@@ -63,10 +92,11 @@ pub struct Linearizer<'m, D: Space<S = Dual<LANES>>> {
     r: Vec<Dual<LANES>>,
 }
 
-impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
-    /// A linearizer of the lifted mechanism.
+impl<'m, G: Space<S = f64>> Linearizer<'m, G> {
+    /// A linearizer of a mechanism.
     #[must_use]
-    pub fn new(lifted: &'m Mechanism<D>) -> Self {
+    pub fn new(mechanism: &'m Differentiable<G>) -> Self {
+        let lifted = mechanism.lifted();
         let (nq, nv, nz, rows) = (lifted.nq, lifted.nv, lifted.state_starts.len(), lifted.rows.len());
         let pattern = known_together(lifted);
         let (stored, columns) = (tangent_pattern(lifted), pattern.transposed());
@@ -82,7 +112,7 @@ impl<'m, D: Space<S = Dual<LANES>>> Linearizer<'m, D> {
         for (i, step) in lifted.steps.iter().enumerate() {
             match *step {
                 Step::Axis { v, .. } => steps[v] = i,
-                Step::Ball { v, .. } => steps[v..v + D::SPIN].fill(i),
+                Step::Ball { v, .. } => steps[v..v + G::SPIN].fill(i),
             }
         }
         let zeros = |n: usize| vec![Dual::constant(0.0); n];

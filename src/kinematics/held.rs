@@ -17,10 +17,9 @@
 
 use super::linear::Singular;
 use super::partition::Partition;
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
+use crate::dynamics::{Dynamics, Linearizer, Point};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
-use crate::scalar::Dual;
 use grashof_solvers::{Block, Tangent};
 use nalgebra::{DMatrix, DVector};
 
@@ -74,14 +73,13 @@ impl Held {
     /// If forces are not numbers in the pose.
     pub fn new<G>(
         mechanism: &Mechanism<G>,
-        linearizer: &mut Linearizer<'_, G::Lift<Dual<LANES>>>,
+        linearizer: &mut Linearizer<'_, G>,
         pose: Pose<'_>,
         metric: &[f64],
         preferred: &[usize],
     ) -> Result<Self, Singular>
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let (nv, rows, nz) = (mechanism.nv, mechanism.rows.len(), pose.z.len());
         let rest = vec![0.0; nv];

@@ -22,10 +22,9 @@
 //! Planar Multibody Dynamics, section 14.3, without the second-order terms).
 
 use super::partition::Partition;
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point, RowTangent};
+use crate::dynamics::{Dynamics, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
-use crate::scalar::Dual;
 use grashof_solvers::{Block, Kkt, Tangent};
 use nalgebra::DMatrix;
 
@@ -73,15 +72,9 @@ impl Linear {
     ///
     /// # Errors
     /// If the mass matrix is singular on the motions that are left.
-    pub fn new<G>(
-        mechanism: &Mechanism<G>,
-        linearizer: &mut Linearizer<'_, G::Lift<Dual<LANES>>>,
-        at: &Point<'_>,
-        metric: &[f64],
-    ) -> Result<Self, Singular>
+    pub fn new<G>(mechanism: &Mechanism<G>, linearizer: &mut Linearizer<'_, G>, at: &Point<'_>, metric: &[f64]) -> Result<Self, Singular>
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let (nv, rows, nz) = (mechanism.nv, mechanism.rows.len(), at.z.len());
         let mut dynamics = Dynamics::new(mechanism);

@@ -12,11 +12,10 @@ use super::coordinates::{Coordinate, coordinates};
 use super::held::{Pose, geodesic};
 use super::linear::Singular;
 use super::saddle::Saddle;
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
+use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, Row, RowKind, RowOwner, Start};
 use crate::model::{Model, coordinates_of};
-use crate::scalar::Dual;
 use grashof_solvers::rank::RANK_TOLERANCE;
 use grashof_solvers::{Block, Elimination, Kkt, Sparsity, Tangent};
 use std::collections::HashSet;
@@ -153,7 +152,6 @@ impl HeldSparse {
     pub fn new<G>(model: &Model, mechanism: &Mechanism<G>, pose: Pose<'_>, metric: &[f64]) -> Result<Self, Singular>
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let (rows, nv) = (mechanism.rows.len(), mechanism.nv);
         let mut candidates = of_joints(model, mechanism);
@@ -180,8 +178,7 @@ impl HeldSparse {
             modes[side] = if modes[side] < 0 { 1 } else { -1 };
         }
         let at = Point { t: 0.0, q: pose.q, v: &rest, z: pose.z, a: &rest, lambda: &lambda[..of_rows], modes: &modes };
-        let lifted = held.mechanism.lift();
-        let mut linearizer = Linearizer::new(&lifted);
+        let mut linearizer = Linearizer::new(&held.mechanism);
         let mut tangent = Tangent::new(&linearizer.pattern(pose.z.len()));
         linearizer.tangents(&at, &mut tangent);
         if !tangent.is_finite() {
@@ -275,9 +272,9 @@ fn independent<G: Space<S = f64>>(
 }
 
 /// The rows of a mechanism in a pose, and those of coordinates that are held.
-struct Rows<G: Space> {
+struct Rows<G: Space<S = f64>> {
     /// The mechanism with rows for the coordinates that gauges measure.
-    mechanism: Mechanism<G>,
+    mechanism: Differentiable<G>,
     /// G, then the rows of the coordinates, in their order.
     block: Block,
     /// Their squares by the metric: diag(G D⁻¹ Gᵀ).
@@ -330,7 +327,7 @@ impl<G: Space<S = f64>> Rows<G> {
         let mut block = Block::new(&Sparsity::new(scale.len(), with.nv, entries.iter().map(|(i, j, _)| (*i, *j))));
         entries.iter().for_each(|(i, j, x)| block.set(*i, *j, *x));
         let (force, mass, phi) = (work.force.clone(), work.mass.clone(), work.phi.clone());
-        Ok(Self { mechanism: with, block, scale, force, mass, phi })
+        Ok(Self { mechanism: Differentiable::new(with), block, scale, force, mass, phi })
     }
 
     /// λ and h with Gᵀλ + Sᵀh = f, of least size where rows are redundant: what holds the mechanism, so that nothing accelerates.

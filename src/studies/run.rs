@@ -2,12 +2,10 @@
 
 use super::common::case::Case;
 use super::{driven, dynamics, linearize, modes, periodic, statics};
-use crate::dynamics::LANES;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::Coordinates;
 use crate::model::{Dimensions, Kind, Model, Study};
 use crate::results::{Failure, Finding};
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 
 /// Runs a study once, whatever its kind.
@@ -85,7 +83,6 @@ fn forgotten_mass(model: &Model, study: &Study) -> Option<Finding> {
 fn in_space<G>(case: Case<'_>, coordinates: Coordinates, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     match &case.study.kind {
         Kind::Kinematics(range) | Kind::Inverse(range) | Kind::Balance { range, .. } => driven::run::<G>(case, range, coordinates),

@@ -2,10 +2,9 @@
 
 use super::{close, done, drift, last};
 use crate::common::{Noise, State, mechanism, slope};
-use grashof::dynamics::{Dynamics, LANES, Linearizer, Point, friction_pattern};
+use grashof::dynamics::{Differentiable, Dynamics, Linearizer, Point, friction_pattern};
 use grashof::geometry::{Planar, Space, Spatial};
-use grashof::mechanism::{Coordinates, Mechanism};
-use grashof::scalar::Dual;
+use grashof::mechanism::Coordinates;
 use grashof_solvers::{Block, Tangent};
 
 /// A slider-crank with friction in its guide and in the pin of its rod.
@@ -111,10 +110,8 @@ fn inverse_dynamics_asks_for_what_motion_in_time_needs() {
 fn tangents<G>(text: &str)
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    let m: Mechanism<G> = mechanism(text, Coordinates::Joint);
-    let lifted = m.lift::<Dual<LANES>>();
+    let m: Differentiable<G> = Differentiable::new(mechanism(text, Coordinates::Joint));
     let (nv, rows, nz) = (m.nv, m.rows.len(), m.state_starts.len());
     for seed in 1..4 {
         let s = State::random(&m, seed);
@@ -129,7 +126,7 @@ where
             d.residual(&s.a, lambda, &mut r);
             r
         };
-        let mut linearizer = Linearizer::new(&lifted);
+        let mut linearizer = Linearizer::new(&m);
         let mut tangent = Tangent::new(&linearizer.pattern(nz));
         linearizer.tangents(&Point { t: s.t, q: &s.q, v: &s.v, z: &z, a: &s.a, lambda: &s.lambda, modes: &modes }, &mut tangent);
         for k in 0..nv {

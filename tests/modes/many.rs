@@ -3,13 +3,11 @@
 use super::chains::{chain, row};
 use super::{TWO_BALLS, codes, four_bar, held, list};
 use crate::common::{assembled, close, model, study};
-use grashof::dynamics::LANES;
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::held::{Pose, settled};
 use grashof::kinematics::lowest::lowest;
 use grashof::kinematics::pencil::HeldSparse;
 use grashof::mechanism::Coordinates;
-use grashof::scalar::Dual;
 use grashof::studies::modes::eigen::library;
 use std::f64::consts::PI;
 
@@ -17,7 +15,6 @@ use std::f64::consts::PI;
 pub(super) fn sparse<S>(text: &str, coordinates: Coordinates) -> HeldSparse
 where
     S: Space<S = f64>,
-    S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (m, start) = assembled::<S>(text, coordinates);
     let modes = settled(&m, [&start.q, &vec![0.0; m.nv], &m.state_starts], &start.modes);
@@ -29,7 +26,6 @@ where
 fn agree<S>(text: &str, all: &[Coordinates], tolerance: f64)
 where
     S: Space<S = f64>,
-    S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (.., full) = held::<S>(text, Coordinates::Joint);
     let right = library(&full.stiffness, &full.mass).expect("masses").values;

@@ -4,11 +4,9 @@ use super::chains::{chain, row};
 use super::many::sparse;
 use super::{codes, four_bar, held, list};
 use crate::common::{close, study};
-use grashof::dynamics::LANES;
 use grashof::geometry::{Planar, Space, Spatial};
 use grashof::kinematics::lowest_damped::{LowestDamped, growing, lowest_damped};
 use grashof::mechanism::Coordinates;
-use grashof::scalar::Dual;
 use grashof::studies::common::outcome::Outcome;
 use grashof::studies::modes::damped::{damped, state_matrix};
 use nalgebra::Complex;
@@ -68,7 +66,6 @@ fn a_long_row_with_dampers_has_the_roots_of_its_sines() {
 fn agree<S>(text: &str, all: &[Coordinates], count: usize, tolerance: f64)
 where
     S: Space<S = f64>,
-    S::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (.., full) = held::<S>(text, Coordinates::Joint);
     let right = damped(&state_matrix(&full, true).expect("masses"), full.mass.nrows()).expect("numbers");

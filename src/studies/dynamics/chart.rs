@@ -7,12 +7,10 @@ use super::explain;
 use super::phases::Phases;
 use super::setup::Plan;
 use super::system::Mechanical;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, RowOwner};
 use crate::model::Study;
 use crate::results::Failure;
-use crate::scalar::Dual;
 use grashof_solvers::minimal::Minimal;
 use grashof_solvers::{Control, Halt, Integration, Method, Node, Settings, State, System};
 
@@ -22,9 +20,9 @@ const BRIDGE: f64 = 1e-9;
 /// The system that is integrated.
 pub(super) enum Charted<'m, G: Space<S = f64>> {
     /// With all coordinates.
-    Whole(Box<Mechanical<'m, G, G::Lift<Dual<LANES>>>>),
+    Whole(Box<Mechanical<'m, G>>),
     /// With independent ones alone, or with all while a singular position is bridged.
-    Minimal { system: Box<Minimal<Mechanical<'m, G, G::Lift<Dual<LANES>>>>>, bridging: bool },
+    Minimal { system: Box<Minimal<Mechanical<'m, G>>>, bridging: bool },
 }
 
 impl<'m, G: Space<S = f64>> Charted<'m, G> {
@@ -36,7 +34,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
     pub(super) fn new(
         study: &Study,
         plan: &Plan,
-        system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        system: Mechanical<'m, G>,
         phase: &Phases<G>,
         state: &State,
         sound: &mut f64,
@@ -73,7 +71,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
         }
     }
 
-    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G, G::Lift<Dual<LANES>>> {
+    pub(super) fn mechanical(&mut self) -> &mut Mechanical<'m, G> {
         match self {
             Self::Whole(system) => system,
             Self::Minimal { system, .. } => system.inner_mut(),

@@ -5,11 +5,9 @@
 //! Φ − G G⁺ Φ; beside constraints that drift, or in a singular position, that part is of second order.
 
 use super::system::Mechanical;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::RowKind;
 use crate::numerics::least_squares::shortest;
-use crate::scalar::Dual;
 
 /// Residuals, in rad and sizes, up to which a scheme may leave the constraints open.
 const OPEN: f64 = 1e-6;
@@ -19,10 +17,9 @@ const OUT_OF_REACH: f64 = 0.1;
 
 /// Which constraints contradict the others at the state that was observed last, at time `t`, in words; `size` is that of the
 /// mechanism, m.
-pub(super) fn explain<G, D>(system: &Mechanical<'_, G, D>, size: f64, t: f64) -> Option<String>
+pub(super) fn explain<G>(system: &Mechanical<'_, G>, size: f64, t: f64) -> Option<String>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let (m, w) = (system.dynamics.mechanism, &system.dynamics.work);
     let scale: Vec<f64> = m.rows.iter().map(|row| if row.angular { 1.0 } else { size.recip() }).collect();

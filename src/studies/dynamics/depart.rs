@@ -9,11 +9,9 @@
 use super::phases::Phases;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::kinematics::standing::place;
 use crate::numerics::least_squares::{left_open, shortest};
-use crate::scalar::Dual;
 use grashof_solvers::{Dense, Engine, Node, Span, Stage, State, System, Terms};
 use nalgebra::{DMatrix, DVector};
 
@@ -54,8 +52,8 @@ impl Departure {
     /// Adds the step, which ends in the node `to`, to a trajectory.
     pub(super) fn record<'m, G: Space<S = f64>>(
         &self,
-        trajectory: &mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
-        system: &mut Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        trajectory: &mut Trajectory<'m, G>,
+        system: &mut Mechanical<'m, G>,
         engine: &mut Engine,
         dense: &mut Dense,
         to: &Node,
@@ -85,7 +83,7 @@ struct Rates {
 
 /// The mechanism beside a change point.
 struct Beside<'a, 'm, G: Space<S = f64>> {
-    system: &'a mut Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+    system: &'a mut Mechanical<'m, G>,
     terms: Terms,
     /// D and lengths of rows, by which rows are scaled.
     metric: Vec<f64>,
@@ -97,7 +95,7 @@ struct Beside<'a, 'm, G: Space<S = f64>> {
 /// The step away from the start of a phase, if that is a change point from which something moves.
 pub(super) fn depart<'m, G: Space<S = f64>>(
     phase: &Phases<G>,
-    system: &mut Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+    system: &mut Mechanical<'m, G>,
     start: &State,
     until: f64,
 ) -> Option<Departure> {

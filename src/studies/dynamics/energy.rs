@@ -6,10 +6,8 @@
 use super::setup::Plan;
 use super::system::{Mechanical, Root, WORKS};
 use super::trajectory::Trajectory;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::results::{Certificate, Finding, March};
-use crate::scalar::Dual;
 use grashof_solvers::{Control, Counts, Integration, Node};
 
 /// What a phase begins with.
@@ -60,10 +58,9 @@ pub(super) struct Balance {
 }
 
 /// Kinetic and whole energy at a node, J.
-fn energy<G, D>(system: &mut Mechanical<'_, G, D>, node: &Node) -> [f64; 2]
+fn energy<G>(system: &mut Mechanical<'_, G>, node: &Node) -> [f64; 2]
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     system.observe(&node.state.at(), &node.a, &node.lambda);
     let d = &mut system.dynamics;
@@ -75,10 +72,9 @@ where
 
 impl Balance {
     /// Begins a phase at a node; energies that change because parameters do count as done by the event.
-    pub(super) fn begin<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, begins: Begins)
+    pub(super) fn begin<G>(&mut self, system: &mut Mechanical<'_, G>, node: &Node, begins: Begins)
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         let [kinetic, e] = energy(system, node);
         match begins {
@@ -103,10 +99,9 @@ impl Balance {
     }
 
     /// Looks at the energy of a node, if it is time to; whether it has, which leaves the system at the node.
-    pub(super) fn step<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, until: f64) -> bool
+    pub(super) fn step<G>(&mut self, system: &mut Mechanical<'_, G>, node: &Node, until: f64) -> bool
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         let t = node.state.t;
         if t < self.next && t < until {
@@ -117,10 +112,9 @@ impl Balance {
         true
     }
 
-    fn look<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node)
+    fn look<G>(&mut self, system: &mut Mechanical<'_, G>, node: &Node)
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         for ((work, before), now) in self.work.iter_mut().zip(&self.before).zip(&node.state.work) {
             *work = before + now;
@@ -134,10 +128,9 @@ impl Balance {
     }
 
     /// Energy that a blow took, from the sides before and after it; `crossed` are the roots that were met: end stops, or events.
-    pub(super) fn jump<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, [before, after]: [&Node; 2], crossed: &[usize])
+    pub(super) fn jump<G>(&mut self, system: &mut Mechanical<'_, G>, [before, after]: [&Node; 2], crossed: &[usize])
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         if before.state.v != after.state.v {
             let [_, e0] = energy(system, before);
@@ -157,10 +150,9 @@ impl Balance {
     }
 
     /// Ends a phase.
-    pub(super) fn end<G, D>(&mut self, system: &mut Mechanical<'_, G, D>, node: &Node, run: &Integration, inner: Counts)
+    pub(super) fn end<G>(&mut self, system: &mut Mechanical<'_, G>, node: &Node, run: &Integration, inner: Counts)
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         self.look(system, node);
         self.counts += inner;
@@ -244,14 +236,13 @@ fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<F
 pub(crate) const SAMPLES: usize = 128;
 
 /// Largest residuals over rows of a run: how many rows it has, and time and piece of some of them.
-pub(crate) fn residuals<G, D>(
-    trajectory: &mut Trajectory<'_, G, D>,
+pub(crate) fn residuals<G>(
+    trajectory: &mut Trajectory<'_, G>,
     (count, rows): (usize, impl Iterator<Item = (f64, usize)>),
     mut certificate: Certificate,
 ) -> Certificate
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     certificate.evaluations = count;
     let mut velocity: f64 = 0.0;

@@ -3,22 +3,20 @@
 use super::phases::Phases;
 use super::setup::Plan;
 use super::system::{Mechanical, Met, Root};
-use crate::dynamics::{Dynamics, LANES};
+use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
 use crate::kinematics::undefined::{Gap, meeting};
 use crate::mechanism::{BuildFault, Contact, Mechanism};
 use crate::model::{Model, Parameter, Study};
 use crate::results::{Failure, Finding, Happened, Undefined};
-use crate::scalar::Dual;
 use grashof_solvers::minimal::Refused;
 use grashof_solvers::{Control, Halt, Why};
 
 /// Why a run has stopped on its way.
-pub(super) fn halt<G, D>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G, D>, plan: &Plan, halt: &Halt) -> String
+pub(super) fn halt<G>(model: &Model, mechanism: &Mechanism<G>, system: &Mechanical<'_, G>, plan: &Plan, halt: &Halt) -> String
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let t = halt.t;
     let fixed = matches!(plan.settings.control, Control::Steps(_));
@@ -58,10 +56,9 @@ where
 }
 
 /// What has no value in the state that was evaluated last, at a time.
-pub(super) fn undefined<G, D>(model: &Model, study: &Study, system: &mut Mechanical<'_, G, D>, modes: &[i32], t: f64) -> Option<Undefined>
+pub(super) fn undefined<G>(model: &Model, study: &Study, system: &mut Mechanical<'_, G>, modes: &[i32], t: f64) -> Option<Undefined>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let at = format!("t = {t:.6} s");
     let law = system.dynamics.undefined(modes).map(|law| Gap::Law(law).explain(model, study, &at));
@@ -179,10 +176,9 @@ fn name_of_velocity<G: Space>(mechanism: &Mechanism<G>, v: usize) -> String {
 }
 
 /// A root in words.
-fn root_name<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize) -> String
+fn root_name<G>(model: &Model, system: &Mechanical<'_, G>, root: usize) -> String
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let m = system.dynamics.mechanism;
     let switch = match system.roots.get(root) {
@@ -213,10 +209,9 @@ pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
 }
 
 /// That a condition changed faster than it could be resolved, first at time `t` (s).
-pub(super) fn unresolved<G, D>(model: &Model, system: &Mechanical<'_, G, D>, root: usize, t: f64) -> Finding
+pub(super) fn unresolved<G>(model: &Model, system: &Mechanical<'_, G>, root: usize, t: f64) -> Finding
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let name = root_name(model, system, root);
     Finding {

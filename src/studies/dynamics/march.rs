@@ -12,14 +12,12 @@ use super::setup::Plan;
 use super::system::{Mechanical, Met};
 use super::trajectory::Trajectory;
 use super::watch::{swept, watched};
-use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::held::settled;
 use crate::kinematics::undefined::in_state;
 use crate::model::{Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
-use crate::scalar::Dual;
 use crate::studies::common::case::{Case, parameters_with};
 use crate::studies::common::observe::Observer;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System, Zeno};
@@ -29,7 +27,7 @@ const PARTS: usize = 10;
 
 /// What a run has left.
 pub(crate) struct Recorded<'m, G: Space<S = f64>> {
-    pub(crate) trajectory: Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    pub(crate) trajectory: Trajectory<'m, G>,
     pub(crate) stopped: Option<String>,
     /// What has no value, if that has stopped it.
     pub(crate) undefined: Option<Undefined>,
@@ -56,7 +54,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     let follow = !plan.settings.locate;
     let machine = |phase: &'m Phases<G>| {
         let observer = Observer::new(model, &phase.mechanism, &phase.parameters, &all);
-        Mechanical::new(&phase.mechanism, &phase.lifted, &phase.start, observer, watched.clone())
+        Mechanical::new(&phase.mechanism, &phase.start, observer, watched.clone())
     };
     let first = machine(phases);
     let dims = first.dims();
@@ -147,7 +145,7 @@ struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
     study: &'a Study,
     plan: &'a Plan,
     stop: &'a dyn Fn() -> bool,
-    trajectory: &'a mut Trajectory<'m, G, G::Lift<Dual<LANES>>>,
+    trajectory: &'a mut Trajectory<'m, G>,
     rows: Option<&'a mut Rows<'r>>,
     events: Vec<Happened>,
     balance: Balance,
@@ -178,7 +176,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
         &mut self,
         phases: &'m Phases<G>,
         parameters: &[f64],
-        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G>,
         state: &mut State,
     ) -> Result<Option<&'m Phases<G>>, Failure> {
         let coordinates = self.plan.coordinates;
@@ -205,12 +203,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
     }
 
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
-    fn phase(
-        &mut self,
-        phase: &'m Phases<G>,
-        mut system: Mechanical<'m, G, G::Lift<Dual<LANES>>>,
-        state: &mut State,
-    ) -> Result<After, Failure> {
+    fn phase(&mut self, phase: &'m Phases<G>, mut system: Mechanical<'m, G>, state: &mut State) -> Result<After, Failure> {
         let first = self.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));

@@ -29,14 +29,12 @@ use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
-use crate::dynamics::LANES;
 use crate::geometry::{Planar, Pose, Space, Spatial};
 use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, Resolution};
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use energy::SAMPLES;
 use march::Recorded;
@@ -54,7 +52,6 @@ const MOST_NUMBERS: f64 = 5e8;
 pub(crate) fn run<G>(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, parameters, .. } = case;
     let plan = setup::plan(case, forward)?;
@@ -139,7 +136,6 @@ pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)
     fn in_space<G>(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)) -> Result<Unrecorded, Failure>
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let plan = setup::plan(case, forward)?;
         let phases = Phases::<G>::new(case.model, case.parameters, plan.coordinates)?;
@@ -166,8 +162,8 @@ struct Seen<'a> {
 }
 
 /// Rows, extremes and functionals of a motion.
-fn see<'a, G, D>(
-    trajectory: &mut Trajectory<'_, G, D>,
+fn see<'a, G>(
+    trajectory: &mut Trajectory<'_, G>,
     case: Case<'a>,
     watched: &Watched,
     plan: &setup::Plan,
@@ -175,7 +171,6 @@ fn see<'a, G, D>(
 ) -> Result<Seen<'a>, Off>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let breaks = trajectory.breaks();
     let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return Err(Off { at: 0.0, gap: None }) };
@@ -195,10 +190,9 @@ where
 }
 
 /// Poses of the bodies at a time.
-pub(crate) fn pose<G, D>(trajectory: &mut Trajectory<'_, G, D>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
+pub(crate) fn pose<G>(trajectory: &mut Trajectory<'_, G>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
     trajectory.place(t, piece).ok()?;

@@ -6,14 +6,13 @@
 
 use super::phases::Phases;
 use super::setup::Plan;
-use crate::dynamics::{LANES, Linearizer, Point};
+use crate::dynamics::{Linearizer, Point};
 use crate::geometry::Space;
 use crate::kinematics::coordinates::coordinates;
 use crate::kinematics::linear::Linear;
 use crate::kinematics::partition::preferred;
 use crate::model::{Family, Model};
 use crate::numerics::eigenvalues::measurable;
-use crate::scalar::Dual;
 use crate::studies::modes::damped::damped;
 use grashof_solvers::{Control, Node};
 use nalgebra::Complex;
@@ -71,7 +70,6 @@ impl Slow {
     pub(super) fn explain<G>(&self, model: &Model, phase: &Phases<G>, plan: &Plan, node: &Node) -> String
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         let t = node.state.t;
         let (count, why) = match self {
@@ -112,7 +110,6 @@ fn pace_of(value: Complex<f64>) -> String {
 fn fastest<G>(model: &Model, phase: &Phases<G>, node: &Node) -> Option<(String, Complex<f64>)>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let (m, s) = (&phase.mechanism, &node.state);
     if m.nv > MOST_VELOCITIES {
@@ -120,7 +117,7 @@ where
     }
     let modes = &s.modes[..m.switches + m.windings];
     let at = Point { t: s.t, q: &s.q, v: &s.v, z: &s.z, a: &node.a, lambda: &node.lambda, modes };
-    let linear = Linear::new(m, &mut Linearizer::new(&phase.lifted), &at, &phase.start.metric).ok()?;
+    let linear = Linear::new(m, &mut Linearizer::new(&phase.mechanism), &at, &phase.start.metric).ok()?;
     let reduced = linear.reduce(&preferred(m)).ok()?;
     let own = &reduced.partition.independent;
     if !measurable(&reduced.a) {

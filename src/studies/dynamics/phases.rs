@@ -1,13 +1,12 @@
 //! The mechanisms of a run: one for all parameters, stops on which joints rest and contacts that stick, from one change to the next.
 
-use crate::dynamics::LANES;
+use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::undefined::assembled;
 use crate::mechanism::{Coordinates, Mechanism, build};
 use crate::model::Model;
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::stops;
 use std::cell::OnceCell;
 
@@ -23,10 +22,9 @@ pub(super) struct Holds {
     pub(super) held: Vec<usize>,
 }
 
-/// A mechanism with the same on dual numbers, at given parameters and holds; and those that the run came to need after it.
+/// A mechanism at given parameters and holds; and those that the run came to need after it.
 pub(crate) struct Phases<G: Space<S = f64>> {
-    pub(crate) mechanism: Mechanism<G>,
-    pub(crate) lifted: Mechanism<G::Lift<Dual<LANES>>>,
+    pub(crate) mechanism: Differentiable<G>,
     pub(crate) parameters: Vec<f64>,
     pub(crate) start: Assembled,
     holds: Holds,
@@ -41,8 +39,8 @@ impl<G: Space<S = f64>> Phases<G> {
     pub(crate) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
         stops::begins(model, &mechanism, &start)?;
-        let lifted = mechanism.lift();
-        Ok(Self { mechanism, lifted, parameters: parameters.to_vec(), start, holds: Holds::default(), next: OnceCell::new() })
+        let mechanism = Differentiable::new(mechanism);
+        Ok(Self { mechanism, parameters: parameters.to_vec(), start, holds: Holds::default(), next: OnceCell::new() })
     }
 
     /// The first phase.
@@ -73,15 +71,15 @@ impl<G: Space<S = f64>> Phases<G> {
             return Err(Failure::numerical(message, "end the run before, or let parameters take fewer values"));
         }
         let mut mechanism = match same {
-            Some(same) => same.mechanism.clone(),
+            Some(same) => Mechanism::clone(&same.mechanism),
             None => build::<G>(model, parameters, coordinates).map_err(Failure::Model)?,
         };
         self.anchor(&mut mechanism);
         holds.resting.iter().for_each(|stop| mechanism.rest(*stop));
         holds.held.iter().for_each(|contact| mechanism.hold(*contact));
-        let lifted = mechanism.lift();
+        let mechanism = Differentiable::new(mechanism);
         let (parameters, start) = (parameters.to_vec(), self.start.clone());
-        let next = Self { mechanism, lifted, parameters, start, holds: holds.clone(), next: OnceCell::new() };
+        let next = Self { mechanism, parameters, start, holds: holds.clone(), next: OnceCell::new() };
         Ok(phase.next.get_or_init(|| Box::new(next)))
     }
 
@@ -92,9 +90,9 @@ impl<G: Space<S = f64>> Phases<G> {
     pub(super) fn anew(&self, model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let mut mechanism = build::<G>(model, parameters, coordinates).map_err(Failure::Model)?;
         self.anchor(&mut mechanism);
-        let lifted = mechanism.lift();
+        let mechanism = Differentiable::new(mechanism);
         let (parameters, start) = (parameters.to_vec(), self.start.clone());
-        Ok(Self { mechanism, lifted, parameters, start, holds: Holds::default(), next: OnceCell::new() })
+        Ok(Self { mechanism, parameters, start, holds: Holds::default(), next: OnceCell::new() })
     }
 
     fn anchor(&self, mechanism: &mut Mechanism<G>) {

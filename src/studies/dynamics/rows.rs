@@ -1,10 +1,8 @@
 //! The rows of a motion in time, taken while it runs.
 
 use super::trajectory::{Off, Trajectory};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::continuous::Curve;
-use crate::scalar::Dual;
 use crate::studies::common::recorder::Recorder;
 
 /// Part of the output step by which a row of the grid must be inside of its piece.
@@ -30,10 +28,9 @@ impl<'a> Rows<'a> {
     }
 
     /// Takes the rows up to the last step, the end of which may still become a part of a longer one.
-    pub(crate) fn follow<G, D>(&mut self, trajectory: &mut Trajectory<'_, G, D>)
+    pub(crate) fn follow<G>(&mut self, trajectory: &mut Trajectory<'_, G>)
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         self.take(trajectory, false);
     }
@@ -42,10 +39,9 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// The first row without a value.
-    pub(crate) fn finish<G, D>(mut self, trajectory: &mut Trajectory<'_, G, D>) -> Result<Recorder<'a>, Off>
+    pub(crate) fn finish<G>(mut self, trajectory: &mut Trajectory<'_, G>) -> Result<Recorder<'a>, Off>
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         self.take(trajectory, true);
         match self.off {
@@ -55,10 +51,9 @@ impl<'a> Rows<'a> {
     }
 
     /// Takes the rows of finished pieces, and of the last one as far as it has come or, where the motion has ended, to its end.
-    fn take<G, D>(&mut self, trajectory: &mut Trajectory<'_, G, D>, ended: bool)
+    fn take<G>(&mut self, trajectory: &mut Trajectory<'_, G>, ended: bool)
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         while self.off.is_none() && self.piece < trajectory.pieces() {
             let closed = ended || self.piece + 1 < trajectory.pieces();
@@ -76,10 +71,9 @@ impl<'a> Rows<'a> {
     }
 
     /// Takes the rows of the present piece.
-    fn piece<G, D>(&mut self, trajectory: &mut Trajectory<'_, G, D>, [from, to]: [f64; 2], closed: bool) -> Result<(), Off>
+    fn piece<G>(&mut self, trajectory: &mut Trajectory<'_, G>, [from, to]: [f64; 2], closed: bool) -> Result<(), Off>
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         let mut next = match self.next {
             Some(next) => next,
@@ -115,10 +109,9 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    fn row<G, D>(&mut self, trajectory: &mut Trajectory<'_, G, D>, t: f64) -> Result<(), Off>
+    fn row<G>(&mut self, trajectory: &mut Trajectory<'_, G>, t: f64) -> Result<(), Off>
     where
         G: Space<S = f64>,
-        D: Space<S = Dual<LANES>>,
     {
         self.out.resize(trajectory.columns(), 0.0);
         trajectory.row(t, self.piece, &mut self.out)?;

@@ -8,12 +8,10 @@ use super::phases::Phases;
 use super::setup::{Plan, plan};
 use super::system::Mechanical;
 use super::watch::swept;
-use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{Forward, Model, Study};
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::case::{Case, parameters, parameters_with};
 use crate::studies::common::observe::Observer;
 use grashof_solvers::{Halt, Integration, Node, Progress, Settings, State, System};
@@ -29,7 +27,6 @@ pub(crate) struct Stepping<G: Space<S = f64>> {
 impl<G> Stepping<G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     /// The mechanism at the start.
     ///
@@ -71,7 +68,7 @@ where
         let phases = &self.phases;
         let ids: Vec<Id> = study.columns.iter().map(|column| column.value).collect();
         let observer = Observer::new(model, &phases.mechanism, &phases.parameters, &ids);
-        let mut system = Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, Vec::new());
+        let mut system = Mechanical::new(&phases.mechanism, &phases.start, observer, Vec::new());
         let mut node = Node::new(system.dims());
         let mut state = from.cloned().unwrap_or_else(|| begin(phases, system.dims()));
         if from.is_none()
@@ -103,7 +100,6 @@ pub(crate) struct Flow<'m, G: Space<S = f64>> {
 impl<G> Flow<'_, G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     /// Integrates to a time, s; `stop` is asked between steps, and ends it where it is.
     ///

@@ -28,10 +28,9 @@ mod seen;
 mod sticking;
 mod works;
 
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point, Reactions, friction_pattern, tangent_pattern};
+use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point, Reactions, friction_pattern, tangent_pattern};
 use crate::geometry::Space;
-use crate::mechanism::{Measured, Mechanism, Row, RowOwner};
-use crate::scalar::Dual;
+use crate::mechanism::{Measured, Row, RowOwner};
 use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
@@ -42,12 +41,14 @@ use seen::Seen;
 pub(super) use works::WORKS;
 
 /// A mechanism with its columns and events.
-pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+pub(crate) struct Mechanical<'m, G: Space<S = f64>> {
     pub(crate) dynamics: Dynamics<'m, G>,
     pub(crate) observer: Observer<G>,
     pub(super) reactions: Reactions<G>,
     pub(crate) roots: Vec<Root>,
-    linearizer: Linearizer<'m, D>,
+    /// The mechanism, and its tangents from when they are asked for first.
+    mechanism: &'m Differentiable<G>,
+    linearizer: Option<Linearizer<'m, G>>,
     dims: Dims,
     pattern: Pattern,
     events: Vec<Watched>,
@@ -55,10 +56,10 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     timed: Vec<Timed>,
     /// The inputs of the programs of the mechanism, where all roots are decided by the numbers of a state alone.
     direct: Option<Vec<Vec<(usize, Source)>>>,
-    kkt: Kkt,
-    friction: Option<Friction>,
-    /// Terms of the own solution where friction depends on reactions.
-    terms: Terms,
+    /// The own solution, from when it is asked for first.
+    kkt: Option<Kkt>,
+    /// That where friction depends on reactions, with its terms.
+    friction: Option<(Friction, Terms)>,
     /// Size of the mechanism, m.
     size: f64,
     /// How near to each rigid stop counts as on it, rad or m.
@@ -84,15 +85,13 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     outputs: Vec<f64>,
 }
 
-impl<'m, G, D> Mechanical<'m, G, D>
+impl<'m, G> Mechanical<'m, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
-    /// The system of a mechanism and the same lifted; scales are those of an assembled start.
+    /// The system of a mechanism; scales are those of an assembled start.
     pub(crate) fn new(
-        mechanism: &'m Mechanism<G>,
-        lifted: &'m Mechanism<D>,
+        mechanism: &'m Differentiable<G>,
         start: &crate::kinematics::assemble::Assembled,
         observer: Observer<G>,
         events: Vec<Watched>,
@@ -188,18 +187,17 @@ where
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
         };
-        let kkt = Kkt::of_pattern(&pattern);
         let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
         let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
         Self {
             reactions: dynamics.reactions(),
-            linearizer: Linearizer::new(lifted),
+            linearizer: None,
+            mechanism,
             outputs: vec![0.0; observer.program().outputs()],
             inputs: vec![0.0; most(|p| p.inputs)],
             registers: vec![0.0; most(|p| p.program.registers())],
             scratch: vec![0.0; switches],
-            friction: Friction::of_pattern(dims, &pattern),
-            terms: Terms::new(dims, &pattern),
+            friction: Friction::of_pattern(dims, &pattern).map(|friction| (friction, Terms::new(dims, &pattern))),
             a: vec![0.0; nv],
             lambda: vec![0.0; rows],
             size: start.size,
@@ -219,7 +217,7 @@ where
             events,
             timed,
             direct,
-            kkt,
+            kkt: None,
         }
     }
 
@@ -260,10 +258,9 @@ where
     }
 }
 
-impl<G, D> System for Mechanical<'_, G, D>
+impl<G> System for Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     fn dims(&self) -> Dims {
         self.dims
@@ -324,7 +321,7 @@ where
 
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
         let point = Point { t: at.t, q: at.q, v: at.v, z: at.z, a, lambda, modes: at.modes };
-        self.linearizer.tangents(&point, out);
+        self.linearizer.get_or_insert_with(|| Linearizer::new(self.mechanism)).tangents(&point, out);
         if self.friction.is_some() {
             self.kinematics(&at);
             self.loads(&at);

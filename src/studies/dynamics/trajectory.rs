@@ -1,12 +1,10 @@
 //! A motion in time as a curve: the continuous solution of every step, evaluated anywhere.
 
 use super::system::Mechanical;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::kinematics::undefined::Gap;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::{FIRST_PANELS, Resolved};
-use crate::scalar::Dual;
 use grashof_solvers::{Control, Dense, Engine, Node, Sigma, Stage, System};
 
 /// Below this smallest singular value of the scaled rows a position is next to singular: errors of the state are multiplied by its
@@ -45,9 +43,9 @@ struct Piece {
 }
 
 /// A mechanism at the parameters that hold from one change of them to the next, to evaluate states with.
-pub(crate) struct PhaseSystem<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
+pub(crate) struct PhaseSystem<'m, G: Space<S = f64>> {
     key: usize,
-    pub(crate) system: Mechanical<'m, G, D>,
+    pub(crate) system: Mechanical<'m, G>,
     pub(crate) engine: Engine,
 }
 
@@ -61,8 +59,8 @@ pub(crate) struct Off {
 }
 
 /// A motion in time.
-pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(crate) phases: Vec<PhaseSystem<'m, G, D>>,
+pub(crate) struct Trajectory<'m, G: Space<S = f64>> {
+    pub(crate) phases: Vec<PhaseSystem<'m, G>>,
     /// State, accelerations and multipliers evaluated last.
     pub(crate) node: Node,
     steps: Vec<Step>,
@@ -83,13 +81,12 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     current: usize,
 }
 
-impl<'m, G, D> Trajectory<'m, G, D>
+impl<'m, G> Trajectory<'m, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// An empty one of `columns` columns, to be filled from a phase on.
-    pub(crate) fn new(first: &Mechanical<'m, G, D>, columns: usize, follow: bool) -> Self {
+    pub(crate) fn new(first: &Mechanical<'m, G>, columns: usize, follow: bool) -> Self {
         let dims = first.dims();
         let outputs = first.observer.program().outputs();
         Self {
@@ -110,7 +107,7 @@ where
     }
 
     /// Begins a phase of a mechanism by its key, which `make` makes if it is new.
-    pub(crate) fn phase(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G, D>) {
+    pub(crate) fn phase(&mut self, key: usize, make: impl FnOnce() -> Mechanical<'m, G>) {
         self.current = self.phases.iter().position(|phase| phase.key == key).unwrap_or_else(|| {
             let system = make();
             let engine = Engine::new(&system, Control::Tolerance(1e-8));
@@ -259,7 +256,7 @@ where
     }
 
     /// The mechanism of the piece that was evaluated last.
-    pub(crate) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G, D> {
+    pub(crate) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G> {
         let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
         &mut self.phases[phase].system
     }
@@ -357,10 +354,9 @@ where
     }
 }
 
-impl<G, D> Trajectory<'_, G, D>
+impl<G> Trajectory<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Columns at `t` on a piece, of a state that is on the constraints, or to a `part` of its size.
     fn columns_at(&mut self, t: f64, piece: usize, part: f64, out: &mut [f64]) -> Result<(), Off> {
@@ -405,10 +401,9 @@ where
     }
 }
 
-impl<G, D> Curve for Trajectory<'_, G, D>
+impl<G> Curve for Trajectory<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     type Error = Off;
 

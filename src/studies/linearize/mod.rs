@@ -18,7 +18,7 @@ use super::common::numbers::Sources;
 use super::common::scene::{self, Subject};
 use super::dynamics::explain::massless;
 use super::statics::equilibrium;
-use crate::dynamics::{Dynamics, LANES, Linearizer, Point};
+use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
@@ -31,7 +31,6 @@ use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
 use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
@@ -46,15 +45,14 @@ const STEP: f64 = 1e-3;
 pub(crate) fn run<G>(case: Case<'_>, asked: &Linearize, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     without_friction(&mechanism, study)?;
-    let lifted = mechanism.lift();
+    let mechanism = Differentiable::new(mechanism);
     let mut findings = Vec::new();
     let mut at = if asked.at_equilibrium {
-        let rest = equilibrium::<G>(case, &mechanism, &lifted, &start, stop)?;
+        let rest = equilibrium::<G>(case, &mechanism, &start, stop)?;
         findings = rest.findings;
         Whole { q: rest.q, v: vec![0.0; mechanism.nv], z: rest.z, modes: rest.modes }
     } else {
@@ -66,7 +64,7 @@ where
     let scenes = scene::wanted(case, || pose(case, &mechanism, &at));
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };
     let names = Names::new(&bench);
-    let (base, reduced) = bench.linear(&lifted, &mut at, &names)?;
+    let (base, reduced) = bench.linear(&mut at, &names)?;
     let system = bench.system(&at, &base, &reduced, &names)?;
     findings.extend(bench.findings(&at, &base, &names, &reduced.partition));
     let poles = eigenvalues(&reduced.a).ok_or_else(|| {
@@ -139,17 +137,14 @@ impl Names {
 struct Bench<'a, G: Space<S = f64>> {
     case: Case<'a>,
     asked: &'a Linearize,
-    mechanism: &'a Mechanism<G>,
+    mechanism: &'a Differentiable<G>,
     start: &'a Assembled,
     ids: &'a [Id],
 }
 
 impl<G: Space<S = f64>> Bench<'_, G> {
     /// What the state leads to, and the exact linear motion about it.
-    fn linear(&self, lifted: &Mechanism<G::Lift<Dual<LANES>>>, at: &mut Whole, names: &Names) -> Result<(Answer, Reduced), Failure>
-    where
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-    {
+    fn linear(&self, at: &mut Whole, names: &Names) -> Result<(Answer, Reduced), Failure> {
         let m = self.mechanism;
         let mut probe = Probe::new(self.case.model, m, self.case.parameters, self.ids, &self.start.metric);
         let undetermined = || {
@@ -165,7 +160,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
             return Err(Failure::Undefined(gap.explain(self.case.model, self.case.study, "the state")));
         }
         let answer = answer.ok_or_else(undetermined)?;
-        let mut linearizer = Linearizer::new(lifted);
+        let mut linearizer = Linearizer::new(m);
         let point = Point { t: 0.0, q: &at.q, v: &at.v, z: &at.z, a: &answer.a, lambda: &answer.lambda, modes: &at.modes };
         let linear = Linear::new(m, &mut linearizer, &point, &self.start.metric).map_err(|_| undetermined())?;
         if !linear.tangent.is_finite() {

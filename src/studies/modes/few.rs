@@ -5,7 +5,7 @@ use super::eigen::{self, Eigen};
 use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use super::{jacobi, lanczos, picture, power};
-use crate::dynamics::{LANES, Linearizer};
+use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
 use crate::kinematics::held::{Held, Pose};
@@ -15,7 +15,6 @@ use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::Coordinates;
 use crate::model::{Eigensolver, Modes};
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::statics::{Still, equilibrium};
@@ -31,16 +30,14 @@ const AGREE: f64 = 1e-8;
 pub(super) fn run<G>(case: Case<'_>, asked: &Modes, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
-    let lifted = mechanism.lift();
-    let rest =
-        if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &lifted, &start, stop)? } else { held_start(&mechanism, &start) };
+    let mechanism = Differentiable::new(mechanism);
+    let rest = if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &start, stop)? } else { held_start(&mechanism, &start) };
     let Still { q, z, modes, findings } = rest;
     let pose = Pose { q: &q, z: &z, modes: &modes };
-    let held = Held::new(&mechanism, &mut Linearizer::new(&lifted), pose, &start.metric, &preferred(&mechanism))
+    let held = Held::new(&mechanism, &mut Linearizer::new(&mechanism), pose, &start.metric, &preferred(&mechanism))
         .map_err(|_| not_finite(model, &mechanism, pose))?;
     let all = coordinates(model, &mechanism);
     let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();

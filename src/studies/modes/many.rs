@@ -4,7 +4,7 @@ use super::damped::{Damped, by_largest};
 use super::picture::picture;
 use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
-use crate::dynamics::LANES;
+use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
@@ -16,7 +16,6 @@ use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
 use crate::kinematics::undefined::not_finite;
 use crate::model::{Eigensolver, Model, Modes};
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::statics::{Still, equilibrium_of_many};
@@ -44,15 +43,15 @@ pub(super) fn is_asked(model: &Model, asked: &Modes) -> bool {
 pub(super) fn run<G>(case: Case<'_>, asked: &Modes, stop: &dyn Fn() -> bool) -> Result<Option<Outcome>, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, parameters, .. } = case;
     let (mechanism, start) = assembled_for_gauges::<G>(model, parameters)?;
+    let mechanism = Differentiable::new(mechanism);
     if asked.damped && !mechanism.state_starts.is_empty() {
         return Ok(None);
     }
     let rest = if asked.at_equilibrium {
-        let Some(rest) = equilibrium_of_many::<G>(case, &mechanism, &mechanism.lift(), &start, stop)? else { return Ok(None) };
+        let Some(rest) = equilibrium_of_many::<G>(case, &mechanism, &start, stop)? else { return Ok(None) };
         rest
     } else {
         held_start(&mechanism, &start)

@@ -16,11 +16,9 @@ mod report;
 mod rest;
 
 use super::common::case::Case;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::model::Modes;
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 
 /// Runs a study of modes.
@@ -30,7 +28,6 @@ use crate::studies::common::outcome::Outcome;
 pub(crate) fn run<G>(case: Case<'_>, asked: &Modes, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     if many::is_asked(case.model, asked)
         && let Some(outcome) = many::run::<G>(case, asked, stop)?

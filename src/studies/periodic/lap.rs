@@ -1,12 +1,10 @@
 //! One period of the motion: from a state to where the period ends.
 
-use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::Coordinates;
 use crate::model::{Crossing, Event, Family, Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened};
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::observe::Observer;
 use crate::studies::dynamics::march;
@@ -59,7 +57,7 @@ pub(super) struct Search<'a> {
 
 /// A period that has been run.
 pub(super) struct Lap<'e, G: Space<S = f64>> {
-    pub(super) trajectory: Trajectory<'e, G, G::Lift<Dual<LANES>>>,
+    pub(super) trajectory: Trajectory<'e, G>,
     pub(super) certificate: Certificate,
     pub(super) events: Vec<Happened>,
     pub(super) findings: Vec<Finding>,
@@ -210,9 +208,9 @@ impl Search<'_> {
     }
 
     /// The mechanism with columns and without events.
-    fn alone<'e, G: Space<S = f64>>(&self, phases: &'e Phases<G>, ids: &[Id]) -> Mechanical<'e, G, G::Lift<Dual<LANES>>> {
+    fn alone<'e, G: Space<S = f64>>(&self, phases: &'e Phases<G>, ids: &[Id]) -> Mechanical<'e, G> {
         let observer = Observer::new(&self.model, &phases.mechanism, &phases.parameters, ids);
-        Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, Vec::new())
+        Mechanical::new(&phases.mechanism, &phases.start, observer, Vec::new())
     }
 }
 
@@ -225,8 +223,6 @@ fn with_modes(state: &State, kept: usize, all: usize) -> State {
 }
 
 /// The first phase of a trajectory: a system with its engine, to evaluate other states with.
-pub(super) fn tools<'t, 'e, G: Space<S = f64>>(
-    trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
-) -> &'t mut PhaseSystem<'e, G, G::Lift<Dual<LANES>>> {
+pub(super) fn tools<'t, 'e, G: Space<S = f64>>(trajectory: &'t mut Trajectory<'e, G>) -> &'t mut PhaseSystem<'e, G> {
     &mut trajectory.phases[0]
 }

@@ -19,12 +19,10 @@ mod turn;
 use super::common::case::{Case, parameters_with};
 use super::common::watched::Watched;
 use super::dynamics::phases::Phases;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::Coordinates;
 use crate::model::{Chart, PeriodEnd, Periodic};
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use grashof_solvers::State;
 use lap::{Search, Section};
@@ -46,7 +44,6 @@ const ALIKE: f64 = 1e-6;
 pub(crate) fn run<G>(case: Case<'_>, asked: &Periodic, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     let Case { model, study, .. } = case;
     let watched = Watched::of(study);
@@ -156,7 +153,6 @@ fn search<'a>(case: Case<'a>, asked: &Periodic, columns: &Columns, stop: &'a dyn
 fn by_time<G>(search: &mut Search<'_>, phases: &Phases<G>, state: &State) -> Result<(), Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     if !timed(&search.model, &phases.mechanism) {
         return Ok(());

@@ -8,11 +8,10 @@
 use super::collocation::{Gauss, STAGES};
 use super::lap::{Lap, Search, Section, tools};
 use super::saltation::{Side, pass, rate};
-use crate::dynamics::{LANES, Linearizer, Point};
+use crate::dynamics::{Linearizer, Point};
 use crate::geometry::Space;
 use crate::kinematics::linear::{Linear, Singular};
 use crate::kinematics::partition::preferred;
-use crate::scalar::Dual;
 use crate::studies::dynamics::phases::Phases;
 use grashof_solvers::{Node, System};
 use nalgebra::{DMatrix, DVector};
@@ -50,17 +49,14 @@ pub(super) enum Rough {
     Rests,
 }
 
-impl<G: Space<S = f64>> Lap<'_, G>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+impl<G: Space<S = f64>> Lap<'_, G> {
     /// The derivative of its map.
     pub(super) fn map(&mut self, search: &Search<'_>, phases: &Phases<G>) -> Result<Map, Rough> {
         if self.trajectory.phases.len() > 1 {
             return Err(Rough::Rests);
         }
         let by_reactions = tools(&mut self.trajectory).system.pattern().r_lambda.entries() > 0;
-        let mut flow = Flow { phases, linearizer: Linearizer::new(&phases.lifted), gauss: Gauss::new(), by_reactions };
+        let mut flow = Flow { phases, linearizer: Linearizer::new(&phases.mechanism), gauss: Gauss::new(), by_reactions };
         let t = self.start.state.t;
         let reduced = flow.linear(&self.start).and_then(|l| l.reduce(&preferred(&phases.mechanism))).map_err(|_| Rough::Singular(t))?;
         let (independent, p, w) = (reduced.partition.independent, reduced.partition.p, reduced.w);
@@ -114,16 +110,13 @@ where
 /// What linearises.
 struct Flow<'e, G: Space<S = f64>> {
     phases: &'e Phases<G>,
-    linearizer: Linearizer<'e, G::Lift<Dual<LANES>>>,
+    linearizer: Linearizer<'e, G>,
     gauss: Gauss,
     /// Whether forces depend on the reactions: their tangents are differences.
     by_reactions: bool,
 }
 
-impl<G: Space<S = f64>> Flow<'_, G>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+impl<G: Space<S = f64>> Flow<'_, G> {
     /// The motion near a node.
     fn linear(&mut self, node: &Node) -> Result<Linear, Singular> {
         let m = &self.phases.mechanism;
@@ -135,10 +128,7 @@ where
 }
 
 /// A at a time of a lap.
-fn flow_matrix<G: Space<S = f64>>(flow: &mut Flow<'_, G>, lap: &mut Lap<'_, G>, t: f64, piece: usize) -> Result<DMatrix<f64>, Rough>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+fn flow_matrix<G: Space<S = f64>>(flow: &mut Flow<'_, G>, lap: &mut Lap<'_, G>, t: f64, piece: usize) -> Result<DMatrix<f64>, Rough> {
     lap.trajectory.go(t, piece).map_err(|_| Rough::Singular(t))?;
     if flow.by_reactions {
         let node = lap.trajectory.node.clone();

@@ -5,7 +5,6 @@ use super::shooting::Orbit;
 use super::states::largest;
 use super::turn::{Advance, NoTurn, Single, Turn};
 use super::{explain, stability};
-use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{PeriodEnd, Periodic};
@@ -14,7 +13,6 @@ use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::quadrature::integrals;
 use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, List, Resolution};
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::clock::Clock;
 use crate::studies::common::functional::Functionals;
@@ -223,10 +221,7 @@ fn clock<G: Space<S = f64>>(
 }
 
 /// Rows on a grid of progress with both sides of every switch; gives their times and pieces.
-fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize, recorder: &mut Recorder<'_>) -> Result<Vec<(f64, usize)>, Off>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+fn rows<G: Space<S = f64>>(turn: &mut Turn<'_, '_, G>, samples: usize, recorder: &mut Recorder<'_>) -> Result<Vec<(f64, usize)>, Off> {
     let breaks = turn.breaks.clone();
     let length = breaks[breaks.len() - 1];
     let near = 1e-9 * length / samples as f64;

@@ -15,10 +15,8 @@
 //! for expressions of every kind.
 
 use super::lap::Lap;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::kinematics::linear::spin;
-use crate::scalar::Dual;
 use crate::studies::dynamics::system::{Mechanical, Root};
 use crate::studies::dynamics::trajectory::PhaseSystem;
 use grashof_solvers::{Effect, Engine, Node, Span, State, System};
@@ -44,12 +42,12 @@ struct Neighbour<'a> {
 
 /// A system with its engine, and scratch for neighbours of a node.
 pub(super) struct Side<'a, 'm, G: Space<S = f64>> {
-    pub(super) system: &'a mut Mechanical<'m, G, G::Lift<Dual<LANES>>>,
+    pub(super) system: &'a mut Mechanical<'m, G>,
     pub(super) engine: &'a mut Engine,
 }
 
-impl<'a, 'm, G: Space<S = f64>> From<&'a mut PhaseSystem<'m, G, G::Lift<Dual<LANES>>>> for Side<'a, 'm, G> {
-    fn from(phase: &'a mut PhaseSystem<'m, G, G::Lift<Dual<LANES>>>) -> Self {
+impl<'a, 'm, G: Space<S = f64>> From<&'a mut PhaseSystem<'m, G>> for Side<'a, 'm, G> {
+    fn from(phase: &'a mut PhaseSystem<'m, G>) -> Self {
         Self { system: &mut phase.system, engine: &mut phase.engine }
     }
 }

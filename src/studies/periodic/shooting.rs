@@ -15,10 +15,8 @@ use super::lap::{Broken, Lap, Search, tools};
 use super::monodromy::{Map, Rough, Surface};
 use super::saltation::rate;
 use super::states::{Scale, between, largest};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::eigenvalues::eigenvalues;
-use crate::scalar::Dual;
 use crate::studies::dynamics::phases::Phases;
 use grashof_solvers::svd::Svd;
 use grashof_solvers::{Span, State, System};
@@ -62,10 +60,7 @@ pub(super) enum Lost {
 }
 
 /// The periodic motion near a state.
-pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e Phases<G>, guess: &State) -> Result<Orbit<'e, G>, Lost>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e Phases<G>, guess: &State) -> Result<Orbit<'e, G>, Lost> {
     let tolerance = search.tolerance;
     let mut lap = search.lap(phases, guess, tolerance).map_err(Lost::Broken)?;
     let mut last = f64::INFINITY;
@@ -104,10 +99,7 @@ fn advance<'e, G: Space<S = f64>>(
     y: &DVector<f64>,
     sizes: &[f64],
     apart: f64,
-) -> Result<Lap<'e, G>, Lost>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+) -> Result<Lap<'e, G>, Lost> {
     let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
     let along = rate(&lap.start) * late;
     let mut part = 1.0;

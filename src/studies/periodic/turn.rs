@@ -1,10 +1,8 @@
 //! A period as a curve over what advances in it.
 
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::Resolved;
-use crate::scalar::Dual;
 use crate::studies::dynamics::trajectory::{Off, Trajectory};
 
 /// Most Newton steps from progress to time.
@@ -32,7 +30,7 @@ pub(super) struct Advance {
 
 /// The columns of a trajectory over progress s: the time, or what advances.
 pub(super) struct Turn<'t, 'e, G: Space<S = f64>> {
-    pub(super) trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
+    pub(super) trajectory: &'t mut Trajectory<'e, G>,
     advance: Option<Advance>,
     /// Known places of each piece, at both ends and between.
     known: Vec<Vec<Known>>,
@@ -57,11 +55,7 @@ impl From<Off> for NoTurn {
 
 impl<'t, 'e, G: Space<S = f64>> Turn<'t, 'e, G> {
     /// A curve whose progress ends at `length`.
-    pub(super) fn new(
-        trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
-        advance: Option<Advance>,
-        length: f64,
-    ) -> Result<Self, NoTurn> {
+    pub(super) fn new(trajectory: &'t mut Trajectory<'e, G>, advance: Option<Advance>, length: f64) -> Result<Self, NoTurn> {
         let times = trajectory.breaks();
         let mut turn = Self { trajectory, advance, known: Vec::new(), breaks: times.clone() };
         let Some(by) = advance else { return Ok(turn) };
@@ -160,7 +154,7 @@ impl<G: Space<S = f64>> Curve for Turn<'_, '_, G> {
 
 /// One column of a trajectory over time.
 pub(super) struct Single<'t, 'e, G: Space<S = f64>> {
-    pub(super) trajectory: &'t mut Trajectory<'e, G, G::Lift<Dual<LANES>>>,
+    pub(super) trajectory: &'t mut Trajectory<'e, G>,
     pub(super) column: usize,
 }
 

@@ -6,14 +6,12 @@ use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
 use super::rest::{Lost, Rest};
 use super::search::{Ended, Found};
-use crate::dynamics::LANES;
+use crate::dynamics::Differentiable;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::partition::Partition;
-use crate::mechanism::Mechanism;
 use crate::results::{Failure, Finding};
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::observe::Observer;
 use crate::studies::common::outcome::Outcome;
@@ -26,7 +24,7 @@ type Failed = (Pose, Ended);
 /// A mechanism on the bench: what is needed to find its equilibria and to tell them.
 pub(super) struct Bench<'a, 'm, G: Space<S = f64>> {
     pub(super) case: Case<'a>,
-    pub(super) rest: Rest<'m, G, G::Lift<Dual<LANES>>>,
+    pub(super) rest: Rest<'m, G>,
     pub(super) names: Names,
     /// Coordinates that would be independent if friction held nothing.
     pub(super) held: Option<Vec<usize>>,
@@ -44,17 +42,10 @@ pub(super) struct Settled {
 impl<'a, 'm, G> Bench<'a, 'm, G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    pub(super) fn new(
-        case: Case<'a>,
-        mechanism: &'m Mechanism<G>,
-        lifted: &'m Mechanism<G::Lift<Dual<LANES>>>,
-        start: &Assembled,
-        ids: &[Id],
-    ) -> Self {
+    pub(super) fn new(case: Case<'a>, mechanism: &'m Differentiable<G>, start: &Assembled, ids: &[Id]) -> Self {
         let observer = Observer::new(case.model, mechanism, case.parameters, ids);
-        let system = Mechanical::new(mechanism, lifted, start, observer, Vec::new());
+        let system = Mechanical::new(mechanism, start, observer, Vec::new());
         Self { case, rest: Rest::new(system, start.size), names: Names::new(case.model, mechanism, &start.metric), held: None }
     }
 

@@ -1,16 +1,13 @@
 //! What the unbalanced force and the stiffness of a position are made of, before they cancel: measures of their round-off.
 
 use super::rest::{Rest, norm};
-use crate::dynamics::LANES;
 use crate::geometry::{Force, Motion, Space};
 use crate::mechanism::{EffortLaw, Step, StretchOf};
-use crate::scalar::Dual;
 use grashof_solvers::System;
 
-impl<G, D> Rest<'_, G, D>
+impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Sizes of the forces and of the stiffnesses that act at the state evaluated last, each before anything cancels, in the metric.
     pub(super) fn sizes(&self) -> (f64, f64) {

@@ -2,10 +2,8 @@
 
 use super::pose::Pose;
 use super::rest::Rest;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
-use crate::scalar::Dual;
 
 /// First step of the search for the end of a region, and how far it goes, in radians or sizes.
 const STEP: f64 = 1e-3;
@@ -25,10 +23,9 @@ pub(super) struct Gripped<G: Space<S = f64>> {
 }
 
 /// The mechanism held by friction at a pose; none where it would move.
-pub(super) fn gripped<G, D>(rest: &mut Rest<'_, G, D>, pose: Pose) -> Option<Gripped<G>>
+pub(super) fn gripped<G>(rest: &mut Rest<'_, G>, pose: Pose) -> Option<Gripped<G>>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     if rest.system.dynamics.mechanism.contacts.is_empty() {
         return None;
@@ -43,10 +40,9 @@ where
 
 /// The ends of the region around a pose, at which friction holds a mechanism with one degree of freedom; none at an end where it holds
 /// on and on, and none at all where it does not hold at the pose, or there are more degrees of freedom.
-pub(super) fn region<G, D>(rest: &mut Rest<'_, G, D>, pose: &Pose) -> Option<[Option<Pose>; 2]>
+pub(super) fn region<G>(rest: &mut Rest<'_, G>, pose: &Pose) -> Option<[Option<Pose>; 2]>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let frictionless = rest.system.dynamics.mechanism.contacts.is_empty();
     if frictionless || pose.basis.ncols() != 1 || !holds(rest, pose) {
@@ -62,20 +58,18 @@ where
     Some(ends)
 }
 
-fn holds<G, D>(rest: &mut Rest<'_, G, D>, pose: &Pose) -> bool
+fn holds<G>(rest: &mut Rest<'_, G>, pose: &Pose) -> bool
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let state = rest.state(&pose.position);
     rest.system.gripped(&state).is_some()
 }
 
 /// The last pose that is held in a sense, to the rounding of its coordinates.
-fn end<G, D>(rest: &mut Rest<'_, G, D>, from: &Pose, sense: f64) -> Option<Pose>
+fn end<G>(rest: &mut Rest<'_, G>, from: &Pose, sense: f64) -> Option<Pose>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     let (mut here, mut step, mut gone) = (from.clone(), STEP, 0.0);
     let mut direction = &from.basis * nalgebra::DVector::from_element(1, sense);

@@ -8,7 +8,7 @@ use super::report::{Report, Told, not_stable, without_friction};
 use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
 use super::sinking::{Sinking, Stand, of_metric};
-use crate::dynamics::LANES;
+use crate::dynamics::Differentiable;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
@@ -21,7 +21,6 @@ use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Way};
 use crate::kinematics::undefined::not_finite;
 use crate::mechanism::Mechanism;
 use crate::results::{Failure, Finding};
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::observe::Observer;
 use crate::studies::common::outcome::Outcome;
@@ -46,7 +45,6 @@ const RIDGES: usize = 8;
 pub(super) fn run<G>(case: Case<'_>, stop: &dyn Fn() -> bool) -> Result<Option<Outcome>, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     if case.model.bodies.len() <= MANY {
         return Ok(None);
@@ -57,9 +55,9 @@ where
     }
     // independent coordinates are read by gauges that no force needs
     mechanism.active_gauges = mechanism.gauges.len();
-    let lifted = mechanism.lift();
+    let mechanism = Differentiable::new(mechanism);
     let watched = Watched::of(case.study);
-    let mut many = Many::new(case, &mechanism, &lifted, &start, &watched.ids);
+    let mut many = Many::new(case, &mechanism, &start, &watched.ids);
     let Some(settled) = many.settle(&start, stop)? else { return Ok(None) };
     many.outcome(&watched, &settled).map(Some)
 }
@@ -70,19 +68,17 @@ where
 /// If it has no equilibrium.
 pub(crate) fn equilibrium<G>(
     case: Case<'_>,
-    mechanism: &Mechanism<G>,
-    lifted: &Mechanism<G::Lift<Dual<LANES>>>,
+    mechanism: &Differentiable<G>,
     start: &Assembled,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Still>, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     if case.model.bodies.len() <= MANY || !suits(mechanism) {
         return Ok(None);
     }
-    let mut many = Many::new(case, mechanism, lifted, start, &[]);
+    let mut many = Many::new(case, mechanism, start, &[]);
     let Some(Settled { found, .. }) = many.settle(start, stop)? else { return Ok(None) };
     let mut findings = Vec::new();
     if found.negative + found.zero > 0 {
@@ -119,12 +115,9 @@ struct Settled {
 }
 
 /// A mechanism of many bodies, and what is needed to tell its equilibria.
-struct Many<'a, 'm, G: Space<S = f64>>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+struct Many<'a, 'm, G: Space<S = f64>> {
     case: Case<'a>,
-    sinking: Sinking<'m, G, G::Lift<Dual<LANES>>>,
+    sinking: Sinking<'m, G>,
     names: Names,
     /// Number of its own modes: rigid stops and events have more of them.
     modes: usize,
@@ -133,17 +126,10 @@ where
 impl<'a, 'm, G> Many<'a, 'm, G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    fn new(
-        case: Case<'a>,
-        mechanism: &'m Mechanism<G>,
-        lifted: &'m Mechanism<G::Lift<Dual<LANES>>>,
-        start: &Assembled,
-        ids: &[Id],
-    ) -> Self {
+    fn new(case: Case<'a>, mechanism: &'m Differentiable<G>, start: &Assembled, ids: &[Id]) -> Self {
         let observer = Observer::new(case.model, mechanism, case.parameters, ids);
-        let rest = Rest::new(Mechanical::new(mechanism, lifted, start, observer, Vec::new()), start.size);
+        let rest = Rest::new(Mechanical::new(mechanism, start, observer, Vec::new()), start.size);
         let names = Names::new(case.model, mechanism, &start.metric);
         let turns = names.all.iter().map(|c| c.turns).collect();
         Self { case, sinking: Sinking::new(rest, &start.q, &start.modes, turns), names, modes: start.modes.len() }

@@ -28,13 +28,12 @@ mod stability;
 
 use super::common::case::Case;
 use super::common::watched::Watched;
-use crate::dynamics::LANES;
+use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::undefined::assembled;
-use crate::mechanism::{Coordinates, Mechanism};
+use crate::mechanism::Coordinates;
 use crate::results::Failure;
-use crate::scalar::Dual;
 use crate::studies::common::outcome::Outcome;
 use bench::{Bench, Settled};
 use grip::Gripped;
@@ -43,29 +42,26 @@ use pose::Pose;
 use rest::Position;
 pub(crate) use rest::Still;
 
-/// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind; `lifted` is the same
-/// mechanism on dual numbers.
+/// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind.
 ///
 /// # Errors
 /// If there is none within reach: what stays unbalanced, on which coordinate.
 pub(crate) fn equilibrium<G>(
     case: Case<'_>,
-    mechanism: &Mechanism<G>,
-    lifted: &Mechanism<G::Lift<Dual<LANES>>>,
+    mechanism: &Differentiable<G>,
     start: &Assembled,
     stop: &dyn Fn() -> bool,
 ) -> Result<Still, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
-    if let Some(still) = many::equilibrium(case, mechanism, lifted, start, stop)? {
+    if let Some(still) = many::equilibrium(case, mechanism, start, stop)? {
         return Ok(still);
     }
-    let mut bench = Bench::new(case, mechanism, lifted, start, &[]);
+    let mut bench = Bench::new(case, mechanism, start, &[]);
     if let Some(Gripped { mechanism, live, pose }) = bench.grip(start) {
-        let lifted = mechanism.lift();
-        let mut held = Bench::new(case, &mechanism, &lifted, start, &[]);
+        let mechanism = Differentiable::new(mechanism);
+        let mut held = Bench::new(case, &mechanism, start, &[]);
         held.rest.hold(&live);
         let found = held.settle(start, stop)?.found;
         let findings = held.findings(&found).into_iter().chain(bench.region(&pose)).collect();
@@ -74,7 +70,7 @@ where
         return Ok(Still { q, z, modes, findings });
     }
     let Settled { mut found, .. } = bench.settle(start, stop)?;
-    found.stability.by_motion(&found.pose, mechanism, lifted, &start.metric);
+    found.stability.by_motion(&found.pose, mechanism, &start.metric);
     let findings = bench.findings(&found);
     let Position { q, z, mut modes, .. } = found.pose.position;
     modes.truncate(start.modes.len());
@@ -88,18 +84,17 @@ where
 pub(crate) fn run<G>(case: Case<'_>, stop: &dyn Fn() -> bool) -> Result<Outcome, Failure>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     if let Some(outcome) = many::run::<G>(case, stop)? {
         return Ok(outcome);
     }
     let (mechanism, start) = assembled::<G>(case.model, case.parameters, Coordinates::Joint)?;
-    let lifted = mechanism.lift();
+    let mechanism = Differentiable::new(mechanism);
     let watched = Watched::of(case.study);
-    let mut bench = Bench::new(case, &mechanism, &lifted, &start, &watched.ids);
+    let mut bench = Bench::new(case, &mechanism, &start, &watched.ids);
     if let Some(Gripped { mechanism, live, pose }) = bench.grip(&start) {
-        let lifted = mechanism.lift();
-        let mut held = Bench::new(case, &mechanism, &lifted, &start, &watched.ids);
+        let mechanism = Differentiable::new(mechanism);
+        let mut held = Bench::new(case, &mechanism, &start, &watched.ids);
         held.rest.hold(&live);
         held.held = Some(bench.partition(&pose).independent);
         let Settled { begin, found, .. } = held.settle(&start, stop)?;
@@ -115,6 +110,6 @@ where
         let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| Failure::interrupted())?;
         all.extend(further.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none()));
     }
-    all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &lifted, &start.metric));
+    all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     bench.outcome(&watched, &begin, &all)
 }

@@ -6,10 +6,8 @@
 use super::pose::Pose;
 use super::rest::Rest;
 use super::search::{Ended, Found};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::Step;
-use crate::scalar::Dual;
 use grashof_solvers::System;
 use nalgebra::DVector;
 use std::f64::consts::{PI, TAU};
@@ -38,10 +36,9 @@ impl Sequence {
     }
 }
 
-impl<G, D> Rest<'_, G, D>
+impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Equilibria that a mechanism can reach from a pose, apart from those `known`; of a continuum none. Angles are counted from `near`.
     pub(super) fn others(&mut self, from: &Pose, near: &Pose, known: &[&Pose], stop: &dyn Fn() -> bool) -> Result<Vec<Found>, Ended> {

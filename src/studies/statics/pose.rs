@@ -13,10 +13,8 @@
 //! this is the Hessian of the Lagrangian on the tangent space (Nocedal & Wright, Numerical Optimization, theorem 12.6).
 
 use super::rest::{CLOSED, Lost, Position, Rest, norm};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::least_squares::{shortest, shortest_beyond};
-use crate::scalar::Dual;
 use grashof_solvers::kkt::ROUND_OFF;
 use grashof_solvers::rank::{NullSpace, RANK_TOLERANCE};
 use grashof_solvers::{Span, Stage, System};
@@ -40,10 +38,9 @@ pub(super) struct Pose {
     pub(super) stiffness: f64,
 }
 
-impl<G, D> Rest<'_, G, D>
+impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// The pose nearest to given coordinates, states and modes.
     pub(super) fn at(&mut self, q: &[f64], z: &[f64], modes: &[i32]) -> Result<Pose, Lost> {

@@ -2,13 +2,11 @@
 
 use super::explain::place;
 use super::rest::{Position, Rest};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::kinematics::coordinates::Coordinate;
 use crate::model::FunctionalKind;
 use crate::numerics::extremum::{Extremes, Extremum};
 use crate::results::{Certificate, Failure, Finding, List, Rows, Scene};
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
@@ -26,12 +24,9 @@ pub(super) struct Told {
 }
 
 /// What is needed to tell equilibria.
-pub(super) struct Report<'r, 'a, 'm, G: Space<S = f64>>
-where
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
-{
+pub(super) struct Report<'r, 'a, 'm, G: Space<S = f64>> {
     pub(super) case: Case<'a>,
-    pub(super) rest: &'r mut Rest<'m, G, G::Lift<Dual<LANES>>>,
+    pub(super) rest: &'r mut Rest<'m, G>,
     /// The independent coordinates.
     pub(super) coordinates: Vec<Coordinate>,
     /// Whether friction holds the mechanism.
@@ -41,7 +36,6 @@ where
 impl<G> Report<'_, '_, '_, G>
 where
     G: Space<S = f64>,
-    G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
 {
     /// All that a study leaves; `all` begins with the equilibrium from the start, `further` are findings of the search.
     ///

@@ -1,11 +1,9 @@
 //! A mechanism that stands still, for whoever reads its workspace: forces, poses of bodies, what tells equilibria apart.
 
-use crate::dynamics::LANES;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::{Measured, Step, StretchOf};
 use crate::results::Finding;
-use crate::scalar::Dual;
 use crate::studies::common::case::Case;
 use crate::studies::dynamics::system::Mechanical;
 use grashof_solvers::{Stage, State, System, Tangent, Terms};
@@ -52,8 +50,8 @@ pub(super) enum Lost {
 }
 
 /// A mechanism that rests: evaluates positions.
-pub(super) struct Rest<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) system: Mechanical<'m, G, D>,
+pub(super) struct Rest<'m, G: Space<S = f64>> {
+    pub(super) system: Mechanical<'m, G>,
     /// Characteristic length, m.
     pub(super) size: f64,
     /// What counts as a whole way of each velocity: 1 rad, or the size (nv).
@@ -65,13 +63,12 @@ pub(super) struct Rest<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     pub(super) zeros: Vec<f64>,
 }
 
-impl<'m, G, D> Rest<'m, G, D>
+impl<'m, G> Rest<'m, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// A system of a characteristic length, m.
-    pub(super) fn new(system: Mechanical<'m, G, D>, size: f64) -> Self {
+    pub(super) fn new(system: Mechanical<'m, G>, size: f64) -> Self {
         let dims = system.dims();
         let unit = system.pattern().size_v.clone();
         let (state, terms, tangent) = (State::new(dims), Terms::new(dims, system.pattern()), Tangent::new(system.pattern()));

@@ -16,10 +16,8 @@
 use super::pose::Pose;
 use super::rest::{Lost, Rest};
 use super::stability::Stability;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::numerics::least_squares::shortest;
-use crate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of a search.
@@ -65,10 +63,9 @@ pub(super) struct Found {
     pub(super) stability: Stability,
 }
 
-impl<G, D> Rest<'_, G, D>
+impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// A pose with its stability, whatever its balance.
     pub(super) fn judged(&mut self, pose: Pose) -> Result<Found, Ended> {

@@ -14,13 +14,12 @@
 
 use super::rest::{CLOSED, Lost, Position, Rest};
 use super::search::{AWAY, CLOSE, Ended, FLOOR, LONGEST, NEAR, ROUND_OFF, STEPS};
-use crate::dynamics::{Dynamics, LANES};
+use crate::dynamics::Dynamics;
 use crate::geometry::{Pose, Space};
 use crate::kinematics::pair::Pair;
 use crate::kinematics::pencil::Pencil;
 use crate::kinematics::saddle::Saddle;
 use crate::mechanism::Mechanism;
-use crate::scalar::Dual;
 use grashof_solvers::kkt::row_scale;
 use grashof_solvers::{Block, Kkt, Span, Sparsity, Stage, System};
 
@@ -47,8 +46,8 @@ pub(super) struct Stand {
 }
 
 /// A mechanism of many bodies that rests.
-pub(super) struct Sinking<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
-    pub(super) rest: Rest<'m, G, D>,
+pub(super) struct Sinking<'m, G: Space<S = f64>> {
+    pub(super) rest: Rest<'m, G>,
     pub(super) metric: Vec<f64>,
     row_scale: Vec<f64>,
     /// A whole way of each velocity: 1 rad, or the extent of the mechanism (nv); and which of them turn.
@@ -60,13 +59,12 @@ pub(super) struct Sinking<'m, G: Space<S = f64>, D: Space<S = Dual<LANES>>> {
     closing: Kkt,
 }
 
-impl<'m, G, D> Sinking<'m, G, D>
+impl<'m, G> Sinking<'m, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// A mechanism with the coordinates and modes of its start, and which of its velocities turn.
-    pub(super) fn new(rest: Rest<'m, G, D>, q: &[f64], modes: &[i32], turns: Vec<bool>) -> Self {
+    pub(super) fn new(rest: Rest<'m, G>, q: &[f64], modes: &[i32], turns: Vec<bool>) -> Self {
         let pattern = rest.system.pattern();
         let (metric, row_scale) = (pattern.metric.clone(), pattern.g_scale.clone());
         let Bath { bath, extent } = bath(rest.system.dynamics.mechanism, q, modes, &metric);

@@ -8,13 +8,11 @@
 
 use super::pose::Pose;
 use super::rest::Position;
-use crate::dynamics::{LANES, Linearizer, Point};
+use crate::dynamics::{Differentiable, Linearizer, Point};
 use crate::geometry::Space;
 use crate::kinematics::linear::Linear;
 use crate::kinematics::partition::preferred;
-use crate::mechanism::Mechanism;
 use crate::numerics::eigenvalues::eigenvalues;
-use crate::scalar::Dual;
 use nalgebra::linalg::{Schur, SymmetricEigen};
 use nalgebra::{DMatrix, DVector};
 
@@ -73,10 +71,9 @@ impl Stability {
 
     /// Judges by the poles of the linearised motion what the stiffness alone does not tell: forces without an energy, and motions
     /// that grow although every position is held. Left as it is where nothing resists, or friction depends on the reactions.
-    pub(super) fn by_motion<G>(&mut self, pose: &Pose, mechanism: &Mechanism<G>, lifted: &Mechanism<G::Lift<Dual<LANES>>>, metric: &[f64])
+    pub(super) fn by_motion<G>(&mut self, pose: &Pose, mechanism: &Differentiable<G>, metric: &[f64])
     where
         G: Space<S = f64>,
-        G::Lift<Dual<LANES>>: Space<S = Dual<LANES>>,
     {
         if !mechanism.pressings.is_empty() {
             return;
@@ -84,7 +81,7 @@ impl Stability {
         let zeros = vec![0.0; mechanism.nv];
         let Position { q, z, modes, lambda, .. } = &pose.position;
         let point = Point { t: 0.0, q, v: &zeros, z, a: &zeros, lambda, modes };
-        let linear = Linear::new(mechanism, &mut Linearizer::new(lifted), &point, metric);
+        let linear = Linear::new(mechanism, &mut Linearizer::new(mechanism), &point, metric);
         let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
             return;
         };

@@ -1,17 +1,14 @@
 //! What drivers do at a blow, or where their law has a kink: their impulses work, since they move on meanwhile.
 
 use super::{Mechanical, Root};
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::StretchOf;
-use crate::scalar::Dual;
-use grashof_solvers::{Power, Stage, State, System, Terms};
+use grashof_solvers::{Kkt, Power, Stage, State, System, Terms};
 use nalgebra::{DMatrix, DVector};
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Work of the rows that move with time, J, while the velocities jump from one state to another of the same position; `crossed` are
     /// the roots that were met.
@@ -31,7 +28,11 @@ where
         self.terms(before.at(), Stage::Velocity, &mut terms);
         let nu_before = terms.nu.clone();
         self.terms(after.at(), Stage::Velocity, &mut terms);
-        if nu_before.iter().chain(&terms.nu).all(|nu| *nu == 0.0) || self.kkt.factor(terms.mass.values(), terms.g.values()).is_err() {
+        if nu_before.iter().chain(&terms.nu).all(|nu| *nu == 0.0) {
+            return 0.0;
+        }
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        if kkt.factor(terms.mass.values(), terms.g.values()).is_err() {
             return 0.0;
         }
         let jump: Vec<f64> = after.v.iter().zip(&before.v).map(|(after, before)| after - before).collect();
@@ -74,10 +75,12 @@ where
         force
     }
 
-    /// A force (nv) as M x + Gᵀκ with G x = 0: x (nv) and κ (rows).
+    /// A force (nv) as M x + Gᵀκ with G x = 0: x (nv) and κ (rows); by the factors at hand.
     fn resolved(&mut self, force: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (mut x, mut kappa) = (vec![0.0; self.dims.v], vec![0.0; self.dims.rows()]);
-        self.kkt.solve(force, &vec![0.0; self.dims.rows()], &mut x, &mut kappa);
+        if let Some(kkt) = &mut self.kkt {
+            kkt.solve(force, &vec![0.0; self.dims.rows()], &mut x, &mut kappa);
+        }
         (x, kappa)
     }
 }

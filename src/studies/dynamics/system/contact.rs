@@ -2,11 +2,10 @@
 
 use super::Mechanical;
 use super::root::Root;
-use crate::dynamics::{LANES, slack};
+use crate::dynamics::slack;
 use crate::geometry::Space;
 use crate::mechanism::StretchOf;
-use crate::scalar::Dual;
-use grashof_solvers::{At, Effect, Stage, State, System};
+use grashof_solvers::{At, Effect, Kkt, Stage, State, System};
 
 impl Root {
     /// Whether its crossing acts on the motion as a kink does not: by a blow, or by what an event of the model does or notes.
@@ -20,30 +19,29 @@ impl Root {
     }
 }
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Accelerations and multipliers of a state by an own solution; those of before where there is none.
     pub(super) fn accelerate(&mut self, at: &At<'_>) {
-        if self.friction.is_some() {
-            let mut terms = std::mem::take(&mut self.terms);
+        if let Some((mut friction, mut terms)) = self.friction.take() {
             self.terms(*at, Stage::Dynamics, &mut terms);
-            let Self { friction: Some(friction), dynamics, a, lambda, .. } = self else { return };
+            let Self { dynamics, a, lambda, .. } = self;
             a.fill(0.0);
             lambda.fill(0.0);
             // the dynamics stand at the state
             let _ = friction.solve(&terms, &mut |l, f, slope| dynamics.friction(l, f, slope), a, lambda);
-            self.terms = terms;
+            self.friction = Some((friction, terms));
             return;
         }
         self.kinematics(at);
         self.dynamics.forces(at.modes);
         self.dynamics.mass();
         let w = &self.dynamics.work;
-        if self.kkt.factor(w.mass.values(), w.g.values()).is_ok() {
-            self.kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        if kkt.factor(w.mass.values(), w.g.values()).is_ok() {
+            kkt.solve(&w.force, &w.gamma, &mut self.a, &mut self.lambda);
         }
     }
 

@@ -116,7 +116,7 @@ mod tests {
         for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
             let phases = Phases::<Planar<f64>>::new(&model, &parameters(&model), coordinates).unwrap();
             let observer = Observer::new(&model, &phases.mechanism, &phases.parameters, &[]);
-            let mut system = Mechanical::new(&phases.mechanism, &phases.lifted, &phases.start, observer, Vec::new());
+            let mut system = Mechanical::new(&phases.mechanism, &phases.start, observer, Vec::new());
             let mut state = State::new(system.dims());
             assert!(state.modes.len() > 2 && system.direct.is_some(), "{coordinates:?}");
             for k in 0..5 {

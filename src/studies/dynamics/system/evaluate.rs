@@ -1,16 +1,13 @@
 //! A mechanism in a state: what its evaluator is asked for, and nothing that stands in it already.
 
 use super::Mechanical;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
-use crate::scalar::Dual;
 use crate::studies::common::observe::Needs;
 use grashof_solvers::At;
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Evaluates positions and velocities of a state.
     pub(crate) fn kinematics(&mut self, at: &At<'_>) {

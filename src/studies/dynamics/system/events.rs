@@ -2,16 +2,13 @@
 
 use super::Mechanical;
 use super::root::Root;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::model::Crossing;
-use crate::scalar::Dual;
 use grashof_solvers::{Effect, State};
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// The direction that counts for an event that has left `side`.
     fn counts(&self, event: usize, side: i32) -> bool {

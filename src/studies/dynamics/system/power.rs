@@ -1,16 +1,13 @@
 //! Powers that change the energy of a mechanism, by what puts them in or takes them.
 
 use super::Mechanical;
-use crate::dynamics::LANES;
 use crate::geometry::Space;
 use crate::mechanism::EffortLaw;
-use crate::scalar::Dual;
 use grashof_solvers::At;
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// Power of drivers and of all else that moves with time, −λᵀν for rows; of loads and motors; of dampers; of end stops beside what
     /// they store: what changes the energy, W.

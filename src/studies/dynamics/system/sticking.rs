@@ -7,12 +7,11 @@
 
 use super::Mechanical;
 use super::root::{Met, Root};
-use crate::dynamics::{LANES, slack};
+use crate::dynamics::slack;
 use crate::geometry::Space;
 use crate::mechanism::{Contact, ContactLaw, EffortLaw, StretchOf};
 use crate::numerics::complementarity::{Bounded, Place, basic, solve};
-use crate::scalar::Dual;
-use grashof_solvers::{At, Effect, State};
+use grashof_solvers::{At, Effect, Kkt, State};
 use nalgebra::{DMatrix, DVector};
 
 /// A rate of a contact that counts as rest, in rad/s or sizes of the mechanism a second.
@@ -58,10 +57,9 @@ struct Response {
     lambda: Vec<f64>,
 }
 
-impl<G, D> Mechanical<'_, G, D>
+impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
-    D: Space<S = Dual<LANES>>,
 {
     /// A rate of a contact that counts as rest, rad/s or m/s.
     fn rest(&self, contact: &Contact) -> f64 {
@@ -206,11 +204,12 @@ where
         self.dynamics.forces(at.modes);
         self.dynamics.mass();
         let w = &self.dynamics.work;
-        self.kkt.factor(w.mass.values(), w.g.values()).ok()?;
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        kkt.factor(w.mass.values(), w.g.values()).ok()?;
         let mut free = Response { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()] };
         let none = vec![0.0; m.rows.len()];
         let gamma = if driven { &w.gamma } else { &none };
-        self.kkt.solve(&w.force, gamma, &mut free.a, &mut free.lambda);
+        kkt.solve(&w.force, gamma, &mut free.a, &mut free.lambda);
         let gradients: Vec<Vec<f64>> = resting.iter().map(|&c| self.gradient(m.contacts[c].along)).collect();
         let responses: Vec<Response> = gradients.iter().map(|g| self.response(g)).collect();
         // efforts by reactions of what slides
@@ -331,7 +330,9 @@ where
     fn response(&mut self, gradient: &[f64]) -> Response {
         let m = self.dynamics.mechanism;
         let mut response = Response { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()] };
-        self.kkt.solve(gradient, &vec![0.0; m.rows.len()], &mut response.a, &mut response.lambda);
+        if let Some(kkt) = &mut self.kkt {
+            kkt.solve(gradient, &vec![0.0; m.rows.len()], &mut response.a, &mut response.lambda);
+        }
         response
     }
 }
