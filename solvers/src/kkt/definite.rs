@@ -21,11 +21,22 @@ pub(super) fn refines(r: &[f64], x: &[f64]) -> bool {
     largest(r) > REFINED * largest(x)
 }
 
+/// An entry of M, on its diagonal or below it, or of G.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    /// Its place in the values of its block.
+    from: u32,
+    /// Its place in the matrix, and that across the diagonal.
+    places: [u32; 2],
+    /// Product of the scales of its row and column.
+    product: f64,
+}
+
 /// A full matrix with its factors.
 #[derive(Clone, Debug)]
 pub(super) struct Definite {
-    /// Products of the scales of rows and columns (n × n).
-    products: Vec<f64>,
+    /// Entries of M and of G; none of more than [`DENSE_UP_TO`] unknowns, which are scaled row by row.
+    entries: [Vec<Entry>; 2],
     /// Scaled [M Gᵀ; G 0] (n × n).
     matrix: Vec<f64>,
     /// L below the diagonal, or Lᵀ above it where the size is not known to the compiler (n × n), and 1/D (n).
@@ -38,53 +49,49 @@ pub(super) struct Definite {
 }
 
 impl Definite {
-    /// Room for a matrix of n unknowns.
-    pub(super) fn new(n: usize) -> Self {
+    /// Room for the matrix of two blocks.
+    pub(super) fn new(blocks: &Blocks) -> Self {
+        let n = blocks.order();
         let (square, vector) = (vec![0.0; n * n], vec![0.0; n]);
-        Self {
-            products: vec![1.0; if n <= DENSE_UP_TO { n * n } else { 0 }],
-            matrix: square.clone(),
-            l: square,
-            inverse: vector.clone(),
-            scale: vec![1.0; n],
-            rhs: vector.clone(),
-            r: vector,
-        }
+        let entries = [(0, 0), (1, blocks.velocities())].map(|(block, shift)| {
+            let places = blocks.0[block].places().enumerate();
+            let below = places.map(|(from, (i, j))| (from, i + shift, j)).filter(|(_, i, j)| i >= j && n <= DENSE_UP_TO);
+            below.map(|(from, i, j)| Entry { from: from as u32, places: [i * n + j, j * n + i].map(|x| x as u32), product: 1.0 }).collect()
+        });
+        Self { entries, matrix: square.clone(), l: square, inverse: vector.clone(), scale: vec![1.0; n], rhs: vector.clone(), r: vector }
     }
 
     /// Takes the scales of the unknowns (n).
     pub(super) fn set_scale(&mut self, scale: &[f64]) {
         self.scale.copy_from_slice(scale);
-        let products = scale.iter().flat_map(|a| scale.iter().map(move |b| a * b));
-        self.products.iter_mut().zip(products).for_each(|(out, product)| *out = product);
+        for entry in self.entries.iter_mut().flatten() {
+            let (i, j) = (entry.places[0] as usize / scale.len(), entry.places[0] as usize % scale.len());
+            entry.product = scale[i] * scale[j];
+        }
     }
 
     /// Scales M and G, given by the values of their patterns, and factors the matrix with the scaled E (m); false if M is nearly singular, or
     /// a number is not finite.
     pub(super) fn factor(&mut self, blocks: &Blocks, values: [&[f64]; 2], e: &[f64]) -> bool {
         let (nv, n) = (blocks.velocities(), blocks.order());
-        let full = blocks.are_full() && n <= DENSE_UP_TO;
-        if !full {
+        if n > DENSE_UP_TO {
             blocks.fill(values, &self.scale, &mut self.matrix);
-            self.l.copy_from_slice(&self.matrix);
-            for (j, e) in e.iter().enumerate() {
-                self.l[(nv + j) * (n + 1)] = -e;
+        }
+        for (entries, values) in self.entries.iter().zip(values) {
+            for Entry { from, places: [place, across], product } in entries {
+                let x = values[*from as usize] * product;
+                self.matrix[*place as usize] = x;
+                self.matrix[*across as usize] = x;
             }
+        }
+        self.l.copy_from_slice(&self.matrix);
+        for (j, e) in e.iter().enumerate() {
+            self.l[(nv + j) * (n + 1)] = -e;
         }
         macro_rules! small {
             ($k:literal) => {
-                match (
-                    square_mut::<f64, $k>(&mut self.matrix),
-                    square_mut::<f64, $k>(&mut self.l),
-                    square::<f64, $k>(&self.products),
-                    self.inverse.first_chunk_mut(),
-                ) {
-                    (Some(matrix), Some(l), Some(products), Some(inverse)) => {
-                        if full {
-                            fill::<$k>([matrix, l], products, [values[0], values[1], e], nv);
-                        }
-                        factor::<$k>(l, inverse, nv)
-                    }
+                match (square_mut::<f64, $k>(&mut self.l), self.inverse.first_chunk_mut()) {
+                    (Some(l), Some(inverse)) => factor::<$k>(l, inverse, nv),
                     _ => false,
                 }
             };
@@ -129,27 +136,6 @@ impl Definite {
                 break;
             }
         }
-    }
-}
-
-/// Scales full M (nv × nv) and G (m × nv): [M Gᵀ; G 0] into `matrix`, whose lower right block is 0, and the lower triangle of
-/// [M Gᵀ; G −E] into `l`. `products` are those of the scales of rows and columns.
-#[inline]
-fn fill<const N: usize>([matrix, l]: [&mut [[f64; N]; N]; 2], products: &[[f64; N]; N], [mass, g, e]: [&[f64]; 3], nv: usize) {
-    let (upper, lower) = matrix.split_at_mut(nv);
-    for (((row, l), products), mass) in upper.iter_mut().zip(l.iter_mut()).zip(products).zip(mass.chunks_exact(nv)) {
-        for ((x, p), m) in row.iter_mut().zip(products).zip(mass) {
-            *x = m * p;
-        }
-        *l = *row;
-    }
-    for (i, (((row, l), products), g)) in lower.iter_mut().zip(&mut l[nv..]).zip(&products[nv..]).zip(g.chunks_exact(nv)).enumerate() {
-        for (j, ((x, p), g)) in row.iter_mut().zip(products).zip(g).enumerate() {
-            *x = g * p;
-            upper[j][nv + i] = *x;
-        }
-        *l = *row;
-        l[nv + i] = -e[i];
     }
 }
 

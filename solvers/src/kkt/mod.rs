@@ -113,7 +113,8 @@ impl Kkt {
                 return Self::with(blocks, Form::Sparse(Box::new(quasi)));
             }
         }
-        Self::with(blocks, Form::Full(Definite::new(n)))
+        let full = Definite::new(&blocks);
+        Self::with(blocks, Form::Full(full))
     }
 
     /// Cost of a factorisation for the patterns of M and G, in multiplications of a dense one.
@@ -221,8 +222,12 @@ impl Kkt {
     /// With M as metric, f = 0 and γ = −Φ the same gives the shortest correction onto the constraints.
     pub fn solve(&mut self, f: &[f64], gamma: &[f64], a: &mut [f64], lambda: &mut [f64]) {
         let nv = self.nv;
-        for ((b, x), s) in self.x.iter_mut().zip(f.iter().chain(gamma)).zip(&self.scale) {
-            *b = x * s;
+        let (of_motions, of_rows) = self.x.split_at_mut(nv);
+        for (b, (f, d)) in of_motions.iter_mut().zip(f.iter().zip(&self.scale)) {
+            *b = f * d;
+        }
+        for (b, (gamma, s)) in of_rows.iter_mut().zip(gamma.iter().zip(&self.scale[nv..])) {
+            *b = gamma * s;
         }
         // without rows there is no E to take away
         self.apply(if self.rows == 0 { 0 } else { self.refinements });

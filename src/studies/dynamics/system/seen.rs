@@ -90,6 +90,9 @@ impl Seen {
 
 /// Makes a list equal to another one; the first time allocates.
 fn copy<T: Copy>(out: &mut Vec<T>, from: &[T]) {
-    out.clear();
-    out.extend_from_slice(from);
+    if out.len() == from.len() {
+        out.copy_from_slice(from);
+    } else {
+        *out = from.to_vec();
+    }
 }
