@@ -274,7 +274,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         if self.guesses() && self.miss(q) > 10.0 * CONVERGED {
             let (mut r, mut jacobian) = (Vec::new(), Rows::default());
-            self.asked(false, &mut r, &mut jacobian);
+            self.asked(false, &mut r, Some(&mut jacobian));
             let towards = |v: &Vec<f64>| {
                 let moved: Vec<f64> = jacobian.product(v).collect();
                 let part = -dot(&r, &moved) / (norm(&r) * norm(&moved)).max(f64::MIN_POSITIVE);

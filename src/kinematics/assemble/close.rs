@@ -112,19 +112,22 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             jacobian.push(w.g.line(row).entries().map(|(k, x)| (k, x * scale)));
         }
         if self.held != Held::Nothing {
-            self.asked(self.held == Held::Exact, r, jacobian);
+            self.asked(self.held == Held::Exact, r, Some(jacobian));
         }
     }
 
-    /// Residual and Jacobian of start values at position level, exact ones alone or all.
-    pub(super) fn asked(&self, exact_only: bool, r: &mut Vec<f64>, jacobian: &mut Rows) {
+    /// Residual of start values at position level, exact ones alone or all, and its Jacobian, if that is wanted: along a chain of n
+    /// bodies whose angles are asked it has n²/2 entries.
+    pub(super) fn asked(&self, exact_only: bool, r: &mut Vec<f64>, mut jacobian: Option<&mut Rows>) {
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
         for (start, target) in m.starts.iter().zip(&self.targets).filter(|(s, _)| !(exact_only && s.guess)) {
             match (start.asked, target) {
                 (Asked::Gauge { gauge, order: 0 }, Target::Value(value)) => {
                     let scale = self.gauge_scale(gauge);
                     r.push((w.readings[gauge].x - value) * scale);
-                    jacobian.push(self.slopes(gauge, scale));
+                    if let Some(jacobian) = &mut jacobian {
+                        jacobian.push(self.slopes(gauge, scale));
+                    }
                 }
                 (Asked::Orientation(k), Target::Rotation(wanted)) => {
                     let body = m.orientations[k].body;
@@ -132,6 +135,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
                     let theta = rotation::vector(&(wanted.transpose() * found));
                     let slope = rotation::slope(&theta) * found.transpose();
                     r.extend(theta.iter());
+                    let Some(jacobian) = &mut jacobian else { continue };
                     for i in 0..3 {
                         jacobian.push(m.road(m.bodies[body].column).map(|k| (k, (slope * spin(&w.columns[k]))[i])));
                     }

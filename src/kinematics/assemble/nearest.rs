@@ -117,7 +117,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         self.evaluate(q);
         let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         match near {
-            Near::Guesses => self.asked(false, &mut r, &mut jacobian),
+            Near::Guesses => self.asked(false, &mut r, Some(&mut jacobian)),
             Near::Drawn => self.joints(q, false, &mut r, &mut jacobian),
         }
         (r, jacobian)

@@ -148,11 +148,11 @@ impl<G: Space<S = f64>> System<'_, G> {
     fn pull(&mut self, q: &mut [f64]) {
         for _ in 0..30 {
             self.evaluate(q);
-            let (mut r, mut jacobian) = (Vec::new(), Rows::default());
-            self.asked(false, &mut r, &mut jacobian);
-            if norm(&r) < CONVERGED {
+            if norm(&self.missed()) < CONVERGED {
                 break;
             }
+            let (mut r, mut jacobian) = (Vec::new(), Rows::default());
+            self.asked(false, &mut r, Some(&mut jacobian));
             r.iter_mut().for_each(|r| *r = -*r);
             let delta = self.bounded(step(0.0, &jacobian, &r, &self.metric, 1e-12));
             self.dynamics.mechanism.retract(q, &delta);
@@ -162,7 +162,8 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// The position that closes from where guesses held like exact values leave it, if it comes nearer to the guesses than `other`
     /// or there is no other.
     fn by_guesses(&mut self, from: &[f64], other: Option<&Vec<f64>>) -> Option<Vec<f64>> {
-        if !self.guesses() {
+        // nothing comes nearer than what meets them
+        if !self.guesses() || other.is_some_and(|other| self.miss(other) < CONVERGED) {
             return None;
         }
         let modes = self.modes.clone();
@@ -223,9 +224,14 @@ impl<G: Space<S = f64>> System<'_, G> {
     /// How far a position is from all asked values.
     pub(super) fn miss(&mut self, q: &[f64]) -> f64 {
         self.evaluate(q);
-        let (mut r, mut jacobian) = (Vec::new(), Rows::default());
-        self.asked(false, &mut r, &mut jacobian);
-        norm(&r)
+        norm(&self.missed())
+    }
+
+    /// By how much the position evaluated last misses each asked value.
+    fn missed(&self) -> Vec<f64> {
+        let mut r = Vec::new();
+        self.asked(false, &mut r, None);
+        r
     }
 
     /// Size of the residuals that hold, rad and sizes.
