@@ -49,6 +49,18 @@ impl Engine {
         if self.dims.rows() > 0 { self.project_on(system, state, Stage::Velocity).map(drop) } else { Ok(()) }
     }
 
+    /// Moves the coordinates of a state to the constraints, unless they are on them to a part of their size; velocities stay.
+    ///
+    /// # Errors
+    /// As [`Engine::project`].
+    pub fn project_coordinates(&mut self, system: &mut dyn System, state: &mut State, part: f64) -> Result<(), Why> {
+        if self.dims.holonomic == 0 {
+            return Ok(());
+        }
+        self.evaluate(system, state.at(), Stage::Position);
+        if self.position_residual() <= part { Ok(()) } else { self.close(system, state) }
+    }
+
     /// Whether a state is on the constraints to a part of its size; evaluates it.
     pub fn is_near(&mut self, system: &mut dyn System, state: &State, part: f64) -> bool {
         if self.dims.rows() == 0 {

@@ -151,6 +151,9 @@ pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)
 /// Part of what columns are resolved to by which a state between rows may be off the constraints: nearer ones need not be moved there.
 const NEAR: f64 = 0.01;
 
+/// Part of the size by which a pose of a picture may be off the constraints: a hundredth of what frames leave out.
+const PLACED: f64 = 1e-8;
+
 /// A motion seen over time.
 struct Seen<'a> {
     breaks: Vec<f64>,
@@ -189,13 +192,13 @@ where
     Ok(Seen { breaks, rows: recorder, extremes, functionals, findings, resolution: resolved.quality() })
 }
 
-/// Poses of the bodies at a time.
+/// Poses of the bodies at a time, for pictures.
 pub(crate) fn pose<G>(trajectory: &mut Trajectory<'_, G>, breaks: &[f64], t: f64) -> Option<Vec<Pose<G>>>
 where
     G: Space<S = f64>,
 {
     let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
-    trajectory.place(t, piece).ok()?;
+    trajectory.place(t, piece, PLACED).ok()?;
     Some(trajectory.system(piece).dynamics.poses())
 }
 

@@ -281,14 +281,14 @@ where
         Ok(())
     }
 
-    /// Places the bodies as they are at `t` on a piece, without forces and accelerations.
-    pub(crate) fn place(&mut self, t: f64, piece: usize) -> Result<(), Off> {
+    /// Places the bodies as they are at `t` on a piece, on the constraints to a `part` of the size, and nothing else.
+    pub(crate) fn place(&mut self, t: f64, piece: usize, part: f64) -> Result<(), Off> {
         let own = self.take(t, piece)?;
         let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
-        if !own && engine.project(system, &mut self.node.state).is_err() {
+        if !own && engine.project_coordinates(system, &mut self.node.state, part).is_err() {
             self.dense.evaluate(t, &mut self.node.state);
         }
-        system.kinematics(&self.node.state.at());
+        system.stand(&self.node.state.at(), false);
         Ok(())
     }
 

@@ -16,7 +16,7 @@ where
     }
 
     /// Evaluates positions of a state, with G if that is asked for; what stands there already is not evaluated again.
-    pub(super) fn stand(&mut self, at: &At<'_>, rows: bool) {
+    pub(crate) fn stand(&mut self, at: &At<'_>, rows: bool) {
         self.dynamics.work.z.copy_from_slice(at.z);
         if !self.seen.is_placed(at, rows) {
             self.dynamics.work.held.copy_from_slice(at.live);
