@@ -53,6 +53,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "hertz",
             "wrong-dimension",
             "wrong-dimension-of-parameter",
+            "parameters-of-another-dimension",
             "length-plus-number",
             "nan",
             "infinity",

@@ -244,7 +244,10 @@ impl<'n> Decoder<'n> {
                             ["`", "a function", "a quantity whose", "a constant"].iter().any(|start| fault.expected.starts_with(start));
                         let code = code.unwrap_or(if form { "expression" } else { "wrong-dimension" });
                         let slice = text.get(fault.at.clone()).unwrap_or_default();
-                        let help = fault.help.or_else(|| fault.wanted.and_then(|wanted| self.unit_missing(slice, wanted)));
+                        let help = fault.help.or_else(|| {
+                            let wanted = fault.wanted?;
+                            self.unit_missing(slice, wanted).or_else(|| self.parameters_in(slice))
+                        });
                         Fault::new(code, place.clone(), message, fault.expected).maybe_help(help)
                     };
                     self.faults.push(made.at(origin.spot(fault.at)));
@@ -284,7 +287,7 @@ impl<'n> Decoder<'n> {
             } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
             } else {
-                fault.help = self.unit_or_name(text);
+                fault.help = self.unit_or_name(text).or_else(|| self.parameters_in(text));
             }
             if let Some(origin) = origin {
                 fault.spot = origin.spot(0..text.len());
@@ -342,6 +345,30 @@ impl<'n> Decoder<'n> {
         let written = wanted.written(&value);
         (written != value)
             .then(|| format!("`{0}` is given as a plain number: write `{0}: {written}`, or another unit, in `parameters`", text.trim()))
+    }
+
+    /// The units of the parameters that a text is made of, whose dimension is not what was meant; of a single one how it is set.
+    pub(super) fn parameters_in(&self, text: &str) -> Option<String> {
+        let mut told: Vec<(&str, usize, String)> = Vec::new();
+        for name in text.split(|c: char| !(c.is_alphanumeric() || "_.".contains(c))) {
+            let Some(Entity::Parameter(i)) = self.name_space.names.get(name).copied() else {
+                // other quantities may be to blame as well
+                let other = self.name_space.names.contains_key(name) || name.starts_with(char::is_alphabetic) && name.contains('.');
+                if other { return None } else { continue }
+            };
+            let Some(Some(dimension)) = self.name_space.parameters.get(i) else { continue };
+            if told.iter().all(|(_, known, _)| *known != i) {
+                told.push((name, i, dimension.si()));
+            }
+        }
+        let unit = |si: &str| if si.is_empty() { "without a unit".to_owned() } else { format!("in {si}") };
+        if let [(name, i, si)] = &told[..]
+            && let Some(set) = self.section("parameters").get(*i).and_then(|(_, node)| node.text())
+        {
+            return Some(format!("`{name}` is {} by `{name}: {}` in `parameters`", unit(si), clip(set)));
+        }
+        let all: Vec<String> = told.iter().map(|(name, _, si)| format!("`{name}` is {}", unit(si))).collect();
+        (!all.is_empty()).then(|| format!("by `parameters` {}", all.join(", ")))
     }
 
     /// A value of a wanted dimension that may use what `allow` says.
