@@ -26,6 +26,7 @@ mod hand_written;
 mod impulses;
 mod joints;
 mod kills;
+mod labels;
 mod large;
 mod laws;
 mod library;

@@ -1,8 +1,8 @@
 //! The drawing of a mechanism: links, joints and paths in the plane, in one or several positions.
 
-use super::lettering::{Lettering, Obstacle};
+use super::lettering::{Label, Lettering, Name, Named, Obstacle};
 use super::marks;
-use super::naming::{self, Name};
+use super::naming;
 use super::picture::Picture;
 use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind};
 use super::raster::RenderError;
@@ -25,6 +25,12 @@ const ROD: Color = [200, 200, 196];
 /// None that data could cause.
 pub fn render_drawing(drawing: &Drawing) -> Result<Picture, RenderError> {
     Picture::of(&layout(drawing))
+}
+
+/// Where the names of a drawing stand in its picture.
+#[must_use]
+pub fn labels(drawing: &Drawing) -> Vec<Label> {
+    lettered(drawing, &plan(drawing)).letters.labels()
 }
 
 /// How a drawing lies on its sheet.
@@ -80,7 +86,7 @@ pub(super) fn margin(drawing: &Drawing, plan: &Plan, scene: &mut Scene) {
 
 /// The first position of a drawing by a plan with its forces, without names and paths.
 pub(super) fn position(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
-    let letters = Lettering::new(Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: plan.height });
+    let letters = Lettering::new(Rect { left: 0.0, top: 0.0, right: WIDTH, bottom: plan.height }, LETTERS);
     let scene = Scene { width: WIDTH, height: plan.height, ..Scene::default() };
     let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters, scene };
     pen.pose(0, 1.0);
@@ -90,9 +96,17 @@ pub(super) fn position(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
 
 fn layout(drawing: &Drawing) -> Scene {
     let plan = plan(drawing);
-    let scene = frame(drawing, &plan);
+    let Pen { letters, mut scene, .. } = lettered(drawing, &plan);
+    letters.draw(&mut scene);
+    margin(drawing, &plan, &mut scene);
+    scene
+}
+
+/// The sheet with all positions, and the names that belong on it.
+fn lettered<'a>(drawing: &'a Drawing, plan: &Plan) -> Pen<'a> {
+    let scene = frame(drawing, plan);
     let paper = Rect { left: 8.0, top: if drawing.title.is_empty() { 8.0 } else { 50.0 }, right: WIDTH - 8.0, bottom: plan.height - 58.0 };
-    let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters: Lettering::new(paper), scene };
+    let mut pen = Pen { drawing, sheet: plan.sheet, signs: plan.signs, letters: Lettering::new(paper, LETTERS), scene };
     let count = poses(drawing);
     for pose in (0..count).rev() {
         let strength = if pose == 0 { 1.0 } else { 0.45 - 0.28 * (pose - 1) as f64 / (count - 1).max(1) as f64 };
@@ -102,10 +116,7 @@ fn layout(drawing: &Drawing) -> Scene {
     forces::draw(drawing, &plan.sheet, plan.signs, plan.forces, &mut pen.scene, &mut pen.letters);
     let names = naming::all(drawing, &pen.sheet, pen.signs.size);
     pen.names(names, paper);
-    let Pen { letters, mut scene, .. } = pen;
-    letters.draw(&mut scene);
-    margin(drawing, &plan, &mut scene);
-    scene
+    pen
 }
 
 fn poses(drawing: &Drawing) -> usize {
@@ -165,6 +176,7 @@ impl Pen<'_> {
         }
         for (symbol, placement) in &joints {
             self.signs.pin(&mut self.scene, symbol.kind, placement, &ink);
+            self.letters.pin(placement.at, strong);
             if strong {
                 let half = 1.2 * self.signs.pin_radius(true);
                 self.letters.avoid(placement.at, [half; 2], [0.0; 2]);
@@ -263,9 +275,8 @@ impl Pen<'_> {
         let stops = placement.stops.map(|stop| stop.map(|at| if slides { self.sheet.point(at) } else { [at[0], -at[1]] }));
         self.signs.stops(&mut self.scene, &Placement { stops, ..*placement }, slides);
         if symbol.driven {
-            self.signs.drive(&mut self.scene, placement, slides);
-            let half = 28.0 * self.signs.size;
-            self.letters.avoid(placement.at, [half; 2], [0.0; 2]);
+            let arrow = self.signs.drive(&mut self.scene, placement, slides);
+            self.letters.avoid_line(&arrow, Obstacle::Sign);
         }
     }
 
@@ -289,15 +300,15 @@ impl Pen<'_> {
         // the path of a body that is named goes without a name of its own
         let known: Vec<String> = names.iter().map(|name| name.text.clone()).collect();
         let area: f64 = names.iter().map(|name| font::width(&name.text, LETTERS) * LETTERS).sum();
-        if area <= NAMED * paper.width() * paper.height() {
-            names.into_iter().for_each(|name| self.letters.name(&name.text, name.at, name.reach, LETTERS, name.color));
-        }
+        let mut all = if area <= NAMED * paper.width() * paper.height() { names } else { Vec::new() };
         for (index, trace) in self.drawing.traces.iter().enumerate().filter(|(_, trace)| !known.contains(&trace.name)) {
             let pixels = self.sheet.points(&trace.points);
-            if let Some(highest) = pixels.iter().min_by(|a, b| a[1].total_cmp(&b[1])) {
-                self.letters.name(&trace.name, *highest, 6.0, LETTERS, path_stroke(index).0);
+            if let Some(at) = pixels.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) {
+                let (text, color) = (trace.name.clone(), path_stroke(index).0);
+                all.push(Name { text, at, also: Vec::new(), reach: 6.0, color, of: Named::Path(pixels) });
             }
         }
+        self.letters.place(all);
     }
 }
 

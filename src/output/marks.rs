@@ -78,8 +78,8 @@ impl Signs {
         scene.line(points.collect(), Stroke::solid(RUST, self.pen(2.0)));
     }
 
-    /// The arrow of what drives a joint: about a hinge, or along a slide above its box.
-    pub(super) fn drive(self, scene: &mut Scene, placement: &Placement, slides: bool) {
+    /// The arrow of what drives a joint: about a hinge, or along a slide above its box. Gives its line.
+    pub(super) fn drive(self, scene: &mut Scene, placement: &Placement, slides: bool) -> Vec<Point> {
         let both = placement.sense == 0.0;
         let points: Vec<Point> = if slides {
             let (along, _) = direction([0.0; 2], placement.along);
@@ -103,6 +103,7 @@ impl Signs {
         if both {
             self.head(scene, &points.iter().rev().copied().collect::<Vec<_>>(), DRIVE);
         }
+        points
     }
 
     /// The head of an arrow at the end of a line.

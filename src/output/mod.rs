@@ -25,6 +25,7 @@ mod manifest;
 mod marks;
 mod mat;
 mod matrices;
+mod measure;
 mod naming;
 mod outlines;
 mod panel;
@@ -57,13 +58,14 @@ pub use animation::{Film, Pace, Projector, Shot, ShotOptions, moving_svg, write_
 pub use content::Spooled;
 pub use csv::write_csv;
 pub use csv_rows::CsvRows;
-pub use drawing::render_drawing;
+pub use drawing::{labels, render_drawing};
 pub use dxf::write_dxf;
 pub use figure::render_figure;
 pub use figures::figures;
 pub use formats::{Formats, files, run_files, tables};
 pub use gltf::write_gltf;
 pub use json::{json_number, json_numbers, write_json};
+pub use lettering::Label;
 pub use mat::{MatValue, write_mat};
 pub use matrices::matrices;
 #[cfg(feature = "parquet")]

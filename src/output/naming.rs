@@ -1,42 +1,84 @@
 //! What is named in a drawing, and where: joints, one label to a place, bodies and links.
 
+use super::lettering::{Name, Named};
 use super::marks::RUST;
+use super::measure::encloses;
 use super::outlines::hull;
-use super::pose::{Drawing, FormKind, LinkKind, SymbolKind};
-use super::scene::{Color, INK};
+use super::pose::{Drawing, FormKind, LinkKind, Outline, SymbolKind};
+use super::scene::INK;
 use super::sheet::{Sheet, body_color, corners, near};
-use super::symbols::{BAR, shaded};
+use super::symbols::{BAR, circle, shaded};
 use super::thin::Point;
 
 /// Names of one place that stand side by side.
 const TOGETHER: usize = 3;
 
-/// A name, the place that it belongs to, and how far from there it keeps.
-#[derive(Clone, Debug)]
-pub(super) struct Name {
-    pub(super) text: String,
-    pub(super) at: Point,
-    pub(super) reach: f64,
-    pub(super) color: Color,
-}
-
 /// All names of the strong position, `size` being that of the signs. Joints first: their names have the least choice.
 pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
     let mut names = joints(drawing, sheet, size);
+    let bodies: Vec<Vec<(f64, FormKind)>> = drawing.bodies.iter().map(|body| forms(body, sheet)).collect();
     for (index, body) in drawing.bodies.iter().enumerate().skip(1) {
-        let forms: Vec<FormKind> = body.poses.first().into_iter().flatten().filter_map(|form| sheet.form(form)).collect();
-        if let Some((at, reach)) = middle(&forms, size) {
-            names.push(Name { text: body.name.clone(), at, reach, color: shaded(body_color(index), 0.5) });
+        let forms: Vec<FormKind> = bodies[index].iter().map(|(_, form)| form.clone()).collect();
+        let Some((at, reach)) = middle(&forms, size) else { continue };
+        let depth = bodies[index].iter().map(|(depth, _)| *depth).fold(f64::NEG_INFINITY, f64::max);
+        let above = |other: usize| bodies[other].iter().filter(|(d, _)| *d > depth).map(|(_, form)| line(form));
+        let above: Vec<Vec<Point>> = (1..bodies.len()).filter(|other| *other != index).flat_map(above).collect();
+        let seen = |at: &Point| !above.iter().any(|line| encloses(line, *at));
+        let mut places: Vec<Point> = std::iter::once(at).chain(beside(&forms)).collect();
+        // a bar is named where it is seen, and not at all where it is hidden; of a wider part the edge may be seen
+        if places.len() > 1 {
+            places.retain(seen);
         }
+        if places.is_empty() {
+            continue;
+        }
+        let at = places.remove(0);
+        let of = Named::Part(forms.iter().map(line).collect());
+        names.push(Name { text: body.name.clone(), at, also: places, reach, color: shaded(body_color(index), 0.5), of });
     }
     for link in &drawing.links {
-        if let Some([a, b]) = sheet.ends(link) {
-            let at = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+        if let Some(ends) = sheet.ends(link) {
             let reach = if link.kind == LinkKind::Torsion { 28.0 } else { 19.0 } * size.max(0.6);
-            names.push(Name { text: link.name.clone(), at, reach, color: RUST });
+            let (also, of) = (along(ends).to_vec(), Named::Part(vec![ends.to_vec()]));
+            names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, reach, color: RUST, of });
         }
     }
     names
+}
+
+/// The shapes of a body in the strong position, in pixels, with their depths.
+fn forms(body: &Outline, sheet: &Sheet) -> Vec<(f64, FormKind)> {
+    body.poses.first().into_iter().flatten().filter_map(|form| Some((form.depth, sheet.form(form)?))).collect()
+}
+
+/// The middle line of a bar, or the edge of an area, which returns to its first point.
+fn line(form: &FormKind) -> Vec<Point> {
+    let outline = match form {
+        FormKind::Plate { points } => hull(points),
+        FormKind::Disc { center, radius, .. } | FormKind::Mass { center, radius } => circle(*center, *radius),
+        FormKind::Bar { .. } | FormKind::Area { .. } => corners(form),
+    };
+    let closed = outline.first().copied().filter(|_| outline.len() > 2);
+    outline.into_iter().chain(closed).collect()
+}
+
+/// Places along a bar that are as good for its name as its middle.
+fn beside(forms: &[FormKind]) -> Vec<Point> {
+    match forms {
+        [form @ (FormKind::Bar { .. } | FormKind::Plate { .. }), ..] => match line(form)[..] {
+            [a, b] => along([a, b]).to_vec(),
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
+    }
+}
+
+fn along(ends: [Point; 2]) -> [Point; 6] {
+    [0.35, 0.65, 0.2, 0.8, 0.1, 0.9].map(|s| between(ends, s))
+}
+
+fn between([a, b]: [Point; 2], s: f64) -> Point {
+    [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])]
 }
 
 fn joints(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
@@ -56,7 +98,10 @@ fn joints(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         let more = if names.len() > TOGETHER { ", ..." } else { "" };
         names[..names.len().min(TOGETHER)].join(", ") + more
     };
-    places.into_iter().map(|(names, at, reach)| Name { text: joined(names), at, reach, color: INK }).collect()
+    places
+        .into_iter()
+        .map(|(names, at, reach)| Name { text: joined(names), at, also: Vec::new(), reach, color: INK, of: Named::Pin })
+        .collect()
 }
 
 /// Where the name of a body belongs, and how far from there it must keep: beside a bar, within a plate that is large enough.

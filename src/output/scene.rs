@@ -110,6 +110,11 @@ impl Rect {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
+    /// Its point nearest to another.
+    pub(super) fn nearest(&self, [x, y]: Point) -> Point {
+        [x.clamp(self.left, self.right), y.clamp(self.top, self.bottom)]
+    }
+
     /// The area shared with `other`.
     pub(super) fn overlap(&self, other: &Self) -> f64 {
         let width = self.right.min(other.right) - self.left.max(other.left);

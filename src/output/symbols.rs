@@ -200,7 +200,7 @@ fn corners(placement: &Placement, half: [f64; 2]) -> Vec<Point> {
 }
 
 /// Points around a circle, the first one again at the end.
-fn circle(center: Point, radius: f64) -> Vec<Point> {
+pub(super) fn circle(center: Point, radius: f64) -> Vec<Point> {
     (0..=16).map(|k| f64::from(k) * std::f64::consts::TAU / 16.0).map(|a| off(center, [a.cos(), a.sin()], radius, 0.0)).collect()
 }
 
