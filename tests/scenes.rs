@@ -253,6 +253,15 @@ fn links_say_what_they_are() {
 }
 
 #[test]
+fn joints_with_damping_are_told() {
+    let text = PENDULUM
+        .replace("[ground, u.start] }", "[ground, u.start], damping: 0.1 N m s/rad }")
+        .replace("l.start] }", "l.start], damping: 0 N m s/rad }");
+    let scene = &study(&text, "fall", Coordinates::Joint).scenes[0].1;
+    assert_eq!(scene.joints.iter().map(|joint| (joint.name.as_str(), joint.damped)).collect::<Vec<_>>(), [("P", true), ("Q", false)]);
+}
+
+#[test]
 fn a_study_names_its_paths() {
     let traced = |trace: &str| {
         let text = SLIDER_CRANK.replace("columns: [rod.P.x, rod.P.y, crank.end.x, crank.end.y, block.x, block.y]", trace);

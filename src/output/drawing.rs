@@ -269,7 +269,7 @@ impl Pen<'_> {
         }
     }
 
-    /// What stands beside a joint: the arrow of a drive, stops.
+    /// What stands beside a joint: the arrow of a drive, a dashpot, stops.
     fn beside(&mut self, symbol: &Symbol, placement: &Placement) {
         let slides = matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
         let stops = placement.stops.map(|stop| stop.map(|at| if slides { self.sheet.point(at) } else { [at[0], -at[1]] }));
@@ -277,6 +277,10 @@ impl Pen<'_> {
         if symbol.driven {
             let arrow = self.signs.drive(&mut self.scene, placement, slides);
             self.letters.avoid_line(&arrow, Obstacle::Sign);
+        }
+        if symbol.damped {
+            let line = self.signs.dashpot(&mut self.scene, placement, slides);
+            self.letters.avoid_line(&line, Obstacle::Sign);
         }
     }
 

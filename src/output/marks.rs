@@ -106,6 +106,38 @@ impl Signs {
         points
     }
 
+    /// The damping of a joint: a small dashpot behind the box of a slide, or bent about a hinge where the arrow of a drive has its gap.
+    /// Gives its middle line.
+    pub(super) fn dashpot(self, scene: &mut Scene, placement: &Placement, slides: bool) -> Vec<Point> {
+        let size = self.size;
+        let (along, _) = direction([0.0; 2], placement.along);
+        let [u, v] = placement.across;
+        // s from what moves to what holds it, t across
+        let at = |s: f64, t: f64| -> Point {
+            if slides {
+                let side = if along[0] >= 0.0 { -8.0 } else { 8.0 };
+                return off(placement.at, along, -self.slide_box()[0] - 38.0 * size * s, size * (side + 6.0 * t));
+            }
+            let ((sin, cos), radius) = ((3.1 + 1.6 * s).sin_cos(), size * (17.5 + 5.0 * t));
+            [placement.at[0] + radius * (cos * u[0] + sin * v[0]), placement.at[1] + radius * (cos * u[1] + sin * v[1])]
+        };
+        let run = |from: f64, to: f64, t: f64| (0..=10).map(move |k| (from + (to - from) * f64::from(k) / 10.0, t));
+        let mut line = |places: Vec<(f64, f64)>, width: f64| {
+            let points: Vec<Point> = places.into_iter().map(|(s, t)| at(s, t)).collect();
+            scene.line(points, Stroke::solid(RUST, self.pen(width)));
+        };
+        // a rod with its piston, the pot around it, and what that is fixed to
+        line(run(0.0, 0.55, 0.0).collect(), 2.0);
+        line(vec![(0.55, -0.65), (0.55, 0.65)], 2.8);
+        line(run(0.35, 0.8, -1.0).chain(run(0.8, 0.35, 1.0)).collect(), 2.0);
+        line(run(0.8, 1.0, 0.0).collect(), 2.0);
+        line(vec![(1.0, -0.9), (1.0, 0.9)], 2.0);
+        if !slides {
+            line(vec![(0.0, 0.0), (0.0, -1.9)], 2.0);
+        }
+        run(0.0, 1.0, 0.0).map(|(s, t)| at(s, t)).collect()
+    }
+
     /// The head of an arrow at the end of a line.
     pub(super) fn head(self, scene: &mut Scene, points: &[Point], color: Color) {
         let Some(tip) = points.last() else { return };
@@ -193,6 +225,27 @@ pub(super) fn scale_bar(scene: &mut Scene, scale: f64, asked: Option<&ShownIn>, 
 mod tests {
     use super::super::scene::Item;
     use super::*;
+
+    #[test]
+    fn a_dashpot_lies_behind_a_box_or_in_the_gap_of_a_drive() {
+        let at = [100.0, 100.0];
+        let points = |placement: &Placement, slides: bool| {
+            let mut scene = Scene::default();
+            let line = Signs { size: 1.0 }.dashpot(&mut scene, placement, slides);
+            let of = |item: &Item| if let Item::Path { points, .. } = item { points.clone() } else { panic!("{item:?}") };
+            assert!(scene.items.len() >= 5 && line.len() > 2, "{:?}", scene.items);
+            scene.items.iter().flat_map(of).collect::<Vec<_>>()
+        };
+        let slide = points(&Placement { at, along: [1.0, 0.0], ..Placement::default() }, true);
+        assert!(slide.iter().all(|p| p[0] <= 100.0 - Signs { size: 1.0 }.slide_box()[0] && (p[1] - 100.0).abs() < 16.0), "{slide:?}");
+        // across of a hinge in the plane; the arrow of its drive is at 22 pixels, elsewhere around
+        let across = [[0.0, 1.0], [1.0, 0.0]];
+        let hinge = points(&Placement { at, across, ..Placement::default() }, false);
+        let mut scene = Scene::default();
+        let drive = Signs { size: 1.0 }.drive(&mut scene, &Placement { at, across, sense: 1.0, ..Placement::default() }, false);
+        let far = |p: &Point| drive.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
+        assert!(hinge.iter().all(|p| far(p) > 6.0 && (p[0] - 100.0).hypot(p[1] - 100.0) < 23.0), "{hinge:?}");
+    }
 
     #[test]
     fn the_bar_is_as_long_as_it_says() {

@@ -75,6 +75,8 @@ pub struct Symbol {
     pub way_grounded: bool,
     /// Something drives it.
     pub driven: bool,
+    /// It has viscous damping.
+    pub damped: bool,
     /// Where it is, for each position.
     pub poses: Vec<Placement>,
 }

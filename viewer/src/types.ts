@@ -161,6 +161,7 @@ export interface Joint {
   stroke: [number, number] | null;
   cut: boolean;
   driven: boolean;
+  damped: boolean;
 }
 
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';

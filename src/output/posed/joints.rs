@@ -15,6 +15,7 @@ impl Posed<'_> {
                 grounded: joint.a.body == 0 || joint.b.body == 0,
                 way_grounded: joint.a.body == 0,
                 driven: joint.driven,
+                damped: joint.damped,
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })
         })

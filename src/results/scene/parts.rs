@@ -44,6 +44,8 @@ pub struct Joint {
     pub cut: bool,
     /// Whether a driver or motor moves it.
     pub driven: bool,
+    /// Whether it has viscous damping.
+    pub damped: bool,
 }
 
 /// A massless element between two places.

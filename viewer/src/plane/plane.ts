@@ -289,8 +289,10 @@ export class Plane implements Renderer {
     if (joint.kind !== 'pin-in-slot' && this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
   }
 
-  private sign({ kind, a, b, driven }: Joint): void {
+  private sign(joint: Joint): void {
+    const { kind, a, b, driven, damped } = joint;
     if (kind === 'distance' || kind === 'free') return;
+    if (damped) signs.dashpot(this.pen, this.point(b), this.slides(joint) ? this.along(a.body, joint.axis) : null, this.inks);
     signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
   }
 

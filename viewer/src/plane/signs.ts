@@ -63,6 +63,28 @@ export function pin(pen: Pen, kind: string, at: Point, driven: boolean, inks: In
   else pen.circle(at, 4.8).fill(inks.paper).stroke(edge, driven ? 2.4 : 1.8);
 }
 
+/**
+ * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, or bent about a hinge, to its upper left,
+ * where its bearing is not.
+ */
+export function dashpot(pen: Pen, center: Point, slide: Point | null, inks: Inks): void {
+  const color = inks.curves[2]!;
+  // s from what moves to what holds it, t across
+  const at = ([s, t]: Point): Point => {
+    if (slide) return off(center, slide, -BOX[0] - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
+    const [angle, radius] = [2.9 - 1.6 * s, 12 + 3.5 * t];
+    return [center[0] + radius * Math.cos(angle), center[1] - radius * Math.sin(angle)];
+  };
+  const run = (from: number, to: number, t: number) => Array.from({ length: 9 }, (_, k): Point => [from + ((to - from) * k) / 8, t]);
+  const line = (places: Point[], width: number) => pen.path(places.map(at)).stroke(color, width);
+  line(run(0, 0.55, 0), 1.4);
+  line([[0.55, -0.65], [0.55, 0.65]], 2);
+  line([...run(0.35, 0.8, -1), ...run(0.8, 0.35, 1)], 1.4);
+  line(run(0.8, 1, 0), 1.4);
+  line([[1, -0.9], [1, 0.9]], 1.4);
+  if (!slide) line([[0, 0], [0, -1.9]], 1.4);
+}
+
 /** The points of a coil between two points of the line from a along `along`. */
 function coil(a: Point, along: Point, from: number, to: number, across: number): Point[] {
   const coils = Math.min(Math.max(Math.round((to - from) / 10), 4), 14);

@@ -3,7 +3,7 @@
 import { type Arrows, COLOR, type Kind } from '../arrows';
 import { type Motion, type Vector, cross } from '../motion';
 import { Pen, type Point, off, toward } from '../plane/pen';
-import { link, spiral } from '../plane/signs';
+import { dashpot, link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
 import type { Joint } from '../types';
@@ -90,11 +90,20 @@ class Space implements Renderer {
       const draw = () => (kind === 'torsion' ? spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : link(pen, kind, this.pixel(p), this.pixel(q), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
+    for (const joint of motion.scene.joints.filter(({ damped }) => damped)) items.push(this.dashpot(joint, inks));
     if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
     for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height), inks);
     if (options.names) for (const { name, b, kind } of motion.scene.joints) if (kind !== 'distance') pen.text(name, off(this.pixel(motion.world(b, place)), [1, 0], 9, -8), inks.soft, inks.paper);
     this.axes(height, inks);
+  }
+
+  /** The damping of a joint, in front of its pin. */
+  private dashpot({ kind, a, b, axis }: Joint, inks: Inks): Item {
+    const at = this.motion.world(b, this.place);
+    const along = this.motion.direction(a.body, axis, this.place);
+    const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], [dot(along, this.right), -dot(along, this.above)]).along : null;
+    return { depth: this.depth(at) + 0.05 * this.size, draw: () => dashpot(this.pen, this.pixel(at), slide, inks) };
   }
 
   /** Direction of the x axis of a body in the picture, rad. */
