@@ -102,7 +102,7 @@ fn signed(out: &mut Entities, layer: Layer, back: &dyn Fn(Point) -> Point, mm: f
         match item {
             Item::Path { points, closed, .. } => out.path(layer, &points.into_iter().map(back).collect::<Vec<_>>(), closed),
             Item::Circle { at, radius, .. } => out.circle(layer, back(at), radius * mm),
-            Item::Text(_) => {}
+            Item::Veil { .. } | Item::Text(_) => {}
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         let forms: Vec<FormKind> = bodies[index].iter().map(|(_, form)| form.clone()).collect();
         let Some((at, reach)) = middle(&forms, size) else { continue };
         let depth = bodies[index].iter().map(|(depth, _)| *depth).fold(f64::NEG_INFINITY, f64::max);
-        let above = |other: usize| bodies[other].iter().filter(|(d, _)| *d > depth).map(|(_, form)| line(form));
+        let above = |other: usize| bodies[other].iter().filter(|(d, form)| *d > depth && hides(form)).map(|(_, form)| line(form));
         let above: Vec<Vec<Point>> = (1..bodies.len()).filter(|other| *other != index).flat_map(above).collect();
         let seen = |at: &Point| !above.iter().any(|line| encloses(line, *at));
         let mut places: Vec<Point> = std::iter::once(at).chain(beside(&forms)).collect();
@@ -56,10 +56,15 @@ fn line(form: &FormKind) -> Vec<Point> {
     let outline = match form {
         FormKind::Plate { points } => hull(points),
         FormKind::Disc { center, radius, .. } | FormKind::Mass { center, radius } => circle(*center, *radius),
-        FormKind::Bar { .. } | FormKind::Area { .. } => corners(form),
+        FormKind::Bar { .. } | FormKind::Area { .. } | FormKind::Wheel { .. } => corners(form),
     };
     let closed = outline.first().copied().filter(|_| outline.len() > 2);
     outline.into_iter().chain(closed).collect()
+}
+
+/// Whether what is behind a shape is not seen.
+fn hides(form: &FormKind) -> bool {
+    !matches!(form, FormKind::Wheel { .. })
 }
 
 /// Places along a bar that are as good for its name as its middle.
@@ -125,7 +130,7 @@ fn middle(forms: &[FormKind], size: f64) -> Option<(Point, f64)> {
                 _ => Some((center(&hull), 0.0)),
             }
         }
-        [FormKind::Area { .. } | FormKind::Mass { .. }, ..] => {
+        [FormKind::Area { .. } | FormKind::Wheel { .. } | FormKind::Mass { .. }, ..] => {
             let points: Vec<Point> = forms.iter().flat_map(corners).collect();
             (!points.is_empty()).then(|| (center(&points), 0.0))
         }

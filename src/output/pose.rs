@@ -56,6 +56,8 @@ pub enum FormKind {
     Plate { points: Vec<[f64; 2]> },
     /// A true outline, closed; `shade` 1 is full light, 0 none.
     Area { points: Vec<[f64; 2]>, shade: f64 },
+    /// A round wheel in space: its outline, convex, and the circle of the end that is seen. What is behind it is seen through it.
+    Wheel { outline: Vec<[f64; 2]>, face: Vec<[f64; 2]> },
     /// A circle with a spoke to `spoke` on its rim, which tells how it is turned.
     Disc { center: [f64; 2], radius: f64, spoke: Option<[f64; 2]> },
     /// A point mass.

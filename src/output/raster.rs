@@ -99,7 +99,7 @@ impl Painter<'_> {
             Item::Path { points, closed, fill, stroke } => {
                 let mut points = points.clone();
                 if let Some(color) = fill {
-                    self.fill(&points, *color)?;
+                    self.fill(&points, *color, 1.0)?;
                 }
                 if *closed {
                     points.extend(points.first().copied());
@@ -116,6 +116,7 @@ impl Painter<'_> {
                 }
                 Ok(())
             }
+            Item::Veil { points, color, opacity } => self.fill(points, *color, *opacity),
             Item::Text(text) => self.text(text),
         }
     }
@@ -126,13 +127,13 @@ impl Painter<'_> {
         (nearest(x), nearest(y))
     }
 
-    fn fill(&mut self, points: &[Point], color: Color) -> Result<(), RenderError> {
+    fn fill(&mut self, points: &[Point], color: Color, opacity: f64) -> Result<(), RenderError> {
         let points: Vec<_> = points.iter().map(|point| self.sample(*point)).collect();
         if points.len() < 3 {
             return Ok(());
         }
         let [r, g, b] = color;
-        self.backend.fill_polygon(points, &RGBColor(r, g, b)).map_err(failed)
+        self.backend.fill_polygon(points, &RGBColor(r, g, b).mix(opacity)).map_err(failed)
     }
 
     fn disc(&mut self, at: Point, radius: f64, color: Color) -> Result<(), RenderError> {
@@ -140,7 +141,7 @@ impl Painter<'_> {
             let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 48.0).sin_cos();
             [at[0] + radius * cos, at[1] + radius * sin]
         };
-        if radius > 0.0 { self.fill(&(0..48).map(around).collect::<Vec<_>>(), color) } else { Ok(()) }
+        if radius > 0.0 { self.fill(&(0..48).map(around).collect::<Vec<_>>(), color, 1.0) } else { Ok(()) }
     }
 
     /// A line of quadrilaterals, with discs where they meet: the backend's own thick lines have mitres that stick out of peaks.
@@ -153,7 +154,7 @@ impl Painter<'_> {
                 if length > 0.0 {
                     let normal = [(a[1] - b[1]) / length * stroke.width / 2.0, (b[0] - a[0]) / length * stroke.width / 2.0];
                     let off = |p: Point, side: f64| [p[0] + side * normal[0], p[1] + side * normal[1]];
-                    self.fill(&[off(a, 1.0), off(b, 1.0), off(b, -1.0), off(a, -1.0)], stroke.color)?;
+                    self.fill(&[off(a, 1.0), off(b, 1.0), off(b, -1.0), off(a, -1.0)], stroke.color, 1.0)?;
                 }
             }
             let inner = 1..dash.len().saturating_sub(1);
@@ -247,16 +248,28 @@ mod tests {
         assert!(dashes(&[], &[1.0, 1.0]).is_empty());
     }
 
-    #[test]
-    fn a_filled_half_is_black_in_the_picture() {
+    /// The pixels of a picture with one item in its right half.
+    fn painted(item: impl Fn(&mut Scene, Vec<Point>)) -> Vec<u8> {
         let mut scene = Scene { width: 8.0, height: 4.0, ..Scene::default() };
-        let square = vec![[4.0, -1.0], [9.0, -1.0], [9.0, 5.0], [4.0, 5.0]];
-        scene.shape(square, Some([0, 0, 0]), None);
+        item(&mut scene, vec![[4.0, -1.0], [9.0, -1.0], [9.0, 5.0], [4.0, 5.0]]);
         let bytes = write_png(&scene).unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut pixels).unwrap();
+        pixels
+    }
+
+    #[test]
+    fn a_filled_half_is_black_in_the_picture() {
+        let pixels = painted(|scene, square| scene.shape(square, Some([0, 0, 0]), None));
         assert_eq!(pixels[..3], [255, 255, 255]);
         assert_eq!(pixels[21..24], [0, 0, 0]);
+    }
+
+    #[test]
+    fn what_is_behind_a_veil_is_seen() {
+        let pixels = painted(|scene, square| scene.veil(square, [0, 0, 0], 0.4));
+        assert_eq!(pixels[..3], [255, 255, 255]);
+        assert!(pixels[21..24].iter().all(|x| x.abs_diff(153) <= 2), "{:?}", &pixels[21..24]);
     }
 }

@@ -1,7 +1,7 @@
 //! The display list: what a picture consists of, in pixels of its nominal size, y downwards.
 //!
-//! Layout is done once, in these few primitives; `svg` and `raster` only write them down. There is no transparency: pale colours
-//! are mixed with the white of the paper beforehand, so that overlapping strokes of one body do not darken each other.
+//! Layout is done once, in these few primitives; `svg` and `raster` only write them down. Nothing but a veil lets through what is behind
+//! it: pale colours are mixed with the white of the paper beforehand, so that overlapping strokes of one body do not darken each other.
 
 use super::font;
 use super::thin::Point;
@@ -31,8 +31,24 @@ pub(super) struct Scene {
 /// One primitive.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Item {
-    Path { points: Vec<Point>, closed: bool, fill: Option<Color>, stroke: Option<Stroke> },
-    Circle { at: Point, radius: f64, fill: Option<Color>, stroke: Option<Stroke> },
+    Path {
+        points: Vec<Point>,
+        closed: bool,
+        fill: Option<Color>,
+        stroke: Option<Stroke>,
+    },
+    Circle {
+        at: Point,
+        radius: f64,
+        fill: Option<Color>,
+        stroke: Option<Stroke>,
+    },
+    /// A convex area through which one sees: of `opacity` 1 nothing of what is behind it.
+    Veil {
+        points: Vec<Point>,
+        color: Color,
+        opacity: f64,
+    },
     Text(Text),
 }
 
@@ -132,6 +148,11 @@ impl Scene {
     /// A closed shape.
     pub(super) fn shape(&mut self, points: Vec<Point>, fill: Option<Color>, stroke: Option<Stroke>) {
         self.items.push(Item::Path { points, closed: true, fill, stroke });
+    }
+
+    /// A convex area through which one sees.
+    pub(super) fn veil(&mut self, points: Vec<Point>, color: Color, opacity: f64) {
+        self.items.push(Item::Veil { points, color, opacity });
     }
 
     /// A rectangle.

@@ -50,6 +50,7 @@ impl Sheet {
             }
             FormKind::Plate { points } => FormKind::Plate { points: self.points(points) },
             FormKind::Area { points, shade } => FormKind::Area { points: self.points(points), shade: *shade },
+            FormKind::Wheel { outline, face } => FormKind::Wheel { outline: self.points(outline), face: self.points(face) },
             FormKind::Disc { center, radius: r, spoke } => {
                 FormKind::Disc { center: at(center)?, radius: radius(*r)?, spoke: spoke.as_ref().and_then(at) }
             }
@@ -99,7 +100,7 @@ pub(super) fn is_usable(point: &[f64; 2]) -> bool {
 pub(super) fn corners(kind: &FormKind) -> Vec<[f64; 2]> {
     match kind {
         FormKind::Bar { from, to, .. } => vec![*from, *to],
-        FormKind::Plate { points } | FormKind::Area { points, .. } => points.clone(),
+        FormKind::Plate { points } | FormKind::Area { points, .. } | FormKind::Wheel { outline: points, .. } => points.clone(),
         FormKind::Disc { center: [x, y], radius: r, .. } | FormKind::Mass { center: [x, y], radius: r } => {
             vec![[x - r, *y], [x + r, *y], [*x, y - r], [*x, y + r]]
         }

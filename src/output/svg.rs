@@ -42,6 +42,10 @@ pub(super) fn write_item(out: &mut String, item: &Item, within: &str) {
             let _ = write!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"{}{}", filled(*fill), stroked(*stroke));
             close(out, "circle", within);
         }
+        Item::Veil { points, color, opacity } => {
+            let _ = write!(out, "<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"{}\"", pairs(points), hex(*color), short(*opacity));
+            close(out, "polygon", within);
+        }
         Item::Text(text) => write_text(out, text),
     }
 }
@@ -125,7 +129,9 @@ mod tests {
     fn text_is_escaped_and_numbers_are_short() {
         let mut scene = Scene { width: 100.0, height: 50.0, title: "a < b & \"c\"".into(), items: vec![] };
         scene.text([1.0 / 3.0, -0.001], "x\u{0}<y", 12.0, Anchor::Middle);
+        scene.veil(vec![[0.0; 2], [1.0, 0.0], [0.0, 1.0]], [0, 0, 255], 0.4);
         let svg = write_svg(&scene);
+        assert!(svg.contains("<polygon points=\"0,0 1,0 0,1\" fill=\"#0000ff\" fill-opacity=\"0.4\"/>"), "{svg}");
         assert!(svg.contains("<title>a &lt; b &amp; &quot;c&quot;</title>"));
         assert!(svg.contains("x=\"0.33\" y=\"0\" font-size=\"12\" text-anchor=\"middle\""));
         assert!(svg.contains(">x &lt;y</text>"));

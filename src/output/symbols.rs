@@ -57,6 +57,12 @@ impl Signs {
                 scene.shape(points.clone(), Some(fill), thin);
                 points.iter().chain(points.first()).copied().collect()
             }
+            FormKind::Wheel { outline, face } => {
+                let opacity = if looks.strong { 0.5 } else { 0.16 };
+                scene.veil(outline.clone(), looks.fill, opacity);
+                [outline, face].into_iter().for_each(|rim| scene.shape(rim.clone(), None, thin));
+                outline.iter().chain(outline.first()).copied().collect()
+            }
             FormKind::Disc { center, radius, spoke } => {
                 scene.circle(*center, radius.max(1.0), Some(pale(looks.fill, if looks.strong { 0.7 } else { 0.4 })), thin);
                 if let Some(spoke) = spoke {

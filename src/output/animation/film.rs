@@ -165,6 +165,7 @@ impl<'a> Projector<'a> {
         let middle = self.film.picture(self.film.count() / 2);
         let of = |item: &Item| match item {
             Item::Path { fill, stroke, .. } | Item::Circle { fill, stroke, .. } => [*fill, stroke.map(|s| s.color)],
+            Item::Veil { color, .. } => [Some(*color), None],
             Item::Text(text) => [Some(text.color), None],
         };
         let mut colors: Vec<Color> = self.film.sheet.items.iter().chain(&middle).flat_map(of).flatten().collect();

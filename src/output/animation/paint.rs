@@ -38,9 +38,9 @@ impl Canvas {
     pub(super) fn item(&mut self, item: &Item) {
         match item {
             Item::Path { points, closed, fill, stroke } => {
-                let points: Vec<Point> = points.iter().map(|p| p.map(|x| (x * self.scale).clamp(-1e6, 1e6))).collect();
+                let points = self.scaled(points);
                 if let Some(color) = fill {
-                    self.fill(std::slice::from_ref(&points), *color);
+                    self.fill(std::slice::from_ref(&points), *color, 1.0);
                 }
                 if let Some(stroke) = stroke {
                     self.stroke(points, *closed, *stroke);
@@ -50,15 +50,20 @@ impl Canvas {
                 let at = at.map(|x| x * self.scale);
                 let half = stroke.map_or(0.0, |stroke| 0.5 * stroke.width);
                 if let Some(stroke) = stroke {
-                    self.fill(&[disc(at, (radius + half) * self.scale)], stroke.color);
+                    self.fill(&[disc(at, (radius + half) * self.scale)], stroke.color, 1.0);
                 }
                 // the inside of an open circle is the paper's
                 if let Some(color) = fill.or(stroke.map(|_| WHITE)).filter(|_| *radius > half) {
-                    self.fill(&[disc(at, (radius - half) * self.scale)], color);
+                    self.fill(&[disc(at, (radius - half) * self.scale)], color, 1.0);
                 }
             }
+            Item::Veil { points, color, opacity } => self.fill(&[self.scaled(points)], *color, *opacity as f32),
             Item::Text(text) => self.text(text),
         }
+    }
+
+    fn scaled(&self, points: &[Point]) -> Vec<Point> {
+        points.iter().map(|p| p.map(|x| (x * self.scale).clamp(-1e6, 1e6))).collect()
     }
 
     fn stroke(&mut self, mut points: Vec<Point>, closed: bool, stroke: Stroke) {
@@ -76,11 +81,11 @@ impl Canvas {
         for line in dashes(&points, &lengths) {
             outline(&line, half, solid, closed && solid, &mut shapes);
         }
-        self.fill(&shapes, stroke.color);
+        self.fill(&shapes, stroke.color, 1.0);
     }
 
     /// Fills the union of polygons.
-    fn fill(&mut self, shapes: &[Vec<Point>], color: Color) {
+    fn fill(&mut self, shapes: &[Vec<Point>], color: Color, opacity: f32) {
         let Some(window) = self.window(shapes.iter().flatten()) else { return };
         let wide = window.x[1] - window.x[0] + 2;
         self.areas.clear();
@@ -98,7 +103,7 @@ impl Canvas {
             for (pixel, change) in self.pixels[from..].chunks_exact_mut(3).zip(&areas[..wide - 2]) {
                 area += change;
                 if area > 0.002 {
-                    blend(pixel, color, area.min(1.0));
+                    blend(pixel, color, opacity * area.min(1.0));
                 }
             }
         }
@@ -252,23 +257,26 @@ mod tests {
         let area = 0.5 * ((17.9f64 - 2.3) * (18.1 - 1.2) - (6.4 - 1.2) * (5.5 - 2.3));
         for points in [triangle.clone(), triangle.into_iter().rev().collect()] {
             let mut canvas = Canvas::new(20, 20, 1.0);
-            canvas.fill(&[points], [0; 3]);
+            canvas.fill(&[points], [0; 3], 1.0);
             assert!((ink(&canvas) - area).abs() < 0.1, "{} not {area}", ink(&canvas));
         }
+        let mut canvas = Canvas::new(20, 20, 1.0);
+        canvas.item(&Item::Veil { points: vec![[0.0; 2], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]], color: [0; 3], opacity: 0.4 });
+        assert!((ink(&canvas) - 40.0).abs() < 0.2, "{}", ink(&canvas));
         let mut canvas = Canvas::new(40, 40, 1.0);
-        canvas.fill(&[disc([20.0, 20.0], 10.0)], [0; 3]);
+        canvas.fill(&[disc([20.0, 20.0], 10.0)], [0; 3], 1.0);
         assert!((ink(&canvas) / (PI * 100.0) - 1.0).abs() < 0.02, "{}", ink(&canvas));
     }
 
     #[test]
     fn what_leaves_the_paper_is_cut_off() {
         let mut canvas = Canvas::new(10, 10, 1.0);
-        canvas.fill(&[vec![[5.0, -20.0], [40.0, -20.0], [40.0, 30.0], [5.0, 30.0]]], [0; 3]);
+        canvas.fill(&[vec![[5.0, -20.0], [40.0, -20.0], [40.0, 30.0], [5.0, 30.0]]], [0; 3], 1.0);
         assert_eq!(ink(&canvas).round(), 50.0);
-        canvas.fill(&[vec![[50.0, 0.0], [60.0, 0.0], [60.0, 5.0]]], [0; 3]);
+        canvas.fill(&[vec![[50.0, 0.0], [60.0, 0.0], [60.0, 5.0]]], [0; 3], 1.0);
         let slant = vec![[-100.0, -100.0], [100.0, 100.0], [-100.0, 100.0]];
         let mut canvas = Canvas::new(10, 10, 1.0);
-        canvas.fill(&[slant], [0; 3]);
+        canvas.fill(&[slant], [0; 3], 1.0);
         assert!((ink(&canvas) - 50.0).abs() < 0.2, "{}", ink(&canvas));
     }
 

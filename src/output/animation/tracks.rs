@@ -54,7 +54,7 @@ fn alike(a: &Item, b: &Item) -> bool {
 
 fn places(item: &Item) -> Vec<Point> {
     match item {
-        Item::Path { points, .. } => points.clone(),
+        Item::Path { points, .. } | Item::Veil { points, .. } => points.clone(),
         Item::Circle { at, .. } => vec![*at],
         Item::Text(text) => vec![text.at],
     }
@@ -64,7 +64,7 @@ fn places(item: &Item) -> Vec<Point> {
 pub(super) fn with(item: &Item, places: Vec<Point>) -> Item {
     let mut item = item.clone();
     match (&mut item, places.first()) {
-        (Item::Path { points, .. }, _) => *points = places,
+        (Item::Path { points, .. } | Item::Veil { points, .. }, _) => *points = places,
         (Item::Circle { at, .. }, Some(place)) => *at = *place,
         (Item::Text(text), Some(place)) => text.at = *place,
         _ => {}

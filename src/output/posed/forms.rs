@@ -27,8 +27,9 @@ impl Posed<'_> {
                 Some(axis) => {
                     let (c, n) = (world(center), self.scene.direction(poses, body, axis));
                     let half = 0.5 * thickness.unwrap_or(0.0);
-                    let end = |side: f64| std::array::from_fn(|i| c[i] + side * half * n[i]);
-                    self.cylinder(end(-1.0), end(1.0), n, *radius)
+                    let [a, b] = [-half, half].map(|s| std::array::from_fn(|i| c[i] + s * n[i]));
+                    // what is as long as it is wide is no wheel
+                    if 2.0 * half > *radius { self.cylinder(a, b, n, *radius) } else { vec![self.wheel([a, b], n, *radius)] }
                 }
                 None => {
                     let mut rim = center.clone();
@@ -141,6 +142,15 @@ impl Posed<'_> {
         forms
     }
 
+    /// A wheel between two ends.
+    fn wheel(&self, ends: [[f64; 3]; 2], axis: [f64; 3], radius: f64) -> Form {
+        let rings = ends.map(|center| self.ring(center, axis, radius));
+        let flat = |ring: &Vec<[f64; 3]>| ring.iter().map(|p| self.view.flat(*p)).collect::<Vec<_>>();
+        let face = flat(&rings[usize::from(self.view.depth(axis) >= 0.0)]);
+        let outline = crate::output::outlines::hull(&rings.iter().flat_map(flat).collect::<Vec<_>>());
+        Form { kind: FormKind::Wheel { outline, face }, depth: self.depth(&rings.concat()) }
+    }
+
     /// A circle in space.
     pub(super) fn ring(&self, center: [f64; 3], axis: [f64; 3], radius: f64) -> Vec<[f64; 3]> {
         let [u, v] = across(axis);
@@ -176,8 +186,13 @@ mod tests {
         let [Form { kind: FormKind::Area { points, .. }, .. }] = &front[..] else { panic!("{front:?}") };
         let span = |axis: usize| points.iter().map(|p| p[axis]).fold(0.0, f64::max) * 2.0;
         assert!((span(0) - 1.0).abs() < 1e-12 && (span(1) - 3.0).abs() < 1e-12, "{points:?}");
-        let disc = Shape::Disc { center: vec![0.0; 3], radius: 1.0, axis: Some(vec![0.0, 0.0, 1.0]), thickness: Some(0.2) };
-        assert_eq!(seen(disc, None).len(), 2);
+        let round =
+            |thickness| Shape::Disc { center: vec![0.0; 3], radius: 1.0, axis: Some(vec![0.0, 0.0, 1.0]), thickness: Some(thickness) };
+        assert_eq!(seen(round(1.5), None).len(), 2);
+        // a wheel lets through what is behind it: its outline is wider than the end that is seen
+        let [Form { kind: FormKind::Wheel { outline, face }, .. }] = &seen(round(0.2), None)[..] else { panic!("one form") };
+        let tall = |points: &[[f64; 2]]| points.iter().fold(0.0_f64, |most, p| most.max(-p[1]));
+        assert!(face.len() == CORNERS && tall(outline) > tall(face) + 0.1, "{} {}", tall(outline), tall(face));
         let hull = |n: usize| Shape::Hull { points: (0..n).map(|i| vec![i as f64, (i * i) as f64, 0.5]).collect() };
         assert_eq!((seen(hull(2), None).len(), seen(hull(3), None).len(), seen(hull(8), None).len()), (1, 3, 1));
     }

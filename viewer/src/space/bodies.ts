@@ -6,6 +6,8 @@ import { type Face, add, ball, box, hull, scaled, sheet, tube, unit } from './ve
 
 /** Sides of round bars and discs. */
 const SIDES = 14;
+/** Sides of a wheel. */
+const RIM = 48;
 
 const vector = (at: number[]): Vector => [at[0] ?? 0, at[1] ?? 0, at[2] ?? 0];
 
@@ -21,7 +23,7 @@ function faces(shape: Shape, thin: number, color: string): Face[] {
     case 'disc': {
       const half = scaled(unit(vector(shape.axis ?? [0, 0, 1])), Math.max((shape.thickness ?? 0) / 2, 0.4 * thin));
       const center = vector(shape.center);
-      return tube(add(center, half, -1), add(center, half), shape.radius, shape.radius, 28, color);
+      return tube(add(center, half, -1), add(center, half), shape.radius, shape.radius, RIM, color).map((one) => ({ ...one, clear: (shape.thickness ?? 0) <= shape.radius }));
     }
     case 'hull': {
       const points = shape.points.map(vector);

@@ -190,7 +190,7 @@ class Space implements Renderer {
   }
 
   /** A face that is seen, in the light from above the eye's left shoulder. */
-  private face(items: Item[], { points, normal, color, edged }: Face, body: number, inks: Inks): void {
+  private face(items: Item[], { points, normal, color, edged, clear }: Face, body: number, inks: Inks): void {
     const out = this.motion.direction(body, normal, this.place);
     if (dot(out, this.toEye) <= 0) return;
     const world = points.map((at) => this.motion.world({ body, at }, this.place));
@@ -201,8 +201,17 @@ class Space implements Renderer {
     items.push({
       depth: this.depth(middle),
       // a hair's breadth of the face's own colour closes the gap between neighbours
-      draw: () => this.pen.path(world.map((p) => this.pixel(p)), true).fill(lit).stroke(edged ? mixed(lit, '#000000', 0.18) : lit, edged ? 0.8 : 0.6),
+      draw: () => clear ? this.pane(world, lit, edged) : this.pen.path(world.map((p) => this.pixel(p)), true).fill(lit).stroke(edged ? mixed(lit, '#000000', 0.18) : lit, edged ? 0.8 : 0.6),
     });
+  }
+
+  /** A face that is seen through, with a clear rim if it is edged. */
+  private pane(world: Vector[], lit: string, edged: boolean): void {
+    const { pen } = this;
+    pen.on.globalAlpha = 0.42;
+    pen.path(world.map((p) => this.pixel(p)), true).fill(lit);
+    pen.on.globalAlpha = 1;
+    if (edged) pen.stroke(mixed(lit, '#000000', 0.3), 1.6);
   }
 
   /** A grid below the mechanism. */

@@ -18,8 +18,8 @@ export function across(axis: Vector): [Vector, Vector] {
   return [u, cross(axis, u)];
 }
 
-/** A plane face of a body, in the frame of the body, around its outward normal. */
-export interface Face { points: Vector[]; normal: Vector; color: string; edged: boolean }
+/** A plane face of a body, in the frame of the body, around its outward normal; one that is clear lets through what is behind it. */
+export interface Face { points: Vector[]; normal: Vector; color: string; edged: boolean; clear?: boolean }
 
 function face(points: Vector[], color: string, edged: boolean): Face {
   const normal = unit(cross(add(points[1]!, points[0]!, -1), add(points[2]!, points[1]!, -1)));
