@@ -222,6 +222,53 @@ fn a_rope_ends_at_what_it_moves() {
     assert_eq!(scene.frames, rack.scenes[0].1.frames);
 }
 
+/// A winch in space, seen from the front: x to the right, z upwards.
+const WINCH: &str = "grashof: 1
+name: winch
+space: spatial
+gravity: none
+ground: { O: [0, 0, 0], W: [-0.1 m, 0, -1 m] }
+bodies:
+  drum: { disc: { radius: 0.1 m } }
+  weight: { mass: 1 kg }
+joints:
+  S: { revolute: [ground.O, drum], axis: [0, 1, 0], to: [0, 0, 1] }
+  W: { slider: [ground.W, weight], axis: [0, 0, 1] }
+couplings: { rope: { rope: [S, W], radius: 0.1 m } }
+drivers: { drive: { joint: S, speed: 1 rad/s } }
+studies: { lift: { kinematics: { over: 0.5 turn, samples: 10 }, view: front } }
+";
+
+#[test]
+fn ropes_and_racks_are_drawn_in_space() {
+    let drawn = |text: &str| {
+        let scene = study(text, "lift", Coordinates::Joint).scenes.remove(0).1;
+        let gear = scene.gears.first().unwrap_or_else(|| panic!("no gear")).clone();
+        (gear, grashof::output::drawing("winch", "lift", "mechanism", &scene).gears.remove(0))
+    };
+    let near = |p: [f64; 2], x: f64, z: f64| (p[0] - x).hypot(p[1] - z) < 1e-9;
+    // the left side of a wheel that turns about y goes upwards
+    let (rope, seen) = drawn(WINCH);
+    assert_eq!((rope.kind, rope.b.axis), (GearKind::Rope, vec![0.0, 0.0, 1.0]));
+    // the axis of the drum is its own z
+    assert!((rope.a.axis[2] - 1.0).abs() < 1e-9, "{:?}", rope.a);
+    let [from, to] = seen.rope.expect("a rope");
+    assert!(near(from, -0.1, 0.0) && near(to, -0.1, -1.0), "{from:?} {to:?}");
+    let (rack, seen) = drawn(&WINCH.replace("rope: [S, W]", "rack: [S, W]"));
+    assert!(rack.kind == GearKind::Rack && rack.b.axis == [0.0, 0.0, 1.0], "{rack:?}");
+    assert!(near(seen.mesh.expect("where they touch"), -0.1, 0.0), "{seen:?}");
+    // what slides along the axis of a wheel is no rack
+    let skew = WINCH.replace("axis: [0, 0, 1]", "axis: [0, 1, 0]");
+    assert!(study(&skew, "lift", Coordinates::Joint).scenes[0].1.gears.is_empty());
+    let belt = WINCH
+        .replace("weight: { mass: 1 kg }", "wheel: { disc: { radius: 0.3 m } }")
+        .replace("slider: [ground.W, weight], axis: [0, 0, 1]", "revolute: [ground.W, wheel], axis: [0, 1, 0], to: [0, 0, 1]");
+    let (belt, seen) = drawn(&belt.replace("rope: [S, W], radius: 0.1 m", "gear: [S, W], ratio: 1/3"));
+    assert!(belt.kind == GearKind::Belt && seen.belt.len() > 20, "{belt:?}");
+    let far = |at: [f64; 2]| seen.belt.iter().map(|p| (p[0] - at[0]).hypot(p[1] - at[1])).fold(f64::INFINITY, f64::min);
+    assert!((far([0.0, 0.0]) - 0.1).abs() < 1e-9 && (far([-0.1, -1.0]) - 0.3).abs() < 1e-9, "{seen:?}");
+}
+
 #[test]
 fn springs_over_one_coordinate_have_a_place() {
     let springs = "springs: { j: { joint: W, stiffness: 5 N/m }, p: { stretch: block.y - 1 cm, stiffness: 5 N/m }, q: { stretch: W.position^2, \

@@ -51,6 +51,7 @@ mod thin;
 mod ticks;
 mod units;
 mod view;
+mod winding;
 mod write_error;
 
 pub use crate::results::number;

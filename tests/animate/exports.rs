@@ -105,6 +105,35 @@ fn a_motion_in_space_is_that_of_its_frames() {
     assert!((turn[0] + 0.5_f64.sqrt()).abs() < 1e-12 && (turn[3] - 0.5_f64.sqrt()).abs() < 1e-12);
 }
 
+/// A weight on a winch in space, whose drum turns about y.
+const WINCH: &str = "grashof: 1
+name: winch
+space: spatial
+gravity: none
+ground: { O: [0, 0, 0], W: [-0.1 m, 0, -1 m] }
+bodies: { drum: { disc: { radius: 0.1 m } }, weight: { mass: 1 kg } }
+joints:
+  S: { revolute: [ground.O, drum], axis: [0, 1, 0], to: [0, 0, 1] }
+  W: { slider: [ground.W, weight], axis: [0, 0, 1] }
+couplings: { rope: { rope: [S, W], radius: 0.1 m } }
+drivers: { drive: { joint: S, speed: 1 rad/s } }
+studies: { lift: { kinematics: { over: 2 s, samples: 10 } } }
+";
+
+#[test]
+fn a_rope_reaches_from_its_drum_to_its_end() {
+    let place = Place::new("rope", WINCH);
+    let file = Document::packed(&place.made("export --study lift --rate 10 --gltf out.glb", "out.glb"));
+    let rope = file.node("rope");
+    let (times, places) = file.track(rope, "translation");
+    let (_, scales) = file.track(rope, "scale");
+    for (k, (place, scale)) in places.chunks_exact(3).zip(scales.chunks_exact(3)).enumerate() {
+        // it leaves the drum on its left, and the weight rises by 0.1 m/s
+        assert!((place[0] + 0.1).hypot(place[1]).hypot(place[2]) < 1e-6, "{place:?}");
+        assert!((scale[2] - (1.0 - 0.1 * times[k])).abs() < 1e-6, "{} at {}", scale[2], times[k]);
+    }
+}
+
 #[test]
 fn meshes_have_bounds_and_unit_normals() {
     let place = Place::new("mesh", SLIDER_CRANK);

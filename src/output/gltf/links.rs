@@ -1,7 +1,9 @@
-//! Springs, dampers and rods: one thin rod, and one coil, that are placed, turned and stretched.
+//! Springs, dampers, rods, racks, and what of ropes and belts is straight: one thin rod, and one coil, that are placed, turned and
+//! stretched.
 
 use super::mesh::{Mesh, V, cross, length, minus};
 use super::shapes::Builder;
+use crate::output::winding::stretches;
 use crate::results::Scene;
 use crate::results::scene::LinkKind;
 
@@ -20,15 +22,20 @@ pub(super) struct Moving {
     pub(super) coil: bool,
 }
 
-/// The links that are seen.
+/// What is seen of links and gears.
 pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
-    let seen = scene.links.iter().filter(|link| link.kind != LinkKind::Torsion && !frames.is_empty());
-    let ends = |link: &crate::results::scene::Link| -> Vec<[V; 2]> {
-        frames.iter().map(|poses| [scene.world(poses, &link.a), scene.world(poses, &link.b)]).collect()
-    };
-    seen.map(|link| (link, ends(link)))
-        .filter(|(_, ends)| ends.iter().flatten().flatten().all(|x| x.is_finite()))
-        .map(|(link, ends)| {
+    let links = scene.links.iter().filter(|link| link.kind != LinkKind::Torsion).map(|link| {
+        let ends = frames.iter().map(|poses| [scene.world(poses, &link.a), scene.world(poses, &link.b)]).collect();
+        (link.name.clone(), matches!(link.kind, LinkKind::Spring | LinkKind::SpringDamper), ends)
+    });
+    let gears = scene.gears.iter().flat_map(|gear| {
+        let all: Vec<Vec<[V; 2]>> = frames.iter().map(|poses| stretches(scene, poses, gear)).collect();
+        let count = all.first().map_or(0, Vec::len);
+        (0..count).map(move |k| (gear.name.clone(), false, all.iter().map(|parts| parts[k]).collect()))
+    });
+    let all = links.chain(gears).filter(|(_, _, ends): &(_, _, Vec<[V; 2]>)| !ends.is_empty());
+    all.filter(|(_, _, ends)| ends.iter().flatten().flatten().all(|x| x.is_finite()))
+        .map(|(name, coil, ends)| {
             let mut turns: Vec<[f64; 4]> = Vec::new();
             for [a, b] in &ends {
                 let turn = arc([0.0, 0.0, 1.0], minus(*b, *a));
@@ -36,8 +43,7 @@ pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
                 turns.push(if back { turn.map(|x| -x) } else { turn });
             }
             let scales = ends.iter().map(|[a, b]| [1.0, 1.0, length(minus(*b, *a)).max(1e-9)]).collect();
-            let coil = matches!(link.kind, LinkKind::Spring | LinkKind::SpringDamper);
-            Moving { name: link.name.clone(), places: ends.iter().map(|[a, _]| *a).collect(), turns, scales, coil }
+            Moving { name, places: ends.iter().map(|[a, _]| *a).collect(), turns, scales, coil }
         })
         .collect()
 }

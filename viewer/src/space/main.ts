@@ -9,6 +9,7 @@ import { type Inks, mixed } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
 import { type Face, add, dot, scaled, tube, unit } from './vectors';
+import { type Line, lines } from './winding';
 
 const LOOKS = 48;
 const PATH = 400;
@@ -90,6 +91,7 @@ class Space implements Renderer {
       const draw = () => (kind === 'torsion' ? spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : link(pen, kind, this.pixel(p), this.pixel(q), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
+    for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) items.push(this.dashpot(joint, inks));
     if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
@@ -202,6 +204,15 @@ class Space implements Renderer {
       depth: this.depth(middle),
       // a hair's breadth of the face's own colour closes the gap between neighbours
       draw: () => clear ? this.pane(world, lit, edged) : this.pen.path(world.map((p) => this.pixel(p)), true).fill(lit).stroke(edged ? mixed(lit, '#000000', 0.18) : lit, edged ? 0.8 : 0.6),
+    });
+  }
+
+  /** A line, piece by piece, a little in front of the wheel on which it lies. */
+  private line(items: Item[], { points, thin }: Line, inks: Inks): void {
+    points.slice(1).forEach((point, k) => {
+      const from = points[k]!;
+      const draw = () => this.pen.path([this.pixel(from), this.pixel(point)]).stroke(inks.soft, thin ? 1.1 : 2.6);
+      items.push({ depth: this.depth(scaled(add(from, point), 0.5)) + 0.01 * this.size, draw });
     });
   }
 

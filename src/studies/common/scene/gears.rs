@@ -16,13 +16,16 @@ const PITCH: f64 = 1.02;
 
 /// The gears of a mechanism whose circles can be told. The frames of the scene are there.
 pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Gear> {
+    if scene.frames.count() == 0 {
+        return Vec::new();
+    }
     let rows = mechanism.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
     rows.filter_map(|row| {
         let RowKind::Ratio { first, second, ratio } = row.kind else { return None };
         let of_gauge = |gauge: usize| mechanism.joints.iter().find(|joint| joint.slots.first() == Some(&gauge));
         let (first, second) = (of_gauge(first)?, of_gauge(second)?);
         match (first.kind, second.kind) {
-            ("revolute", "revolute") => pair(mechanism, &row.label, first, second, ratio),
+            ("revolute", "revolute") => pair(mechanism, scene, &row.label, first, second, ratio),
             ("revolute", "slider") if is_rope(model, &row.label) => rope(&row.label, first, second, ratio, scene),
             ("revolute", "slider") => rack(&row.label, first, second, ratio, scene),
             _ => None,
@@ -63,6 +66,17 @@ struct Hung<G: Space> {
     sign: f64,
 }
 
+/// The axis of a joint in the first frame, world axes.
+fn direction<G: Space<S = f64>>(scene: &Scene, joint: &Joint<G>) -> [f64; 3] {
+    scene.direction(scene.frame(0), joint.a.0, &joint.axis[..G::VECTOR])
+}
+
+/// A direction of the first frame in the axes of a body.
+fn own<G: Space<S = f64>>(scene: &Scene, body: usize, v: [f64; 3]) -> Vec<f64> {
+    let axis = |i: usize| scene.direction(scene.frame(0), body, &std::array::from_fn::<_, 3, _>(|k| f64::from(u8::from(i == k))));
+    (0..G::VECTOR).map(|i| axis(i).iter().zip(v).map(|(e, v)| e * v).sum()).collect()
+}
+
 impl<G: Space<S = f64>> Hung<G> {
     /// The wheel of a hinge whose other body is the carrier.
     fn on(joint: &Joint<G>, carrier: usize) -> Option<Self> {
@@ -73,15 +87,22 @@ impl<G: Space<S = f64>> Hung<G> {
         }
     }
 
-    /// Its pitch circle; hinges have the same numbers of their axis in both bodies, or nearly none.
-    fn circle(&self, joint: &Joint<G>, radius: f64) -> Wheel {
-        let axis = if G::VECTOR == 3 { joint.axis.to_vec() } else { Vec::new() };
+    /// Its pitch circle, about the axis of its hinge.
+    fn circle(&self, joint: &Joint<G>, radius: f64, scene: &Scene) -> Wheel {
+        let axis = if G::VECTOR == 3 { own::<G>(scene, self.wheel.0, direction(scene, joint)) } else { Vec::new() };
         Wheel { body: self.wheel.0, at: numbers::<G>(self.wheel.1), radius, axis }
     }
 }
 
 /// Two gears.
-fn pair<G: Space<S = f64>>(mechanism: &Mechanism<G>, name: &str, first: &Joint<G>, second: &Joint<G>, ratio: f64) -> Option<Gear> {
+fn pair<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    scene: &Scene,
+    name: &str,
+    first: &Joint<G>,
+    second: &Joint<G>,
+    ratio: f64,
+) -> Option<Gear> {
     let carrier = [first.a.0, first.b.0].into_iter().find(|body| *body == second.a.0 || *body == second.b.0)?;
     let (a, b) = (Hung::on(first, carrier)?, Hung::on(second, carrier)?);
     // in space the axes of both are told in the carrier only if it is the first body of both
@@ -95,10 +116,10 @@ fn pair<G: Space<S = f64>>(mechanism: &Mechanism<G>, name: &str, first: &Joint<G
     let turned = ratio * a.sign * b.sign * facing.signum();
     let reaches = [a.wheel, b.wheel].map(|(body, hinge)| reach(mechanism, body, hinge));
     if let Some([ra, rb]) = belted(turned, distance, reaches) {
-        return Some(Gear { name: name.into(), kind: GearKind::Belt, a: a.circle(first, ra), b: b.circle(second, rb) });
+        return Some(Gear { name: name.into(), kind: GearKind::Belt, a: a.circle(first, ra, scene), b: b.circle(second, rb, scene) });
     }
     let [ra, rb] = radii(turned, distance)?;
-    Some(Gear { name: name.into(), kind: GearKind::Teeth, a: a.circle(first, ra), b: b.circle(second, rb) })
+    Some(Gear { name: name.into(), kind: GearKind::Teeth, a: a.circle(first, ra, scene), b: b.circle(second, rb, scene) })
 }
 
 /// How far the outline of a wheel reaches from its hinge, m; 0 if it has none.
@@ -137,51 +158,44 @@ struct Wound<G: Space> {
     moved: Hung<G>,
     /// Direction of the slide in the first frame, world axes.
     axis: [f64; 3],
+    /// Where the wheel is touched there, from its centre, as part of the radius: with the slide along u and the wheel turning about n, a
+    /// point at c moves by φ n × c; that is r φ u for c = r u × n.
+    touched: [f64; 3],
     /// Way of the slide along it by the angle of the wheel, m.
     radius: f64,
 }
 
 impl<G: Space<S = f64>> Wound<G> {
-    /// Of the hinge of a wheel and a slide in the plane.
+    /// Of the hinge of a wheel and a slide across its axis.
     fn of(pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Self> {
         let carrier = [pinion.a.0, pinion.b.0].into_iter().find(|body| *body == slide.a.0 || *body == slide.b.0)?;
         let (wheel, moved) = (Hung::on(pinion, carrier)?, Hung::on(slide, carrier)?);
-        if G::VECTOR == 3 || scene.frames.count() == 0 {
-            return None;
-        }
-        let axis = scene.direction(scene.frame(0), slide.a.0, &slide.axis[..2]);
-        let radius = radius * wheel.sign * moved.sign;
-        Some(Self { wheel, moved, axis, radius })
-    }
-
-    /// A direction of the first frame in the axes of the body that slides.
-    fn own(&self, scene: &Scene, v: [f64; 3]) -> Vec<f64> {
-        let axes = [[1.0, 0.0], [0.0, 1.0]].map(|e| scene.direction(scene.frame(0), self.moved.wheel.0, &e));
-        axes.map(|e| e[0] * v[0] + e[1] * v[1]).to_vec()
+        let (u, n) = (direction(scene, slide), if G::VECTOR == 3 { direction(scene, pinion) } else { [0.0, 0.0, 1.0] });
+        let across = (0..3).map(|i| u[i] * n[i]).sum::<f64>().abs() < 1e-6;
+        let touched = [u[1] * n[2] - u[2] * n[1], u[2] * n[0] - u[0] * n[2], u[0] * n[1] - u[1] * n[0]];
+        across.then_some(Self { radius: radius * wheel.sign * moved.sign, wheel, moved, axis: u, touched })
     }
 }
 
-/// A pinion and its rack: the line that the pinion touches at −r n, with n a quarter turn ahead of the slide.
+/// A pinion and its rack: the line along the slide that the pinion touches.
 fn rack<G: Space<S = f64>>(name: &str, pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
     let wound = Wound::of(pinion, slide, radius, scene)?;
-    let Wound { wheel, moved, axis, radius: signed } = &wound;
+    let Wound { wheel, moved, axis, touched, radius: signed } = &wound;
     let world = |at| scene.world(scene.frame(0), &super::places::place::<G>(at));
     let center = world(wheel.wheel);
-    // a point at c moves by φ z × c: that is r φ u for c = −r z × u
-    let touched = [center[0] + signed * axis[1], center[1] - signed * axis[0], 0.0];
     let origin = world((moved.wheel.0, G::Vector::default()));
-    let at = wound.own(scene, std::array::from_fn(|i| touched[i] - origin[i]));
-    let line = Wheel { body: moved.wheel.0, at, radius: 0.0, axis: wound.own(scene, *axis) };
-    Some(Gear { name: name.into(), kind: GearKind::Rack, a: wheel.circle(pinion, radius.abs()), b: line })
+    let at = own::<G>(scene, moved.wheel.0, std::array::from_fn(|i| center[i] + signed * touched[i] - origin[i]));
+    let line = Wheel { body: moved.wheel.0, at, radius: 0.0, axis: own::<G>(scene, moved.wheel.0, *axis) };
+    Some(Gear { name: name.into(), kind: GearKind::Rack, a: wheel.circle(pinion, radius.abs(), scene), b: line })
 }
 
 /// A drum and the end of its rope, which is at the joint of what slides.
 fn rope<G: Space<S = f64>>(name: &str, drum: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
     let wound = Wound::of(drum, slide, radius, scene)?;
     let (body, at) = wound.moved.wheel;
-    let axis = wound.own(scene, wound.axis.map(|x| wound.radius.signum() * x));
+    let axis = own::<G>(scene, body, wound.axis.map(|x| wound.radius.signum() * x));
     let end = Wheel { body, at: numbers::<G>(at), radius: 0.0, axis };
-    Some(Gear { name: name.into(), kind: GearKind::Rope, a: wound.wheel.circle(drum, radius.abs()), b: end })
+    Some(Gear { name: name.into(), kind: GearKind::Rope, a: wound.wheel.circle(drum, radius.abs(), scene), b: end })
 }
 
 #[cfg(test)]
