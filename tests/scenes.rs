@@ -355,9 +355,8 @@ fn runs_of_a_sweep_keep_their_scenes_and_name_themselves() {
     assert_eq!(of(&runs(Drawn::First, undrawn.into_iter().map(Some).collect())), first);
 }
 
-#[test]
-fn forces_are_shown_where_they_act_and_in_world_axes() {
-    let text = "grashof: 1
+/// A lever that is turned against a load; `SHOWN` stands for what its study says of its drawing.
+const LEVER: &str = "grashof: 1
 name: lever
 space: planar
 gravity: none
@@ -367,14 +366,45 @@ drivers: { turn: { joint: O, speed: 1 rad/s } }
 loads:
   across: { at: bar.end, force: [0, -5 N], frame: bar }
   twist: { at: bar.end, torque: -3 N m }
-studies: { swing: { SHOWN, inverse: { over: 90 deg, samples: 9 }, columns: [O.fx] } }
+studies: { swing: { SHOWN, inverse: { over: 90 deg, samples: 90 }, columns: [O.fx] } }
 ";
-    let read = |shown: &str| {
-        let model = model(&text.replace("SHOWN", shown), Some("swing"));
-        let study = model.study.clone().expect("a study");
-        let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{}", f.reason()));
-        grashof::studies::common::named::named(&model, &study, outcome).scenes.remove(0).1
+
+/// The results of the lever.
+fn lever(shown: &str) -> grashof::results::Results {
+    let model = model(&LEVER.replace("SHOWN", shown), Some("swing"));
+    let study = model.study.clone().expect("a study");
+    let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{}", f.reason()));
+    grashof::studies::common::named::named(&model, &study, outcome)
+}
+
+#[test]
+fn a_drawing_shows_the_place_that_is_asked_for() {
+    let drawn = |shown: &str| {
+        let scene = lever(shown).scenes.remove(0).1;
+        let drawing = grashof::output::drawing("lever", "swing", "mechanism", &scene);
+        let grashof::output::FormKind::Bar { to, .. } = drawing.bodies[1].poses[0][0].kind else { panic!("a bar") };
+        (to, drawing.forces[0].along, drawing.bodies[1].poses.len())
     };
+    for (shown, angle, more) in
+        [("show: [loads]", 0.0_f64, 0), ("at: 40 deg + 10 deg, show: [loads]", 50.0, 1), ("at: 90 deg, show: [loads]", 90.0, 0)]
+    {
+        let (s, c) = angle.to_radians().sin_cos();
+        let (to, force, poses) = drawn(shown);
+        assert!((to[0] - 2.0 * c).hypot(to[1] - 2.0 * s) < 1e-5, "{shown}: {to:?}");
+        // forces are on straight lines between frames
+        assert!((force[0] - 5.0 * s).hypot(force[1] + 5.0 * c) < 0.05, "{shown}: {force:?}");
+        // one that is shown anyway is not drawn twice
+        assert_eq!(poses, 6 + more, "{shown}");
+    }
+    assert!(lever("at: 90 deg").findings.is_empty());
+    let beyond = lever("at: 100 deg").findings.remove(0);
+    let message = "the drawing shows O.angle = 90 deg, where the motion ends: it has no 100 deg, only 0 deg to 90 deg";
+    assert_eq!((&*beyond.code, beyond.message.as_str(), beyond.path.as_str()), ("not-reached", message, "studies.swing.at"));
+}
+
+#[test]
+fn forces_are_shown_where_they_act_and_in_world_axes() {
+    let read = |shown: &str| lever(shown).scenes.remove(0).1;
     assert!(read("about: none").arrows.is_empty());
     let scene = read("show: { loads: 2 kN/m }");
     let [across, twist] = &scene.arrows[..] else { panic!("{:?}", scene.arrows) };

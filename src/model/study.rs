@@ -43,6 +43,8 @@ pub struct Study {
     pub trace: Option<Vec<PointRef>>,
     /// Where a drawing in space is seen from; `None` for an isometric view.
     pub view: Option<View>,
+    /// Value of the independent variable at which drawings show the mechanism strongly; `None` for the begin.
+    pub shown_at: Option<Id>,
     /// Forces that drawings show as arrows.
     pub forces: Vec<ShownForce>,
     /// Expectations.

@@ -27,6 +27,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "start-of-unknown",
             "start-of-an-acceleration",
             "plot-of-unknown",
+            "drawing-at-a-time",
+            "drawing-of-statics-at",
             "take-from-nowhere",
             "take-from-a-sweep",
             "study-name-too-long",

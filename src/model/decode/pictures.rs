@@ -1,4 +1,4 @@
-//! What a study says of its drawing: points whose paths are drawn, forces that are shown, and where the eye is.
+//! What a study says of its drawing: points whose paths are drawn, forces that are shown, at which place of the motion, and where the eye is.
 
 use super::decoder::Decoder;
 use super::frame::Frame;
@@ -142,6 +142,20 @@ impl<'n> Decoder<'n> {
             }
         }
         Some(points)
+    }
+
+    /// The place of the motion that the drawing shows strongly, if the study names one.
+    pub(super) fn shown_at(&mut self, asked: Entry<'n>, at: &At<'_, 'n>, frame: &mut Frame<'n>) -> Option<Id> {
+        let here = at.key(asked);
+        let node = asked.node?;
+        let Some(dimension) = frame.features.independent.filter(|_| frame.features.moves) else {
+            let message = format!("a study of the kind `{}` has no motion of which a place could be shown", frame.word);
+            let fault = self.fault("wrong-key", &here, message, "no `at`");
+            fault.spot = Spot::Key;
+            fault.help = Some("remove it".to_owned());
+            return None;
+        };
+        self.setting(node, &here, Want::of(dimension), &mut frame.local)
     }
 
     /// Where the eye is, if the study says so.

@@ -72,6 +72,7 @@ keys! {
             "Figures.";
         trace: may TRACE, "Points whose paths are drawn; without it those of points that columns name, or of a few that are on no circle.";
         show: may SHOW, "Forces that the drawing shows as arrows: loads, reactions; or each with its scale, a force per length.";
+        at: may ANY, "The place of the motion that the drawing shows strongly, with its forces: a value of the independent variable.";
         view: may VIEW, "In space: where the drawing is seen from, a side or azimuth and elevation; isometric if omitted.";
         expect: may Shape::Named(Keys::Reference, "a scalar or an expression", &Shape::Map(&EXPECT)),
             "What must come out; if not, exit code 1.";
@@ -139,6 +140,7 @@ impl<'n> Decoder<'n> {
         let trace = self.trace(keys.trace, &at);
         let view = self.view(keys.view, &at);
         let forces = self.forces(keys.show, &at, &frame);
+        let shown_at = self.shown_at(keys.at, &at, &mut frame);
         let expect = self.expectations(keys.expect, &at, &mut frame);
         let undefined = self.may_be_undefined(keys.undefined, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
@@ -187,6 +189,7 @@ impl<'n> Decoder<'n> {
             plots,
             trace,
             view,
+            shown_at,
             forces,
             expect,
             place: self.place(&at),

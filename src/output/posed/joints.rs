@@ -75,7 +75,10 @@ impl Posed<'_> {
     /// Sense of the motion of a joint from the first shown frame on, 0 at rest.
     fn sense(&self, joint: &Joint, slides: bool) -> f64 {
         let frames = &self.scene.frames;
-        let Some(first) = frames.shown.first().map(|first| (*first).min(frames.count().saturating_sub(2))) else { return 0.0 };
+        let asked = self.scene.at.map(|x| frames.at.partition_point(|at| *at <= x).saturating_sub(1));
+        let Some(first) = asked.or(frames.shown.first().copied()).map(|first| first.min(frames.count().saturating_sub(2))) else {
+            return 0.0;
+        };
         // back in its time a motion that begins at its end goes the other way
         let ahead = if frames.shown.len() > 1 && frames.shown[1] < frames.shown[0] { -1.0 } else { 1.0 };
         let [before, behind] = [first, first + 1].map(|index| self.scene.frame(index.min(frames.count() - 1)));

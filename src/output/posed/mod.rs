@@ -16,11 +16,16 @@ const ALONG: usize = 240;
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
 pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
-    let frames = scene.frames.shown.iter().map(|index| scene.frame(*index)).collect();
+    let asked = scene.at.map(|x| scene.frames.at(x, scene.dimensions));
+    // one that would lie under it is not drawn
+    let width = scene.frames.at.last().zip(scene.frames.at.first()).map_or(0.0, |(last, first)| last - first);
+    let other = |index: &&usize| scene.at.zip(scene.frames.at.get(**index)).is_none_or(|(x, at)| (x - at).abs() > 1e-9 * width);
+    let shown = scene.frames.shown.iter().filter(other);
+    let frames = asked.iter().map(Vec::as_slice).chain(shown.map(|index| scene.frame(*index))).collect();
     let posed = Posed { scene, view: view(scene), frames };
     let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
-    let first = scene.frames.shown.first().and_then(|first| scene.frames.at.get(*first));
-    let forces = first.map(|at| posed.forces(*at).collect()).unwrap_or_default();
+    let first = scene.at.or_else(|| scene.frames.at.get(*scene.frames.shown.first()?).copied());
+    let forces = first.map(|at| posed.forces(at).collect()).unwrap_or_default();
     Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
 }
 

@@ -28,6 +28,9 @@ pub struct Scene {
     pub length: Option<ShownIn>,
     /// Azimuth and elevation of the eye, rad, if the study asks for them.
     pub view: Option<[f64; 2]>,
+    /// Value of the independent variable at which a still picture shows it strongly, if the study asks for one; else that is the first of
+    /// the frames that are shown.
+    pub at: Option<f64>,
     /// Bodies; the first is the ground.
     pub bodies: Vec<Body>,
     /// Joints; those of the kind `distance` are links.

@@ -1,7 +1,7 @@
 //! An outcome with names: the [`Results`] of one run.
 
 use super::outcome::Outcome;
-use super::scene::fill_arrows;
+use super::scene::{beyond, fill_arrows};
 use super::watched::{extra_curves, of_pictures};
 use crate::expression::{Dimension, parse_unit};
 use crate::model::{self, Kind, Model, Shown, ShownWhat, Study};
@@ -15,6 +15,8 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
     let (table, curves) = tables(model, study, &mut outcome);
     let columns_of = |name: &str| table.columns.iter().chain(&curves).find(|c| c.name == name).map(|c| c.values.as_slice());
     outcome.scenes.iter_mut().for_each(|(_, scene)| fill_arrows(study, scene, &outcome.places, &columns_of));
+    let unit = shown_in(model, study.independent.unwrap_or(Dimension::NONE));
+    outcome.findings.extend(outcome.scenes.first().and_then(|(_, scene)| beyond(study, &outcome.independent, unit, scene)));
     Results {
         model: model.name.clone(),
         study: study.name.clone(),

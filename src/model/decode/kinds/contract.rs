@@ -25,6 +25,8 @@ pub(crate) struct Features {
     pub(crate) independent: Option<Dimension>,
     /// The independent variable as a path, if it is not the time.
     pub(crate) first: Option<String>,
+    /// Whether it has a motion over the independent variable.
+    pub(crate) moves: bool,
     /// Whether it has the columns that a study asks for.
     pub(crate) columns: bool,
     /// Whether reactions are found.
@@ -39,8 +41,16 @@ pub(crate) struct Features {
 
 impl Features {
     /// Of a study in time, or in one state, that finds all: the others change what differs.
-    pub(super) const WHOLE: Self =
-        Self { independent: None, first: None, columns: true, reactions: true, states: true, works: false, results: Vec::new() };
+    pub(super) const WHOLE: Self = Self {
+        independent: None,
+        first: None,
+        moves: true,
+        columns: true,
+        reactions: true,
+        states: true,
+        works: false,
+        results: Vec::new(),
+    };
 
     /// Of a study whose kind is faulty, so that the rest of it is still read.
     pub(crate) fn faulty() -> Self {

@@ -11,5 +11,5 @@ static TABLE: Record =
 
 pub(super) const STATICS: Declared = Declared::new("statics", &TABLE, "Equilibrium.", |_, _, _| {
     let results = vec![("stable".to_owned(), Dimension::NONE)];
-    Some((Kind::Statics, Features { independent: Some(Dimension::TIME), results, ..Features::WHOLE }))
+    Some((Kind::Statics, Features { independent: Some(Dimension::TIME), moves: false, results, ..Features::WHOLE }))
 });

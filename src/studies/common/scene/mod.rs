@@ -1,6 +1,7 @@
 //! The scene of a study: what is drawn of its mechanism, and the poses of its motion.
 
 mod arrows;
+mod asked;
 mod frames;
 mod gears;
 mod joints;
@@ -10,6 +11,7 @@ mod shapes;
 mod traces;
 
 pub(crate) use arrows::fill_arrows;
+pub(crate) use asked::beyond;
 pub(crate) use frames::Span;
 pub(crate) use places::extent;
 
@@ -60,6 +62,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         let mut scene = Scene {
             dimensions: G::VECTOR,
             view: view(case),
+            at: case.study.shown_at.map(|at| case.value(at)).filter(|at| at.is_finite()),
             length: shown_in(case.model, Dimension::LENGTH),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
