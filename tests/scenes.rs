@@ -209,6 +209,18 @@ fn a_wheel_with_inner_teeth_is_no_disc() {
 }
 
 #[test]
+fn a_crankshaft_is_bars_about_its_axis_and_its_pins() {
+    let (_, scene) = scenes("inline_four", "shaking").remove(0);
+    let shaft = scene.bodies.iter().find(|body| body.name == "shaft").expect("the shaft");
+    let ends: Vec<_> =
+        shaft.shapes.iter().filter_map(|shape| if let Shape::Bar { from, to, .. } = shape { Some([from, to]) } else { None }).collect();
+    assert_eq!((ends.len(), shaft.shapes.len()), (5 + 4 * 3, 17));
+    // every end is on the axis or as far from it as the crank is long
+    let far = ends.iter().flatten().map(|p| p[1].hypot(p[2]));
+    assert!(far.clone().all(|r| r < 1e-9 || (r - 0.043).abs() < 1e-9) && far.filter(|r| *r > 0.01).count() == 4 * 4, "{ends:?}");
+}
+
+#[test]
 fn a_rope_ends_at_what_it_moves() {
     let racked = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
     let text = racked.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");

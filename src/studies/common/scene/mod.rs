@@ -7,6 +7,7 @@ mod gears;
 mod joints;
 mod links;
 mod places;
+mod shafts;
 mod shapes;
 mod traces;
 
@@ -74,6 +75,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         scene.arrows = arrows::arrows(case, mechanism);
         scene.gears = gears::gears(case.model, mechanism, &scene);
         gears::outline_wheels(&scene.gears, &mut scene.bodies);
+        shafts::outline_shafts(&mut scene);
         scene.traces = traces::traces(case, mechanism, &scene);
         scene
     }
