@@ -183,13 +183,14 @@ pub(super) fn pale(color: Color, strength: f64) -> Color {
     color.map(|c| (255.0 - (255.0 - f64::from(c)) * strength).round().clamp(0.0, 255.0) as u8)
 }
 
-/// The colour of curve `index` of `count`: the palette, or, for many curves, a scale from dark blue to amber.
+/// The colour of curve `index` of `count`: the palette, or, for many curves, a scale from dark blue to orange.
 fn curve_color(index: usize, count: usize) -> Color {
     if count <= PALETTE.len() {
         return PALETTE[index % PALETTE.len()];
     }
-    // Monotone in lightness, as cividis is: it keeps its order in grey and for every kind of colour vision.
-    const SCALE: [Color; 5] = [[0, 32, 96], [66, 78, 107], [124, 123, 120], [188, 160, 90], [235, 190, 30]];
+    // Monotone in lightness, as cividis is, so that it keeps its order in grey and for every kind of colour vision. The page of the
+    // report has the same (`viewer/src/page.css`). Rejected: cividis itself, whose middle is grey and whose end is pale on white.
+    const SCALE: [Color; 5] = [[0, 32, 96], [10, 98, 168], [24, 132, 112], [169, 134, 0], [222, 118, 44]];
     let position = index as f64 / (count - 1) as f64 * (SCALE.len() - 1) as f64;
     let low = (position as usize).min(SCALE.len() - 2);
     let mix = position - low as f64;
@@ -204,7 +205,8 @@ pub(super) fn curve_style(index: usize, count: usize) -> ([u8; 3], &'static [f64
     (curve_color(index, count), curve_dash(index))
 }
 
-/// The dashes of curve `index`: with them curves differ in print without colour, too, and neighbours on a scale of colours as well.
+/// The dashes of curve `index`: with them curves differ in print without colour, too, and neighbours on a scale of colours as well. Those of
+/// the page of the report are half as long (`viewer/src/plot/chart.ts`).
 fn curve_dash(index: usize) -> &'static [f64] {
     const DASHES: [&[f64]; 7] =
         [&[], &[14.0, 7.0], &[3.0, 7.0], &[18.0, 6.0, 3.0, 6.0], &[8.0, 5.0], &[24.0, 8.0], &[14.0, 5.0, 3.0, 5.0, 3.0, 5.0]];
@@ -221,5 +223,16 @@ mod tests {
             let styles: Vec<_> = (0..count).map(|index| curve_style(index, count)).collect();
             assert!((0..count).all(|i| !styles[..i].contains(&styles[i])), "{count}");
         }
+    }
+
+    #[test]
+    fn the_scale_of_many_curves_becomes_lighter() {
+        // CIE 1931, of sRGB
+        let light = |color: Color| {
+            let [r, g, b] = color.map(|c| ((f64::from(c) / 255.0 + 0.055) / 1.055).powf(2.4));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let lights: Vec<_> = (0..40).map(|index| light(curve_color(index, 40))).collect();
+        assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
     }
 }

@@ -42,6 +42,28 @@ drivers: { hand: { joint: A, speed: -60 deg/s } }
 start: { A.angle: 97 deg }
 studies: { close: { inverse: { over: 60 deg, samples: 60 }, columns: [time, A.angle, handle.end], trace: [handle.end] } }
 `,
+  // more curves than colours, points beside them, and a curve that turns back
+  swing: `grashof: 1
+name: swing
+space: planar
+gravity: [0, -9.81 m/s^2]
+parameters: { l: 1 m }
+bodies: { rod: { bar: { length: l, mass: 1 kg } } }
+joints: { A: { revolute: [ground, rod.start] } }
+start: { A.angle: -30 deg }
+measures: { x: rod.x, y: rod.y }
+studies:
+  lengths:
+    dynamics: { until: 1 s, every: 10 ms }
+    sweep: { l: [0.2 m, 0.4 m, 0.6 m, 0.8 m, 1 m, 1.2 m, 1.4 m, 1.6 m, 1.8 m] }
+    columns: [time, A.angle, x, y]
+    plot:
+      angle: { show: [A.angle], data: { seen: { file: seen.csv, x: time, y: A.angle, in: [s, deg] } } }
+  path:
+    dynamics: { until: 1.5 s, every: 10 ms }
+    columns: [time, A.angle, x, y]
+    plot: { height: { show: [y], over: x }, both: [x, y] }
+`,
   // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
   winch: `grashof: 1
 name: winch
@@ -78,4 +100,7 @@ studies:
 };
 
 /** Files beside these models. */
-export const FILES = { winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };
+export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5,-90\n' }, winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };
+
+/** Models that are run with their figures. */
+export const WITH_FIGURES = ['swing'];

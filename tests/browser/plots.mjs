@@ -183,3 +183,40 @@ export async function no_two_curves_are_alike(open) {
     assert.deepEqual(legend, lines);
   }
 }
+
+/** Colours of a curve as three numbers, of what a browser or an SVG file writes. */
+function rgb(text) {
+  if (text.startsWith('#')) return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
+  const numbers = text.match(/[\d.]+/g).slice(0, 3).map(Number);
+  return text.startsWith('color(') ? numbers.map((part) => 255 * part) : numbers;
+}
+
+export async function curves_look_as_in_the_figures_of_the_program(open) {
+  for (const [study, name, count] of [['lengths', 'angle', 10], ['path', 'both', 2]]) {
+    const { tab, directory } = await open('swing', { study });
+    const svg = readFileSync(`${directory}/${study}-${name}.svg`, 'utf8');
+    // entries of its legend: a line, or dots in a row, and a text
+    const entries = [...svg.matchAll(/<(?:polyline points="[\d.]+,([\d.]+) [\d.]+,\1" fill="none" stroke="(?=#\w+" stroke-width="3")|circle cx="[\d.]+" cy="[\d.]+" r="5" fill=")(#\w+)"(?: stroke-width="3")?(?: stroke-dasharray="([\d. ]+)")?[^>]*>\n<text[^>]*>([^<]+)</g)];
+    const wanted = new Map(entries.map(([, , color, dash, label]) => [label, { color: rgb(color), dash: dash?.split(' ').map((part) => Number(part) / 2).join(' ') ?? 'none' }]));
+    assert.equal(wanted.size, count, [...wanted.keys()].join());
+    const found = await plot(tab, name).locator('.legend button').evaluateAll((all) => all.map((entry) => {
+      const line = entry.querySelector('path');
+      return { label: entry.querySelector('span').textContent, color: getComputedStyle(line).stroke, dash: line.getAttribute('stroke-dasharray') };
+    }));
+    assert.equal(found.length, count);
+    for (const { label, color, dash } of found) {
+      const like = wanted.get(label);
+      assert.ok(like, `${label} is not in the figure`);
+      rgb(color).forEach((part, k) => near(part, like.color[k], 1.01, `${label}: ${color}`));
+      assert.equal(dash, like.dash, label);
+    }
+    // a file that the page writes has them, too
+    const [download] = await Promise.all([tab.waitForEvent('download'), plot(tab, name).getByText('SVG', { exact: true }).click()]);
+    const saved = [...readFileSync(await download.path(), 'utf8').matchAll(/<path d="M[^"]*" stroke="(#\w+)" stroke-dasharray="([^"]+)"[^>]*><text[^>]*>([^<]+)</g)];
+    assert.equal(saved.length, count);
+    for (const [, color, dash, label] of saved) {
+      rgb(color).forEach((part, k) => near(part, wanted.get(label).color[k], 1.01, `${label} in the file`));
+      assert.equal(dash, wanted.get(label).dash, label);
+    }
+  }
+}

@@ -9,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '../../viewer/node_modules/playwright-core/index.mjs';
-import { FILES, MODELS } from './models.mjs';
+import { FILES, MODELS, WITH_FIGURES } from './models.mjs';
 import * as motion from './motion.mjs';
 import * as page from './page.mjs';
 import * as paper from './paper.mjs';
@@ -32,7 +32,7 @@ function results(name) {
   if (text) writeFileSync(model, text);
   for (const [file, beside] of Object.entries(FILES[name] ?? {})) writeFileSync(join(directory, file), beside);
   try {
-    execFileSync(program, ['run', model, '--no-plots', '--quiet', '-o', out], { stdio: 'pipe' });
+    execFileSync(program, ['run', model, ...(WITH_FIGURES.includes(name) ? [] : ['--no-plots']), '--quiet', '-o', out], { stdio: 'pipe' });
   } catch (error) {
     // an expectation that is not met is one of the things to be shown
     if (error.status !== 1) throw error;

@@ -12,8 +12,8 @@ export interface Curve {
   quantity: string;
   x: number[];
   y: number[];
-  color: number;
-  dash: number;
+  /** Its number among the curves of the figure, by which it has its colour and its dashes. */
+  place: number;
   shown: boolean;
   /** Whether it is drawn over the axis on the right, and whether by its points alone. */
   right?: boolean;
@@ -25,6 +25,8 @@ export interface Figure {
   /** What the vertical axis of a figure with one curve name says. */
   y: string;
   curves: Curve[];
+  /** Curves of the study's figure, also those whose values the page does not have. */
+  count: number;
   breaks: number[];
   equal: boolean;
   ordered: boolean;
@@ -49,8 +51,9 @@ export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; 
 export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
-export const DASHES = ['', '7 4', '2 4', '9 3 2 3', '5 3', '12 4', '7 3 2 3 2 3'];
-/** For many curves the page has a scale of this many colours, rising in lightness, from `--scale-0` on. */
+/** Half as long as in the figures of the program. */
+const DASHES = ['none', '7 3.5', '1.5 3.5', '9 3 1.5 3', '4 2.5', '12 4', '7 2.5 1.5 2.5 1.5 2.5'];
+/** For many curves the page has the scale of the program's figures, rising in lightness, of this many colours from `--scale-0` on. */
 const STOPS = 5;
 const LETTER = 6.7;
 /** Letters that the ticks of an axis have room for where there is room, so that figures one below the other begin alike. */
@@ -63,11 +66,16 @@ const SPACE = 36;
 const FAINT = 0.62;
 
 /** The colour of a curve; many curves take a scale. */
-export function color(index: number, count: number): string {
+export function color({ place: index }: Curve, { count }: Figure): string {
   if (count <= COLORS.length) return `var(--curve-${index % COLORS.length})`;
   const place = (index / (count - 1)) * (STOPS - 1);
   const low = Math.min(Math.floor(place), STOPS - 2);
-  return `color-mix(in srgb, var(--scale-${low}), var(--scale-${low + 1}) ${Math.round(1000 * (place - low)) / 10}%)`;
+  return `color-mix(in srgb, var(--scale-${low}), var(--scale-${low + 1}) ${Math.round(1e5 * (place - low)) / 1e3}%)`;
+}
+
+/** Colour and dashes of a curve: those that the program's figures of the study have. */
+export function style(curve: Curve, figure: Figure): { stroke: string; 'stroke-dasharray': string } {
+  return { stroke: color(curve, figure), 'stroke-dasharray': curve.dots ? 'none' : DASHES[curve.place % DASHES.length]! };
 }
 
 /** Where everything stands. */
@@ -219,7 +227,7 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
     const lines = panel.curves.map((curve) => {
       const strong = view.strong?.(figure.curves.indexOf(curve));
       const width = curve.dots ? 5 : strong ? 3 : strong === false ? 1.4 : 1.8;
-      return s('path', { d: path(curve, out, panel), fill: 'none', stroke: color(curve.color, figure.curves.length), 'stroke-width': width, 'stroke-opacity': strong === false ? FAINT : 1, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt', 'stroke-dasharray': (!curve.dots && DASHES[curve.dash % DASHES.length]) || 'none' });
+      return s('path', { d: path(curve, out, panel), fill: 'none', ...style(curve, figure), 'stroke-width': width, 'stroke-opacity': strong === false ? FAINT : 1, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);

@@ -27,11 +27,7 @@ class Later implements Curve {
   shown = true;
   private points: { x: number[]; y: number[] } | null = null;
 
-  constructor(readonly label: string, readonly unit: string, readonly color: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
-
-  get dash(): number {
-    return this.color;
-  }
+  constructor(readonly label: string, readonly unit: string, readonly place: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
 
   get x(): number[] {
     return (this.points ??= this.make()).x;
@@ -42,10 +38,11 @@ class Later implements Curve {
   }
 }
 
-/** Runs with their labels; of a study of one run that one. */
-function runsOf(study: Study): { label: string; results: Results; index: number }[] {
-  if (!study.table.reasons) return [{ label: '', results: study, index: 0 }];
-  return study.runs.flatMap(({ label, results }, index) => (results && results.independent.values.length > 0 ? [{ label, results, index }] : []));
+/** Runs whose rows the page has, with their labels, and with their numbers among all that have begun; of a study of one run that one. */
+function runsOf(study: Study): { label: string; results: Results; index: number; begun: number }[] {
+  if (!study.table.reasons) return [{ label: '', results: study, index: 0, begun: 0 }];
+  let begun = 0;
+  return study.runs.flatMap(({ label, results }, index) => (results ? [{ label, results, index, begun: begun++ }] : [])).filter(({ results }) => results.independent.values.length > 0);
 }
 
 /** Names that a figure shows, and whether over the axis on the right. */
@@ -59,16 +56,17 @@ function unitOf(of: Pick<Column, 'unit' | 'shown_in'>, axis: PlotAxis | null): {
   return shownIn(of);
 }
 
-/** Adds curves that do not come from the study. */
-function beside(plot: Plot, size: number, found: (name: string) => Column | undefined, curves: Curve[]): void {
+/** Adds curves that do not come from the study, behind `count` of it; how many there are then. */
+function beside(plot: Plot, size: number, found: (name: string) => Column | undefined, curves: Curve[], count: number): number {
   for (const { label, of, x, y, measured } of plot.beside) {
     const like = found(of);
     if (!like) continue;
     const right = plot.right?.show.includes(of) ?? false;
     const { unit, size: high } = unitOf(like, right ? plot.right!.axis : plot.y);
     const by = (values: Num[], part: number) => values.map((v) => (v ?? NaN) / part);
-    curves.push(new Later(label, unit, curves.length, like.quantity, () => ({ x: by(x, size), y: by(y, high) }), right, measured));
+    curves.push(new Later(label, unit, count++, like.quantity, () => ({ x: by(x, size), y: by(y, high) }), right, measured));
   }
+  return count;
 }
 
 /** Ends of axes, as shown. */
@@ -95,7 +93,8 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
   const several = runs.length > 1 || study.table.reasons !== null;
   const [curves, points, numbers]: [Curve[], Drawable['points'], number[]] = [[], [], []];
   let over: Column | undefined;
-  for (const { label, results, index } of runs) {
+  const shown = sides(plot).filter(({ name }) => runs[0] && column(runs[0].results, name));
+  for (const { label, results, index, begun } of runs) {
     const horizontal = plot.over ? column(results, plot.over) : results.independent;
     if (!horizontal) continue;
     over ??= horizontal;
@@ -103,19 +102,20 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
     let x: number[] | null = null;
     const across = () => (x ??= (plot.over ? drawn(horizontal.values, fineOf(results)) : places(fineOf(results))).map((v) => v / size));
     const value = (values: Column['values'], at: number) => valueAt(fineOf(results), values, at);
-    for (const { name, right } of sides(plot)) {
+    for (const [k, { name, right }] of shown.entries()) {
       const vertical = column(results, name);
       if (!vertical) continue;
       const { unit, size: high } = unitOf(vertical, right ? plot.right!.axis : plot.y);
-      const text = !several ? name : sides(plot).length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
-      curves.push(new Later(text, unit, curves.length, vertical.quantity, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
+      const text = !several ? name : shown.length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
+      curves.push(new Later(text, unit, begun * shown.length + k, vertical.quantity, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
       points.push((at) => [(plot.over ? value(horizontal.values, at) : at) / size, value(vertical.values, at) / high]);
       numbers.push(index);
     }
   }
   if (!over || curves.length === 0) return null;
   const [unit, size] = plot.unit ?? [shownIn(over).unit, shownIn(over).size];
-  beside(plot, size, (name) => column(runs[0]!.results, name), curves);
+  const begun = study.table.reasons ? study.runs.filter(({ results }) => results).length : 1;
+  const count = beside(plot, size, (name) => column(runs[0]!.results, name), curves, begun * shown.length);
   const first = runs[0]!.results;
   const marked = !several && !plot.over && first.table.switches.length <= MOST_MARKED;
   const free = !plot.right && !plot.y?.range.some((end) => end !== null) && !plot.range.some((end) => end !== null);
@@ -124,6 +124,7 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
     x: { label: over.name, unit },
     y: (several || plot.beside.length > 0) && plot.show.length === 1 ? plot.show[0]! : '',
     curves,
+    count,
     breaks: marked ? first.table.switches.map((row) => (first.independent.values[row] ?? NaN) / size) : [],
     equal: plane,
     ordered: plot.over === null,
@@ -151,8 +152,8 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
     }
   }
   if (curves.length === 0) return null;
-  beside(plot, size, found, curves);
+  const count = beside(plot, size, found, curves, curves.length);
   const y = several && shown.length === 1 ? shown[0]!.c.name : '';
-  const figure: Figure = { x: { label: over.name, unit }, y, curves, breaks: [], equal: false, ordered: !dots, ...ranges(plot, size, found) };
+  const figure: Figure = { x: { label: over.name, unit }, y, curves, count, breaks: [], equal: false, ordered: !dots, ...ranges(plot, size, found) };
   return { name: plot.name, figure, moves: false, size, points: [], runs: [] };
 }

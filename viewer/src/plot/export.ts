@@ -3,12 +3,12 @@
 import { save } from '../dom';
 import { heading } from '../numbers';
 import { mixed } from '../theme';
-import { COLORS, type Figure, draw, layout } from './chart';
+import { COLORS, type Figure, draw, layout, style } from './chart';
 
 const LIGHT: Record<string, string> = { grid: '#e8e8e8', line: '#555', soft: '#333', faint: '#999' };
 
 /** The colours of the page for many curves on white. */
-const SCALE = ['#002060', '#0a62a8', '#1d8f7a', '#a98600', '#c94f1c'];
+const SCALE = ['#002060', '#0a62a8', '#188470', '#a98600', '#de762c'];
 
 /** Colours instead of the variables of the page. */
 function plain(text: string): string {
@@ -27,11 +27,9 @@ export function saveSvg(name: string, title: string, figure: Figure, view: { log
   const rows = shown.length > 1 ? Math.ceil(shown.length / 3) : 0;
   const lines = rows === 0 ? [] : shown.map((curve, k) => {
     const [x, y] = [60 + (k % 3) * 280, height + 12 + 20 * Math.floor(k / 3)];
-    const path = [...svg.querySelectorAll('g path')][k]!;
-    const stroke = path.getAttribute('stroke')!;
-    const dash = path.getAttribute('stroke-dasharray')!;
     const text = curve.label.replace(/&/g, '&amp;').replace(/</g, '&lt;');
-    return `<path d="M${x} ${y}h28" stroke="${stroke}" stroke-dasharray="${dash}" stroke-width="2"/><text x="${x + 36}" y="${y + 4}" font-size="12" fill="#333">${text}</text>`;
+    const { stroke, 'stroke-dasharray': dash } = style(curve, figure);
+    return `<path d="${curve.dots ? `M${x + 4} ${y}h0m10 0h0m10 0h0` : `M${x} ${y}h28`}" stroke="${stroke}" stroke-dasharray="${dash}" stroke-width="${curve.dots ? 5 : 2}" stroke-linecap="${curve.dots ? 'round' : 'butt'}"/><text x="${x + 36}" y="${y + 4}" font-size="12" fill="#333">${text}</text>`;
   });
   const total = height + 20 * rows + 8;
   svg.setAttribute('viewBox', `0 0 900 ${total}`);

@@ -3,7 +3,7 @@
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
 import { digits, pretty, words } from '../numbers';
-import { type Curve, type Layout, type View, DASHES, axisOf, below, color, draw, layout } from './chart';
+import { type Curve, type Layout, type View, axisOf, below, color, draw, layout, style } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
@@ -131,7 +131,7 @@ export class PlotView {
       const value = h('output', { class: 'value' });
       this.values.push(value);
       const line = s('svg', { width: 22, height: 8, 'aria-hidden': 'true' },
-        curve.dots ? s('path', { d: 'M4 4h0M11 4h0M18 4h0', stroke: color(k, curves.length), 'stroke-width': 5, 'stroke-linecap': 'round' }) : s('path', { d: 'M1 4h20', stroke: color(k, curves.length), 'stroke-width': 2.4, 'stroke-dasharray': DASHES[curve.dash % DASHES.length] || 'none' }));
+        s('path', { d: curve.dots ? 'M4 4h0M11 4h0M18 4h0' : 'M1 4h20', ...style(curve, this.of.figure), 'stroke-width': curve.dots ? 5 : 2.4, 'stroke-linecap': curve.dots ? 'round' : 'butt' }));
       const entry = h('button', { type: 'button', 'aria-pressed': String(curve.shown), title: 'show or hide', click: () => {
         const own = this.of.figure.curves[k]!;
         own.shown = !own.shown;
@@ -194,7 +194,7 @@ export class PlotView {
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
       const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
       if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
-      this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve.color, figure.curves.length), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
+      this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve, figure), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });
   }
 
