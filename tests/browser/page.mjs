@@ -211,3 +211,29 @@ export async function controls_have_names(open) {
     assert.equal(await tab.locator('.time').getAttribute('aria-live'), 'polite');
   }
 }
+
+export async function results_stay_below_the_mechanism_beside_the_figures(open) {
+  const boxes = (tab, ...parts) => tab.evaluate((all) => all.map((part) => document.querySelector(part).getBoundingClientRect().toJSON()), parts);
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  for (const opened of [false, true]) {
+    await tab.evaluate((on) => document.querySelectorAll('.facts details').forEach((part) => (part.open = on)), opened);
+    await tab.evaluate(() => scrollTo(0, 1500));
+    await tab.waitForTimeout(150);
+    const [stage, facts, plots] = await boxes(tab, '.stage', '.facts', '.plots');
+    assert.ok(stage.top >= 0 && facts.top >= stage.bottom && plots.left >= facts.right, 'results are not below the mechanism');
+    assert.ok(facts.height > 100 && facts.bottom <= 900, `results from ${facts.top} to ${facts.bottom}`);
+  }
+  // a study without figures has them beside the mechanism, and one without a drawing over the whole width
+  const still = await open('quarter_car', { study: 'frequencies' });
+  const [stage, facts] = await boxes(still.tab, '.stage', '.facts');
+  assert.ok(facts.left >= stage.right && Math.abs(facts.top - stage.top) < 2, 'results are not beside the mechanism');
+}
+
+export async function the_drawing_is_as_high_as_the_mechanism_asks_for(open) {
+  const part = async (model, study) => {
+    const { width, height } = await (await open(model, { study })).tab.locator('.canvas').boundingBox();
+    return height / width;
+  };
+  const [flat, tall] = [await part('crank_rocker', 'one-turn'), await part('jansen_leg', 'step')];
+  assert.ok(flat < 0.75 && tall > 0.95, `${flat} and ${tall}`);
+}

@@ -18,6 +18,8 @@ export interface Options {
 export interface Renderer {
   /** Draws a place of the motion, in pixels of the page. */
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
+  /** Height of all that is drawn over the motion, as a part of its width. */
+  aspect(): number;
   /** The whole mechanism in view again. */
   fit(): void;
   /** Larger or smaller about a point of the canvas. */

@@ -19,6 +19,9 @@ const SPANS = [32, 16, 8, WHOLE, 2, 1];
 const BLINK = 0.15;
 const SEEN = 2;
 const NAMES: Record<Kind, string> = { velocities: 'velocities', accelerations: 'accelerations', loads: 'loads', reactions: 'reactions' };
+/** Height of the drawing as a part of its width: at least, and at most. */
+const FLAT = 0.55;
+const TALL = 1;
 const PLAY = 'M4 2.5v11l9-5.5z';
 const PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
 
@@ -224,7 +227,6 @@ export class Stage {
     this.drawing = results.scenes[index]?.[0] ?? '';
     if (!this.kept || !coded) this.clock.play(false);
     this.element.hidden = !coded;
-    this.element.parentElement?.toggleAttribute('hidden', !coded);
     if (!coded) return;
     const scene = sceneOf(coded);
     const motion = new Motion(scene, falling(results.independent.values, scene.frames.at));
@@ -235,6 +237,7 @@ export class Stage {
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
     if (this.kept?.dimensions === motion.scene.dimensions) this.renderer?.outlook(this.kept.look);
     this.kept = undefined;
+    this.shape();
     const still = motion.to <= motion.from || rests(results);
     this.element.classList.toggle('still', still);
     this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
@@ -250,6 +253,14 @@ export class Stage {
     if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));
     this.clock.range(still ? motion.end : motion.begin, motion.end, seconds, place);
     this.state();
+  }
+
+  /** Makes the drawing as high as the mechanism asks for; of several runs or modes as high as the highest so far, so that it stays. */
+  private shape(): void {
+    const box = this.canvas.parentElement!;
+    const before = Number(box.style.getPropertyValue('--aspect') || FLAT);
+    const own = Math.min(this.renderer?.aspect() ?? FLAT, TALL);
+    if (own > before || !box.style.getPropertyValue('--aspect')) box.style.setProperty('--aspect', String(Math.max(own, before)));
   }
 
   /** Speeds to choose from: parts of that of the motion, or how long a motion takes that has none; the one that was chosen stays. */

@@ -62,8 +62,9 @@ export class StudyView {
         h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
         h('h2', { id: 'study-title', tabindex: -1 }, study.study),
         this.about),
-      h('div', { class: 'left' }, this.stage.element),
-      h('div', { class: 'right' }, this.facts, this.figures, this.chooser(), this.rows));
+      // beside figures results stand below the mechanism, else beside it
+      h('div', { class: 'left' }, this.stage.element, this.plots.length > 0 && this.facts),
+      h('div', { class: 'right' }, this.plots.length === 0 && this.facts, this.figures, this.chooser(), this.rows));
     this.tables(study.table.reasons ? null : study);
     for (const part of parts(this.element)) part.open = kept?.open.get(title(part)) ?? part.open;
   }

@@ -41,6 +41,11 @@ export class Plane implements Renderer {
     this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
   }
 
+  aspect(): number {
+    const { low, high } = this.bounds;
+    return (high[1] - low[1]) / (high[0] - low[0] || 1);
+  }
+
   fit(): void {
     [this.zoomed, this.shift] = [1, [0, 0]];
   }

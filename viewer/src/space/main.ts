@@ -51,6 +51,10 @@ class Space implements Renderer {
     this.centre();
   }
 
+  aspect(): number {
+    return this.extent[1] / this.extent[0];
+  }
+
   fit(): void {
     [this.turn, this.tilt, this.zoomed, this.shift] = [0.75, 0.5, 1, [0, 0]];
   }
