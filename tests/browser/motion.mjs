@@ -106,14 +106,21 @@ export async function what_is_at_rest_has_no_transport(open) {
   }
 }
 
-export async function a_motion_without_time_says_how_long_it_takes(open) {
+export async function positions_without_time_say_so(open) {
   const { tab } = await open('crank_rocker', { study: 'lengths' });
-  const speed = tab.locator('[aria-label=speed]');
-  assert.match(await speed.inputValue(), /^(runs|turns) in 4 s$/);
-  assert.ok((await speed.locator('option').allInnerTexts()).every((text) => !text.includes('×')));
-  assert.doesNotMatch(await tab.locator('.time').innerText(), / s$/);
+  const [speed, timeless] = [tab.locator('[aria-label=speed]'), tab.locator('.timeless')];
+  assert.equal(await timeless.innerText(), 'positions, no time');
+  assert.match(await timeless.getAttribute('title'), /positions over theta.*not a motion in time/);
+  assert.equal(await speed.inputValue(), 'shown in 4 s');
+  assert.ok((await speed.locator('option').allInnerTexts()).every((text) => /^shown in \d+ s$/.test(text)));
+  // where time would be stands what they are over
+  await tab.locator('.scrub').fill('5000');
+  assert.match(await tab.locator('.time').innerText(), /^theta [\d.]+ deg$/);
+  await tab.evaluate(() => grashof.study('modes'));
+  await tab.waitForFunction(() => document.querySelector('.timeless').textContent === 'shape, no time');
   await tab.evaluate(() => grashof.study('one-turn'));
   await tab.waitForFunction(() => document.querySelector('[aria-label=speed]').value === '1×');
+  assert.equal(await timeless.isVisible(), false);
 }
 
 export async function the_slider_scrubs(open) {

@@ -60,6 +60,8 @@ export class Stage {
   private readonly context = this.canvas.getContext('2d')!;
   private readonly slider = h('input', { type: 'range', min: 0, max: 10_000, step: 1, value: 0, 'aria-label': 'place of the motion', class: 'scrub' });
   private readonly time = h('output', { class: 'time', 'aria-live': 'polite' });
+  /** What is said where time would be, if there is none. */
+  private readonly timeless = h('span', { class: 'timeless' });
   private readonly playing = button(icon(PLAY), 'play', () => this.clock.play(), { class: 'play' });
   private readonly speed = h('select', { 'aria-label': 'speed', change: () => (this.clock.speed = this.speeds[this.speed.selectedIndex]?.[1] ?? 1) });
   /** How fast it may play, in words, and what the clock makes of it. */
@@ -213,7 +215,7 @@ export class Stage {
       this.clock.play(false);
       this.clock.seek(from + (to - from) * part);
     });
-    return h('div', { class: 'transport' }, this.playing, this.slider, this.time, this.speed, loop,
+    return h('div', { class: 'transport' }, this.playing, this.slider, h('div', { class: 'where' }, this.time, this.timeless), this.speed, loop,
       button(icon('M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4'), 'whole mechanism', () => {
         this.renderer?.fit();
         this.redraw();
@@ -263,22 +265,26 @@ export class Stage {
     if (own > before || !box.style.getPropertyValue('--aspect')) box.style.setProperty('--aspect', String(Math.max(own, before)));
   }
 
-  /** Speeds to choose from: parts of that of the motion, or how long a motion takes that has none; the one that was chosen stays. */
+  /** Speeds to choose from: parts of that of the motion, or how long positions are shown that have no time; the one that was chosen stays. */
   private offer(again: boolean): void {
     const { real } = this.pace!;
     const before = this.speed.selectedIndex;
-    this.speeds = real ? SPEEDS.map((s) => [`${s}×`, s]) : SPANS.map((span) => [`${this.does()} in ${span} s`, WHOLE / span]);
+    this.speeds = real ? SPEEDS.map((s) => [`${s}×`, s]) : SPANS.map((span) => [`shown in ${span} s`, WHOLE / span]);
     this.speed.replaceChildren(...this.speeds.map(([text]) => h('option', {}, text)));
-    this.speed.title = real ? 'parts of the speed of the motion' : 'the study says nothing of time';
+    this.speed.title = real ? 'parts of the speed of the motion' : 'how long the page takes to show all of them';
+    this.tellTimeless();
     if (again) this.speed.selectedIndex = Math.min(before, this.speeds.length - 1);
   }
 
-  /** What a motion without time does once. */
-  private does(): string {
+  /** Says of positions without time that they have none. */
+  private tellTimeless(): void {
     const { independent } = this.results;
-    if (independent.values.length === 0) return 'swings';
-    const way = Math.abs(this.motion!.to - this.motion!.from);
-    return independent.unit === 'rad' && Math.abs(way - 2 * Math.PI) < 1e-6 ? 'turns' : 'runs';
+    const shape = independent.values.length === 0;
+    this.timeless.hidden = this.pace!.real;
+    this.timeless.textContent = shape ? 'shape, no time' : 'positions, no time';
+    this.timeless.title = shape
+      ? 'What plays is the shape of a vibration from one side to the other, enlarged, not a motion in time.'
+      : `The results have no time: what plays are their positions over ${independent.name}, evenly, not a motion in time. A study whose columns have \`time\` plays as fast as it runs.`;
   }
 
   /** The speed at first: that of the motion, unless it is over at once. */
