@@ -233,6 +233,21 @@ mod tests {
     }
 
     #[test]
+    fn a_curve_that_runs_back_shows_its_direction() {
+        let path = |turns: bool| {
+            let at = |k: i32| (f64::from(k) * 0.05).sin_cos();
+            (0..126).map(|k| if turns { at(k) } else { (f64::from(k), at(k).0) }).collect()
+        };
+        let heads = |points, dots| {
+            let curves = vec![Curve { dots, ..curve("a", Some("m"), points) }];
+            let figure = Figure { x: axis("x", "m"), curves, ..Figure::default() };
+            svg(&figure).lines().filter(|line| line.starts_with("<polygon") && line.contains("fill=\"#0072b2\"")).count()
+        };
+        assert!(heads(path(true), false) >= 4);
+        assert_eq!((heads(path(false), false), heads(path(true), true)), (0, 0));
+    }
+
+    #[test]
     fn odd_data_make_a_picture_all_the_same() {
         let nan = f64::NAN;
         let samples = [

@@ -18,6 +18,7 @@ mod font;
 mod forces;
 mod formats;
 mod gltf;
+mod heads;
 mod json;
 mod legend;
 mod lettering;

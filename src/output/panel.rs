@@ -1,6 +1,7 @@
 //! One panel of a figure: its axes, its grid and its curves.
 
 use super::clip;
+use super::heads::heads;
 use super::legend::{self, Entry, Legend};
 use super::plot::{Axis, Mark, Scale};
 use super::scalars::significant;
@@ -278,19 +279,23 @@ impl Panel {
             scene.line(vec![[at, top], [at, bottom]], Stroke::dashed(GREY, 1.2, &[6.0, 5.0]));
         }
         let mut empty = true;
+        // A curve that fills the panel would lose its dashes, and hide all others.
+        let dense = |piece: &Vec<Point>| thin::length(piece) > 20.0 * self.rect.width();
         for line in &self.lines {
-            for piece in self.pieces(line, x, breaks) {
-                empty = false;
+            let pieces = self.pieces(line, x, breaks);
+            empty &= pieces.is_empty();
+            let directed = !line.is_short() && !pieces.iter().any(dense);
+            let heads = if directed { heads(&pieces, self.lines.len()) } else { Vec::new() };
+            for piece in pieces {
                 if line.is_short() || piece.len() == 1 {
                     piece.iter().for_each(|at| scene.circle(*at, line.dot(), Some(line.color), None));
                 }
                 if piece.len() > 1 && !line.dots {
-                    // A curve that fills the panel would lose its dashes, and hide all others.
-                    let dense = thin::length(&piece) > 20.0 * self.rect.width();
-                    let stroke = if dense { Stroke::solid(line.color, 1.5) } else { Stroke::dashed(line.color, 3.0, line.dash) };
+                    let stroke = if dense(&piece) { Stroke::solid(line.color, 1.5) } else { Stroke::dashed(line.color, 3.0, line.dash) };
                     scene.line(piece, stroke);
                 }
             }
+            heads.into_iter().for_each(|head| scene.shape(head.to_vec(), Some(line.color), None));
         }
         if empty {
             let [x, y] = self.rect.center();

@@ -51,7 +51,7 @@ parameters: { l: 1 m }
 bodies: { rod: { bar: { length: l, mass: 1 kg } } }
 joints: { A: { revolute: [ground, rod.start] } }
 start: { A.angle: -30 deg }
-measures: { x: rod.x, y: rod.y }
+measures: { x: rod.end.x, y: rod.end.y }
 studies:
   lengths:
     dynamics: { until: 1 s, every: 10 ms }

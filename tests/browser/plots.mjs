@@ -220,3 +220,19 @@ export async function curves_look_as_in_the_figures_of_the_program(open) {
     }
   }
 }
+
+export async function curves_that_turn_back_show_their_direction(open) {
+  const { tab, directory } = await open('swing', { study: 'path' });
+  const onPage = (name) => plot(tab, name).locator('svg.chart g[clip-path] polygon').evaluateAll((all) => all.map((one) => one.getAttribute('points')));
+  const inFile = (name) => [...readFileSync(`${directory}/path-${name}.svg`, 'utf8').matchAll(/<polygon points="([^"]+)" fill="#0072b2"/g)].map(([, points]) => points);
+  for (const heads of [await onPage('height'), inFile('height')]) {
+    const corners = heads.map((points) => points.split(' ').map((pair) => pair.split(',').map(Number)));
+    assert.ok(corners.length >= 2 && corners.length <= 6, heads.join('; '));
+    // it falls from the right to the left, and comes back
+    const ways = corners.map(([tip, a, b]) => Math.sign(tip[0] - (a[0] + b[0]) / 2));
+    assert.deepEqual([ways[0], ways[ways.length - 1]], [-1, 1]);
+    // unobtrusive
+    for (const [tip, a, b] of corners) assert.ok(Math.hypot(tip[0] - (a[0] + b[0]) / 2, tip[1] - (a[1] + b[1]) / 2) < 20);
+  }
+  assert.deepEqual([await onPage('both'), inFile('both')], [[], []], 'over time there is nothing to tell');
+}

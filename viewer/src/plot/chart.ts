@@ -4,6 +4,7 @@ import { s } from '../dom';
 import { heading } from '../numbers';
 import type { Ends } from '../types';
 import { type Axis, axis, over, scaled } from './axis';
+import { type Point, heads } from './heads';
 
 export interface Curve {
   label: string;
@@ -62,6 +63,8 @@ const NARROW = 420;
 /** Names of curves on an axis at most, and their letters. */
 const NAMES = 3;
 const SPACE = 36;
+/** A line of so many points at most joins results of single runs, which have no direction. */
+const FEW = 25;
 /** How much is seen of a curve beside the chosen one. */
 const FAINT = 0.62;
 
@@ -169,30 +172,47 @@ function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
   out.height = panel.top + panel.height + 46;
 }
 
-/** The line of a curve; points that cannot be told apart are left out. */
-function path(curve: Curve, { left, right, x: across }: Layout, panel: Panel): string {
-  const { x, y } = curve;
+/** The pieces of a curve in pixels; points that cannot be told apart are left out. */
+function pieces(curve: Curve, { left, right, x: across }: Layout, panel: Panel): Point[][] {
+  const { x, y, dots } = curve;
   const { top, height } = panel;
   const up = axisOf(panel, curve).axis;
-  let [out, pen, px, py] = ['', false, NaN, NaN];
+  const out: Point[][] = [];
+  let piece: Point[] | null = null;
+  let [px, py] = [NaN, NaN];
   const n = x.length;
   for (let i = 0; i < n; i++) {
     const u = left + across.part(x[i]!) * (right - left);
     const v = top + (1 - up.part(y[i]!)) * height;
     if (!Number.isFinite(u + v)) {
-      pen = false;
+      piece = null;
       continue;
     }
-    if (curve.dots) {
-      out += `M${clamp(u)} ${clamp(v)}h0`;
-      continue;
-    }
-    if (pen && Math.abs(u - px) + Math.abs(v - py) < 0.4 && i + 1 < n && Number.isFinite(y[i + 1]!)) continue;
-    // far out of the picture numbers are too long for some renderers
-    out += `${pen ? 'L' : 'M'}${clamp(u)} ${clamp(v)}`;
-    [pen, px, py] = [true, u, v];
+    if (!dots && piece && Math.abs(u - px) + Math.abs(v - py) < 0.4 && i + 1 < n && Number.isFinite(y[i + 1]!)) continue;
+    if (!piece) out.push((piece = []));
+    piece.push([u, v]);
+    [px, py] = [u, v];
   }
   return out;
+}
+
+/** The line through pieces, or their points alone. */
+function path(lines: Point[][], dots = false): string {
+  // far out of the picture numbers are too long for some renderers
+  const text = ([u, v]: Point) => `${clamp(u)} ${clamp(v)}`;
+  return lines.map((line) => (dots ? line.map((at) => `M${text(at)}h0`).join('') : `M${line.map(text).join('L')}`)).join('');
+}
+
+/** What of pieces is in a panel, to whole points. */
+function inside(lines: Point[][], { left, right }: Layout, { top, height }: Panel): Point[][] {
+  return lines.flatMap((line) => {
+    const out: Point[][] = [[]];
+    for (const at of line) {
+      if (at[0] >= left && at[0] <= right && at[1] >= top && at[1] <= top + height) out[out.length - 1]!.push(at);
+      else if (out[out.length - 1]!.length > 0) out.push([]);
+    }
+    return out;
+  });
 }
 
 function clamp(x: number): string {
@@ -224,10 +244,14 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       if (x > left && x < right) svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--faint)', 'stroke-dasharray': '2 3' }));
     }
     svg.append(s('path', { d: `M${left} ${top}V${top + height}H${right}`, fill: 'none', stroke: 'var(--line)' }));
-    const lines = panel.curves.map((curve) => {
+    const lines = panel.curves.flatMap((curve) => {
+      const own = pieces(curve, out, panel);
       const strong = view.strong?.(figure.curves.indexOf(curve));
       const width = curve.dots ? 5 : strong ? 3 : strong === false ? 1.4 : 1.8;
-      return s('path', { d: path(curve, out, panel), fill: 'none', ...style(curve, figure), 'stroke-width': width, 'stroke-opacity': strong === false ? FAINT : 1, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
+      const [{ stroke, ...dash }, opacity] = [style(curve, figure), strong === false ? FAINT : 1];
+      const line = s('path', { d: path(own, curve.dots), fill: 'none', stroke, ...dash, 'stroke-width': width, 'stroke-opacity': opacity, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
+      const seen = curve.dots || curve.x.length <= FEW ? [] : heads(inside(own, out, panel), right - left, panel.curves.length);
+      return [line, ...seen.map((head) => s('polygon', { points: head.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, opacity }))];
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);
