@@ -199,3 +199,42 @@ export async function arrows_begin_at_the_scale_of_the_model(open) {
   assert.equal(await tab.locator('.told').innerText(), 'loads 50 N/m, reactions 100 N/m');
   assert.notEqual(await picture(tab), before);
 }
+
+/** The names in the drawing at places evenly over the motion, as the page plays. */
+const namesOver = (tab, count) => tab.evaluate(async (steps) => {
+  const slider = document.querySelector('.scrub');
+  const out = [];
+  for (let k = 0; k <= steps; k++) {
+    slider.value = String(Math.round((10_000 * k) / steps));
+    slider.dispatchEvent(new Event('input'));
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    out.push(grashof.names());
+  }
+  return out;
+}, count);
+
+export async function names_stand_beside_their_joints_and_keep_their_sides(open) {
+  for (const [model, study, count] of [['stewart_platform', 'ride', 12], ['jansen_leg', 'step', 7], ['arm', 'lift', 8], ['inline_four', 'firing', 9], ['andrews', 'squeeze', 7]]) {
+    const { tab } = await open(model, { study });
+    const all = await namesOver(tab, 60);
+    const { width, height } = await tab.locator('.canvas').boundingBox();
+    const known = [...new Set(all.flatMap((names) => names.map(({ text }) => text)))];
+    const sides = new Map(known.map((text) => [text, new Set()]));
+    let changes = 0;
+    all.forEach((names, k) => {
+      names.forEach(({ text, at: [x, y], box: [left, top, right, bottom] }, i) => {
+        assert.ok(left >= 0 && top >= 0 && right <= width && bottom <= height, `${model}: ${text} is cut off in step ${k}`);
+        const other = names.slice(i + 1).find(({ box: [l, t, r, b] }) => left < r && l < right && top < b && t < bottom);
+        assert.ok(!other, `${model}: ${text} lies over ${other?.text} in step ${k}`);
+        assert.ok(Math.hypot(Math.max(left - x, 0, x - right), Math.max(top - y, 0, y - bottom)) < 45, `${model}: ${text} is far from its joint in step ${k}`);
+        if (left > 3 && right < width - 3 && top > 3 && bottom < height - 3) sides.get(text).add(`${Math.round(left - x)} ${Math.round(top - y)}`);
+      });
+      if (k > 0) changes += known.filter((text) => names.some((one) => one.text === text) !== all[k - 1].some((one) => one.text === text)).length;
+    });
+    for (const [text, places] of sides) assert.ok(places.size <= 1, `${model}: ${text} jumps: ${[...places].join('; ')}`);
+    const shown = all.reduce((sum, names) => sum + names.length, 0) / (all.length * known.length);
+    assert.equal(known.length, count, `${model}: ${known.join()}`);
+    assert.ok(shown > 0.95, `${model}: ${shown} of ${count} names are shown`);
+    assert.ok(changes <= 2 * known.length, `${model}: names come and go ${changes} times`);
+  }
+}

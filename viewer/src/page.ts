@@ -2,6 +2,7 @@
 
 import { Clock } from './clock';
 import { button, h, icon } from './dom';
+import type { Named } from './names';
 import { coded } from './numbers';
 import { prose } from './prose';
 import { type Source, source } from './source';
@@ -11,11 +12,12 @@ import type { Data, Study } from './types';
 
 declare global {
   interface Window {
-    /** For tests and for readers with a console: where a joint is, the place of the motion, how it is seen, another place, another study. */
+    /** For tests and for readers with a console: where a joint is, the place of the motion, how it is seen, the names in the drawing, another place, another study. */
     grashof: {
       place(joint: string): number[] | null;
       time(): number;
       look(): number[];
+      names(): Named[];
       seek(at: number): void;
       study(name: string): boolean;
     };
@@ -227,6 +229,7 @@ export class Page {
       place: (joint) => this.view?.stage.motion?.joint(joint, this.clock.at) ?? null,
       time: () => this.clock.at,
       look: () => this.view?.stage.look() ?? [],
+      names: () => this.view?.stage.names() ?? [],
       seek: (at) => this.clock.seek(at),
       study: (name) => this.show(name),
     };

@@ -2,6 +2,7 @@
 
 import type { Arrows, Kind } from './arrows';
 import type { Motion } from './motion';
+import type { Named } from './names';
 import type { Inks } from './theme';
 
 /** Where the slider of the arrows stands at first: there arrows to which the model gives a scale have it. */
@@ -18,6 +19,8 @@ export interface Options {
 export interface Renderer {
   /** Draws a place of the motion, in pixels of the page. */
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
+  /** The names that are drawn. */
+  named(): Named[];
   /** Height of all that is drawn over the motion, as a part of its width. */
   aspect(): number;
   /** The whole mechanism in view again. */

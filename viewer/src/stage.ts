@@ -5,6 +5,7 @@ import type { Clock } from './clock';
 import { scene as decoded } from './data';
 import { button, h, icon } from './dom';
 import { Motion, falling } from './motion';
+import type { Named } from './names';
 import { digits, heading, pretty, shownIn } from './numbers';
 import { type Pace, WHOLE, pace } from './pace';
 import { Plane } from './plane/plane';
@@ -110,6 +111,11 @@ export class Stage {
   /** How it is seen, in numbers of what draws it. */
   look(): number[] {
     return this.renderer?.outlook() ?? [];
+  }
+
+  /** The names in the drawing. */
+  names(): Named[] {
+    return this.renderer?.named() ?? [];
   }
 
   /** Draws when the browser next does. */

@@ -2,6 +2,7 @@
 
 import { type Arrows, COLOR, type Kind } from '../arrows';
 import type { Motion } from '../motion';
+import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
@@ -15,11 +16,6 @@ const LOOKS = 72;
 const PATH = 400;
 /** Dashes of the first seven paths, the next seven, and so on. */
 const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
-/** Left, top, right, bottom. */
-type Box = [number, number, number, number];
-const overlap = (a: Box, b: Box) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-/** Names of one place that stand side by side. */
-const TOGETHER = 3;
 
 export class Plane implements Renderer {
   private readonly pen: Pen;
@@ -30,12 +26,12 @@ export class Plane implements Renderer {
   private shift: Point = [0, 0];
   private middle: Point = [0, 0];
   private place = 0;
-  /** On which side of their places names stand. */
-  private readonly sides = new Map<string, number>();
+  private readonly names: Names;
   private inks!: Inks;
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
+    this.names = new Names(motion);
     this.bounds = this.measure();
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
@@ -48,6 +44,7 @@ export class Plane implements Renderer {
 
   fit(): void {
     [this.zoomed, this.shift] = [1, [0, 0]];
+    this.names.forget();
   }
 
   zoom(factor: number, x: number, y: number): void {
@@ -65,6 +62,10 @@ export class Plane implements Renderer {
     const [zoomed, x, y] = from ?? [];
     if (zoomed !== undefined) [this.zoomed, this.shift] = [zoomed, [x ?? 0, y ?? 0]];
     return [this.zoomed, ...this.shift];
+  }
+
+  named(): Named[] {
+    return this.names.drawn;
   }
 
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
@@ -90,7 +91,7 @@ export class Plane implements Renderer {
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.forEach((link) => this.link(link));
     scene.joints.forEach((joint) => this.sign(joint));
-    if (options.names) this.names();
+    if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks);
     for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height));
     this.bar(height);
   }
@@ -131,34 +132,6 @@ export class Plane implements Renderer {
       if (kind !== 'rod' && body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
     }
     signs.link(this.pen, kind, from, to, this.inks);
-  }
-
-  /** Names of joints, one text to a place. */
-  private names(): void {
-    const places: { at: Point; names: string[] }[] = [];
-    for (const { kind, name, b } of this.motion.scene.joints) {
-      if (kind === 'distance') continue;
-      const at = this.point(b);
-      const known = places.find((place) => Math.hypot(place.at[0] - at[0], place.at[1] - at[1]) < 4);
-      if (known) known.names.push(name);
-      else places.push({ at, names: [name] });
-    }
-    const taken: Box[] = places.map(({ at: [x, y] }) => [x - 5, y - 5, x + 5, y + 5]);
-    for (const { at: [x, y], names } of places) {
-      const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      const width = this.pen.width(text);
-      // to the right and upwards first, where a name is looked for
-      const boxes = [[9, -8], [9, 16], [-9 - width, -8], [-9 - width, 16], [-width / 2, -14], [-width / 2, 22], [24, 4], [-24 - width, 4]]
-        .map(([dx, dy]): Box => [x + dx!, y + dy! - 10, x + dx! + width, y + dy! + 2]);
-      const free = (k: number) => !taken.some((other) => overlap(boxes[k]!, other));
-      // where it stood it stays while it can
-      const before = this.sides.get(text) ?? 0;
-      const side = free(before) ? before : Math.max(0, boxes.findIndex((_, k) => free(k)));
-      this.sides.set(text, side);
-      const box = boxes[side]!;
-      taken.push(box);
-      this.pen.text(text, [box[0], box[3] - 2], this.inks.soft, this.inks.paper);
-    }
   }
 
   private pixel(x: number, y: number): Point {

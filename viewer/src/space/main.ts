@@ -2,7 +2,8 @@
 
 import { type Arrows, COLOR, type Kind } from '../arrows';
 import { type Motion, type Vector, cross } from '../motion';
-import { Pen, type Point, off, toward } from '../plane/pen';
+import { type Named, Names } from '../names';
+import { Pen, type Point, toward } from '../plane/pen';
 import { dashpot, link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
 import { type Inks, mixed } from '../theme';
@@ -18,6 +19,7 @@ interface Item { depth: number; draw(): void }
 
 class Space implements Renderer {
   private readonly pen: Pen;
+  private readonly names: Names;
   private middle: Vector;
   private readonly size: number;
   private readonly floor: number;
@@ -41,6 +43,7 @@ class Space implements Renderer {
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
+    this.names = new Names(motion);
     this.up = unit(motion.scene.up);
     const first: Vector = Math.abs(this.up[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0];
     const x = unit(add(first, this.up, -dot(first, this.up)));
@@ -57,6 +60,7 @@ class Space implements Renderer {
 
   fit(): void {
     [this.turn, this.tilt, this.zoomed, this.shift] = [0.75, 0.5, 1, [0, 0]];
+    this.names.forget();
   }
 
   zoom(factor: number, x: number, y: number): void {
@@ -80,6 +84,10 @@ class Space implements Renderer {
     return [this.zoomed, ...this.shift, this.turn, this.tilt];
   }
 
+  named(): Named[] {
+    return this.names.drawn;
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.look(width, height);
@@ -100,7 +108,7 @@ class Space implements Renderer {
     if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
     for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height), inks);
-    if (options.names) for (const { name, b, kind } of motion.scene.joints) if (kind !== 'distance') pen.text(name, off(this.pixel(motion.world(b, place)), [1, 0], 9, -8), inks.soft, inks.paper);
+    if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks);
     this.axes(height, inks);
   }
 
