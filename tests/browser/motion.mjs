@@ -238,3 +238,22 @@ export async function names_stand_beside_their_joints_and_keep_their_sides(open)
     assert.ok(changes <= 2 * known.length, `${model}: names come and go ${changes} times`);
   }
 }
+
+export async function the_scale_has_room_below_the_mechanism(open) {
+  for (const [model, study] of [['scotch_yoke', 'one-turn'], ['garage_door', 'lift'], ['toggle_press', 'stroke']]) {
+    const { tab } = await open(model, { study });
+    for (const part of [0, 0.25, 0.5, 0.75]) {
+      await tab.locator('.scrub').fill(String(10_000 * part));
+      await picture(tab);
+      // the band above the bar and its number, 28 pixels from below
+      const inked = await tab.evaluate(() => {
+        const canvas = document.querySelector('.canvas canvas');
+        const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: 3 }).getContext('2d', { willReadFrequently: true });
+        copy.drawImage(canvas, 0, 29 - canvas.height);
+        const { data } = copy.getImageData(0, 0, canvas.width, 3);
+        return data.filter((_, k) => k % 4 === 3).some((alpha) => alpha > 0);
+      });
+      assert.equal(inked, false, `${model} at ${part} reaches the scale`);
+    }
+  }
+}

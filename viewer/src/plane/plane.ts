@@ -11,6 +11,8 @@ import * as signs from './signs';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
+/** Room of the scale below the mechanism, pixels. */
+const BELOW = 28;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
@@ -73,8 +75,9 @@ export class Plane implements Renderer {
     this.inks = inks;
     const { low, high } = this.bounds;
     const room = 34;
-    this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (height - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
-    this.middle = [width / 2, height / 2];
+    const tall = height - BELOW;
+    this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (tall - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
+    this.middle = [width / 2, tall / 2];
     const { pen } = this;
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
