@@ -236,3 +236,9 @@ export async function curves_that_turn_back_show_their_direction(open) {
   }
   assert.deepEqual([await onPage('both'), inFile('both')], [[], []], 'over time there is nothing to tell');
 }
+
+export async function axes_of_flat_paths_have_several_numbers(open) {
+  const { tab } = await open('jansen_leg', { study: 'step' });
+  const upright = await plot(tab, 'path').locator('svg.chart text[text-anchor=end]').allTextContents();
+  assert.ok(upright.length >= 3, upright.join());
+}

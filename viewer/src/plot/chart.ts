@@ -161,13 +161,13 @@ function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
   const [w, h] = [out.x.high - out.x.low, panel.y.high - panel.y.low];
   panel.height = Math.min(Math.max((room * h) / w, 180), 380);
   const scale = Math.min(room / w, panel.height / h);
-  const wider = (a: Axis, size: number, unit: string) => {
+  const wider = (a: Axis, size: number, unit: string, gap: number) => {
     const middle = (a.low + a.high) / 2;
-    return over(middle - size / 2, middle + size / 2, unit, false, 60);
+    return over(middle - size / 2, middle + size / 2, unit, false, gap);
   };
   if (!view.log) {
-    out.x = wider(out.x, room / scale, figure.x.unit);
-    panel.y = wider(panel.y, panel.height / scale, panel.unit);
+    out.x = wider(out.x, room / scale, figure.x.unit, 60);
+    panel.y = wider(panel.y, panel.height / scale, panel.unit, 40);
   }
   out.height = panel.top + panel.height + 46;
 }
