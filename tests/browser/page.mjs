@@ -237,3 +237,16 @@ export async function the_drawing_is_as_high_as_the_mechanism_asks_for(open) {
   const [flat, tall] = [await part('crank_rocker', 'one-turn'), await part('jansen_leg', 'step')];
   assert.ok(flat < 0.75 && tall > 0.95, `${flat} and ${tall}`);
 }
+
+export async function the_lead_of_a_model_is_a_sentence(open) {
+  for (const [model, lead] of [['garage_door', /^While the lower rollers rise .* lies down\.$/], ['jansen_leg', /^The leg of the beach animals/]]) {
+    const { tab } = await open(model);
+    assert.match(await tab.locator('.lead').innerText(), lead);
+  }
+}
+
+export async function rounding_in_a_list_is_nothing(open) {
+  const { tab } = await open('truss', { study: 'unloaded' });
+  const row = tab.locator('tr', { hasText: 'equilibria.G.position' });
+  assert.match(await row.innerText(), /0\.66332,\s+0,\s+−0\.66332/);
+}

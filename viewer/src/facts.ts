@@ -3,7 +3,10 @@
 import { type Child, h } from './dom';
 import { broken, coded, digits, heading, hinted, shownIn, valued } from './numbers';
 import { plain } from './table';
-import type { Certificate, Column, Results, Scalar, Solution, Statistics, Study } from './types';
+import type { Certificate, Column, Num, Results, Scalar, Solution, Statistics, Study } from './types';
+
+/** Part of the largest number of a list below which another is nothing but rounding. */
+const NOTHING = 1e-14;
 
 export type ShowPlace = (place: string) => void;
 
@@ -112,8 +115,14 @@ function distributions(study: Study): Child[] {
   ];
 }
 
+/** Numbers of one quantity; what is nothing beside the largest of them is 0. */
+function beside(values: Num[]): Child[] {
+  const most = Math.max(0, ...values.map((v) => Math.abs(v ?? 0)));
+  return values.map((v) => (v !== null && v !== 0 && Math.abs(v) < NOTHING * most ? h('span', { title: digits(v) }, '0') : hinted(v)));
+}
+
 function lists(results: Results): Child[] {
-  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), h('span', {}, ...values.flatMap((v, i) => (i > 0 ? [',  ', hinted(v)] : [hinted(v)])))]);
+  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), h('span', {}, ...beside(values).flatMap((text, i) => (i > 0 ? [',  ', text] : [text])))]);
   const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
   return all.length + shapes.length > 0 ? [plain('Modes', ['', 'values'], [...all, ...shapes], true)] : [];
 }

@@ -257,7 +257,9 @@ export class Page {
       this.view?.stage.redraw();
     }, { class: 'line theme', 'aria-pressed': String(isDark()) });
     const about = model.about?.trimEnd() ?? '';
-    const first = /^.*?\.(?=\s|$)|^.*/.exec((about.split(/\n\s*\n/)[0] ?? '').replace(/\s+/g, ' ').trim())![0];
+    // a line that ends with a colon leads to a sketch, and says little without it
+    const paragraphs = about.split(/\n\s*\n/).filter((part) => /^\S/.test(part)).map((part) => part.replace(/\s+/g, ' ').trim());
+    const first = /^.*?\.(?=\s|$)|^.*/.exec(paragraphs.find((part) => !part.endsWith(':')) ?? paragraphs[0] ?? '')![0];
     // a mechanism of which no mass is told has none to show
     const told = overview.filter(({ label, value }) => label !== 'mass' || parseFloat(value) !== 0);
     const rest = about.replace(/\s+/g, ' ') !== first;
