@@ -223,7 +223,11 @@ export async function results_stay_below_the_mechanism_beside_the_figures(open) 
     assert.ok(stage.top >= 0 && facts.top >= stage.bottom && plots.left >= facts.right, 'results are not below the mechanism');
     assert.ok(facts.height > 100 && facts.bottom <= 900, `results from ${facts.top} to ${facts.bottom}`);
   }
-  // a study without figures has them beside the mechanism, and one without a drawing over the whole width
+  // few results take no more room than they need
+  const few = await open('crank_rocker', { study: 'fluctuation' });
+  const [{ height }] = await boxes(few.tab, '.facts');
+  assert.ok(height < 80, `one closed part is ${height} high`);
+  // a study without figures has them beside the mechanism
   const still = await open('quarter_car', { study: 'frequencies' });
   const [stage, facts] = await boxes(still.tab, '.stage', '.facts');
   assert.ok(facts.left >= stage.right && Math.abs(facts.top - stage.top) < 2, 'results are not beside the mechanism');
