@@ -236,6 +236,8 @@ export async function names_stand_beside_their_joints_and_keep_their_sides(open)
     assert.equal(known.length, count, `${model}: ${known.join()}`);
     assert.ok(shown > 0.95, `${model}: ${shown} of ${count} names are shown`);
     assert.ok(changes <= 2 * known.length, `${model}: names come and go ${changes} times`);
+    await tab.getByRole('checkbox', { name: 'names' }).uncheck();
+    assert.deepEqual(await tab.evaluate(() => grashof.names()), []);
   }
 }
 

@@ -115,7 +115,7 @@ export class Stage {
 
   /** The names in the drawing. */
   names(): Named[] {
-    return this.renderer?.named() ?? [];
+    return this.options.names ? (this.renderer?.named() ?? []) : [];
   }
 
   /** Draws when the browser next does. */
