@@ -64,6 +64,25 @@ studies:
     columns: [time, A.angle, x, y]
     plot: { height: { show: [y], over: x }, both: [x, y] }
 `,
+  // a crank so short that names of its ends have no room beside it
+  short: `grashof: 1
+name: short
+space: planar
+gravity: none
+ground: { O: [0, 0], C: [60 cm, 0] }
+bodies:
+  crank: { bar: { length: 3 cm, mass: 1 kg } }
+  rod: { bar: { length: 60 cm, mass: 1 kg } }
+  rocker: { bar: { length: 30 cm, mass: 1 kg } }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, rod.start] }
+  B: { revolute: [rod.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start] }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 0 deg, C.angle: ~100 deg }
+studies: { turn: { kinematics: { over: 1 turn, samples: 90 }, columns: [time, O.angle, C.angle] } }
+`,
   // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
   winch: `grashof: 1
 name: winch

@@ -2,7 +2,7 @@
 // it meets the fewest other names and joints at some places of the motion. Where names meet all the same, the later one is left out.
 
 import type { Motion, Vector } from './motion';
-import type { Pen, Point } from './plane/pen';
+import { type Pen, type Point, off } from './plane/pen';
 import type { Inks } from './theme';
 import type { Place } from './types';
 
@@ -31,7 +31,7 @@ const far = (w: number): Point[] => [[22, -24], [22, 32], [-22 - w, -24], [-22 -
 const SIDES = 16;
 const NEAR = 8;
 /** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, or to stand nearer to a wrong joint. */
-const COST = { name: 10, edge: 12, joint: 6, wrong: 4 };
+const COST = { name: 10, edge: 12, joint: 9, wrong: 9 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
@@ -94,7 +94,8 @@ export class Names {
         hidden.add(text);
         continue;
       }
-      if (side >= NEAR) pen.path([at, toBox(at, box).to]).stroke(inks.faint, 1);
+      const { to, far: length } = toBox(at, box);
+      if (side >= NEAR && length > SIGN) pen.path([off(at, [(to[0] - at[0]) / length, (to[1] - at[1]) / length], SIGN, 0), to]).stroke(inks.faint, 1);
       this.drawn.push({ text, at, box });
     }
     this.hidden = hidden;
@@ -127,12 +128,12 @@ export class Names {
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
       for (const other of taken[k] ?? []) if (overlap(box, other, 1)) sum += COST.name;
-      const off = toBox(own, box).far;
+      const away = toBox(own, box).far;
       for (const { points } of this.groups) {
         const at = points[k]!;
         if (points === group.points || Math.abs(at[0] - own[0]) > group.width + 60 || Math.abs(at[1] - own[1]) > 80) continue;
         const gap = toBox(at, box).far;
-        sum += gap < SIGN ? COST.joint : side < NEAR && gap < off ? COST.wrong : 0;
+        sum += gap < SIGN ? COST.joint : side < NEAR && gap < away ? COST.wrong : 0;
       }
     }
     return sum;
