@@ -255,7 +255,7 @@ export class Stage {
     this.begun = true;
     this.showOptions(kinds, arrows);
     const { error } = motion.scene.frames;
-    this.note.textContent = error > 0 && !still ? `poses between frames within ${digits(error, 2)} m` : '';
+    this.note.textContent = error > 0 && !still ? `drawn to within ${digits(error, 2)} m of the computed motion` : '';
     const { seconds, place } = this.pace;
     this.offer(again);
     if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));

@@ -11,8 +11,8 @@ import * as signs from './signs';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
-/** Room of the scale below the mechanism, pixels. */
-const BELOW = 28;
+/** Room below the mechanism for the scale and for the largest symbol of a joint, pixels. */
+const BELOW = 38;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
