@@ -12,9 +12,10 @@ use std::fmt;
 /// Samples a pixel in each direction.
 const FINE: usize = 3;
 
-/// Pixels in a row that are averaged together, and a sample of what nothing is drawn on.
+/// Pixels in a row that are averaged together, and samples of those on which nothing is drawn.
 const CELL: usize = 16;
 const PAPER: u8 = 255;
+const BLANK: [u8; CELL * FINE * 3] = [PAPER; CELL * FINE * 3];
 
 /// A picture that could not be made; with pictures held in memory this is no user's fault.
 #[derive(Debug)]
@@ -48,8 +49,9 @@ pub(super) fn encode(pixels: &[u8], width: usize, height: usize) -> Result<Vec<u
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // lines on plain paper: differences of neighbours take time and make the file larger
-    encoder.set_filter(png::Filter::NoFilter);
+    // half as large again as the best, in an eighth of its time
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Adaptive);
     let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(pixels).map_err(failed)?;
     writer.finish().map_err(failed)?;
@@ -65,7 +67,7 @@ fn averaged(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
             let cell = from..row.min(from + CELL * FINE * 3);
             let lines = block.chunks_exact(row).map(|line| &line[cell.clone()]);
             // most of a picture is paper
-            if lines.clone().all(|line| line.iter().all(|sample| *sample == PAPER)) {
+            if lines.clone().all(|line| *line == BLANK[..line.len()]) {
                 coarse.resize(coarse.len() + cell.len() / FINE, PAPER);
                 continue;
             }
