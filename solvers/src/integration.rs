@@ -389,9 +389,9 @@ impl Integration {
             } else if !self.engine.is_fixed() && 2.0 * h > left {
                 h = 0.5 * left;
             }
-            // a switch of time alone is known beforehand: the step ends there
-            let ahead =
-                if itself || self.engine.is_fixed() { None } else { self.foresee(system, t, t + h)?.filter(|ahead| *ahead < t + h) };
+            // a switch of time alone is known beforehand: the step ends there, also where it is a little longer for that
+            let far = t + if ends { h } else { h * (1.0 + 1e-9) };
+            let ahead = if itself || self.engine.is_fixed() { None } else { self.foresee(system, t, far)?.filter(|ahead| *ahead < far) };
             if let Some(ahead) = ahead {
                 (h, ends) = (ahead - t, false);
             }
