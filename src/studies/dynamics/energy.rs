@@ -136,11 +136,11 @@ impl Balance {
             let [_, e0] = energy(system, before);
             let [_, e1] = energy(system, after);
             let driven = system.driven_work([&before.state, &after.state], crossed);
-            let met = |of: fn(&Root) -> bool| crossed.iter().filter_map(|root| system.roots.get(*root)).any(of);
-            let events = met(|root| matches!(root, Root::Event(_)));
-            let stops = met(|root| matches!(root, Root::Stop(_)));
+            let own = || crossed.iter().filter(|root| **root < system.roots.len());
+            let impacts = own().any(|&root| matches!(system.roots[root], Root::Event(_)) && system.strikes(root));
+            let stops = own().any(|&root| matches!(system.roots[root], Root::Stop(_)));
             self.kinks += driven;
-            match (events, stops) {
+            match (impacts, stops) {
                 (true, _) => self.impacts += e1 - e0 - driven,
                 (false, true) => self.blows += e1 - e0 - driven,
                 // the law of a driver or coupling has a kink; else it is the drift of a correction
