@@ -1,5 +1,6 @@
 //! Friction and contact at joints: closed forms, agreement of coordinates, schemes and spaces, energies, faults.
 
+mod blows;
 mod bristles;
 mod closed_forms;
 mod clutches;

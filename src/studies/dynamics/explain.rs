@@ -7,7 +7,7 @@ use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
 use crate::kinematics::undefined::{Gap, meeting};
-use crate::mechanism::{BuildFault, Contact, Mechanism};
+use crate::mechanism::{BuildFault, Contact, Mechanism, Stop};
 use crate::model::{Model, Parameter, Study};
 use crate::results::{Failure, Finding, Happened, Undefined};
 use grashof_solvers::minimal::Refused;
@@ -206,6 +206,23 @@ pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
     format!(
         "at t = {t:.6} s the blows of the event `{name}` have become so weak that its joint would rest there, but its `when` holds more than positions, so that nothing is known of how it rests: write `when` with positions alone, or give the joint `limits` with a `restitution`"
     )
+}
+
+/// That an event has moved a stop, or what an impact is met at, beyond where its joint stands.
+pub(super) fn passed(model: &Model, stop: &Stop, happened: &[Happened], t: f64) -> String {
+    let joint = &model.joints[stop.joint].name;
+    let by = happened.last().map_or_else(String::new, |last| format!(" by the event `{}`", last.name));
+    match stop.event {
+        Some(event) => format!(
+            "at t = {t:.6} s the `when` of the event `{}` has jumped through zero{by}: that is no impact of joint `{joint}`; set its parameters only as far as the joint stays on its side",
+            model.events[event].name
+        ),
+        None => format!(
+            "at t = {t:.6} s the {} of joint `{joint}` has been set to {:.6}{by}, where the joint already is beyond it: a rigid stop does not push it there; set it where the joint stands clear of it, or give it a `stiffness`",
+            stop.word(),
+            stop.at
+        ),
+    }
 }
 
 /// That a condition changed faster than it could be resolved, first at time `t` (s).

@@ -83,6 +83,9 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     let mut state = from.cloned().unwrap_or_else(|| begin(phases, dims));
     let (mut present, mut zeno, mut met) = (phases.parameters.clone(), Zeno::default(), false);
     let stopped = loop {
+        if let Some(why) = flow.moved_stops(phases, &present, &machine, &state) {
+            break Some(why);
+        }
         let chosen = flow.choose(phases, &present, &machine, &mut state);
         let phase = match chosen {
             Ok(Some(phase)) => phase,
@@ -170,6 +173,28 @@ struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
+    /// Lets go the joints whose stops an event has moved away from them; why the run cannot go on, where it has moved one beyond the joint.
+    fn moved_stops(
+        &mut self,
+        phases: &'m Phases<G>,
+        parameters: &[f64],
+        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G>,
+        state: &State,
+    ) -> Option<String> {
+        if self.begins != Begins::Parameters || phases.mechanism.stops.is_empty() {
+            return None;
+        }
+        // what the parameters do not allow is told where the phase is chosen
+        let base = phases.with(self.model, parameters, self.plan.coordinates, &Holds::default()).ok()?;
+        let gaps = machine(base).gaps(state);
+        let passed = gaps.iter().position(|gap| gap.is_some_and(|gap| gap < 0.0));
+        if let Some(stop) = passed {
+            return Some(explain::passed(self.model, &base.mechanism.stops[stop], &self.events, state.t));
+        }
+        self.holds.resting.retain(|stop| gaps[*stop].is_none_or(|gap| gap == 0.0));
+        None
+    }
+
     /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
     /// laws of friction.
     fn choose(

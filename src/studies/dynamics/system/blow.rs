@@ -1,10 +1,14 @@
-//! What drivers do at a blow, or where their law has a kink: their impulses work, since they move on meanwhile.
+//! What holds a mechanism at a blow. Drivers go on, there and where their law has a kink, so that their impulses work; stops on which
+//! joints rest can only push.
 
 use super::{Mechanical, Root};
 use crate::geometry::Space;
 use crate::mechanism::StretchOf;
-use grashof_solvers::{Kkt, Power, Stage, State, System, Terms};
+use grashof_solvers::{At, Kkt, Power, Stage, State, System, Terms};
 use nalgebra::{DMatrix, DVector};
+
+/// Part of the largest impulse above which a stop that rests pulls.
+const PULLED: f64 = 1e-9;
 
 impl<G> Mechanical<'_, G>
 where
@@ -51,6 +55,28 @@ where
         }
         let kappa = self.resolved(&rest).1;
         0.5 * kappa.iter().zip(nu_before.iter().zip(&terms.nu)).map(|(k, (before, after))| k * (before + after)).sum::<f64>()
+    }
+
+    /// Stops on which joints rest that would have to pull while an impulse along a unit force (nv) strikes in a state: in M x + Gᵀκ = w,
+    /// G x = 0 their impulses are κ.
+    pub(super) fn pulled(&mut self, at: &At<'_>, force: &[f64]) -> Vec<usize> {
+        let resting = |root: &Root| if let Root::Rest { row, stop } = *root { Some((row, stop)) } else { None };
+        let rests: Vec<(usize, usize)> = self.roots.iter().filter_map(resting).collect();
+        if rests.is_empty() {
+            return Vec::new();
+        }
+        self.kinematics(at);
+        self.dynamics.inertias();
+        self.dynamics.mass();
+        let w = &self.dynamics.work;
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        if kkt.factor(w.mass.values(), w.g.values()).is_err() {
+            return Vec::new();
+        }
+        let kappa = self.resolved(force).1;
+        let most = kappa.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let stops = &self.dynamics.mechanism.stops;
+        rests.into_iter().filter(|&(row, stop)| stops[stop].sense * kappa[row] > PULLED * most).map(|(_, stop)| stop).collect()
     }
 
     /// Gauges of the stops that were met, each once.

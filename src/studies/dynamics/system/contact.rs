@@ -4,7 +4,7 @@ use super::Mechanical;
 use super::root::Root;
 use crate::dynamics::slack;
 use crate::geometry::Space;
-use crate::mechanism::StretchOf;
+use crate::mechanism::{Stop, StretchOf};
 use grashof_solvers::{At, Effect, Kkt, Stage, State, System};
 
 impl Root {
@@ -65,15 +65,28 @@ where
         std::mem::take(&mut self.rests)
     }
 
+    /// Whether a blow has to wait until what cannot withstand it is let go: contacts that stick, and joints that rest where a stop would
+    /// have to pull; `row` takes the unit force of the blow.
+    fn waits(&mut self, index: usize, state: &mut State, row: &mut [f64]) -> bool {
+        let Stop { gauge, sense, .. } = self.dynamics.mechanism.stops[index];
+        row.fill(0.0);
+        self.dynamics.extent_gradient(StretchOf::Gauge(gauge), |k, x| row[k] += x);
+        if self.lets_go() {
+            return true;
+        }
+        let impulse: Vec<f64> = row.iter().map(|x| sense * x).collect();
+        let pulled = self.pulled(&state.at(), &impulse);
+        for &stop in &pulled {
+            state.modes[self.mode_of_stop(stop)] = 1;
+            self.rests.push((stop, false));
+        }
+        !pulled.is_empty()
+    }
+
     /// A joint reaches a rigid stop: it rebounds, rests or, pulled away, has only touched it; at the state looked at last.
-    fn strike(&mut self, index: usize, restitution: f64, state: &mut State, row: &mut [f64]) -> Effect {
+    fn strike(&mut self, index: usize, restitution: f64, state: &mut State) -> Effect {
         let stop = self.dynamics.mechanism.stops[index];
         let mode = self.mode_of_stop(index);
-        row.fill(0.0);
-        self.dynamics.extent_gradient(StretchOf::Gauge(stop.gauge), |k, x| row[k] += x);
-        if self.lets_go() {
-            return Effect::Stop;
-        }
         let undecided = self.undecided(&state.modes);
         let Some(along) = stop.along else { return self.strike_without_rest(index, restitution, undecided) };
         let speed = -stop.sense * self.dynamics.extent_rate(along);
@@ -117,9 +130,12 @@ where
         let m = self.dynamics.mechanism;
         let side = f64::from(state.modes[m.switches + m.windings + event]);
         let Some(stop) = m.stops.iter().position(|s| s.event == Some(event) && s.sense == side) else { return Effect::Record };
+        if self.waits(stop, state, row) {
+            return Effect::Stop;
+        }
         self.struck.push(event);
         let also = self.events[event].stops;
-        match self.strike(stop, restitution, state, row) {
+        match self.strike(stop, restitution, state) {
             Effect::Bounce { restitution, stops } => Effect::Bounce { restitution, stops: stops || also },
             Effect::Impulse { restitution, stops } => Effect::Impulse { restitution, stops: stops || also },
             Effect::Record if also => Effect::Stop,
@@ -136,6 +152,19 @@ where
     fn gap(&self, stop: usize) -> f64 {
         let s = self.dynamics.mechanism.stops[stop];
         s.along.map_or(1.0, |along| s.gap(self.dynamics.extent(along)))
+    }
+
+    /// Ways that are left to all stops in a state, 0 of those that are touched; none of events that nothing can rest at, or that are met
+    /// from the other side.
+    pub(crate) fn gaps(&mut self, state: &State) -> Vec<Option<f64>> {
+        self.kinematics(&state.at());
+        let m = self.dynamics.mechanism;
+        let counts = |stop: &Stop| stop.event.is_none_or(|event| f64::from(state.modes[m.switches + m.windings + event]) == stop.sense);
+        let way = |stop: usize| {
+            let gap = self.gap(stop);
+            if gap.abs() <= self.near[stop] { 0.0 } else { gap }
+        };
+        m.stops.iter().enumerate().map(|(k, stop)| (stop.along.is_some() && counts(stop)).then(|| way(k))).collect()
     }
 
     /// Whether a joint has left a stop just now, and may still pass it by rounding.
@@ -179,7 +208,8 @@ where
                 state.modes[mode] = if state.modes[mode] < 0 { 1 } else { -1 };
                 Effect::Restart
             }
-            Root::Stop(stop) => self.strike(stop, self.dynamics.mechanism.stops[stop].restitution, state, row),
+            Root::Stop(stop) if self.waits(stop, state, row) => Effect::Stop,
+            Root::Stop(stop) => self.strike(stop, self.dynamics.mechanism.stops[stop].restitution, state),
             Root::Clear(stop) => {
                 state.modes[self.mode_of_stop(stop)] = 0;
                 Effect::Record

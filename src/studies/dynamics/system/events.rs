@@ -51,11 +51,14 @@ where
     }
 
     /// Sets the side of every event from the columns computed last. One with impacts that stands at its zero begins on the side that
-    /// counts, and keeps its side within rounding of it.
+    /// counts, and leaves that by a blow alone; the other side it keeps within rounding of its zero.
     pub(super) fn sides_of_events(&self, modes: &mut [i32]) {
         let m = self.dynamics.mechanism;
         for (event, watched) in self.events.iter().enumerate() {
             let side = &mut modes[m.switches + m.windings + event];
+            if watched.impact.is_some() && *side != 0 && self.counts(event, *side) {
+                continue;
+            }
             let x = self.outputs[watched.output];
             let near = m.stops.iter().position(|s| s.event == Some(event)).map_or(0.0, |stop| self.near[stop]);
             match watched.crossing {
