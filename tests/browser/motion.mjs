@@ -200,6 +200,43 @@ export async function arrows_begin_at_the_scale_of_the_model(open) {
   assert.notEqual(await picture(tab), before);
 }
 
+/** Force, velocity or acceleration to the pixel of each kind of arrow, of what the drawing tells. */
+const told = async (tab) => {
+  await picture(tab);
+  return new Map((await tab.evaluate(() => grashof.scales())).map(({ kind, text, length }) => {
+    const [, number, prefix, unit] = /^= ([\d.]+) ([km]?)(N|m\/s|m\/s²)$/.exec(text) ?? assert.fail(text);
+    assert.match(number, /^(0\.0*)?[125]0*$/);
+    assert.ok(length > 20 && length <= 60.001, `${kind}: ${length} pixels`);
+    return [kind, { unit, pixel: (Number(number) * ({ k: 1e3, m: 1e-3 }[prefix] ?? 1)) / length }];
+  }));
+};
+
+export async function arrows_tell_their_scale(open) {
+  const { tab } = await open('winch');
+  const slider = tab.getByLabel('length of the arrows');
+  const before = await told(tab);
+  assert.deepEqual([...before.keys()], ['loads', 'reactions']);
+  // 100 N/m and 200 N/m, also in a larger view
+  near(before.get('reactions').pixel / before.get('loads').pixel, 2, 1e-9, 'reactions by loads');
+  await tab.locator('.canvas canvas').focus();
+  await tab.keyboard.press('+');
+  near((await told(tab)).get('loads').pixel / before.get('loads').pixel, 1 / 1.2, 1e-9, 'with zoom');
+  await slider.fill('50');
+  near((await told(tab)).get('loads').pixel / before.get('loads').pixel, 1 / 2.4, 1e-9, 'with the slider');
+  await tab.getByRole('checkbox', { name: 'loads' }).uncheck();
+  assert.deepEqual([...(await told(tab)).keys()], ['reactions']);
+  for (const model of ['crank_rocker', 'four_bar_spatial']) {
+    const { tab: other } = await open(model, { study: 'one-turn' });
+    for (const kind of ['velocities', 'accelerations']) await other.getByRole('checkbox', { name: kind }).check();
+    const scales = await told(other);
+    assert.deepEqual([...scales].map(([kind, { unit }]) => [kind, unit]), [['velocities', 'm/s'], ['accelerations', 'm/s²']]);
+    // the longest arrow, at rest of the slider a quarter of the drawing, is that of the tip of the rocker or of the crank pin: 2.6 m/s to 11 m/s
+    const { width, height } = await other.locator('.canvas').boundingBox();
+    const most = scales.get('velocities').pixel * 0.25 * Math.min(width, height);
+    assert.ok(most > 2.6 && most < 11, `${model}: ${most} m/s`);
+  }
+}
+
 /** The names in the drawing at places evenly over the motion, as the page plays. */
 const namesOver = (tab, count) => tab.evaluate(async (steps) => {
   const slider = document.querySelector('.scrub');

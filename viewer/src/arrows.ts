@@ -69,6 +69,13 @@ export class Arrows {
     return of?.scale ?? null;
   }
 
+  /** The unit of a kind, and its size in SI: of forces that of their columns, if the model asks for one. */
+  unit(kind: Kind): { unit: string; size: number } {
+    if (kind === 'velocities' || kind === 'accelerations') return { unit: kind === 'velocities' ? 'm/s' : 'm/s^2', size: 1 };
+    const own = this.forces.filter((arrow) => arrow.kind !== 'torque' && (arrow.kind === 'reaction') === (kind === 'reactions')).flatMap(({ columns }) => columns);
+    return own.map((name) => column(this.results, name)?.shown_in).find((asked) => asked) ?? { unit: 'N', size: 1 };
+  }
+
   /** Pixels to one unit of a kind, with the slider at `part`, in a picture of some width and so many pixels to the metre. */
   pixels(kind: Kind, part: number, room: number, metre: number): number {
     const scale = this.scale(kind);

@@ -3,6 +3,7 @@
 import { Clock } from './clock';
 import { button, h, icon } from './dom';
 import type { Named } from './names';
+import type { Told } from './scales';
 import { coded } from './numbers';
 import { prose } from './prose';
 import { type Source, source } from './source';
@@ -18,6 +19,7 @@ declare global {
       time(): number;
       look(): number[];
       names(): Named[];
+      scales(): Told[];
       seek(at: number): void;
       study(name: string): boolean;
     };
@@ -230,6 +232,7 @@ export class Page {
       time: () => this.clock.at,
       look: () => this.view?.stage.look() ?? [],
       names: () => this.view?.stage.names() ?? [],
+      scales: () => this.view?.stage.scales() ?? [],
       seek: (at) => this.clock.seek(at),
       study: (name) => this.show(name),
     };

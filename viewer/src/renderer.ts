@@ -3,6 +3,7 @@
 import type { Arrows, Kind } from './arrows';
 import type { Motion } from './motion';
 import type { Named } from './names';
+import type { Told } from './scales';
 import type { Inks } from './theme';
 
 /** Where the slider of the arrows stands at first: there arrows to which the model gives a scale have it. */
@@ -21,6 +22,8 @@ export interface Renderer {
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
   /** The names that are drawn. */
   named(): Named[];
+  /** The arrows that tell the scale of others. */
+  scales(): Told[];
   /** Height of all that is drawn over the motion, as a part of its width. */
   aspect(): number;
   /** The whole mechanism in view again. */

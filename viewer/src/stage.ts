@@ -10,6 +10,7 @@ import { digits, heading, pretty, shownIn } from './numbers';
 import { type Pace, WHOLE, pace } from './pace';
 import { Plane } from './plane/plane';
 import { FIRST, type Options, type Renderer } from './renderer';
+import type { Told } from './scales';
 import { inks } from './theme';
 import type { CodedScene, Results, Run, Scene, Study } from './types';
 
@@ -116,6 +117,11 @@ export class Stage {
   /** The names in the drawing. */
   names(): Named[] {
     return this.options.names ? (this.renderer?.named() ?? []) : [];
+  }
+
+  /** The arrows that tell the scale of others. */
+  scales(): Told[] {
+    return this.renderer?.scales() ?? [];
   }
 
   /** Draws when the browser next does. */

@@ -4,6 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
+import { type Told, tellScales } from '../scales';
 import { type Inks, mixed } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
@@ -30,6 +31,7 @@ export class Plane implements Renderer {
   private place = 0;
   private readonly names: Names;
   private inks!: Inks;
+  private told: Told[] = [];
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
@@ -70,6 +72,10 @@ export class Plane implements Renderer {
     return this.names.drawn;
   }
 
+  scales(): Told[] {
+    return this.told;
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.inks = inks;
@@ -95,8 +101,9 @@ export class Plane implements Renderer {
     scene.links.forEach((link) => this.link(link));
     scene.joints.forEach((joint) => this.sign(joint));
     if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks);
-    for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height));
-    this.bar(height);
+    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
+    this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
   }
 
   /** The pitch circle of each body that is a wheel with teeth; a negative radius is that of inner teeth. */
@@ -277,9 +284,8 @@ export class Plane implements Renderer {
     signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
   }
 
-  private drawArrows(kind: Kind, part: number, room: number): void {
+  private drawArrows(kind: Kind, pixels: number): void {
     const color = this.inks.curves[COLOR[kind]]!;
-    const pixels = this.arrows.pixels(kind, part, room, this.scale);
     for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
       const at = this.pixel(from[0], from[1]);
       if (torque) this.pen.turn(at, along[2], color);
@@ -287,8 +293,8 @@ export class Plane implements Renderer {
     }
   }
 
-  /** A bar of round length at the lower left, in the unit that the model asks for, else in m or mm. */
-  private bar(height: number): void {
+  /** A bar of round length at the lower left, in the unit that the model asks for, else in m or mm; where it ends. */
+  private bar(height: number): number {
     const asked = this.motion.scene.length;
     const size = asked?.size ?? 1;
     const longest = 110 / (this.scale * size);
@@ -300,5 +306,6 @@ export class Plane implements Renderer {
     const [shown, unit] = asked ? [length, asked.unit] : length < 0.0099 ? [length * 1e3, 'mm'] : [length, 'm'];
     const text = `${Number(shown.toPrecision(3))} ${unit}`;
     this.pen.text(text, [end + 8, y + 2], this.inks.soft, this.inks.paper, 11);
+    return end + 8 + this.pen.width(text, 11) + 22;
   }
 }

@@ -6,6 +6,7 @@ import { type Named, Names } from '../names';
 import { Pen, type Point, toward } from '../plane/pen';
 import { dashpot, link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
+import { type Told, tellScales } from '../scales';
 import { type Inks, mixed } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
@@ -14,6 +15,8 @@ import { type Line, lines } from './winding';
 
 const LOOKS = 48;
 const PATH = 400;
+/** Width of the axes at the lower left, pixels. */
+const AXES = 90;
 /** What is drawn of a picture in space, with its distance from the eye. */
 interface Item { depth: number; draw(): void }
 
@@ -40,6 +43,7 @@ class Space implements Renderer {
   private toEye!: Vector;
   private scale = 1;
   private center: Point = [0, 0];
+  private told: Told[] = [];
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
@@ -88,6 +92,10 @@ class Space implements Renderer {
     return this.names.drawn;
   }
 
+  scales(): Told[] {
+    return this.told;
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.look(width, height);
@@ -107,9 +115,11 @@ class Space implements Renderer {
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) items.push(this.dashpot(joint, inks));
     if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
-    for (const kind of options.arrows) this.drawArrows(kind, options.scale, Math.min(width, height), inks);
+    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
     if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks);
     this.axes(height, inks);
+    this.told = tellScales(pen, this.arrows, options.arrows, pixels, AXES, [width, height], inks);
   }
 
   /** The damping of a joint, in front of its pin. */
@@ -260,9 +270,8 @@ class Space implements Renderer {
     });
   }
 
-  private drawArrows(kind: Kind, part: number, room: number, inks: Inks): void {
+  private drawArrows(kind: Kind, pixels: number, inks: Inks): void {
     const color = inks.curves[COLOR[kind]]!;
-    const pixels = this.arrows.pixels(kind, part, room, this.scale);
     for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
       if (torque) this.pen.turn(this.pixel(from), dot(along, this.toEye), color);
       else this.pen.arrow(this.pixel(from), this.pixel(add(from, along, pixels / this.scale)), color, 2.2);

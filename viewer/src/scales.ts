@@ -1,0 +1,49 @@
+// What the length of arrows means: at the foot of a drawing an arrow of each kind that is shown, and how much that is.
+
+import { type Arrows, COLOR, KINDS, type Kind } from './arrows';
+import { digits, pretty } from './numbers';
+import type { Pen } from './plane/pen';
+import { scaled } from './plot/axis';
+import type { Inks } from './theme';
+
+/** Pixels of the longest arrow that tells a scale; of the text behind it, between two kinds, and to the edges of the drawing. */
+const SAMPLE = 60;
+const BEHIND = 8;
+const BETWEEN = 18;
+const EDGE = 16;
+/** Height of a row, and of its letters. */
+const ROW = 18;
+const LETTERS = 11;
+
+/** An arrow that tells the scale of a kind, with its length in pixels. */
+export interface Told { kind: Kind; text: string; length: number }
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above a number. */
+function below(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [5, 2, 1].map((m) => m * power).find((round) => round <= x * (1 + 1e-9)) ?? power;
+}
+
+/** How much an arrow of round length is, if so many pixels are one unit. */
+function told(kind: Kind, pixels: number, arrows: Arrows): Told {
+  const { unit, size } = arrows.unit(kind);
+  const value = below(SAMPLE / (pixels * size));
+  // forces from 1 kN on have that unit, as in the figures of the program
+  const { unit: name, factor } = scaled(unit, unit === 'N' && value >= 1e3 ? Math.max(value, 1e4) : value);
+  return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}`, length: value * size * pixels };
+}
+
+/** Draws them from the right corner at the foot to `left`, in rows one above the other where there is no room. */
+export function tellScales(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, [width, height]: [number, number], inks: Inks): Told[] {
+  const all = KINDS.filter((kind) => shown.has(kind) && arrows.most(kind) > 0 && pixels(kind) > 0).map((kind) => told(kind, pixels(kind), arrows));
+  let [right, foot] = [width - EDGE, height - 12];
+  for (const { kind, text, length } of [...all].reverse()) {
+    const room = length + BEHIND + pen.width(text, LETTERS);
+    if (right - room < left && right < width - EDGE) [right, foot] = [width - EDGE, foot - ROW];
+    const from = right - room;
+    pen.arrow([from, foot - 4], [from + length, foot - 4], inks.curves[COLOR[kind]]!, 2.2);
+    pen.text(text, [from + length + BEHIND, foot], inks.soft, inks.paper, LETTERS);
+    right = from - BETWEEN;
+  }
+  return all;
+}
