@@ -242,3 +242,29 @@ export async function axes_of_flat_paths_have_several_numbers(open) {
   const upright = await plot(tab, 'path').locator('svg.chart text[text-anchor=end]').allTextContents();
   assert.ok(upright.length >= 3, upright.join());
 }
+
+export async function legends_tell_values_in_the_units_of_axes(open) {
+  const { tab, directory } = await open('crank_rocker', { study: 'one-turn' });
+  const { theta, 'O.f': force } = csv(`${directory}/one-turn.csv`);
+  await seek(tab, theta[30]);
+  const figure = plot(tab, 'reactions');
+  await figure.scrollIntoViewIfNeeded();
+  const first = async (of) => (await of.locator('.value').first().innerText()).replace('−', '-').split(/ (.*)/);
+  const [newtons, unit] = await first(figure);
+  assert.ok((await figure.locator('svg.chart text').allTextContents()).includes('force [kN]'));
+  assert.equal(unit, 'kN');
+  near(Number(newtons), force[30] / 1e3, 1e-4 * (force[30] / 1e3), 'O.f in kN');
+  // each curve of a sweep has its unit too, clear of its name
+  const sweep = await open('crank_rocker', { study: 'fluctuation' });
+  const many = plot(sweep.tab, 'speed');
+  assert.equal((await first(many))[1], 'rad/s');
+  const gaps = await many.locator('.legend button').evaluateAll((all) => all.map((entry) => {
+    const [name, value] = ['span', '.value'].map((part) => {
+      const range = document.createRange();
+      range.selectNodeContents(entry.querySelector(part));
+      return range.getBoundingClientRect();
+    });
+    return [value.left - name.right, entry.parentElement.getBoundingClientRect().right - value.right];
+  }));
+  gaps.forEach(([between, behind]) => assert.ok(between > 8 && behind > 0, `${between} and ${behind} pixels`));
+}

@@ -1,7 +1,7 @@
 // A figure as SVG: panels of curves, one above the other, over one horizontal axis. The screen, the printer and a file get the same.
 
 import { s } from '../dom';
-import { heading } from '../numbers';
+import { heading, pretty } from '../numbers';
 import type { Ends } from '../types';
 import { type Axis, axis, over, scaled } from './axis';
 import { type Point, heads } from './heads';
@@ -48,7 +48,8 @@ export interface View {
 }
 
 interface Scaled { axis: Axis; factor: number; unit: string; own: string }
-export interface Panel { curves: Curve[]; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled }
+/** Curves of one unit that are shown; `own` is that unit, `unit` the one of the axis. */
+export interface Panel { curves: Curve[]; own: string; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled }
 export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
@@ -102,7 +103,7 @@ export function layout(figure: Figure, view: View): Layout {
     const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : fitted();
     const { unit: name, factor } = scaled(unit, Math.max(largest(all(left, 'y')), figure.ranges?.some((r) => r.unit === unit) ? Math.abs(own.high) : 0));
     const right = k === 0 && figure.right ? scaledRight(figure.right, others, seen) : undefined;
-    return { curves: [...left, ...others], top: 12 + k * (height + 18), height, y: own, factor, unit: name, ...(right && { right }) };
+    return { curves: [...left, ...others], own: unit, top: 12 + k * (height + 18), height, y: own, factor, unit: name, ...(right && { right }) };
   });
   const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
   const beside = panels.flatMap(({ right, height: room }) => (right ? scaledTicks(right.axis, right.factor, right.own, room).map((tick) => tick.text.length) : []));
@@ -139,6 +140,12 @@ export function below(figure: Figure, { x: { low, high } }: Layout): number {
 /** The vertical axis of a curve. */
 export function axisOf(panel: Panel, curve: Curve): { axis: Axis } {
   return curve.right && panel.right ? panel.right : { axis: panel.y };
+}
+
+/** A value of a curve in the unit of its axis, and that unit. */
+export function asOnAxis({ panels }: Layout, { unit, right }: Curve, value: number): { value: number; unit: string } {
+  const axis = right ? panels[0]?.right : panels.find(({ own }) => own === unit);
+  return axis ? { value: value * axis.factor, unit: axis.unit } : { value, unit: pretty(unit) };
 }
 
 /** Ticks in the unit that is shown. */

@@ -3,7 +3,7 @@
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
 import { digits, pretty, words } from '../numbers';
-import { type Curve, type Layout, type View, axisOf, below, color, draw, layout, style } from './chart';
+import { type Curve, type Layout, type View, asOnAxis, axisOf, below, color, draw, layout, style } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
@@ -142,8 +142,10 @@ export class PlotView {
       return entry;
     });
     const legend = h('div', { class: `legend${curves.length >= DENSE ? ' dense' : ''}${curves.length > MANY ? ' many' : ''}` }, ...entries);
-    const longest = Math.max(0, ...curves.map(({ label }) => label.length));
-    legend.style.setProperty('--entry', `calc(${LETTER * (longest + VALUE)}em + 30px)`);
+    const most = (texts: string[]) => Math.max(0, ...texts.map(({ length }) => length));
+    const [name, value] = [most(curves.map(({ label }) => label)), VALUE + most(curves.map(({ unit }) => pretty(unit)))];
+    legend.style.setProperty('--entry', `calc(${LETTER * (name + value)}em + 42px)`);
+    legend.style.setProperty('--name', `${LETTER * name}em`);
     return legend;
   }
 
@@ -185,17 +187,21 @@ export class PlotView {
       const line = { x1: u(at), x2: u(at), y1: panels[0]!.top, y2: last.top + last.height, stroke: 'var(--accent)', 'stroke-width': this.cursor === null ? 1.4 : 1, 'stroke-dasharray': this.cursor === null ? 'none' : '3 3', class: 'now', 'data-at': at };
       this.overlay.append(s('line', line));
     }
-    // many curves of one unit have it at their axis
-    const close = figure.curves.length >= DENSE && new Set(figure.curves.map(({ unit }) => unit)).size === 1;
     figure.curves.forEach((curve, k) => {
       const point = this.point(k, at, points);
       const panel = panels.find((p) => p.curves.includes(curve));
-      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? `${digits(point[1], 6)} ${close ? '' : pretty(curve.unit)}`.trim() : '';
+      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? this.told(curve, point[1]) : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
       const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
       if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
       this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve, figure), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });
+  }
+
+  /** A value in the unit of its axis, with that unit. */
+  private told(curve: Curve, y: number): string {
+    const { value, unit } = asOnAxis(this.place, curve, y);
+    return `${digits(value, 6)} ${unit}`.trim();
   }
 
   /** The point of a curve at the cursor or at the time. */
