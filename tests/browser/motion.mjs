@@ -200,6 +200,28 @@ export async function arrows_begin_at_the_scale_of_the_model(open) {
   assert.notEqual(await picture(tab), before);
 }
 
+/** The opaque points of the drawing: colours and the places of those that differ from other ones. */
+const inked = (tab, others) => tab.evaluate((before) => {
+  const canvas = document.querySelector('.canvas canvas');
+  const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height }).getContext('2d', { willReadFrequently: true });
+  copy.drawImage(canvas, 0, 0);
+  const now = new Uint32Array(copy.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  window.kept ??= now;
+  return before ? now.reduce((sum, color, k) => sum + Number(color !== window.kept[k] && window.kept[k] >>> 24 === 255), 0) : 0;
+}, others);
+
+export async function paths_lie_over_bodies(open) {
+  const { tab } = await open('planetary_gear');
+  await tab.getByLabel('paths').selectOption('no paths');
+  await picture(tab);
+  await inked(tab, false);
+  await tab.getByLabel('paths').selectOption('whole paths');
+  await picture(tab);
+  // those of the planets cross wheels, below which nothing of them is seen
+  const seen = await inked(tab, true);
+  assert.ok(seen > 300, `${seen} points of paths are seen over wheels`);
+}
+
 /** Force, velocity or acceleration to the pixel of each kind of arrow, of what the drawing tells. */
 const told = async (tab) => {
   await picture(tab);

@@ -87,7 +87,6 @@ export class Plane implements Renderer {
     const { pen } = this;
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
-    if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
@@ -99,6 +98,8 @@ export class Plane implements Renderer {
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.forEach((link) => this.link(link));
+    // over the bodies, as in the figures of the program, and under the pins
+    if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.sign(joint));
     if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks);
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
@@ -190,12 +191,12 @@ export class Plane implements Renderer {
     this.paths.forEach(({ trace, at, points }, k) => {
       const [color, dash] = [inks.curves[(k + 1) % 7]!, DASHES[Math.floor(k / 7) % DASHES.length]!];
       const all = points.map(([x, y]) => this.pixel(x, y));
-      pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.3) : color, growing ? 1.2 : 1.8, dash);
+      pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.45) : color, growing ? 1.2 : 1.6, dash);
       if (!growing) return;
       const until = at.findIndex((place) => place > this.place);
       const split = until < 0 ? all.length : until;
       const passed = this.motion.falls ? all.slice(split).reverse() : all.slice(0, split);
-      pen.path([...passed, this.point(trace)]).stroke(color, 2, dash);
+      pen.path([...passed, this.point(trace)]).stroke(color, 1.6, dash);
     });
   }
 
