@@ -132,3 +132,23 @@ export async function values_are_moved_in_all_tabs_and_written(browser, program)
     assert.equal(text(), MODEL.replace('-60 deg', '-51 deg'));
   });
 }
+
+export async function names_of_values_have_room_until_these_are_moved(browser, program) {
+  await watched(browser, program, async ({ open, save }) => {
+    const tab = await open();
+    save(MODEL.replace('length: 50 cm }', 'rod_length: 50 cm }').replace('length: length', 'length: rod_length'));
+    await until(tab, () => Boolean(document.querySelector('[data-place="parameters.rod_length"]')));
+    const row = tab.locator('[data-place="parameters.rod_length"]');
+    const state = () => row.evaluate((one) => {
+      const [name, write] = ['.name', '.write'].map((part) => one.querySelector(part));
+      return { whole: name.scrollWidth <= name.clientWidth, free: one.querySelector('.number').getBoundingClientRect().left - name.getBoundingClientRect().right, write: write.getBoundingClientRect().width > 0, height: one.offsetHeight };
+    });
+    const before = await state();
+    assert.ok(before.whole && before.free < 12 && !before.write, JSON.stringify(before));
+    await row.locator('input[type=range]').focus();
+    await tab.keyboard.press('ArrowRight');
+    const after = await state();
+    assert.ok(after.write, 'it cannot be written');
+    assert.equal(after.height, before.height);
+  });
+}
