@@ -83,6 +83,33 @@ drivers: { drive: { joint: O, speed: 60 rpm } }
 start: { O.angle: 0 deg, C.angle: ~100 deg }
 studies: { turn: { kinematics: { over: 1 turn, samples: 90 }, columns: [time, O.angle, C.angle] } }
 `,
+  // a pinion between a wheel and a rack, with numbers of teeth as 4 to 11, and two wheels without such numbers
+  train: `grashof: 1
+name: train
+space: planar
+gravity: none
+ground: { O: [0, 0], P: [15 cm, 0], S: [0, -4 cm], Q: [40 cm, 0], R: [60 cm, 0] }
+bodies:
+  pinion: { disc: { radius: 4 cm, mass: 1 kg } }
+  wheel: { disc: { radius: 11 cm, mass: 1 kg } }
+  bar: { plate: { size: [30 cm, 3 cm], mass: 1 kg } }
+  one: { disc: { radius: 8 cm, mass: 1 kg } }
+  other: { disc: { radius: 8 cm, mass: 1 kg } }
+joints:
+  O: { revolute: [ground.O, pinion.origin] }
+  P: { revolute: [ground.P, wheel.origin] }
+  S: { slider: [ground.S, bar.origin], axis: [1, 0] }
+  Q: { revolute: [ground.Q, one.origin] }
+  R: { revolute: [ground.R, other.origin] }
+couplings:
+  pair: { gear: [O, P], ratio: -4/11 }
+  teeth: { rack: [O, S], radius: 4 cm }
+  uneven: { gear: [Q, R], ratio: -sqrt(2) }
+  same: { zero: Q.angle - O.angle }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 0 deg, P.angle: 10 deg, S.position: 0 m, Q.angle: 0 deg, R.angle: 0 deg }
+studies: { turn: { kinematics: { over: 1 turn, samples: 90 }, columns: [time, O.angle] } }
+`,
   // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
   winch: `grashof: 1
 name: winch

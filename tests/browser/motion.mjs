@@ -259,6 +259,45 @@ export async function arrows_tell_their_scale(open) {
   }
 }
 
+/** How deep points of one outline are within another one, at most, or with `out` outside of it, pixels. */
+function depth(points, around, out = false) {
+  const edges = around.map((a, k) => [a, around[(k + 1) % around.length]]);
+  return Math.max(0, ...points.map(([x, y]) => {
+    const inside = edges.filter(([a, b]) => (a[1] > y) !== (b[1] > y) && x < a[0] + ((y - a[1]) / (b[1] - a[1])) * (b[0] - a[0])).length % 2 === 1;
+    if (inside === out) return 0;
+    return Math.min(...edges.map(([a, b]) => {
+      const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+      const part = Math.min(Math.max(((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+      return Math.hypot(x - a[0] - part * dx, y - a[1] - part * dy);
+    }));
+  }));
+}
+
+export async function teeth_mesh(open) {
+  const trains = [
+    ['planetary_gear', { ring: 72, planet1: 27, planet2: 27, planet3: 27, sun: 18 }, [1, 2, 3].flatMap((k) => [['sun', `planet${k}`], ['ring', `planet${k}`]])],
+    ['train', { pinion: 20, wheel: 55, bar: 20, one: 0, other: 0 }, [['pinion', 'wheel'], ['bar', 'pinion']]],
+  ];
+  for (const [model, teeth, pairs] of trains) {
+    const { tab } = await open(model);
+    for (const part of [0, 0.13, 0.4, 0.77]) {
+      await tab.locator('.scrub').fill(String(10_000 * part));
+      await picture(tab);
+      const wheels = await tab.evaluate(() => grashof.wheels());
+      assert.deepEqual(Object.fromEntries(wheels.map((wheel) => [wheel.body, wheel.teeth])), teeth);
+      const outline = (body) => wheels.find((wheel) => wheel.body === body).outline;
+      const across = (points, axis) => Math.max(...points.map((at) => at[axis])) - Math.min(...points.map((at) => at[axis]));
+      for (const [a, b] of pairs) {
+        const [p, q] = [outline(a), outline(b)];
+        // a tooth is as high as 2.25 modules
+        const module = across(q, 0) / teeth[b];
+        const most = a === 'ring' ? depth(q, p, true) : Math.max(depth(p, q), depth(q, p));
+        assert.ok(most < 0.06 * module, `${a} and ${b} at ${part}: ${most} pixels deep, of modules of ${module}`);
+      }
+    }
+  }
+}
+
 /** The names in the drawing at places evenly over the motion, as the page plays. */
 const namesOver = (tab, count) => tab.evaluate(async (steps) => {
   const slider = document.querySelector('.scrub');

@@ -3,6 +3,7 @@
 import { Clock } from './clock';
 import { button, h, icon } from './dom';
 import type { Named } from './names';
+import type { Renderer } from './renderer';
 import type { Told } from './scales';
 import { coded } from './numbers';
 import { prose } from './prose';
@@ -20,6 +21,7 @@ declare global {
       look(): number[];
       names(): Named[];
       scales(): Told[];
+      wheels(): ReturnType<Renderer['wheels']>;
       seek(at: number): void;
       study(name: string): boolean;
     };
@@ -233,6 +235,7 @@ export class Page {
       look: () => this.view?.stage.look() ?? [],
       names: () => this.view?.stage.names() ?? [],
       scales: () => this.view?.stage.scales() ?? [],
+      wheels: () => this.view?.stage.wheels() ?? [],
       seek: (at) => this.clock.seek(at),
       study: (name) => this.show(name),
     };

@@ -24,6 +24,8 @@ export interface Renderer {
   named(): Named[];
   /** The arrows that tell the scale of others. */
   scales(): Told[];
+  /** Wheels with their numbers of teeth, 0 without, and racks with those of their pinions; their outlines, pixels. */
+  wheels(): { body: string; teeth: number; outline: [number, number][] }[];
   /** Height of all that is drawn over the motion, as a part of its width. */
   aspect(): number;
   /** The whole mechanism in view again. */

@@ -124,6 +124,11 @@ export class Stage {
     return this.renderer?.scales() ?? [];
   }
 
+  /** The wheels that mesh, and racks, in the drawing. */
+  wheels(): ReturnType<Renderer['wheels']> {
+    return this.renderer?.wheels() ?? [];
+  }
+
   /** Draws when the browser next does. */
   redraw(): void {
     if (this.waiting) return;

@@ -6,9 +6,10 @@ import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
 import { type Told, tellScales } from '../scales';
 import { type Inks, mixed } from '../theme';
-import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
+import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
+import { type Rack, type Toothed, rackLine, toothed } from './teeth';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
@@ -17,6 +18,8 @@ const BELOW = 38;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
+/** Teeth that are closer are not drawn, pixels. */
+const CLOSE = 4;
 /** Dashes of the first seven paths, the next seven, and so on. */
 const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
 
@@ -32,11 +35,13 @@ export class Plane implements Renderer {
   private readonly names: Names;
   private inks!: Inks;
   private told: Told[] = [];
+  private readonly gears: { wheels: Toothed[]; racks: Rack[] };
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
     this.names = new Names(motion);
     this.bounds = this.measure();
+    this.gears = toothed(motion);
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
   }
@@ -76,6 +81,14 @@ export class Plane implements Renderer {
     return this.told;
   }
 
+  wheels(): { body: string; teeth: number; outline: Point[] }[] {
+    const name = (body: number) => this.motion.scene.bodies[body]!.name;
+    return [
+      ...this.gears.wheels.map(({ wheel: { body }, teeth, outline }) => ({ body: name(body), teeth, outline: outline.map((at) => this.point({ body, at })) })),
+      ...this.gears.racks.map((rack) => ({ body: name(rack.gear.b.body), teeth: rack.pinion.teeth, outline: this.rackLine(rack) })),
+    ];
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.inks = inks;
@@ -90,11 +103,10 @@ export class Plane implements Renderer {
     scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
-    const wheels = this.toothedWheels();
+    const wheels = new Set(this.gears.wheels.map(({ wheel }) => wheel.body));
     scene.bodies.forEach((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).forEach((shape) => this.shape(index, shape)));
-    // a wheel with inner teeth lies around the others
-    [...wheels.values()].sort((a, b) => a.radius - b.radius).forEach((wheel) => this.wheel(wheel));
-    scene.gears.forEach((gear, k) => this.rack(gear, 0.1 * width * (k + 1)));
+    this.gears.wheels.forEach((wheel) => this.wheel(wheel));
+    this.gears.racks.forEach((rack) => signs.rack(pen, this.rackLine(rack), inks));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.forEach((link) => this.link(link));
@@ -107,21 +119,16 @@ export class Plane implements Renderer {
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
   }
 
-  /** The pitch circle of each body that is a wheel with teeth; a negative radius is that of inner teeth. */
-  private toothedWheels(): Map<number, Wheel> {
-    const wheels = this.motion.scene.gears.flatMap(({ kind, a, b }) => (kind === 'teeth' ? [a, b] : kind === 'rack' ? [a] : []));
-    return new Map(wheels.map((wheel) => [wheel.body, wheel]));
-  }
-
   /** A wheel with its teeth, which takes the place of its disc. */
-  private wheel(wheel: Wheel): void {
+  private wheel({ wheel, teeth, outline }: Toothed): void {
     const color = this.inks.curves[(wheel.body + 5) % 6] ?? this.inks.soft;
-    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, this.motion.angle(wheel.body, this.place), wheel.radius < 0, color, this.inks);
+    const pitch = (2 * Math.PI * Math.abs(wheel.radius) * this.scale) / (teeth || 1);
+    const points = pitch > CLOSE ? outline.map((at) => this.point({ body: wheel.body, at })) : [];
+    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, points, this.along(wheel.body, [1, 0]), wheel.radius < 0, color, this.inks);
   }
 
-  /** The toothed line of a rack. */
-  private rack({ kind, b }: Gear, reach: number): void {
-    if (kind === 'rack') signs.rack(this.pen, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), reach, this.inks);
+  private rackLine(rack: Rack): Point[] {
+    return rackLine(rack, this.motion, this.place).map(([x, y]) => this.pixel(x, y));
   }
 
   /** Belts around wheels, and ropes that leave their drums. */

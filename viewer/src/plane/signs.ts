@@ -7,6 +7,9 @@ import { type Pen, type Point, off, toward } from './pen';
 
 /** Half the length and half the width of the box of a slide. */
 const BOX: Point = [13, 8];
+/** Dashes of pitch circles; radius of the rim of a wheel with inner teeth, as a multiple of that of its pitch circle, as in the figures. */
+const PITCH = [8, 3, 1.5, 3];
+const RIM = 1.08;
 
 /** A line with the hatch of solid ground on its right side, seen from a to b. */
 export function hatched(pen: Pen, a: Point, b: Point, inks: Inks): void {
@@ -131,31 +134,19 @@ export function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): v
   pen.path(points).stroke(inks.curves[2]!, 1.6);
 }
 
-/** A pitch circle with teeth, turned by an angle; of an inner gear the teeth point inwards from its rim. */
-export function gear(pen: Pen, center: Point, radius: number, angle: number, inner: boolean, color: string, inks: Inks): void {
-  const teeth = Math.min(Math.max(Math.round(radius / 3.4), 10), 90);
-  const depth = Math.min(5, radius / 6);
-  const points = Array.from({ length: teeth * 4 }, (_, k): Point => {
-    const turn = angle + (2 * Math.PI * k) / (teeth * 4);
-    const r = radius + (k % 4 < 2 ? depth : -depth) * 0.8;
-    return [center[0] + r * Math.cos(turn), center[1] - r * Math.sin(turn)];
-  });
-  pen.path(points, true);
-  if (!inner) pen.fill(mixed(inks.paper, color, 0.14));
-  pen.stroke(color, 1.4);
-  pen.circle(center, radius).stroke(color, 0.8, [4, 4]);
-  if (inner) {
-    pen.circle(center, radius + 3 * depth).stroke(color, 1.8);
-    return;
-  }
-  pen.path([center, [center[0] + radius * 0.86 * Math.cos(angle), center[1] - radius * 0.86 * Math.sin(angle)]]).stroke(color, 1);
+/** A wheel: its teeth along an outline, if there are any, its pitch circle, and a line that shows how it turns; of a ring also its rim. */
+export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, inner: boolean, color: string, inks: Inks): void {
+  const wheel = outline.length > 0 ? pen.path(outline, true) : pen.circle(center, radius);
+  if (!inner) wheel.fill(mixed(inks.paper, color, 0.14));
+  if (outline.length > 0 || !inner) wheel.stroke(color, 1.2);
+  pen.circle(center, radius).stroke(color, 0.8, PITCH);
+  if (inner) pen.circle(center, RIM * radius).stroke(color, 1.8);
+  else pen.path([center, off(center, turned, 0.8 * radius, 0)]).stroke(color, 1);
 }
 
-/** The toothed line of a rack. */
-export function rack(pen: Pen, at: Point, along: Point, reach: number, inks: Inks): void {
-  const points: Point[] = [];
-  for (let s = -reach, k = 0; s < reach; s += 4, k++) points.push(off(at, along, s, k % 4 < 2 ? 3 : -3));
-  pen.path(points).stroke(inks.soft, 1.5);
+/** A rack along its line. */
+export function rack(pen: Pen, line: Point[], inks: Inks): void {
+  pen.path(line).stroke(inks.soft, 1.5);
 }
 
 /** A belt around two wheels: their outer tangents, and the arcs between these. */

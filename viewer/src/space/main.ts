@@ -96,6 +96,10 @@ class Space implements Renderer {
     return this.told;
   }
 
+  wheels(): [] {
+    return [];
+  }
+
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.look(width, height);
