@@ -1,8 +1,11 @@
 //! Figures: their axes, and what they show beside the curves of their study.
 
+use crate::common;
+use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Figure, figures, render_figure};
-use grashof::results::Results;
+use grashof::results::{By, Results};
+use grashof::studies::common::named::named;
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::sweep::{Drawn, Settings, at, single};
 
@@ -109,4 +112,36 @@ fn faults_of_figures_have_their_places() {
         assert_eq!(line, 20, "{plot}: {found}");
         assert!(found == wanted || wanted == "equal", "{plot}: {found}");
     }
+}
+
+#[test]
+fn energies_are_no_torques() {
+    let text = "grashof: 1
+name: pendulum
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: { bar: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { J: { revolute: [ground, bar.start] } }
+loads: { push: { joint: J, torque: 1 N m } }
+start: { J.angle: 0 deg, J.omega: 0 }
+measures: { load: 1 N m, lost: energy.total - energy.kinetic }
+studies:
+  swing:
+    dynamics: { until: 0.1 s }
+    columns: [time, energy.kinetic, lost, load, J.m]
+    scalars: { most: max(energy.total), done: work_loads, largest: max(load) }
+";
+    let model = common::model(text, Some("swing"));
+    let study = model.study.clone().expect("the study");
+    let results = named(&model, &study, common::study(text, "swing", Coordinates::Joint));
+    let told = |quantity: &str, unit: &str| format!("{quantity} in {unit}");
+    let columns: Vec<String> = results.table.columns.iter().map(|c| told(&c.quantity, c.shown().0)).collect();
+    assert_eq!(columns, ["time in s", "energy in J", "energy in J", "torque in N m", "torque in N m"]);
+    let scalars: Vec<String> = results
+        .scalars
+        .iter()
+        .filter(|s| s.by == By::File)
+        .map(|s| told(&s.quantity, s.shown_in.as_ref().map_or(&s.unit, |u| &u.unit)))
+        .collect();
+    assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m"]);
 }

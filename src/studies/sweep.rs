@@ -322,7 +322,8 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
         columns.push(named::column(model, &result.name, result.dimension, of(&|o| o.results.get(i).copied(), none)));
     }
     for (i, scalar) in study.scalars.iter().enumerate() {
-        columns.push(named::column(model, &scalar.name, scalar.dimension, of(&|o| o.scalars.get(i).copied(), f64::NAN)));
+        let values = of(&|o| o.scalars.get(i).copied(), f64::NAN);
+        columns.push(named::column_of(model, study, (&scalar.name, scalar.dimension, scalar.value), values));
     }
     let reason = |run: &Run| match &run.result {
         Ok(outcome) => outcome.stopped.clone().unwrap_or_default(),

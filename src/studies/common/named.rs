@@ -3,8 +3,8 @@
 use super::outcome::Outcome;
 use super::scene::{beyond, fill_arrows};
 use super::watched::{extra_curves, of_pictures};
-use crate::expression::{Dimension, parse_unit};
-use crate::model::{self, Kind, Model, Shown, ShownWhat, Study};
+use crate::expression::{Dimension, Id, parse_unit};
+use crate::model::{self, Kind, Model, Quantity, Shown, ShownWhat, Study};
 use crate::results::{By, Column, LinearSystem, Plot, PlotAxis, PlotBeside, PlotRight, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
@@ -50,6 +50,36 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
 pub(crate) fn column(model: &Model, name: &str, dimension: Dimension, values: Vec<f64>) -> Column {
     let (quantity, unit) = (dimension.quantity().into(), dimension.si());
     Column { name: name.into(), quantity, unit, shown_in: shown_in(model, dimension), values }
+}
+
+/// [`column`] of a value of the study.
+pub(crate) fn column_of(model: &Model, study: &Study, (name, dimension, value): (&str, Dimension, Id), values: Vec<f64>) -> Column {
+    let mut column = column(model, name, dimension, values);
+    if is_energy(model, study, dimension, value) {
+        column.quantity = ENERGY.into();
+        column.shown_in = column.shown_in.or_else(joules);
+    }
+    column
+}
+
+/// What an energy is called: its dimension is that of a torque.
+const ENERGY: &str = "energy";
+
+fn joules() -> Option<ShownIn> {
+    Some(ShownIn { unit: "J".into(), size: 1.0 })
+}
+
+/// Whether a value is made of energies, works or powers and is itself an energy.
+fn is_energy(model: &Model, study: &Study, dimension: Dimension, value: Id) -> bool {
+    let mut leaves = model.pool.inputs_of(&[value]).into_iter().map(|i| model.inputs[i as usize]);
+    dimension == Dimension::ENERGY
+        && leaves.any(|leaf| match leaf {
+            Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. } | Quantity::Work(_) | Quantity::DriverPower { .. } => {
+                true
+            }
+            Quantity::Functional(k) => is_energy(model, study, dimension, study.functionals[k].of),
+            _ => false,
+        })
 }
 
 /// The unit in which the model asks to show numbers of a dimension.
@@ -103,7 +133,14 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     // a kind may name results that this mechanism does not have, as the frequency of a mode
     let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
     let of_kind = present.map(|(r, value)| scalar(model, &r.name, r.dimension, *value, By::Kind));
-    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| scalar(model, &s.name, s.dimension, *value, By::File));
+    let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| {
+        let mut own = scalar(model, &s.name, s.dimension, *value, By::File);
+        if is_energy(model, study, s.dimension, s.value) {
+            own.quantity = ENERGY.into();
+            own.shown_in = own.shown_in.or_else(joules);
+        }
+        own
+    });
     taken.chain(of_kind).chain(own).collect()
 }
 
@@ -117,10 +154,12 @@ fn tables(model: &Model, study: &Study, outcome: &mut Outcome) -> (Table, Vec<Co
     // rows are not kept beside their columns
     let rows = std::mem::take(&mut outcome.rows);
     let values = |k: usize| if k < rows.width() { rows.column(k).collect() } else { Vec::new() };
-    let columns = study.columns.iter().enumerate().map(|(k, c)| column(model, &c.name, c.dimension, values(k))).collect();
+    let columns =
+        study.columns.iter().enumerate().map(|(k, c)| column_of(model, study, (&c.name, c.dimension, c.value), values(k))).collect();
     let named = |id| of_pictures(study).find(|s| s.what == ShownWhat::Column(id));
     let extra = extra_curves(study).into_iter().enumerate();
-    let curves = extra.filter_map(|(k, id)| named(id).map(|s| column(model, &s.name, s.dimension, values(study.columns.len() + k))));
+    let curves =
+        extra.filter_map(|(k, id)| named(id).map(|s| column_of(model, study, (&s.name, s.dimension, id), values(study.columns.len() + k))));
     let mut curves: Vec<Column> = curves.collect();
     curves.extend(aliases(study, &curves).into_iter().map(|(s, k)| column(model, &s.name, s.dimension, values(k))));
     let (switches, selected_from) = (std::mem::take(&mut outcome.switches), outcome.selected_from);

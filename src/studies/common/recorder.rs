@@ -2,7 +2,7 @@
 
 use super::case::{Case, Streamed};
 use super::clock::Clock;
-use super::named::column;
+use super::named::{column, column_of};
 use super::selection::Selection;
 use super::watched::Watched;
 use crate::expression::Dimension;
@@ -38,7 +38,8 @@ impl<'a> Recorder<'a> {
     pub(crate) fn new(case: Case<'a>, watched: &Watched, clock: Clock, [name, symbol]: [&'a str; 2]) -> Self {
         let study = case.study;
         if let Some(Streamed { sink, .. }) = case.rows {
-            let columns: Vec<Column> = study.columns.iter().map(|c| column(case.model, &c.name, c.dimension, Vec::new())).collect();
+            let columns: Vec<Column> =
+                study.columns.iter().map(|c| column_of(case.model, study, (&c.name, c.dimension, c.value), Vec::new())).collect();
             sink.begin(&column(case.model, name, study.independent.unwrap_or(Dimension::NONE), Vec::new()), &columns);
         }
         let shown: Vec<usize> = match case.rows {
