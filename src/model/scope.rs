@@ -290,6 +290,13 @@ impl Scope for View<'_, '_, '_> {
             "value" => (Kind::Value, of.dimension),
             _ => (Kind::First, independent),
         };
+        let whole =
+            |i: u32| matches!(self.name_space.model.inputs[i as usize], Quantity::Functional(_) | Quantity::Result(_) | Quantity::Work(_));
+        if pool.inputs_of(&[of.id]).into_iter().any(whole) {
+            let found = format!("`{name}(..)` of a number of the whole study, which is known only at its end");
+            let help = "bring it by `take:` from another study, or write it outside".to_owned();
+            return Err(self.refuse("wrong-level", unknown(found, "an expression of the moment", Some(help))));
+        }
         if let Some(at) = at {
             if let Err(found) = at.expect(independent) {
                 let expected = format!("a place of the independent variable: {}", independent.name());

@@ -55,6 +55,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "hertz",
             "wrong-dimension",
             "wrong-dimension-of-parameter",
+            "result-inside-a-functional",
             "parameters-of-another-dimension",
             "length-plus-number",
             "nan",
