@@ -41,6 +41,7 @@ impl Shapes<'_> {
             (Shape::Text, Node::Plain(Value::Number(n))) => Some(format!("write it in quotes: \"{n}\"")),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "yes" | "on") => Some("write `true`".to_owned()),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "no" | "off") => Some("write `false`".to_owned()),
+            (Shape::Value(_), node) if node.is_list() => Some("write one value, without brackets".to_owned()),
             _ => None,
         };
     }

@@ -56,6 +56,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "wrong-dimension",
             "wrong-dimension-of-parameter",
             "result-inside-a-functional",
+            "range-as-a-list",
             "parameters-of-another-dimension",
             "length-plus-number",
             "nan",
