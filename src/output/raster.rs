@@ -12,6 +12,9 @@ use std::fmt;
 /// Samples a pixel in each direction.
 const FINE: usize = 3;
 
+/// Samples by which a disc may be off its circle.
+const OFF: f64 = 0.2;
+
 /// Pixels in a row that are averaged together, and samples of those on which nothing is drawn.
 const CELL: usize = 16;
 const PAPER: u8 = 255;
@@ -139,11 +142,16 @@ impl Painter<'_> {
     }
 
     fn disc(&mut self, at: Point, radius: f64, color: Color) -> Result<(), RenderError> {
+        if radius <= 0.0 {
+            return Ok(());
+        }
+        // edges of n corners are off the circle by r (π/n)²/2
+        let corners = (std::f64::consts::PI * (0.5 * radius * self.scale / OFF).sqrt()).clamp(48.0, 720.0).ceil();
         let around = |k: i32| {
-            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 48.0).sin_cos();
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / corners).sin_cos();
             [at[0] + radius * cos, at[1] + radius * sin]
         };
-        if radius > 0.0 { self.fill(&(0..48).map(around).collect::<Vec<_>>(), color, 1.0) } else { Ok(()) }
+        self.fill(&(0..corners as i32).map(around).collect::<Vec<_>>(), color, 1.0)
     }
 
     /// A line of quadrilaterals, with discs where they meet: the backend's own thick lines have mitres that stick out of peaks.
