@@ -221,6 +221,11 @@ where
         }
     }
 
+    /// Makes now what exact tangents need, else made by the first step that asks for one.
+    pub(super) fn prepare_tangents(&mut self) {
+        self.linearizer.get_or_insert_with(|| Linearizer::new(self.mechanism));
+    }
+
     /// Whether nothing but windings were crossed, or a chart, whose root stands behind all others.
     pub(super) fn winds_only(&self, crossed: &[usize]) -> bool {
         !crossed.is_empty() && crossed.iter().all(|&root| self.roots.get(root).is_none_or(|root| matches!(root, Root::Winding { .. })))

@@ -12,6 +12,7 @@ use super::system::Mechanical;
 use super::watch::watched;
 use crate::expression::Id;
 use crate::geometry::Space;
+use crate::model::Family;
 use crate::results::Failure;
 use crate::studies::common::case::Case;
 use crate::studies::common::observe::Observer;
@@ -58,6 +59,9 @@ pub(super) fn unrecorded<G: Space<S = f64>>(
     let mut node = Node::new(dims);
     let mut balance = Balance::default();
     let settings = Settings { balance: false, ..plan.settings };
+    if plan.family == Family::Implicit {
+        chart.mechanical().prepare_tangents();
+    }
     timer(true);
     let mut run = chart.run(plan, settings, &state).map_err(|halt| explain::no_start(study, &phases.mechanism, &phases.start, &halt))?;
     chart.whole(run.node(), &mut node);
