@@ -129,7 +129,7 @@ studies:
   swing:
     dynamics: { until: 0.1 s }
     columns: [time, energy.kinetic, lost, load, J.m]
-    scalars: { most: max(energy.total), done: work_loads, largest: max(load) }
+    scalars: { most: max(energy.total), done: work_loads, largest: max(load), put_in: integral(load*J.omega) }
 ";
     let model = common::model(text, Some("swing"));
     let study = model.study.clone().expect("the study");
@@ -143,5 +143,5 @@ studies:
         .filter(|s| s.by == By::File)
         .map(|s| told(&s.quantity, s.shown_in.as_ref().map_or(&s.unit, |u| &u.unit)))
         .collect();
-    assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m"]);
+    assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m", "energy in J"]);
 }

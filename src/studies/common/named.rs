@@ -4,7 +4,7 @@ use super::outcome::Outcome;
 use super::scene::{beyond, fill_arrows};
 use super::watched::{extra_curves, of_pictures};
 use crate::expression::{Dimension, Id, parse_unit};
-use crate::model::{self, Kind, Model, Quantity, Shown, ShownWhat, Study};
+use crate::model::{self, Functional, FunctionalKind, Kind, Model, Quantity, Shown, ShownWhat, Study};
 use crate::results::{By, Column, LinearSystem, Plot, PlotAxis, PlotBeside, PlotRight, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
@@ -54,30 +54,29 @@ pub(crate) fn column(model: &Model, name: &str, dimension: Dimension, values: Ve
 
 /// [`column`] of a value of the study.
 pub(crate) fn column_of(model: &Model, study: &Study, (name, dimension, value): (&str, Dimension, Id), values: Vec<f64>) -> Column {
-    let mut column = column(model, name, dimension, values);
+    let (quantity, shown_in) = told(model, study, dimension, value);
+    Column { quantity, shown_in, ..column(model, name, dimension, values) }
+}
+
+/// What a value measures, in words, and the unit to show it in: an energy, whose dimension is that of a torque, in J.
+fn told(model: &Model, study: &Study, dimension: Dimension, value: Id) -> (String, Option<ShownIn>) {
+    let asked = shown_in(model, dimension);
     if is_energy(model, study, dimension, value) {
-        column.quantity = ENERGY.into();
-        column.shown_in = column.shown_in.or_else(joules);
+        return ("energy".into(), asked.or_else(|| Some(ShownIn { unit: "J".into(), size: 1.0 })));
     }
-    column
+    (dimension.quantity().into(), asked)
 }
 
-/// What an energy is called: its dimension is that of a torque.
-const ENERGY: &str = "energy";
-
-fn joules() -> Option<ShownIn> {
-    Some(ShownIn { unit: "J".into(), size: 1.0 })
-}
-
-/// Whether a value is made of energies, works or powers and is itself an energy.
+/// Whether a value is made of energies, works or integrals that are one, and has their dimension.
 fn is_energy(model: &Model, study: &Study, dimension: Dimension, value: Id) -> bool {
     let mut leaves = model.pool.inputs_of(&[value]).into_iter().map(|i| model.inputs[i as usize]);
     dimension == Dimension::ENERGY
         && leaves.any(|leaf| match leaf {
-            Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. } | Quantity::Work(_) | Quantity::DriverPower { .. } => {
-                true
+            Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. } | Quantity::Work(_) => true,
+            Quantity::Functional(k) => {
+                let Functional { kind, of, dimension: own, .. } = &study.functionals[k];
+                *kind == FunctionalKind::Integral && *own == Dimension::ENERGY || is_energy(model, study, *own, *of)
             }
-            Quantity::Functional(k) => is_energy(model, study, dimension, study.functionals[k].of),
             _ => false,
         })
 }
@@ -134,12 +133,8 @@ fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
     let of_kind = present.map(|(r, value)| scalar(model, &r.name, r.dimension, *value, By::Kind));
     let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| {
-        let mut own = scalar(model, &s.name, s.dimension, *value, By::File);
-        if is_energy(model, study, s.dimension, s.value) {
-            own.quantity = ENERGY.into();
-            own.shown_in = own.shown_in.or_else(joules);
-        }
-        own
+        let (quantity, shown_in) = told(model, study, s.dimension, s.value);
+        Scalar { quantity, shown_in, ..scalar(model, &s.name, s.dimension, *value, By::File) }
     });
     taken.chain(of_kind).chain(own).collect()
 }
