@@ -126,3 +126,27 @@ studies: { d: { dynamics: { until: 1 s, every: 0.1 s }, columns: [time, hits] } 
     close("work of the stop", march(&outcome).stops, -0.5 * 2.0 * (4.0 - 1.0), 1e-9);
     close("work of impacts", march(&outcome).impacts, 0.0, 0.0);
 }
+
+#[test]
+fn a_joint_pressed_against_another_that_rests_comes_to_rest_with_it() {
+    // 25 N lift the inner mass of 2 kg against the outer one of 1 kg: 5 N more than it weighs, and 5 N less than both
+    for e in [0.0, 0.5] {
+        let limits = format!(
+            "joints:
+  A: {{ slider: [ground, a.origin], axis: [0, 1], limits: {{ from: 0 m, restitution: 0 }} }}
+  B: {{ slider: [a.origin, b.origin], axis: [0, 1], limits: {{ to: 1 m, restitution: {e} }} }}
+loads: {{ lift: {{ at: b.origin, force: [0, 25 N] }} }}"
+        );
+        let text = tether(&limits, "tolerance: 1e-8").replace("until: 0.3 s, every: 0.1 s", "until: 20 s, every: 1 s");
+        let text =
+            text.replace("B.velocity: 10 m/s", "B.velocity: 0 m/s").replace("A.position]", "A.position, B.position, A.stop, B.stop]");
+        let outcome = done(&text, "d");
+        let [_, va, vb, a, b, ground, inner] = last(&outcome)[..] else { panic!("seven columns") };
+        for (what, found, right) in
+            [("va", va, 0.0), ("vb", vb, 0.0), ("a", a, 0.0), ("b", b, 1.0), ("ground", ground, 5.0), ("inner", inner, -5.0)]
+        {
+            close(&format!("{what}, e = {e}"), found, right, 1e-6);
+        }
+        assert!(march(&outcome).counts.steps < 2000 && drift(&outcome) < 1e-6, "{:?}", march(&outcome));
+    }
+}

@@ -221,9 +221,9 @@ where
         }
     }
 
-    /// Makes now what exact tangents need, else made by the first step that asks for one.
-    pub(super) fn prepare_tangents(&mut self) {
-        self.linearizer.get_or_insert_with(|| Linearizer::new(self.mechanism));
+    /// What makes exact tangents, itself made when it is asked for first.
+    pub(super) fn linearizer(&mut self) -> &mut Linearizer<'m, G> {
+        self.linearizer.get_or_insert_with(|| Linearizer::new(self.mechanism))
     }
 
     /// Whether nothing but windings were crossed, or a chart, whose root stands behind all others.
@@ -326,7 +326,7 @@ where
 
     fn tangent(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], out: &mut Tangent) {
         let point = Point { t: at.t, q: at.q, v: at.v, z: at.z, a, lambda, modes: at.modes };
-        self.linearizer.get_or_insert_with(|| Linearizer::new(self.mechanism)).tangents(&point, out);
+        self.linearizer().tangents(&point, out);
         if self.friction.is_some() {
             self.kinematics(&at);
             self.loads(&at);

@@ -60,7 +60,8 @@ pub(super) fn unrecorded<G: Space<S = f64>>(
     let mut balance = Balance::default();
     let settings = Settings { balance: false, ..plan.settings };
     if plan.family == Family::Implicit {
-        chart.mechanical().prepare_tangents();
+        // the steps would make it else
+        chart.mechanical().linearizer();
     }
     timer(true);
     let mut run = chart.run(plan, settings, &state).map_err(|halt| explain::no_start(study, &phases.mechanism, &phases.start, &halt))?;

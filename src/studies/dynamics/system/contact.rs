@@ -68,11 +68,15 @@ where
     /// Whether a blow has to wait until what cannot withstand it is let go: contacts that stick, and joints that rest where a stop would
     /// have to pull; `row` takes the unit force of the blow.
     fn waits(&mut self, index: usize, state: &mut State, row: &mut [f64]) -> bool {
-        let Stop { gauge, sense, .. } = self.dynamics.mechanism.stops[index];
+        let Stop { gauge, sense, rest_speed, .. } = self.dynamics.mechanism.stops[index];
         row.fill(0.0);
         self.dynamics.extent_gradient(StretchOf::Gauge(gauge), |k, x| row[k] += x);
         if self.lets_go() {
             return true;
+        }
+        // what is too slow for a rebound is too slow to lift a joint off its stop
+        if self.dynamics.work.readings[gauge].rate.abs() <= rest_speed {
+            return false;
         }
         let impulse: Vec<f64> = row.iter().map(|x| sense * x).collect();
         let pulled = self.pulled(&state.at(), &impulse);
@@ -154,17 +158,18 @@ where
         s.along.map_or(1.0, |along| s.gap(self.dynamics.extent(along)))
     }
 
-    /// Ways that are left to all stops in a state, 0 of those that are touched; none of events that nothing can rest at, or that are met
-    /// from the other side.
+    /// Ways that are left to all stops in a state, 0 of those that are touched; none of events that are met from the other side.
     pub(crate) fn gaps(&mut self, state: &State) -> Vec<Option<f64>> {
-        self.kinematics(&state.at());
+        self.look(&state.at(), None);
+        self.observer.columns(&state.modes, &mut self.outputs);
         let m = self.dynamics.mechanism;
         let counts = |stop: &Stop| stop.event.is_none_or(|event| f64::from(state.modes[m.switches + m.windings + event]) == stop.sense);
-        let way = |stop: usize| {
-            let gap = self.gap(stop);
-            if gap.abs() <= self.near[stop] { 0.0 } else { gap }
+        let way = |k: usize, stop: &Stop| {
+            let gap = stop.event.map_or_else(|| self.gap(k), |event| stop.sense * self.outputs[self.events[event].output]);
+            // one that was left just now may be passed by as much
+            if gap.abs() <= 2.0 * self.near[k] { 0.0 } else { gap }
         };
-        m.stops.iter().enumerate().map(|(k, stop)| (stop.along.is_some() && counts(stop)).then(|| way(k))).collect()
+        m.stops.iter().enumerate().map(|(k, stop)| counts(stop).then(|| way(k, stop))).collect()
     }
 
     /// Whether a joint has left a stop just now, and may still pass it by rounding.
