@@ -1,13 +1,25 @@
 //! The continuous solution over one step: polynomials in θ = (t − t₀)/h for q, v and z.
 
+mod nodes;
+
+use self::nodes::{Places, quintic};
 use crate::engine::{Engine, Node, Why};
 use crate::{Dims, State, System};
 
-/// Highest degree of the polynomials.
+/// Highest degree of polynomials of their own for q, v and z.
 pub const DEGREE: usize = 8;
 
 /// Where inside of a step the rate of the quartic θ²(1 − θ)² is largest: ½ − √3/6.
 const PLACE: f64 = 0.211_324_865_405_187_1;
+
+/// What the coefficients of a step stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Powers in use.
+    powers: usize,
+    /// Whether v is the rate of q, which alone has coefficients.
+    rates: bool,
+}
 
 /// Polynomials of one step, in powers of θ ∈ [0, 1].
 #[derive(Clone, Debug, PartialEq)]
@@ -17,9 +29,9 @@ pub struct Dense {
     /// Length of the step, s: the polynomials are scaled by it even if the motion leaves them earlier.
     pub h: f64,
     dims: Dims,
-    /// Powers in use.
-    powers: usize,
-    /// Coefficients, power after power; each with nq + nv + nz entries.
+    /// What the coefficients stand for.
+    pub form: Form,
+    /// Coefficients, power after power; each with nq + nv + nz entries, or nq where v is the rate of q.
     coefficients: Vec<f64>,
     scratch: Node,
     rates: Vec<f64>,
@@ -33,7 +45,7 @@ impl Dense {
             t: 0.0,
             h: 0.0,
             dims,
-            powers: 0,
+            form: Form::default(),
             coefficients: vec![0.0; n * (DEGREE + 1)],
             scratch: Node::new(dims),
             rates: vec![0.0; 5 * dims.q],
@@ -42,7 +54,7 @@ impl Dense {
 
     /// Begins polynomials with `powers` coefficients (degree powers − 1, at most [`DEGREE`]) on [t, t + h]; all are zero.
     pub fn begin(&mut self, t: f64, h: f64, powers: usize) {
-        (self.t, self.h, self.powers) = (t, h, powers.min(DEGREE + 1));
+        (self.t, self.h, self.form) = (t, h, Form { powers: powers.min(DEGREE + 1), rates: false });
         self.coefficients.fill(0.0);
     }
 
@@ -62,26 +74,36 @@ impl Dense {
         }
     }
 
-    /// All coefficients in use, power after power (nq + nv + nz each): what a trajectory stores of a step.
-    pub fn coefficients(&self) -> &[f64] {
-        let n = self.dims.q + self.dims.v + self.dims.z;
-        &self.coefficients[..n * self.powers]
+    /// Entries of a power.
+    fn width(&self) -> usize {
+        if self.form.rates { self.dims.q } else { self.dims.q + self.dims.v + self.dims.z }
     }
 
-    /// Takes back what [`Dense::coefficients`] gave.
-    pub fn set(&mut self, t: f64, h: f64, coefficients: &[f64]) {
-        let n = self.dims.q + self.dims.v + self.dims.z;
-        (self.t, self.h, self.powers) = (t, h, coefficients.len() / n.max(1));
+    /// All coefficients in use, power after power: what a trajectory stores of a step.
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients[..self.width() * self.form.powers]
+    }
+
+    /// Takes back what [`Dense::coefficients`] gave, in the form that [`Dense::form`] was.
+    pub fn set(&mut self, t: f64, h: f64, form: Form, coefficients: &[f64]) {
+        (self.t, self.h, self.form) = (t, h, form);
         self.coefficients[..coefficients.len()].copy_from_slice(coefficients);
     }
 
     /// t, q, v and z of `state` at time `t`; modes, live and work stay as they are.
     pub fn evaluate(&self, t: f64, state: &mut State) {
         let theta = (t - self.t) / self.h;
-        let (nq, nv, nz) = (self.dims.q, self.dims.v, self.dims.z);
-        let n = nq + nv + nz;
+        let (nq, nv, n) = (self.dims.q, self.dims.v, self.width());
         state.t = t;
-        let horner = |i: usize| (0..self.powers).rev().fold(0.0, |sum, p| sum * theta + self.coefficients[p * n + i]);
+        if self.form.rates {
+            for (i, (q, v)) in state.q.iter_mut().zip(&mut state.v).enumerate() {
+                let powers = (0..self.form.powers).rev();
+                let (value, rate) = powers.fold((0.0, 0.0), |(p, p1), k| (p * theta + self.coefficients[k * n + i], p1 * theta + p));
+                (*q, *v) = (value, rate / self.h);
+            }
+            return;
+        }
+        let horner = |i: usize| (0..self.form.powers).rev().fold(0.0, |sum, p| sum * theta + self.coefficients[p * n + i]);
         state.q.iter_mut().enumerate().for_each(|(i, x)| *x = horner(i));
         state.v.iter_mut().enumerate().for_each(|(i, x)| *x = horner(nq + i));
         state.z.iter_mut().enumerate().for_each(|(i, x)| *x = horner(nq + nv + i));
@@ -125,9 +147,34 @@ impl Dense {
         evaluated
     }
 
+    /// The interpolant by the steps before, without an evaluation: q by the polynomial of degree 11 through q, q̇ and q̈ at four nodes, v
+    /// by its rate; for systems without z in which q̇ = v. The errors are O(h¹²) and O(h¹¹).
+    ///
+    /// `nodes` are y = (q, v) and ẏ at the begins of the last three steps and at the end of the last; `lengths` those of the steps, s.
+    pub(crate) fn through_nodes(&mut self, t: f64, [far, near, h]: [f64; 3], nodes: [(&[f64], &[f64]); 4]) {
+        let nq = self.dims.q;
+        (self.t, self.h, self.form) = (t, h, Form { powers: nodes::POWERS, rates: true });
+        let places = Places::new([-near / h, -(near + far) / h]);
+        for i in 0..nq {
+            let begin = nodes[2].0[i];
+            // far from zero, differences have more digits
+            let jets = nodes.map(|(y, rate)| [y[i] - begin, h * rate[i], h * h * rate[nq + i]]);
+            let mut powers = places.through(jets);
+            // of the round-off nothing is left at the end, by what is flat at the begin
+            let [off, slope] = [0, 1]
+                .map(|k| jets[3][k] - powers.iter().enumerate().rev().map(|(p, c)| if k == 0 { *c } else { p as f64 * c }).sum::<f64>());
+            powers[2] += 3.0 * off - slope;
+            powers[3] += slope - 2.0 * off;
+            powers[0] = begin;
+            for (row, power) in self.coefficients.chunks_exact_mut(nq).zip(powers) {
+                row[i] = power;
+            }
+        }
+    }
+
     /// Hermite's quintic of q.
     fn quintic(&mut self, system: &dyn System, from: &Node, to: &Node, h: f64) {
-        let (nq, n) = (self.dims.q, self.dims.q + self.dims.v + self.dims.z);
+        let nq = self.dims.q;
         let (scratch, rest) = self.rates.split_at_mut(nq);
         let (rate0, rest) = rest.split_at_mut(nq);
         let (rate1, rest) = rest.split_at_mut(nq);
@@ -141,18 +188,7 @@ impl Dense {
             let (q0, q1) = (from.state.q[i], to.state.q[i]);
             let (r0, r1) = (h * self.rates[nq + i], h * self.rates[2 * nq + i]);
             let (s0, s1) = (h * h * self.rates[3 * nq + i], h * h * self.rates[4 * nq + i]);
-            let d = q1 - q0;
-            let powers = [
-                q0,
-                r0,
-                0.5 * s0,
-                10.0 * d - 6.0 * r0 - 4.0 * r1 - 1.5 * s0 + 0.5 * s1,
-                -15.0 * d + 8.0 * r0 + 7.0 * r1 + 1.5 * s0 - s1,
-                6.0 * d - 3.0 * (r0 + r1) - 0.5 * (s0 - s1),
-            ];
-            for (power, x) in powers.into_iter().enumerate() {
-                self.coefficients[power * n + i] = x;
-            }
+            self.set_entry(i, &quintic([q0, r0, s0], [q1, r1, s1]));
         }
     }
 

@@ -106,6 +106,43 @@ fn the_continuous_solution_is_of_order_7_and_meets_both_ends() {
     }
 }
 
+/// Largest errors in q and v at the ends of steps and inside of them, and what the motion took; `look` inside.
+fn errors_inside(tolerance: f64, look: bool) -> ([[f64; 2]; 2], Counts) {
+    let mut system = Pendulum::new();
+    let start = system.start();
+    let mut run = Integration::new(&mut system, settings(Method::Dop853, Control::Tolerance(tolerance)), &start).unwrap();
+    let mut state = start.clone();
+    let mut worst = [[0.0_f64; 2]; 2];
+    let mut compare = |state: &State, place: usize| {
+        let exact = Pendulum::exact(state.t);
+        let off = [distance(&state.q, &exact[..2]), distance(&state.v, &exact[2..])];
+        worst[place] = [worst[place][0].max(off[0]), worst[place][1].max(off[1])];
+    };
+    while run.advance(&mut system, 6.0).unwrap() != Progress::End {
+        let (from, to) = (run.last().state.t, run.node().state.t);
+        compare(&run.node().state, 0);
+        for k in 1..if look { 8 } else { 1 } {
+            run.dense(&mut system).unwrap().evaluate(from + (to - from) * f64::from(k) / 8.0, &mut state);
+            compare(&state, 1);
+        }
+    }
+    let counts = run.engine.counts;
+    (worst, counts)
+}
+
+#[test]
+fn the_continuous_solution_costs_nothing_and_is_as_good_as_the_nodes() {
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let ([nodes, inside], counts) = errors_inside(tolerance, true);
+        for (inside, nodes) in inside.iter().zip(nodes) {
+            assert!(*inside < 1.6 * nodes, "{tolerance:e}: {inside:e} {nodes:e}");
+        }
+        // steps without two of about their length before them, as the first, take three more stages
+        let more = counts.evaluations - errors_inside(tolerance, false).1.evaluations;
+        assert!(more <= 9 + counts.steps / 10, "{tolerance:e}: {more} evaluations in {} steps", counts.steps);
+    }
+}
+
 /// Error of Andrews' mechanism at the end in its seven angles.
 fn andrews(tolerance: f64) -> (f64, Counts) {
     let (node, counts) = run(&mut Andrews::new(), precise(tolerance), 0.03, |_, _| {});

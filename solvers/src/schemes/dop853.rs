@@ -1,7 +1,8 @@
 //! The explicit Runge-Kutta method DOP853 of Dormand & Prince on the equations of index 1, with projection after each step.
 //!
 //! Twelve stages of order 8, an error estimate combined from orders 5 and 3, and a continuous solution of order 7 from three
-//! more stages: Hairer, Nørsett & Wanner, Solving ODEs I, 2nd ed., sections II.5 and II.6. The error is that of the step before
+//! more stages: Hairer, Nørsett & Wanner, Solving ODEs I, 2nd ed., sections II.5 and II.6. Where the steps before tell enough
+//! (`past.rs`) the continuous solution is the polynomial through their nodes instead, which takes no evaluation. The error is that of the step before
 //! projection; the accelerations behind it are the first stage of the next step. Where an error is too large a singular position
 //! may be near: `crossing.rs` says how it is passed.
 
@@ -13,6 +14,7 @@ use crate::scheme::Scheme;
 use crate::settings::Settings;
 use coefficients::*;
 use crossing::Crossing;
+use past::Past;
 use stiffness::Stiffness;
 use work::Work;
 
@@ -20,6 +22,7 @@ pub(super) use stiffness::BORDER;
 
 mod coefficients;
 mod crossing;
+mod past;
 mod stiffness;
 #[cfg(test)]
 mod tests;
@@ -52,6 +55,7 @@ pub(super) struct Dop853 {
     stiffness: Stiffness,
     crossing: Crossing,
     work: Work,
+    past: Past,
     /// Whether the stages of this step are projected.
     projected: bool,
     h: f64,
@@ -74,6 +78,7 @@ impl Dop853 {
             stiffness: Stiffness::new(system),
             crossing: Crossing::new(system.dims()),
             work: Work::new(settings, system),
+            past: Past::new(flow.n),
             projected: false,
             h: 0.0,
             factor: 1.0,
@@ -186,6 +191,27 @@ impl Dop853 {
         Rejected { why: Why::Error(error), retry }
     }
 
+    /// The continuous solution from three more stages, in the nested form
+    /// y₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(r₄ + θ(r₅ + (1−θ)(r₆ + θ r₇)))))), in powers of θ. Its first three terms are Hermite's cubic
+    /// through the projected ends.
+    fn more_stages(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, out: &mut Dense) -> Result<(), Why> {
+        let n = self.flow.n;
+        self.stage(system, engine, from, (13, &A13))?;
+        self.stage(system, engine, from, (14, &A14))?;
+        self.stage(system, engine, from, (15, &A15))?;
+        let h = self.h;
+        let (first, last) = (&self.k[..n], &self.k[LAST * n..][..n]);
+        for i in 0..n {
+            let sum = |row: &Row<12>| h * row.iter().map(|(j, c)| c * self.k[j * n + i]).sum::<f64>();
+            let r1 = self.y1[i] - self.y0[i];
+            let r2 = h * first[i] - r1;
+            let r3 = r1 - h * last[i] - r2;
+            let [r4, r5, r6, r7] = [sum(&D4), sum(&D5), sum(&D6), sum(&D7)];
+            out.set_entry(i, &powers(self.y0[i], [r1, r2, r3, r4, r5, r6, r7]));
+        }
+        Ok(())
+    }
+
     /// Takes y and F at the end of the step, projected, and looks at stability.
     fn end(&mut self, system: &dyn System, to: &Node) {
         let (n, s) = (self.flow.n, &to.state);
@@ -213,6 +239,7 @@ impl Scheme for Dop853 {
         self.stiffness.forget();
         self.work.forget();
         self.crossing.forget(engine);
+        self.past.forget();
         Ok(())
     }
 
@@ -249,6 +276,7 @@ impl Scheme for Dop853 {
     fn accept(&mut self, engine: &mut Engine, _: &Node, to: &Node) -> f64 {
         self.stiffness.count();
         self.work.accept();
+        self.past.accept(self.h, [&self.y0, &self.k[..self.flow.n]], self.projected);
         let most = if std::mem::take(&mut self.rejected) { 1.0 } else { GROW };
         if engine.is_fixed() {
             return self.h;
@@ -258,25 +286,15 @@ impl Scheme for Dop853 {
         self.crossing.plan(to.state.t, next)
     }
 
-    /// The nested form y₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(r₄ + θ(r₅ + (1−θ)(r₆ + θ r₇)))))), in powers of θ. Its first three terms
-    /// are Hermite's cubic through the projected ends.
     fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why> {
         let n = self.flow.n;
-        self.stage(system, engine, from, (13, &A13))?;
-        self.stage(system, engine, from, (14, &A14))?;
-        self.stage(system, engine, from, (15, &A15))?;
-        out.begin(from.state.t, to.state.t - from.state.t, 8);
-        let h = self.h;
-        let (first, last) = (&self.k[..n], &self.k[LAST * n..][..n]);
-        for i in 0..n {
-            let sum = |row: &Row<12>| h * row.iter().map(|(j, c)| c * self.k[j * n + i]).sum::<f64>();
-            let r1 = self.y1[i] - self.y0[i];
-            let r2 = h * first[i] - r1;
-            let r3 = r1 - h * last[i] - r2;
-            let [r4, r5, r6, r7] = [sum(&D4), sum(&D5), sum(&D6), sum(&D7)];
-            out.set_entry(i, &powers(self.y0[i], [r1, r2, r3, r4, r5, r6, r7]));
+        let end = (&self.y1[..], &self.k[LAST * n..][..n]);
+        if let Some(([far, near, _], nodes)) = self.past.nodes(engine, to, end) {
+            out.through_nodes(from.state.t, [far, near, to.state.t - from.state.t], nodes);
+            return Ok(());
         }
-        Ok(())
+        out.begin(from.state.t, to.state.t - from.state.t, 8);
+        self.more_stages(system, engine, from, out)
     }
 
     fn work(&self, step: f64, out: &mut [f64]) -> Option<[f64; 2]> {

@@ -5,6 +5,7 @@ use crate::geometry::Space;
 use crate::kinematics::undefined::Gap;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::{FIRST_PANELS, Resolved};
+use grashof_solvers::dense_output::Form;
 use grashof_solvers::{Control, Dense, Engine, Node, Sigma, Stage, System};
 
 /// Below this smallest singular value of the scaled rows a position is next to singular: errors of the state are multiplied by its
@@ -21,9 +22,10 @@ struct Step {
     begin: f64,
     end: f64,
     h: f64,
-    /// First coefficient and number of coefficients.
+    /// First coefficient, number of coefficients, and what they stand for.
     first: usize,
     count: usize,
+    form: Form,
     /// Whether a step of the integrator ends here, not a part of one.
     whole: bool,
     /// Number of its modes.
@@ -140,9 +142,18 @@ where
     /// Adds a step of the present piece, or a part of one, which ends at `end` (s).
     pub(crate) fn step(&mut self, dense: &Dense, end: f64, whole: bool) {
         let first = self.coefficients.len();
-        let coefficients = dense.coefficients();
+        let (coefficients, form) = (dense.coefficients(), dense.form);
         self.coefficients.extend_from_slice(coefficients);
-        self.steps.push(Step { begin: dense.t, end, h: dense.h, first, count: coefficients.len(), whole, modes: self.modes.len() - 1 });
+        self.steps.push(Step {
+            begin: dense.t,
+            end,
+            h: dense.h,
+            first,
+            count: coefficients.len(),
+            form,
+            whole,
+            modes: self.modes.len() - 1,
+        });
         if let Some(piece) = self.pieces.last_mut() {
             (piece.to, piece.steps.1) = (end, self.steps.len());
         }
@@ -326,7 +337,7 @@ where
             self.near = (low + self.steps[low..high].partition_point(|s| s.end < t)).min(high - 1);
         }
         let step = self.steps[self.near];
-        self.dense.set(step.begin, step.h, &self.coefficients[step.first..step.first + step.count]);
+        self.dense.set(step.begin, step.h, step.form, &self.coefficients[step.first..step.first + step.count]);
         self.dense.evaluate(t, &mut self.node.state);
         self.node.state.modes.copy_from_slice(&self.modes[step.modes]);
         self.node.state.live.copy_from_slice(&p.live);
