@@ -54,6 +54,62 @@ start: {{ S.position: 1 m }}"
 }
 
 #[test]
+fn an_integrating_controller_moves_the_mechanism_until_it_rests() {
+    // gravity as 10 m/s² makes 5 N m cos φ; K = −5 N m sin φ, J = 1/3 kg m², d = 2 N m s; J s³ + d s² + (K + kp) s + ki
+    let held = |target: f64, kp: f64, ki: f64| {
+        planar(
+            "[0, -10 m/s^2]",
+            &format!(
+                "bodies: {{ arm: {{ bar: {{ length: 1 m, mass: 1 kg }} }} }}
+joints: {{ P: {{ revolute: [ground, arm.start], damping: 2 N m s/rad }} }}
+states:
+  clock: {{ start: 0 s, rate: 1 + 0*t/1 s }}
+  record: {{ start: 1 rad s, rate: P.angle + 1 rad }}
+  z: {{ start: 0 N m, rate: -({ki} N m/s)*(P.angle - ({target} deg)) }}
+loads: {{ hold: {{ joint: P, torque: z - ({kp} N m)*(P.angle - ({target} deg)) }} }}
+start: {{ P.angle: 60 deg }}"
+            ),
+            "angle: last(P.angle), push: last(z)",
+        )
+    };
+    for (target, kp, ki, stable) in [(80.0, 30.0, 20.0, 1.0), (80.0, 0.0, 20.0, 0.0), (-80.0, 0.0, 20.0, 1.0), (-80.0, 0.0, 40.0, 0.0)] {
+        let outcome = held(target, kp, ki);
+        let phi: f64 = target.to_radians();
+        near(outcome.scalars[0], phi, 1e-12);
+        near(outcome.scalars[1], 5.0 * phi.cos(), 1e-11);
+        assert_eq!(outcome.results, [stable], "{target} deg, {kp}, {ki}");
+        assert_eq!(list(&outcome, "equilibria.P.angle").len(), 1);
+        let drifting = findings(&outcome, "state-without-rest");
+        assert_eq!(drifting.len(), 2, "{drifting:?}");
+        assert!(drifting.iter().all(|f| f.contains("`clock`") || f.contains("`record`")), "{drifting:?}");
+    }
+}
+
+#[test]
+fn a_controller_alone_finds_the_place_at_which_nothing_acts() {
+    let outcome = planar(
+        "[0, 0]",
+        &format!(
+            "{LIFT}\nstates: {{ z: {{ start: 3 N, rate: -(4 N/m/s)*(S.position - 0.5 m) - z/(1 s) }} }}\nloads: {{ push: {{ joint: S, force: z }} }}\nstart: {{ S.position: 2 m }}"
+        ),
+        "y: last(box.y), push: last(z)",
+    );
+    near(outcome.scalars[0], 0.5, 1e-12);
+    near(outcome.scalars[1], 0.0, 1e-12);
+    let integrating = planar(
+        "[0, 0]",
+        &format!(
+            "{LIFT}\nstates: {{ z: {{ start: 3 N, rate: -(4 N/m/s)*(S.position - 0.5 m) }} }}\nloads: {{ push: {{ joint: S, force: z }} }}\nstart: {{ S.position: 2 m }}"
+        ),
+        "y: last(box.y), push: last(z)",
+    );
+    near(integrating.scalars[0], 0.5, 1e-12);
+    near(integrating.scalars[1], 0.0, 1e-12);
+    // m s³ + ki has roots with a positive real part
+    assert_eq!(integrating.results, [0.0]);
+}
+
+#[test]
 fn what_falls_rests_on_a_stop() {
     // begins 3 m above the floor where nothing holds it
     let floor = planar(

@@ -6,6 +6,7 @@ use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
 use super::rest::{Lost, Rest};
 use super::search::{Ended, Found};
+use super::states::RESTS;
 use crate::dynamics::Differentiable;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -37,6 +38,8 @@ pub(super) struct Settled {
     pub(super) found: Found,
     /// The ridge on which the mechanism would stay by symmetry alone.
     pub(super) passed: Option<Found>,
+    /// Whether states rest in this position alone.
+    pub(super) together: bool,
 }
 
 impl<'a, 'm, G> Bench<'a, 'm, G>
@@ -62,10 +65,22 @@ where
             Ok(begin) => begin,
             Err(lost) => return Err(self.lost(lost, start)),
         };
-        match self.search(&begin, stop) {
+        let mut searched = self.search(&begin, stop);
+        // a state that keeps its value while the position is sought may not let it rest anywhere
+        let near = match &searched {
+            Ok((found, _)) => Some(&found.pose),
+            Err(ended) if ended.1 == Ended::Stopped => None,
+            Err(_) => Some(&begin),
+        };
+        let found = near.and_then(|near| self.rest.with_states(near)).and_then(|pose| self.rest.judged(pose).ok());
+        let together = found.is_some();
+        if let Some(found) = found {
+            searched = Ok((found, None));
+        }
+        match searched {
             Ok((found, passed)) => match self.rest.beyond(self.case, &found.pose.position) {
                 Some(joint) => Err(self.names.beyond(&self.case.model.joints[joint].name, &self.case.study.place)),
-                None => Ok(Settled { begin, found, passed }),
+                None => Ok(Settled { begin, found, passed, together }),
             },
             Err(ended) => match *ended {
                 (_, Ended::Stopped) => Err(Failure::interrupted()),
@@ -171,7 +186,7 @@ where
             };
             add("no-energy", format!("the forces have no energy (the tangent stiffness is not symmetric): {of}"), place);
         }
-        for (state, rate) in model.states.iter().zip(&found.pose.position.drift).filter(|(_, rate)| rate.abs() > 1e-9) {
+        for (state, rate) in model.states.iter().zip(&found.pose.position.drift).filter(|(_, rate)| rate.abs() > RESTS) {
             add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");
         }
         if self.rest.system.dynamics.mechanism.held().next().is_some() {

@@ -9,6 +9,8 @@
 //!    motion that falls fastest, and sinks on.
 //! 3. If it does not come to rest, as where forces without an energy drive it round and round, Newton's method takes over, first
 //!    from the start, then from places all over its motion.
+//! 4. First-order states follow the position as far as they can. Where one that acts on a force does not rest there, as that of an
+//!    integrating controller, position and states are brought to rest together (`states`).
 //!
 //! Drivers hold the position of time 0; nothing moves, so that damping does not act and motors have their torque at rest. A start that
 //! exact friction holds is an equilibrium, with rows that hold what sticks (`grip`); smooth laws of friction do not act.
@@ -25,6 +27,7 @@ mod rest;
 mod search;
 mod sinking;
 mod stability;
+mod states;
 
 use super::common::case::Case;
 use super::common::watched::Watched;
@@ -41,6 +44,8 @@ pub(crate) use many::equilibrium as equilibrium_of_many;
 use pose::Pose;
 use rest::Position;
 pub(crate) use rest::Still;
+use search::Found;
+use states::RESTS;
 
 /// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind.
 ///
@@ -102,13 +107,17 @@ where
         outcome.findings.extend(bench.region(&pose));
         return Ok(outcome);
     }
-    let Settled { begin, found, passed } = bench.settle(&start, stop)?;
+    let Settled { begin, found, passed, together } = bench.settle(&start, stop)?;
     let mut all = vec![found];
     all.extend(passed);
     if all[0].stability.zero == 0 {
         let known: Vec<&Pose> = all.iter().map(|f| &f.pose).collect();
         let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| Failure::interrupted())?;
-        all.extend(further.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none()));
+        let elsewhere = further.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none());
+        // what rests in one position alone does so in no other
+        let rests: Vec<bool> = all[0].pose.position.drift.iter().map(|rate| rate.abs() <= RESTS).collect();
+        let also = |f: &Found| f.pose.position.drift.iter().zip(&rests).all(|(rate, rests)| !rests || rate.abs() <= RESTS);
+        all.extend(elsewhere.filter(|f| !together || also(f)));
     }
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     bench.outcome(&watched, &begin, &all)

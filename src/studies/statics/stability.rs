@@ -88,12 +88,14 @@ impl Stability {
         let steady = STEADY * poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
         // one of each pair
         let growing = poles.iter().filter(|p| p.re > steady && p.im >= 0.0).count();
-        if self.symmetric && growing <= self.negative {
+        // a state may hold what falls without it
+        if self.symmetric && growing <= self.negative && z.is_empty() {
             return;
         }
+        let still = poles.iter().filter(|p| p.norm() <= steady).count();
         self.of_motion = true;
         self.negative = growing;
-        self.zero = if self.symmetric { self.zero } else { poles.iter().filter(|p| p.norm() <= steady).count() };
+        self.zero = if self.symmetric { self.zero.min(still) } else { still };
     }
 
     /// Whether every motion is held.
