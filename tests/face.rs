@@ -129,7 +129,7 @@ fn a_motion_is_stepped_with_an_input() {
     assert_eq!((motion.state().t, motion.columns()[2]), (0.5, 0.0));
     // a torque of 4 N m on 2/3 kg m^2 for half a second
     let pushed = rest.set("push", 4.0).unwrap();
-    let mut motion = pushed.begin_at(motion.state()).unwrap();
+    let mut motion = pushed.begin_at(&motion.reached()).unwrap();
     motion.advance(1.0, &|| false).unwrap();
     assert!((motion.columns()[2] - 3.0).abs() < 1e-7, "{}", motion.columns()[2]);
     assert_eq!(rest.columns(), ["time", "P.angle", "P.omega"]);
@@ -158,8 +158,93 @@ fn what_cannot_be_stepped_is_refused() {
     let crank = model("crank_rocker.yaml");
     assert!(matches!(crank.stepping("one-turn"), Err(Error::Refused { .. })));
     assert!(crank.stepping("nobody").is_err_and(|e| e.is_unknown_name()));
-    let events = Model::parse(&format!("{PENDULUM}events: {{ low: {{ when: P.angle + 90 deg }} }}\n")).unwrap();
-    assert!(matches!(events.stepping("swing"), Err(Error::Refused { .. })));
+}
+
+/// A ball that comes to rest on the floor and is thrown up by an event, which turns gravity's part around for a while.
+const THROWN: &str = "
+grashof: 1
+name: thrown
+space: planar
+gravity: none
+parameters: { pull: -10 N }
+bodies: { ball: { mass: 1 kg } }
+joints: { S: { slider: [ground, ball.origin], axis: [0, 1], limits: { from: 0 m, restitution: 0.5 } } }
+loads: { weight: { joint: S, force: pull } }
+start: { S.position: 0.21 m }
+events:
+  throw: { when: time - 1 s, crossing: rising, set: { pull: 12 N } }
+  top: { when: S.position - 0.3 m, crossing: rising, set: { pull: -10 N } }
+studies: { motion: { dynamics: { until: 3 s, every: 0.1 s }, columns: [S.position, S.velocity, S.stop, time] } }
+";
+
+/// A block that a spring drags over a rough floor: it sticks and slides.
+const DRAGGED: &str = "
+grashof: 1
+name: dragged
+space: planar
+gravity: none
+bodies: { block: { mass: 1 kg } }
+joints: { S: { slider: [ground, block.origin], axis: [1, 0], friction: { coulomb: 2 N, static: 3 N, stribeck_speed: 0.1 m/s } } }
+loads: { spring: { joint: S, force: (40 N/m)*((0.1 m/s)*t - S.position) } }
+start: { S.position: 0 m }
+studies: { motion: { dynamics: { until: 3 s, every: 0.1 s, tolerance: 1e-10 }, columns: [S.position, S.velocity, time] } }
+";
+
+#[test]
+fn events_stops_and_friction_are_stepped_as_in_the_study() {
+    for text in [THROWN, DRAGGED] {
+        let model = Model::parse(text).unwrap();
+        let results = model.study("motion").unwrap().run().unwrap();
+        let stepping = model.stepping("motion").unwrap();
+        let mut motion = stepping.begin().unwrap();
+        let time = results.column("time").unwrap();
+        for step in 1..=30 {
+            let t = 0.1 * f64::from(step);
+            motion.advance(t, &|| false).unwrap();
+            let row = time.iter().rposition(|x| (x - t).abs() < 1e-9).unwrap();
+            for (name, value) in stepping.columns().iter().zip(motion.columns()) {
+                let expected = results.column(name).unwrap()[row];
+                assert!((value - expected).abs() < 1e-7, "{name} at {t} s: {value} {expected}");
+            }
+        }
+        let happened: Vec<_> = motion.events().iter().map(|event| &event.name).collect();
+        assert_eq!(happened, results.events.iter().map(|event| &event.name).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn an_input_counts_from_when_it_is_set_and_events_behind_it() {
+    let model = Model::parse(THROWN).unwrap();
+    let rest = model.stepping("motion").unwrap();
+    let mut motion = rest.begin().unwrap();
+    motion.advance(0.9, &|| false).unwrap();
+    let rests = |columns: &[f64]| columns[0].abs() < 1e-15 && columns[1] == 0.0;
+    assert!(rests(&motion.columns()), "{:?}", motion.columns());
+    // what presses does not lift what rests, nor does the event afterwards find it moved
+    let pressed = rest.set("pull", -20.0).unwrap();
+    let mut motion = pressed.begin_at(&motion.reached()).unwrap();
+    assert!(rests(&motion.columns()) && motion.columns()[2] == 20.0, "{:?}", motion.columns());
+    motion.advance(1.1, &|| false).unwrap();
+    // 12 m/s² for a tenth of a second
+    assert!((motion.columns()[0] - 0.06).abs() < 1e-9, "{:?}", motion.columns());
+    assert_eq!(motion.events().len(), 1);
+    // 5 m/s² from there, 1.2 m/s fast
+    let slower = pressed.set("pull", 5.0).unwrap();
+    let mut motion = slower.begin_at(&motion.reached()).unwrap();
+    motion.advance(1.2, &|| false).unwrap();
+    assert!((motion.columns()[0] - (0.06 + 0.12 + 0.025)).abs() < 1e-9, "{:?}", motion.columns());
+}
+
+#[test]
+fn an_event_that_stops_ends_a_stepped_motion() {
+    let model = Model::parse(&format!("{PENDULUM}events: {{ low: {{ when: P.angle + 90 deg, action: stop }} }}\n")).unwrap();
+    let stepping = model.stepping("swing").unwrap().set("push", -4.0).unwrap();
+    let mut motion = stepping.begin().unwrap();
+    while !motion.ended() {
+        motion.advance(motion.state().t + 0.05, &|| false).unwrap();
+    }
+    assert!((motion.columns()[1] + std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    assert!(motion.advance(10.0, &|| false).is_err_and(|e| e.to_string().contains("by the event `low`")));
 }
 
 #[test]

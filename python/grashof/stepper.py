@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Dict, NamedTuple
+from typing import TYPE_CHECKING, Dict, List, NamedTuple, Tuple
 
 from . import _grashof
 from .records import unknown
@@ -43,14 +43,14 @@ class Stepper:
         return f"<motion at t = {self.time:g} s>"
 
     def advance(self, by: float) -> None:
-        """Goes on by a time, s.
+        """Goes on by a time, s, or to an event that ends the motion.
 
         Raises :class:`Refused` if the motion cannot go on; the state is the last good one.
         """
         self.advance_to(self.time + by)
 
     def advance_to(self, t: float) -> None:
-        """Goes on to a time, s; a time in the past changes nothing."""
+        """Goes on to a time, s, or to an event that ends the motion; a time in the past changes nothing."""
         self._core.advance_to(t)
 
     def set_input(self, parameter: str, value: float) -> None:
@@ -67,6 +67,16 @@ class Stepper:
         """The present state: time, coordinates, velocities and first-order states."""
         q, v, z = self._core.state()
         return State(self.time, q, v, z)
+
+    @property
+    def events(self) -> List[Tuple[float, str]]:
+        """Times, s, and names of the events of the model so far."""
+        return self._core.events
+
+    @property
+    def ended(self) -> bool:
+        """Whether an event has ended the motion, which goes no further then."""
+        return self._core.ended
 
     @property
     def columns(self) -> Dict[str, float]:

@@ -4,8 +4,7 @@ use crate::errors::refused;
 use crate::functions::Trouble;
 use crate::interrupt::{self, Flag, awaited};
 use grashof::Error;
-use grashof::api::{Stepper as Motion, Stepping};
-use grashof::solvers::State;
+use grashof::api::{Reached, Stepper as Motion, Stepping};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use std::sync::atomic::Ordering;
@@ -33,13 +32,17 @@ struct Present {
     v: Vec<f64>,
     z: Vec<f64>,
     columns: Vec<f64>,
+    /// Times, s, and names of the events so far.
+    events: Vec<(f64, String)>,
+    ended: bool,
 }
 
 impl Present {
     fn of(motion: &mut Motion<'_>) -> Self {
         let columns = motion.columns();
-        let state = motion.state();
-        Self { t: state.t, q: state.q.clone(), v: state.v.clone(), z: state.z.clone(), columns }
+        let events = motion.events().iter().map(|event| (event.at, event.name.clone())).collect();
+        let (state, ended) = (motion.state(), motion.ended());
+        Self { t: state.t, q: state.q.clone(), v: state.v.clone(), z: state.z.clone(), columns, events, ended }
     }
 }
 
@@ -111,20 +114,20 @@ impl Waiting {
 /// Answers calls until nobody is there to make them, with one mechanism after the other.
 fn serve(mut stepping: Stepping, flag: &Flag, asked: &Receiver<Asked>, mut waiting: Waiting) {
     let mut from = None;
-    while let Some((next, state, reply)) = follow(&stepping, from.as_ref(), flag, asked, waiting) {
-        (stepping, from, waiting) = (next, Some(state), Waiting::Call(reply));
+    while let Some((next, reached, reply)) = follow(&stepping, from.as_ref(), flag, asked, waiting) {
+        (stepping, from, waiting) = (next, Some(reached), Waiting::Call(reply));
     }
 }
 
-/// Answers calls to one mechanism; gives the next one, with the state in which it goes on and who waits for it.
+/// Answers calls to one mechanism; gives the next one, with how far the motion has come and who waits for it.
 fn follow(
     stepping: &Stepping,
-    from: Option<&State>,
+    from: Option<&Reached>,
     flag: &Flag,
     asked: &Receiver<Asked>,
     waiting: Waiting,
-) -> Option<(Stepping, State, Reply)> {
-    let begun = from.map_or_else(|| stepping.begin(), |state| stepping.begin_at(state));
+) -> Option<(Stepping, Reached, Reply)> {
+    let begun = from.map_or_else(|| stepping.begin(), |reached| stepping.begin_at(reached));
     let mut motion = match begun {
         Ok(motion) => motion,
         Err(error) => {
@@ -137,7 +140,7 @@ fn follow(
         let answer = match call {
             Call::Advance(t) => motion.advance(t, &|| flag.load(Ordering::Relaxed)).map(|()| Present::of(&mut motion)),
             Call::Set(name, value) => match stepping.set(&name, value) {
-                Ok(next) => return Some((next, motion.state().clone(), reply)),
+                Ok(next) => return Some((next, motion.reached(), reply)),
                 Err(error) => Err(error),
             },
         };
@@ -168,6 +171,18 @@ impl Stepper {
     fn state<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<f64>>; 3] {
         let Present { q, v, z, .. } = self.present().clone();
         [q, v, z].map(|values| PyArray1::from_vec(py, values))
+    }
+
+    /// Times, s, and names of the events so far.
+    #[getter]
+    fn events(&self) -> Vec<(f64, String)> {
+        self.present().events.clone()
+    }
+
+    /// Whether an event has ended the motion.
+    #[getter]
+    fn ended(&self) -> bool {
+        self.present().ended
     }
 
     /// Names of the columns of the study.

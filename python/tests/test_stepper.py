@@ -60,6 +60,45 @@ def test_what_cannot_be_stepped_is_refused() -> None:
         motion.set_input("nobody", 1.0)
     with pytest.raises(grashof.UnknownName):
         motion["nobody"]
-    motion.advance(0.01)
-    with pytest.raises(grashof.Refused):
-        grashof.parse(PENDULUM + "events: { low: { when: P.angle + 90 deg } }\n").stepper("swing")
+
+
+def test_events_happen_and_end_a_motion() -> None:
+    events = "events: { low: { when: P.angle + 90 deg }, end: { when: P.angle + 140 deg, crossing: falling, action: stop } }\n"
+    motion = grashof.parse(PENDULUM + events).stepper("swing")
+    assert not motion.ended
+    while not motion.ended:
+        motion.advance(0.05)
+    assert [name for _, name in motion.events] == ["low", "end"]
+    assert motion.events[-1][0] == motion.time
+    assert motion["P.angle"] == pytest.approx(np.radians(-140.0), abs=1e-9)
+    with pytest.raises(grashof.Refused, match="by the event `end`"):
+        motion.advance(0.05)
+
+
+LIFT = """
+grashof: 1
+name: lift
+space: planar
+gravity: [0, -10 m/s^2]
+parameters: { push: 0 N }
+bodies: { box: { mass: 1 kg } }
+joints: { S: { slider: [ground, box.origin], axis: [0, 1], limits: { from: 0 m, restitution: 0 } } }
+loads: { up: { joint: S, force: push } }
+start: { S.position: 0.2 m }
+studies: { fall: { dynamics: { until: 9 s }, columns: [S.position, S.velocity] } }
+"""
+
+
+def test_what_rests_on_a_stop_is_lifted_by_an_input() -> None:
+    motion = grashof.parse(LIFT).stepper("fall")
+    motion.advance_to(1.0)
+    assert motion["S.velocity"] == 0.0
+    motion.set_input("push", 9.0)
+    motion.advance_to(2.0)
+    assert motion["S.position"] == pytest.approx(0.0, abs=1e-15)
+    motion.set_input("push", 12.0)
+    motion.advance_to(3.0)
+    assert motion["S.position"] == pytest.approx(1.0, rel=1e-9)
+    motion.set_input("push", 0.0)
+    motion.advance_to(4.0)
+    assert motion["S.position"] == pytest.approx(0.0, abs=1e-12)

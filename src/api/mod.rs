@@ -23,6 +23,6 @@ pub use mechanism::{Mechanism, Placement, Terms};
 pub use model::Model;
 pub use page::told;
 pub use simulation::Simulation;
-pub use stepper::{Stepper, Stepping};
+pub use stepper::{Reached, Stepper, Stepping};
 pub use study::Study;
 pub use sweep::PreparedSweep;

@@ -4,7 +4,7 @@ use super::error::Error;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::model::{Dimensions, Document, Forward, Kind, Model, Selection, Study};
 use crate::par;
-use crate::results::{Failure, Unknown};
+use crate::results::{Failure, Happened, Unknown};
 use crate::studies::dynamics::stepping;
 use crate::studies::loader::Loader;
 use grashof_solvers::State;
@@ -35,16 +35,6 @@ enum Of {
     Spatial(Box<stepping::Stepping<Spatial<f64>>>),
 }
 
-/// What is the same in the plane and in space.
-macro_rules! stepped {
-    ($self:expr, $of:ident => $what:expr) => {
-        match &$self.of {
-            Of::Planar($of) => $what,
-            Of::Spatial($of) => $what,
-        }
-    };
-}
-
 impl Stepping {
     pub(super) fn new(document: &Document, selection: &Selection<'_>) -> Result<Self, Error> {
         let mut loader = Loader::new(document, par::processors());
@@ -58,18 +48,11 @@ impl Stepping {
             });
         };
         let of = Of::new(&model, &study, &forward).map_err(|failure| Error::failed(document, name, failure))?;
-        let stepping = Self { asked: Arc::new(Asked { document: document.clone(), model, study }), of };
-        if stepped!(stepping, s => s.changes(&stepping.asked.model)) {
-            return Err(Error::Refused {
-                message: "the mechanism has events, rigid stops or exact friction, which change it on the way".into(),
-                help: "run the study".into(),
-            });
-        }
-        Ok(stepping)
+        Ok(Self { asked: Arc::new(Asked { document: document.clone(), model, study }), of })
     }
 
     /// The same mechanism with a parameter at another value, SI; those that depend on it follow. A motion goes on with it by
-    /// [`Self::begin_at`] from the state that it has reached, as behind an event that sets the parameter.
+    /// [`Self::begin_at`] from where it has come to, as behind an event that sets the parameter.
     ///
     /// # Errors
     /// If there is no such parameter, or no mechanism with this value.
@@ -93,15 +76,16 @@ impl Stepping {
         self.from(None)
     }
 
-    /// The motion from a state: one that a [`Stepper`] has reached.
+    /// The motion from where another [`Stepper`] has come to; what rests on a stop there or sticks does so still, as far as the forces
+    /// let it.
     ///
     /// # Errors
     /// If it does not begin there.
-    pub fn begin_at(&self, state: &State) -> Result<Stepper<'_>, Error> {
-        self.from(Some(state))
+    pub fn begin_at(&self, reached: &Reached) -> Result<Stepper<'_>, Error> {
+        self.from(Some(&reached.of))
     }
 
-    fn from(&self, from: Option<&State>) -> Result<Stepper<'_>, Error> {
+    fn from(&self, from: Option<&stepping::Reached>) -> Result<Stepper<'_>, Error> {
         let Asked { model, study, .. } = &*self.asked;
         let flow: Result<Box<dyn Flow + '_>, Failure> = match &self.of {
             Of::Planar(of) => of.begin(model, study, from).map(|flow| Box::new(flow) as Box<dyn Flow>),
@@ -126,13 +110,19 @@ impl Of {
     }
 }
 
+/// How far a motion has come: its state, its events, what rests on stops or sticks, and the parameters that events have set.
+#[derive(Clone, Debug)]
+pub struct Reached {
+    of: stepping::Reached,
+}
+
 /// A motion in time, advanced to one time after the other.
 pub struct Stepper<'m> {
     flow: Box<dyn Flow + 'm>,
 }
 
 impl Stepper<'_> {
-    /// Integrates to a time, s; `stop` is asked between steps, and ends it where it is.
+    /// Integrates to a time, s, or to an event that ends the motion; `stop` is asked between steps, and ends it where it is.
     ///
     /// # Errors
     /// Why the motion cannot go on; the state is the last good one.
@@ -147,6 +137,24 @@ impl Stepper<'_> {
         self.flow.state()
     }
 
+    /// How far it has come, for [`Stepping::begin_at`].
+    #[must_use]
+    pub fn reached(&self) -> Reached {
+        Reached { of: self.flow.reached() }
+    }
+
+    /// The events of the model so far, in order, with their times.
+    #[must_use]
+    pub fn events(&self) -> &[Happened] {
+        self.flow.events()
+    }
+
+    /// Whether an event has ended the motion: it goes no further.
+    #[must_use]
+    pub fn ended(&self) -> bool {
+        self.flow.ended()
+    }
+
     /// The columns of the study in the present state, SI.
     #[must_use]
     pub fn columns(&mut self) -> Vec<f64> {
@@ -158,6 +166,9 @@ impl Stepper<'_> {
 trait Flow {
     fn advance(&mut self, t: f64, stop: &dyn Fn() -> bool) -> Result<(), String>;
     fn state(&self) -> &State;
+    fn reached(&self) -> stepping::Reached;
+    fn events(&self) -> &[Happened];
+    fn ended(&self) -> bool;
     fn columns(&mut self) -> Vec<f64>;
 }
 
@@ -171,6 +182,18 @@ where
 
     fn state(&self) -> &State {
         self.state()
+    }
+
+    fn reached(&self) -> stepping::Reached {
+        self.reached()
+    }
+
+    fn events(&self) -> &[Happened] {
+        self.events()
+    }
+
+    fn ended(&self) -> bool {
+        self.ended()
     }
 
     fn columns(&mut self) -> Vec<f64> {

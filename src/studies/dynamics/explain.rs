@@ -211,7 +211,7 @@ pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
 /// That an event has moved a stop, or what an impact is met at, beyond where its joint stands.
 pub(super) fn passed(model: &Model, stop: &Stop, happened: &[Happened], t: f64) -> String {
     let joint = &model.joints[stop.joint].name;
-    let by = happened.last().map_or_else(String::new, |last| format!(" by the event `{}`", last.name));
+    let by = happened.last().filter(|last| last.at == t).map_or_else(String::new, |last| format!(" by the event `{}`", last.name));
     match stop.event {
         Some(event) => format!(
             "at t = {t:.6} s the `when` of the event `{}` has jumped through zero{by}: that is no impact of joint `{joint}`; set its parameters only as far as the joint stays on its side",

@@ -2,25 +2,25 @@
 
 use super::chart::Charted;
 use super::contradiction;
+use super::course::{After, Course, Lost};
 use super::depart::depart;
 use super::energy::{Balance, Begins};
 use super::explain;
 use super::pace::Pace;
-use super::phases::{Holds, Phases};
+use super::phases::Phases;
 use super::rows::Rows;
 use super::setup::Plan;
-use super::system::{Mechanical, Met};
+use super::system::Mechanical;
 use super::trajectory::Trajectory;
-use super::watch::{swept, watched};
+use super::watch::swept;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::held::settled;
 use crate::kinematics::undefined::in_state;
 use crate::model::{Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
-use crate::studies::common::case::{Case, parameters_with};
-use crate::studies::common::observe::Observer;
-use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System, Zeno};
+use crate::studies::common::case::Case;
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
@@ -50,15 +50,10 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
     (stop, rows): (&dyn Fn() -> bool, Option<&mut Rows<'_>>),
 ) -> Result<Recorded<'m, G>, Failure> {
     let Case { model, study, parameters, .. } = case;
-    let (all, watched) = watched(model, ids);
-    let follow = !plan.settings.locate;
-    let machine = |phase: &'m Phases<G>| {
-        let observer = Observer::new(model, &phase.mechanism, &phase.parameters, &all);
-        Mechanical::new(&phase.mechanism, &phase.start, observer, watched.clone())
-    };
-    let first = machine(phases);
+    let course = Course::new(model, plan, ids, swept(study, parameters), &phases.parameters);
+    let first = course.machine(phases);
     let dims = first.dims();
-    let mut trajectory = Trajectory::new(&first, ids.len(), follow);
+    let mut trajectory = Trajectory::new(&first, ids.len(), !plan.settings.locate);
     let mut flow = Flow {
         model,
         study,
@@ -66,56 +61,31 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
         stop,
         trajectory: &mut trajectory,
         rows,
-        events: Vec::new(),
+        course,
         balance: Balance::default(),
         findings: Vec::new(),
         pace: Pace::default(),
-        changed: Vec::new(),
-        holds: Holds::default(),
-        met: Vec::new(),
-        loosened: false,
-        open: Vec::new(),
-        begins: Begins::Run,
-        set_from: ids.len(),
         sound: 0.0,
         undefined: None,
     };
     let mut state = from.cloned().unwrap_or_else(|| begin(phases, dims));
-    let (mut present, mut zeno, mut met) = (phases.parameters.clone(), Zeno::default(), false);
     let stopped = loop {
-        if let Some(why) = flow.moved_stops(phases, &present, &machine, &state) {
-            break Some(why);
-        }
-        let chosen = flow.choose(phases, &present, &machine, &mut state);
-        let phase = match chosen {
-            Ok(Some(phase)) => phase,
-            Ok(None) if flow.begins == Begins::Run => {
-                return Err(Failure::numerical(explain::jams(phases, state.t), explain::LESS_FRICTION));
-            }
-            Ok(None) => break Some(format!("{}; {}", explain::jams(phases, state.t), explain::LESS_FRICTION)),
-            Err(Failure::Model(faults)) => break Some(explain::set(model, &flow.events, &flow.changed, state.t, &faults)),
-            Err(failure) => break Some(failure.reason()),
+        let phase = match flow.course.next(phases, &mut state) {
+            Ok(phase) => phase,
+            Err(Lost::Failure(failure)) => return Err(failure),
+            Err(Lost::Stopped(why)) => break Some(why),
         };
-        if met && zeno.pile_up(state.t, 0.0) {
-            break Some(explain::chatters(phases, &flow.met, state.t));
-        }
-        flow.trajectory.phase(std::ptr::from_ref(phase).addr(), || machine(phase));
-        match flow.phase(phase, machine(phase), &mut state)? {
+        let system = flow.course.machine(phase);
+        flow.trajectory.phase(std::ptr::from_ref(phase).addr(), || flow.course.machine(phase));
+        match flow.phase(phase, system, &mut state)? {
             After::Done => break None,
             After::Stopped(why) => break Some(why),
-            After::Changed => {
-                met = !flow.met.is_empty();
-                // other rows, other charts
-                flow.sound = 0.0;
-                if flow.begins == Begins::Parameters {
-                    let values = swept(study, parameters).into_iter().chain(flow.changed.clone()).collect::<Vec<_>>();
-                    present = parameters_with(model, &values);
-                }
-            }
+            // other rows, other charts
+            After::Changed => flow.sound = 0.0,
         }
     };
-    flow.findings.extend(explain::not_unique(phases, &flow.open));
-    let Flow { events, balance, undefined, findings: mut unresolved, .. } = flow;
+    flow.findings.extend(explain::not_unique(phases, &flow.course.open));
+    let Flow { course: Course { events, .. }, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan, &study.place);
     unresolved.dedup_by(|a, b| a.path == b.path);
     findings.append(&mut unresolved);
@@ -135,13 +105,6 @@ pub(crate) fn begin<G: Space<S = f64>>(phases: &Phases<G>, dims: Dims) -> State 
     state
 }
 
-/// How a phase has ended.
-enum After {
-    Done,
-    Stopped(String),
-    Changed,
-}
-
 /// A run in progress.
 struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
     model: &'a Model,
@@ -150,22 +113,10 @@ struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
     stop: &'a dyn Fn() -> bool,
     trajectory: &'a mut Trajectory<'m, G>,
     rows: Option<&'a mut Rows<'r>>,
-    events: Vec<Happened>,
+    course: Course<'a>,
     balance: Balance,
     findings: Vec<Finding>,
     pace: Pace,
-    /// Parameters that events have set.
-    changed: Vec<(usize, f64)>,
-    /// Stops on which joints rest, and contacts that stick.
-    holds: Holds,
-    /// Contacts that stopped or gave way at the end of the phase before, and whether all were let go for a blow.
-    met: Vec<Met>,
-    loosened: bool,
-    /// Contacts whose friction was not determined at some time.
-    open: Vec<usize>,
-    begins: Begins,
-    /// Number of columns: event functions follow them among the outputs.
-    set_from: usize,
     /// The best quality of charts so far.
     sound: f64,
     /// What has no value, if that has stopped the run.
@@ -173,63 +124,9 @@ struct Flow<'a, 'r, 'm, G: Space<S = f64>> {
 }
 
 impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
-    /// Lets go the joints whose stops an event has moved away from them; why the run cannot go on, where it has moved one beyond the joint.
-    fn moved_stops(
-        &mut self,
-        phases: &'m Phases<G>,
-        parameters: &[f64],
-        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G>,
-        state: &State,
-    ) -> Option<String> {
-        if self.begins != Begins::Parameters || phases.mechanism.stops.is_empty() {
-            return None;
-        }
-        // what the parameters do not allow is told where the phase is chosen
-        let base = phases.with(self.model, parameters, self.plan.coordinates, &Holds::default()).ok()?;
-        let gaps = machine(base).gaps(state);
-        let passed = gaps.iter().position(|gap| gap.is_some_and(|gap| gap < 0.0));
-        if let Some(stop) = passed {
-            return Some(explain::passed(self.model, &base.mechanism.stops[stop], &self.events, state.t));
-        }
-        self.holds.resting.retain(|stop| gaps[*stop].is_none_or(|gap| gap == 0.0));
-        None
-    }
-
-    /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
-    /// laws of friction.
-    fn choose(
-        &mut self,
-        phases: &'m Phases<G>,
-        parameters: &[f64],
-        machine: &impl Fn(&'m Phases<G>) -> Mechanical<'m, G>,
-        state: &mut State,
-    ) -> Result<Option<&'m Phases<G>>, Failure> {
-        let coordinates = self.plan.coordinates;
-        let free = Holds { held: Vec::new(), ..self.holds.clone() };
-        let base = phases.with(self.model, parameters, coordinates, &free)?;
-        if base.mechanism.contacts.is_empty() {
-            return Ok(Some(base));
-        }
-        if self.loosened {
-            self.holds.held.clear();
-            return Ok(Some(base));
-        }
-        let mut system = machine(base);
-        let contacts = &base.mechanism.contacts;
-        if self.begins == Begins::Run {
-            base.mechanism.slide(&vec![0; contacts.len()], &mut state.modes);
-        }
-        let Some(decided) = system.decide(state, &self.holds.held, &self.met) else { return Ok(None) };
-        base.mechanism.slide(&decided.senses, &mut state.modes);
-        state.live = system.extents(state);
-        self.open.extend(decided.open);
-        self.holds.held = decided.held;
-        phases.with(self.model, parameters, coordinates, &self.holds).map(Some)
-    }
-
     /// Integrates until the end or until parameters change; `state` is where it begins, and where it has ended.
     fn phase(&mut self, phase: &'m Phases<G>, mut system: Mechanical<'m, G>, state: &mut State) -> Result<After, Failure> {
-        let first = self.begins == Begins::Run;
+        let first = self.course.begins == Begins::Run;
         let dims = system.dims();
         let mut inner = Engine::new(&system, Control::Tolerance(1e-8));
         let departure = if first { depart(phase, &mut system, state, self.plan.until) } else { None };
@@ -257,21 +154,21 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
         chart.whole(run.node(), &mut node);
         match &departure {
             Some(departure) => {
-                self.balance.begin(chart.mechanical(), &departure.from, self.begins);
+                self.balance.begin(chart.mechanical(), &departure.from, self.course.begins);
                 departure.record(self.trajectory, chart.mechanical(), &mut inner, &mut dense, &node);
             }
             None => {
                 self.trajectory.piece(&node);
-                self.balance.begin(chart.mechanical(), &node, self.begins);
+                self.balance.begin(chart.mechanical(), &node, self.course.begins);
             }
         }
         // what crosses in the same instant as the event that began this phase
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {
-            self.note(&at_once, node.state.t);
+            self.course.note(&at_once, node.state.t);
             state.copy_from(&node.state);
-            if self.ends_or_sets(&at_once) {
-                return Ok(self.stopped_by(&mut chart, &node, &at_once));
+            if self.course.ends_or_sets(&at_once) {
+                return Ok(self.course.stopped_by(&mut chart, &node, &at_once));
             }
         }
         let ended = loop {
@@ -300,14 +197,14 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
                 break After::Stopped(why);
             }
             if happened {
-                let counted = self.happened(&mut chart, &run);
+                let counted = self.course.happened(&mut chart, &run);
                 std::mem::swap(&mut last, &mut node);
                 chart.whole(run.node(), &mut node);
                 self.balance.jump(chart.mechanical(), [&last, &node], run.crossed());
                 // the last roots are those of the coordinates themselves
                 let own = run.crossed().iter().all(|root| *root >= chart.mechanical().roots.len());
                 if progress == Progress::Stopped && !(own && chart.turns(&node.state, true)) {
-                    break self.stopped_by(&mut chart, &last, &counted);
+                    break self.course.stopped_by(&mut chart, &last, &counted);
                 }
                 match chart.mechanical().winds_only(run.crossed()) {
                     true => self.trajectory.wind(&node),
@@ -397,62 +294,5 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
             std::mem::swap(&mut from, &mut to);
         }
         Ok(())
-    }
-
-    /// Notes the events of the model that the last step has ended at; their numbers.
-    fn happened(&mut self, chart: &mut Charted<'m, G>, run: &Integration) -> Vec<usize> {
-        let state = &run.node().state;
-        let system = chart.mechanical();
-        let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
-        let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
-        let t = state.t;
-        system.forget_struck();
-        self.note(&counted, t);
-        counted
-    }
-
-    fn note(&mut self, counted: &[usize], at: f64) {
-        self.events.extend(counted.iter().map(|&e| Happened { name: self.model.events[e].name.clone(), at }));
-    }
-
-    /// Whether one of these events ends the run or sets parameters.
-    fn ends_or_sets(&self, counted: &[usize]) -> bool {
-        counted.iter().any(|&e| self.model.events[e].stop || !self.model.events[e].set.is_empty())
-    }
-
-    /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
-    fn stopped_by(&mut self, chart: &mut Charted<'m, G>, before: &Node, counted: &[usize]) -> After {
-        if let Some(event) = chart.mechanical().restless() {
-            return After::Stopped(explain::restless(self.model, event, before.state.t));
-        }
-        if counted.iter().any(|&e| self.model.events[e].stop) {
-            return After::Done;
-        }
-        let system = chart.mechanical();
-        let rests = system.take_rests();
-        (self.met, self.loosened) = system.take_met();
-        self.begins = Begins::Rests;
-        for (stop, rests) in rests {
-            self.holds.resting.retain(|s| *s != stop);
-            if rests {
-                self.holds.resting.push(stop);
-            }
-        }
-        system.observe(&before.state.at(), &before.a, &before.lambda);
-        let mut outputs = vec![0.0; system.observer.program().outputs()];
-        system.columns(&before.state.modes, &mut outputs);
-        let functions = self.model.events.iter().map(|e| 1 + usize::from(e.restitution.is_some())).sum::<usize>();
-        let mut place = self.set_from + functions;
-        for (i, event) in self.model.events.iter().enumerate() {
-            for &(parameter, _) in &event.set {
-                if counted.contains(&i) {
-                    self.changed.retain(|(p, _)| *p != parameter);
-                    self.changed.push((parameter, outputs[place]));
-                    self.begins = Begins::Parameters;
-                }
-                place += 1;
-            }
-        }
-        After::Changed
     }
 }

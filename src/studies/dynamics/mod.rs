@@ -5,6 +5,7 @@
 
 mod chart;
 mod contradiction;
+mod course;
 mod depart;
 pub(crate) mod energy;
 pub(crate) mod explain;

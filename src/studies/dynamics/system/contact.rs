@@ -65,6 +65,20 @@ where
         std::mem::take(&mut self.rests)
     }
 
+    /// Lets go, in a state, the joint whose stop would have to pull most; none if all that joints rest on push.
+    pub(crate) fn let_go_pulled(&mut self, state: &mut State) -> Option<usize> {
+        self.accelerate(&state.at());
+        let least = -slack(&self.pattern.metric, &self.a, &self.lambda);
+        let force = |root: &Root| match *root {
+            Root::Rest { row, stop } => Some((-self.dynamics.mechanism.stops[stop].sense * self.lambda[row], stop)),
+            _ => None,
+        };
+        let pulls = self.roots.iter().filter_map(force).filter(|(force, _)| *force < least);
+        let (_, stop) = pulls.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        state.modes[self.mode_of_stop(stop)] = 1;
+        Some(stop)
+    }
+
     /// Whether a blow has to wait until what cannot withstand it is let go: contacts that stick, and joints that rest where a stop would
     /// have to pull; `row` takes the unit force of the blow.
     fn waits(&mut self, index: usize, state: &mut State, row: &mut [f64]) -> bool {
