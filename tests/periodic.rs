@@ -1,6 +1,7 @@
 //! Periodic regimes: multipliers against closed forms and against differences of the map of a period, regimes against closed forms
 //! and long runs, failures in words.
 
+mod conservative;
 mod crank_rocker;
 mod faults;
 mod linear;

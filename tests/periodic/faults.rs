@@ -120,3 +120,37 @@ fn a_measure_that_turns_back() {
 fn an_oscillation_that_dies_out() {
     told(&wheel("", "", "over: t, through: O.omega - 1 rad/s, of: O.omega"), true, &["`through`", "rise"]);
 }
+
+/// A mass on a spring, drawn by 10 cm.
+fn spring(damping: &str, periodic: &str) -> String {
+    format!(
+        "grashof: 1
+name: spring and mass
+space: planar
+gravity: none
+bodies: {{ mass: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, mass.origin], axis: [1, 0]{damping} }} }}
+springs: {{ spring: {{ joint: S, stiffness: 1 N/m }} }}
+start: {{ S.position: 0.1 m, S.velocity: 0 m/s }}
+studies:
+  regime: {{ periodic: {{ {periodic}, of: S.position }} }}
+"
+    )
+}
+
+#[test]
+fn a_motion_that_keeps_its_energy_has_a_period_of_its_own() {
+    let words = ["no force takes or gives energy", "one for every energy", "`over: t, through: ...`", "`settle: 0 s`"];
+    told(&spring("", "over: t, by: 5 s"), true, &words);
+}
+
+#[test]
+fn a_damped_motion_without_a_drive_comes_to_rest() {
+    for periodic in ["over: t, by: 5 s", "over: t, through: S.position"] {
+        told(&spring(", damping: 0.2 N s/m", periodic), true, &["rest", "stands still", "nothing drives it", "`statics`"]);
+    }
+    // held by friction
+    told(&spring(", friction: { coulomb: 0.02 N }", "over: t, by: 5 s"), true, &["rest", "stands still"]);
+    // no motion of the spring has this period but rest
+    told(&spring("", "over: t, by: 5 s, settle: 0 s"), true, &["rest", "stands still"]);
+}

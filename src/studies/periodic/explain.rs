@@ -51,6 +51,18 @@ fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> Failure {
 pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
     match why {
         Unsettled::Broken(broken_off) => broken(search, broken_off),
+        Unsettled::Restless { one, keeps_energy: true, .. } => Failure::numerical(
+            format!(
+                "no force takes or gives energy, so that the motion keeps that of its start and does not settle: the last two periods differ by {}. Periodic motions of such a mechanism are a family, one for every energy, and each has a period of its own",
+                percent(one)
+            ),
+            match search.section {
+                Section::Time(_) => {
+                    "let the motion of the start end its own period (`over: t, through: ...`), or search near the start for the motion of the family with this period (`settle: 0 s`)"
+                }
+                _ => "search near the start with `settle: 0 s`, or look at the motion of the start in a study of the kind `dynamics`",
+            },
+        ),
         Unsettled::Restless { one, two, .. } if two < 0.01 => Failure::numerical(
             format!(
                 "the motion does not repeat itself after one period of `{}` (it differs by {}) but after two",
@@ -59,7 +71,7 @@ pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
             ),
             "ask for `by` twice as large",
         ),
-        Unsettled::Restless { one, periods: [before, last], .. } => Failure::numerical(
+        Unsettled::Restless { one, periods: [before, last], keeps_energy: false, .. } => Failure::numerical(
             format!(
                 "the run does not settle: the last two periods, of {before:.6} s and {last:.6} s, still differ by {}; the motion runs away, or has no regime of this period",
                 percent(one)
@@ -98,6 +110,12 @@ pub(super) fn lost<G: Space<S = f64>>(search: &Search<'_>, phases: &Phases<G>, w
     let apart = match why {
         Lost::Broken(why) => return broken(search, why),
         Lost::Rough(why) => return rough(search, why),
+        Lost::Rests => {
+            return Failure::numerical(
+                "the only regime that is found is rest, in which the mechanism stands still: nothing drives it, and its motion dies out, or none of it has such a period",
+                "drive it by a load, a motor or a driver; where it rests `statics` tells, how it comes to rest `dynamics`, and its vibrations about rest `modes`",
+            );
+        }
         Lost::Apart(apart) => apart,
     };
     let hint = match search.section {

@@ -70,6 +70,11 @@ impl<G: Space<S = f64>> Lap<'_, G> {
     pub(super) fn period(&self) -> f64 {
         self.end.state.t - self.start.state.t
     }
+
+    /// Whether no force, stop or event has taken or given energy in it.
+    pub(super) fn keeps_energy(&self) -> bool {
+        self.certificate.march.as_ref().is_some_and(|march| march.works().iter().all(|(_, work)| *work == 0.0))
+    }
 }
 
 /// Why a period did not come to its end.

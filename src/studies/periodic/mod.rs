@@ -55,7 +55,13 @@ where
     let start = search.start(&phases);
     let rough = ROUGH.max(search.tolerance);
     search.section = section(case.at(&ways[0]), asked);
-    let settled = settle::settle(&mut search, &phases, &start, until, rough).map_err(|why| explain::unsettled(&search, why))?;
+    let mut settled = settle::settle(&mut search, &phases, &start, until, rough);
+    if settled.as_ref().is_ok_and(|settled| settled.keeps_energy) {
+        // no later period makes good what the run loses
+        let exact = search.tolerance;
+        settled = settle::settle(&mut search, &phases, &start, until, exact);
+    }
+    let settled = settled.map_err(|why| explain::unsettled(&search, why))?;
     let mut states: Vec<State> = vec![settled.state];
     for (step, values) in ways.iter().enumerate() {
         let phases = Phases::<G>::new(model, values, search.coordinates)?;

@@ -94,7 +94,7 @@ impl<'a> Regime<'a> {
     /// Its outcome; `periods` were run before the search.
     pub(super) fn outcome<G: Space<S = f64>>(&self, phases: &Phases<G>, orbit: Orbit<'_, G>, periods: usize) -> Result<Outcome, Failure> {
         let Self { search, asked, case, watched, columns } = *self;
-        let Orbit { mut lap, multipliers, closure, steps } = orbit;
+        let Orbit { mut lap, multipliers, neutral, closure, steps } = orbit;
         check_closed(search, &mut lap, closure[1])?;
         let (model, study, period, times) = (&search.model, search.study, lap.period(), lap.trajectory.breaks());
         let mut mean = [0.0];
@@ -126,7 +126,7 @@ impl<'a> Regime<'a> {
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
         lap.findings.extend(numbers.findings);
-        lap.findings.push(stability::finding(&multipliers, &study.place));
+        lap.findings.push(stability::finding(&multipliers, neutral > 0 && lap.keeps_energy(), &study.place));
         let some = of_rows.iter().copied().step_by((of_rows.len() / energy::SAMPLES).max(1));
         let Recorded { places, switches, rows, selected_from } = rows.recorded();
         Ok(Outcome {
@@ -183,7 +183,7 @@ impl<'a> Regime<'a> {
 fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, apart: f64) -> Result<(), Failure> {
     let rates = |node: &Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
     let start = rates(&lap.start);
-    let size = start.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    let size = fastest(lap, &rates);
     let sizes = vec![size; start.len()];
     let phase = tools(&mut lap.trajectory);
     let mut followed = lap.end.clone();
@@ -199,6 +199,21 @@ fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, ap
     }
     let worst = apart.max(differs);
     if worst <= SAME { Ok(()) } else { Err(explain::not_closed(search, worst)) }
+}
+
+/// The largest acceleration in a lap: where a period begins there may be none.
+fn fastest<G: Space<S = f64>>(lap: &mut Lap<'_, G>, rates: &impl Fn(&Node) -> Vec<f64>) -> f64 {
+    const LOOKS: usize = 24;
+    let (breaks, begin, period) = (lap.trajectory.breaks(), lap.start.state.t, lap.period());
+    let mut size = rates(&lap.start).iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    for i in 1..LOOKS {
+        let t = begin + period * i as f64 / LOOKS as f64;
+        let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
+        if lap.trajectory.go(t, piece).is_ok() {
+            size = rates(&lap.trajectory.node).iter().fold(size, |m, x| m.max(x.abs()));
+        }
+    }
+    size
 }
 
 /// The independent variable, and what advances in the lap.

@@ -27,6 +27,8 @@ pub(super) struct Settled {
     pub(super) state: State,
     /// Periods that were run.
     pub(super) periods: usize,
+    /// Whether no force takes or gives energy in the last of them, so that the motion keeps what the start gives it.
+    pub(super) keeps_energy: bool,
 }
 
 /// Why the run has led nowhere.
@@ -34,7 +36,8 @@ pub(super) enum Unsettled {
     /// A period did not come to its end.
     Broken(Broken),
     /// The periods go on to differ: how much the last two, how much the last from the one before the last, and their times.
-    Restless { one: f64, two: f64, periods: [f64; 2] },
+    /// Whether no force takes or gives energy in them.
+    Restless { one: f64, two: f64, periods: [f64; 2], keeps_energy: bool },
 }
 
 /// Runs from a state.
@@ -63,7 +66,8 @@ pub(super) fn settle<G: Space<S = f64>>(
                 unwind(&phases.mechanism, [&lap.start.state, &lap.end.state], periods, &mut state);
             }
             state.t = 0.0;
-            return Ok(Settled { state, periods });
+            let keeps_energy = before.as_ref().is_some_and(Lap::keeps_energy);
+            return Ok(Settled { state, periods, keeps_energy });
         }
         let mut lap = search.lap(phases, &state, tolerance).map_err(Unsettled::Broken)?;
         periods += 1;
@@ -76,7 +80,9 @@ pub(super) fn settle<G: Space<S = f64>>(
             && until == Until::Alike
             && differs >= ALIKE
         {
-            return Err(Unsettled::Restless { one: differs, two: apart(&b.start.state), periods: [b.period(), lap.period()] });
+            let keeps_energy = b.keeps_energy() && lap.keeps_energy();
+            let periods = [b.period(), lap.period()];
+            return Err(Unsettled::Restless { one: differs, two: apart(&b.start.state), periods, keeps_energy });
         }
         state.clone_from(&lap.end.state);
         before = Some(lap);

@@ -7,6 +7,10 @@
 //! (Bᵀ DF B − I) y = Bᵀ(x − F(x)).
 //! ```
 //!
+//! Where no force takes or gives energy, the energy E is the same at both ends: ∇E (DF − I) = 0 at a periodic motion, which is one of
+//! a family then (Meyer, Hall & Offin, Introduction to Hamiltonian Dynamical Systems, 2nd ed., section 9.1). The matrix is singular;
+//! the shortest of the steps that it leaves is taken, which keeps to the motion of the family that the search began with.
+//!
 //! The start itself is moved along the motion to where g has its value at the start of the study; the motion stays the same by that.
 //! The eigenvalues of DF, or of Bᵀ DF B, are Floquet's multipliers; on a surface the trivial one, along the motion, is not among
 //! them (Parker & Chua, Practical Numerical Algorithms for Chaotic Systems, 1989, chapter 5).
@@ -15,6 +19,7 @@ use super::lap::{Broken, Lap, Search, tools};
 use super::monodromy::{Map, Rough, Surface};
 use super::saltation::rate;
 use super::states::{Scale, between, largest};
+use super::timed::timed;
 use crate::geometry::Space;
 use crate::numerics::eigenvalues::eigenvalues;
 use crate::studies::dynamics::phases::Phases;
@@ -37,12 +42,20 @@ const HALVINGS: usize = 6;
 /// Singular values of DF − I below this part of the largest belong to neighbours that are periodic, too.
 const NEUTRAL: f64 = 1e-8;
 
+/// In tolerances of the integration, what a singular value that is zero may be wrong by: up to one of them was seen.
+const ROUGHNESS: f64 = 30.0;
+
+/// In tolerances, how far the ends of a periodic motion may be apart in directions that no step changes, in sizes of the motion.
+const OPEN: f64 = 1e3;
+
 /// A periodic motion.
 pub(super) struct Orbit<'e, G: Space<S = f64>> {
     /// Its last period.
     pub(super) lap: Lap<'e, G>,
     /// Multipliers, the largest first.
     pub(super) multipliers: Vec<Complex<f64>>,
+    /// Directions in which neighbours are periodic, too.
+    pub(super) neutral: usize,
     /// Largest difference of the two ends, in sizes of the motion, of the independent coordinates alone and of all.
     pub(super) closure: [f64; 2],
     /// Steps of Newton's method.
@@ -57,6 +70,17 @@ pub(super) enum Lost {
     Rough(Rough),
     /// Newton's method has stopped with this difference of the two ends, in sizes of the motion.
     Apart(f64),
+    /// Nothing moves.
+    Rests,
+}
+
+/// A step of Newton's method.
+struct Step {
+    /// In sizes of the motion.
+    way: DVector<f64>,
+    multipliers: Vec<Complex<f64>>,
+    /// Directions in which neighbours are periodic, too, which it leaves alone.
+    neutral: usize,
 }
 
 /// The periodic motion near a state.
@@ -65,22 +89,29 @@ pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e 
     let mut lap = search.lap(phases, guess, tolerance).map_err(Lost::Broken)?;
     let mut last = f64::INFINITY;
     for steps in 0..MOST {
+        let scale = Scale::of(&mut lap);
+        if scale.rests() && !timed(&search.model, &phases.mechanism) {
+            return Err(Lost::Rests);
+        }
         let map = lap.map(search, phases).map_err(Lost::Rough)?;
-        let sizes = Scale::of(&mut lap).on(&map.independent);
+        let sizes = scale.on(&map.independent);
         let missed = miss(phases, &map, &lap);
         let apart = largest(&missed, &sizes);
-        let (y, multipliers) = step(&map, &missed, &sizes).ok_or(Lost::Apart(apart))?;
-        let size = y.amax();
+        let Step { way, multipliers, neutral } = step(&map, &missed, &sizes, ROUGHNESS * tolerance).ok_or(Lost::Apart(apart))?;
+        let size = way.amax();
         let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
         let size = size.max(late.abs() / lap.period());
         if size <= CLOSED || (size <= NEARLY && size > 0.25 * last) {
+            if neutral > 0 && apart > OPEN * tolerance {
+                return Err(Lost::Apart(apart));
+            }
             let all: Vec<usize> = (0..phases.mechanism.nv).collect();
             let every = between(&phases.mechanism, &all, [&lap.start.state, &lap.end.state]);
             let whole = largest(&every, &Scale::of(&mut lap).on(&all));
-            return Ok(Orbit { lap, multipliers, closure: [apart, whole], steps });
+            return Ok(Orbit { lap, multipliers, neutral, closure: [apart, whole], steps });
         }
         last = size;
-        lap = advance(search, phases, lap, &map, &y, &sizes, apart)?;
+        lap = advance(search, phases, lap, &map, &way, &sizes, apart)?;
     }
     Err(Lost::Apart(last))
 }
@@ -137,8 +168,8 @@ fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Optio
     Some(node.state)
 }
 
-/// Newton's step in units of `sizes`, and the multipliers.
-fn step(map: &Map, missed: &[f64], sizes: &[f64]) -> Option<(DVector<f64>, Vec<Complex<f64>>)> {
+/// Newton's step; singular values below `zero` count as 0.
+fn step(map: &Map, missed: &[f64], sizes: &[f64], zero: f64) -> Option<Step> {
     let m = sizes.len();
     let derivative = DMatrix::from_fn(m, m, |i, j| map.derivative[(i, j)] * sizes[j] / sizes[i]);
     if derivative.iter().any(|x| !x.is_finite()) {
@@ -152,14 +183,15 @@ fn step(map: &Map, missed: &[f64], sizes: &[f64]) -> Option<(DVector<f64>, Vec<C
     let k = along.nrows();
     let right = -surface.transpose() * DVector::from_fn(m, |i, _| missed[i] / sizes[i]);
     if k == 0 {
-        return Some((DVector::zeros(m), Vec::new()));
+        return Some(Step { way: DVector::zeros(m), multipliers: Vec::new(), neutral: 0 });
     }
     let mut multipliers: Vec<Complex<f64>> = eigenvalues(&along)?;
     multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
     let svd = Svd::new(&(along - DMatrix::identity(k, k)));
-    let least = NEUTRAL * svd.largest();
+    let least = zero.max(NEUTRAL * svd.largest());
     let y = svd.solve(right.as_slice(), |s| if s > least { 1.0 / s } else { 0.0 });
-    Some((surface * DVector::from_vec(y), multipliers))
+    let neutral = svd.values.iter().filter(|s| **s <= least).count();
+    Some(Step { way: surface * DVector::from_vec(y), multipliers, neutral })
 }
 
 /// Orthonormal columns across a vector (m × m − 1), by Householder's reflection of it to its largest entry's axis.

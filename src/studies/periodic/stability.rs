@@ -9,6 +9,9 @@ const NEAR: f64 = 1e-3;
 /// Moduli within this of 1 count as 1: the error of the multipliers where they meet.
 const NEUTRAL: f64 = 1e-6;
 
+/// What a motion is that keeps its energy.
+const FAMILY: &str = "no force takes or gives energy, so that the motion is one of a family, one for every energy, and no regime in which the mechanism settles: amplitude and period are those of the energy that the search began with, and a deviation neither grows nor dies out (a multiplier is 1); another start gives another motion of the family";
+
 /// The multipliers as lists.
 pub(super) fn lists(multipliers: &[Complex<f64>]) -> Vec<List> {
     let list = |part: &str, of: fn(&Complex<f64>) -> f64| List {
@@ -19,11 +22,13 @@ pub(super) fn lists(multipliers: &[Complex<f64>]) -> Vec<List> {
     vec![list("real", |m| m.re), list("imaginary", |m| m.im), list("modulus", |m| m.norm())]
 }
 
-/// Stability in words.
-pub(super) fn finding(multipliers: &[Complex<f64>], place: &str) -> Finding {
+/// Stability in words; `family`: no force takes or gives energy, and neighbours are periodic, too.
+pub(super) fn finding(multipliers: &[Complex<f64>], family: bool, place: &str) -> Finding {
     let largest = multipliers.first().map_or(0.0, |m| m.norm());
-    let (code, message) = if largest > 1.0 + NEUTRAL {
-        let count = multipliers.iter().filter(|m| m.norm() > 1.0 + NEUTRAL).count();
+    // two multipliers that meet at 1 are apart by the root of the error
+    let neutral = if family { NEAR } else { NEUTRAL };
+    let (code, message) = if largest > 1.0 + neutral {
+        let count = multipliers.iter().filter(|m| m.norm() > 1.0 + neutral).count();
         let message = format!(
             "the regime is unstable: {count} of {} multipliers {} outside of the unit circle, the largest has the modulus {largest:.6} ({}); a real mechanism leaves it",
             multipliers.len(),
@@ -31,6 +36,8 @@ pub(super) fn finding(multipliers: &[Complex<f64>], place: &str) -> Finding {
             lost(multipliers[0])
         );
         ("unstable-regime", message)
+    } else if family {
+        return Finding { code: "family-of-motions".into(), message: FAMILY.into(), path: place.to_owned() };
     } else if largest >= 1.0 - NEUTRAL {
         ("neutral-regime", "the regime is neither stable nor unstable: neighbouring motions come no nearer to it".to_owned())
     } else {

@@ -12,6 +12,9 @@ const LOOKS: usize = 48;
 /// Part of the size of the mechanism below which a motion counts as none.
 const STILL: f64 = 1e-6;
 
+/// Part of it below which it is none.
+const AT_REST: f64 = 1e-9;
+
 /// δ (nv) with `to` = `from` ⊕ δ; angles about a fixed axis modulo a turn, rotations as vectors, rad, in the frame of v.
 pub(super) fn difference<G: Space>(mechanism: &Mechanism<G>, from: &[f64], to: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; mechanism.nv];
@@ -58,6 +61,8 @@ pub(super) struct Scale {
     q: Vec<f64>,
     v: Vec<f64>,
     z: Vec<f64>,
+    /// The largest motion of all, in parts of the size of the mechanism.
+    moves: f64,
 }
 
 impl Scale {
@@ -65,12 +70,14 @@ impl Scale {
     pub(super) fn of<G: Space<S = f64>>(lap: &mut Lap<'_, G>) -> Self {
         let (breaks, period) = (lap.trajectory.breaks(), lap.period());
         let size = super::lap::tools(&mut lap.trajectory).engine.size_v.clone();
-        let still = |x: &f64| STILL * x;
+        let floor = |x: &f64| STILL * x;
         let mut scale = Self {
-            q: size.iter().map(still).collect(),
-            v: size.iter().map(|x| still(x) * TAU / period).collect(),
+            q: size.iter().map(floor).collect(),
+            v: size.iter().map(|x| floor(x) * TAU / period).collect(),
             z: lap.start.state.z.iter().map(|z| STILL * (1.0 + z.abs())).collect(),
+            moves: 0.0,
         };
+        let floors = [scale.q.clone(), scale.v.clone(), scale.z.clone()];
         for i in 0..=LOOKS {
             let t = lap.start.state.t + period * i as f64 / LOOKS as f64;
             let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
@@ -79,14 +86,20 @@ impl Scale {
             }
             let state = &lap.trajectory.node.state;
             let way = difference(lap.trajectory.phases[0].system.dynamics.mechanism, &lap.start.state.q, &state.q);
-            let grow = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(s, x)| *s = s.max(x.abs()));
-            grow(&mut scale.q, &way);
-            grow(&mut scale.v, &state.v);
             let from = lap.start.state.z.clone();
             let change: Vec<f64> = state.z.iter().zip(&from).map(|(z, start)| z - start).collect();
-            grow(&mut scale.z, &change);
+            let grow = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(s, x)| *s = s.max(x.abs()));
+            for ((to, from), floor) in [&mut scale.q, &mut scale.v, &mut scale.z].into_iter().zip([&way, &state.v, &change]).zip(&floors) {
+                grow(to, from);
+                scale.moves = scale.moves.max(STILL * largest(from, floor));
+            }
         }
         scale
+    }
+
+    /// Whether nothing moves but by round-off.
+    pub(super) fn rests(&self) -> bool {
+        self.moves <= AT_REST
     }
 
     /// Sizes of (δq, δv, δz) with q and v of the velocities `independent`.
