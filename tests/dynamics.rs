@@ -4,6 +4,7 @@ mod agreement;
 mod crank_rocker;
 mod events;
 mod faults;
+mod hits;
 mod switches;
 
 use crate::reference::program::{Run, Table};

@@ -10,6 +10,7 @@ mod elements;
 mod fault;
 mod friction;
 mod graph;
+mod impacts;
 mod particle;
 mod programs;
 mod starts;

@@ -223,6 +223,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "universal-not-crossed",
             "friction-bristle-in-inverse",
             "limits-beyond-at-the-start",
+            "restitution-at-a-stop",
             "no-studies",
             "take-out-of-range",
             "linearize-without-mass",

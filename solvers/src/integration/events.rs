@@ -136,7 +136,9 @@ impl Integration {
                 Some(_) => {}
                 None if !(rough || last) => return Ok(Part::Open),
                 None => {
-                    if !rough {
+                    // what falls from zero, as a joint that begins on its stop, is seen whole
+                    let falls = g[1..].iter().all(|g| *g < 0.0) && self.samples[NODES][root] < 0.0;
+                    if !rough && !falls {
                         self.engine.counts.unresolved += 1;
                         self.unresolved.get_or_insert((root, self.last.state.t));
                         self.noisy[root] = NOISY;

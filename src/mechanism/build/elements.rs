@@ -7,8 +7,7 @@ use super::builder::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::model::{
-    Attraction, AttractionLaw, ClutchLaw, CouplingKind, JointKind, Law, LoadOn, Motion, PointRef, Quantity, REST_SPEED, SpringLaw,
-    SpringOn, Sticking,
+    Attraction, AttractionLaw, ClutchLaw, CouplingKind, JointKind, Law, LoadOn, Motion, PointRef, Quantity, SpringLaw, SpringOn, Sticking,
 };
 use crate::scalar::Scalar;
 
@@ -51,7 +50,7 @@ impl<G: Space> Builder<'_, G> {
     }
 
     /// The gauge of a joint's first coordinate; a fault if it has none.
-    fn coordinate(&mut self, joint: usize, place: &str) -> Option<usize> {
+    pub(super) fn coordinate(&mut self, joint: usize, place: &str) -> Option<usize> {
         let gauge = self.slot(joint, 0);
         if gauge.is_none() {
             let (name, kind) = (&self.model.joints[joint].name, self.shapes[joint].word());
@@ -329,34 +328,6 @@ impl<G: Space> Builder<'_, G> {
         let law = ContactLaw::Friction { effort, holds: self.force.len() - 1, pressing };
         let (place, mode) = (place.to_owned(), sense as usize);
         self.mechanism.contacts.push(Contact { name, place, along, angular, mode, follow: Vec::new(), law });
-    }
-
-    /// Places of impacts: what happens at the zero of an event with a restitution happens as at a rigid stop.
-    pub(super) fn impacts(&mut self) {
-        for (index, event) in self.model.events.iter().enumerate() {
-            let Some(restitution) = &event.restitution else { continue };
-            let Some(gauge) = self.coordinate(restitution.joint, &event.place) else { continue };
-            let positions = self.pool.inputs_of(&[event.when]).iter().all(|input| {
-                let quantity = self.inputs[*input as usize];
-                matches!(self.gauge_of(quantity), Some((_, 0)))
-            });
-            let along = if positions { self.function_of(event.when, &event.place).map(StretchOf::Function) } else { None };
-            let angular = !matches!(self.model.joints[restitution.joint].kind, JointKind::Slider);
-            for sense in [1.0, -1.0] {
-                let stop = Stop {
-                    joint: restitution.joint,
-                    gauge,
-                    along,
-                    event: Some(index),
-                    angular,
-                    at: 0.0,
-                    sense,
-                    restitution: f64::NAN,
-                    rest_speed: REST_SPEED,
-                };
-                self.mechanism.stops.push(stop);
-            }
-        }
     }
 
     fn load(&mut self, index: usize) {

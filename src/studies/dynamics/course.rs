@@ -9,11 +9,14 @@ use super::system::{Mechanical, Met, Watched};
 use super::watch::watched;
 use crate::expression::Id;
 use crate::geometry::Space;
-use crate::model::Model;
+use crate::model::{Crossing, Model};
 use crate::results::{Failure, Happened};
 use crate::studies::common::case::parameters_with;
 use crate::studies::common::observe::Observer;
 use grashof_solvers::{Integration, Node, State, Zeno};
+
+/// Part of the time within which an event before a blow and one behind it are of the same instant.
+const INSTANT: f64 = 1e-9;
 
 /// How a phase has ended.
 pub(super) enum After {
@@ -69,6 +72,8 @@ pub(super) struct Course<'a> {
     /// Contacts whose friction was not determined at some time.
     pub(super) open: Vec<usize>,
     pub(super) begins: Begins,
+    /// When a joint has met a stop last, s.
+    blow: f64,
 }
 
 impl<'a> Course<'a> {
@@ -92,6 +97,7 @@ impl<'a> Course<'a> {
             piles: false,
             open: Vec::new(),
             begins: Begins::Run,
+            blow: f64::NEG_INFINITY,
         }
     }
 
@@ -198,11 +204,27 @@ impl<'a> Course<'a> {
         let state = &run.node().state;
         let system = chart.mechanical();
         let crossed = run.crossed().iter().filter(|r| **r < system.roots.len());
-        let counted: Vec<usize> = crossed.filter_map(|root| system.event_of(*root, state)).collect();
+        let counted: Vec<usize> = crossed.clone().filter_map(|root| system.event_of(*root, state)).collect();
         let t = state.t;
+        if crossed.into_iter().any(|root| system.strikes(*root)) {
+            self.blow = t;
+        }
         system.forget_struck();
+        let counted = self.hits(counted, t);
         self.note(&counted, t);
         counted
+    }
+
+    /// Events without those that a stop has thrown back through zero: a function that is zero at a stop only touches zero there, and rounding
+    /// leads it beyond and back. One hit is one event, however its directions count.
+    pub(super) fn hits(&self, counted: Vec<usize>, t: f64) -> Vec<usize> {
+        let near = INSTANT * t;
+        let touched = |event: &usize| {
+            let event = &self.model.events[*event];
+            let last = self.events.iter().rev().take_while(|e| t - e.at <= near).find(|e| e.name == event.name);
+            event.crossing == Crossing::Both && last.is_some_and(|last| self.blow >= last.at - near)
+        };
+        counted.into_iter().filter(|event| !touched(event)).collect()
     }
 
     /// Notes events by their numbers.

@@ -165,6 +165,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
         // what crosses in the same instant as the event that began this phase
         let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
         if !at_once.is_empty() {
+            let at_once = self.course.hits(at_once, node.state.t);
             self.course.note(&at_once, node.state.t);
             state.copy_from(&node.state);
             if self.course.ends_or_sets(&at_once) {

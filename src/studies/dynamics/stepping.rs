@@ -149,6 +149,7 @@ where
             chart.whole(run.node(), &mut node);
             // what crosses in the same instant as the event before
             let at_once = if first { Vec::new() } else { chart.mechanical().flipped(&state.modes, &node.state.modes) };
+            let at_once = course.hits(at_once, node.state.t);
             course.note(&at_once, node.state.t);
             let mut leg = Leg { phase, chart, run, ended: false };
             if course.ends_or_sets(&at_once) {

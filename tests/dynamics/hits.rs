@@ -1,0 +1,114 @@
+//! Joints on rigid stops and the events that tell of them: a begin at rest, and one event for one hit.
+
+use crate::common::{model, study};
+use grashof::mechanism::Coordinates;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
+use grashof::studies::run::run_in;
+
+/// A ball over a floor that gives back half of its speed.
+fn ball(floor: f64, start: f64, events: &str, dynamics: &str) -> String {
+    format!(
+        "grashof: 1
+name: ball
+space: planar
+gravity: [0, -9.81 m/s^2]
+parameters: {{ count: 0 }}
+bodies: {{ ball: {{ ball: {{ radius: 3 cm, mass: 0.5 kg }} }} }}
+joints: {{ fall: {{ slider: [ground, ball.origin], axis: [0, 1], limits: {{ from: {floor} m, restitution: 0.5 }} }} }}
+start: {{ fall.position: {start} m, fall.velocity: 0 m/s }}
+measures: {{ counted: count }}
+events: {{ {events} }}
+studies:
+  run: {{ dynamics: {{ {dynamics} }}, columns: [time, fall.position, counted] }}
+"
+    )
+}
+
+fn last(outcome: &Outcome) -> Vec<f64> {
+    outcome.rows.last().expect("a row").to_vec()
+}
+
+#[test]
+fn a_joint_that_begins_on_its_stop_is_no_finding() {
+    for floor in [0.0, 0.3, -17.0] {
+        for integrator in ["auto", "radau5", "bdf", "dop853, coordinates: minimal"] {
+            let found =
+                study(&ball(floor, floor, "", &format!("until: 2 s, every: 0.5 s, integrator: {integrator}")), "run", Coordinates::Joint);
+            let told: Vec<&str> = found.findings.iter().map(|f| f.code.as_ref()).collect();
+            assert!(told.is_empty(), "floor at {floor} m, {integrator}: {told:?}");
+            assert_eq!(found.certificate.march.as_ref().map(|m| m.counts.unresolved), Some(0), "{floor}, {integrator}");
+            assert!((last(&found)[1] - floor).abs() < 1e-12, "{floor}, {integrator}: {:?}", last(&found));
+        }
+    }
+}
+
+#[test]
+fn a_bar_that_begins_on_its_stop_beside_a_loop_is_no_finding() {
+    let text = "grashof: 1
+name: four-bar on a stop
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { P: [0, 0], R: [1 m, 0] }
+bodies:
+  crank: { bar: { length: 30 cm, mass: 3 kg } }
+  coupler: { bar: { length: 1 m, mass: 6 kg } }
+  rocker: { bar: { length: 55 cm, mass: 6 kg } }
+joints:
+  O: { revolute: [ground.P, crank.start], limits: { from: 20 deg, restitution: 0.3 } }
+  A: { revolute: [crank.end, coupler.start] }
+  B: { revolute: [coupler.end, rocker.end] }
+  C: { revolute: [ground.R, rocker.start] }
+start: { O.angle: 20 deg, O.omega: 0 rad/s, coupler.angle: ~20 deg, rocker.angle: ~110 deg }
+loads: { press: { joint: O, torque: -20 N m } }
+studies:
+  run: { dynamics: { until: 1 s, every: 0.5 s }, columns: [time, O.angle] }
+";
+    let found = study(text, "run", Coordinates::Joint);
+    assert!(found.findings.iter().all(|f| f.code != "unresolved-condition"), "{:?}", found.findings);
+    assert!((last(&found)[1] - 20.0_f64.to_radians()).abs() < 1e-12, "{:?}", last(&found));
+}
+
+#[test]
+fn one_hit_is_one_event_whatever_directions_count() {
+    // from 0.5 m: hits after 0.3193, 0.6386 and 0.7982 s
+    for (until, hits) in [(0.5, 1), (0.75, 2), (0.79, 2), (0.8, 3)] {
+        for crossing in ["both", "falling"] {
+            for when in ["fall.position", "-fall.position"] {
+                let crossing = if when.starts_with('-') && crossing == "falling" { "rising" } else { crossing };
+                let told = format!("hit: {{ when: {when}, crossing: {crossing} }}");
+                let set = format!("hit: {{ when: {when}, crossing: {crossing}, set: {{ count: count + 1 }} }}");
+                let found = study(&ball(0.0, 0.5, &told, &format!("until: {until} s, every: 0.5 s")), "run", Coordinates::Joint);
+                assert_eq!(found.events.len(), hits, "{told} up to {until} s: {:?}", found.events);
+                let found = study(&ball(0.0, 0.5, &set, &format!("until: {until} s, every: 0.5 s")), "run", Coordinates::Joint);
+                assert_eq!((found.events.len(), last(&found)[2]), (hits, hits as f64), "{set} up to {until} s: {:?}", found.events);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_event_that_the_motion_goes_through_counts_both_ways() {
+    let events = "middle: { when: fall.position - 5 cm, crossing: both }";
+    let found = study(&ball(0.0, 0.5, events, "until: 0.62 s, every: 0.5 s"), "run", Coordinates::Joint);
+    assert_eq!(found.events.len(), 3, "down, up, down: {:?}", found.events);
+}
+
+#[test]
+fn a_stop_and_an_impact_at_one_place_are_refused() {
+    let told = |when: &str| {
+        let text =
+            ball(0.2, 0.5, &format!("floor: {{ when: {when}, crossing: falling, restitution: {{ joint: fall, e: 0.9 }} }}"), "until: 1 s");
+        let model = model(&text, Some("run"));
+        let study = model.study.clone().expect("the study");
+        run_in(Case::new(&model, &study, &parameters(&model)), Coordinates::Joint, &|| false).map(|_| ()).map_err(|why| why.reason())
+    };
+    for when in ["fall.position - 20 cm", "2*(20 cm - fall.position)", "(fall.position/20 cm)^2 - 1"] {
+        let why = told(when).expect_err(when);
+        for word in ["`floor`", "lower stop of joint `fall`", "`restitution`"] {
+            assert!(why.contains(word), "no {word} in: {why}");
+        }
+    }
+    // another place is met before the stop
+    assert_eq!(told("fall.position - 21 cm"), Ok(()));
+}
