@@ -283,3 +283,30 @@ studies: {{ run: {{ {kind} }} }}
         told(&run, 3, &[word, "cannot be found"]);
     }
 }
+
+#[test]
+fn a_motor_without_a_load_is_told_to_run_away() {
+    let wheel = |torque: &str, dynamics: &str| {
+        run(&format!(
+            "gravity: [0, -9.81 m/s^2]
+bodies: {{ wheel: {{ bar: {{ length: 10 cm, mass: 1 kg }} }} }}
+joints: {{ O: {{ revolute: [ground, wheel.start] }} }}
+loads: {{ drive: {{ joint: O, torque: {torque} }} }}
+start: {{ O.angle: 0 deg, O.omega: 0 rad/s }}
+studies:
+  run: {{ dynamics: {{ {dynamics} }}, columns: [time, O.omega] }}
+"
+        ))
+    };
+    // too many turns, and speeds without bound
+    for (torque, dynamics) in [("5 N m", "until: 1e6 s, every: 1e5 s"), ("1 N m + 1 N m s/rad*O.omega", "until: 100 s, every: 10 s")] {
+        let found = wheel(torque, dynamics);
+        told(&found, 3, &["`O.angle` turns with", "faster all the time", "without a load", "`damping`"]);
+        for word in ["in the units that were meant", "is not a number", "force jumps"] {
+            assert!(!found.stderr.contains(word), "{word} in:\n{}", found.stderr);
+        }
+    }
+    // a wheel whose speed settles and whose load breaks down does not run away
+    let broken = wheel("\"if(O.angle < 2000, 1 N m - 0.1 N m s/rad*O.omega, sqrt(-1)*1 N m)\"", "until: 1e3 s, every: 100 s");
+    assert!(!broken.stderr.contains("faster"), "{}", broken.stderr);
+}

@@ -9,6 +9,7 @@ use super::explain;
 use super::pace::Pace;
 use super::phases::Phases;
 use super::rows::Rows;
+use super::runaway;
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
@@ -180,7 +181,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
                 Ok(progress) => progress,
                 Err(halt) => {
                     self.undefined = self.gap(&mut chart, &run, halt.t);
-                    break After::Stopped(self.explain(phase, &mut chart, &mut run, &halt));
+                    break After::Stopped(self.explain(phase, &mut chart, &mut run, (&node.state, &halt)));
                 }
             };
             let happened = matches!(progress, Progress::Event | Progress::Stopped);
@@ -190,7 +191,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
                 break After::Done;
             }
             if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
-                break After::Stopped(explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, &halt));
+                break After::Stopped(self.explain(phase, &mut chart, &mut run, (&last.state, &halt)));
             }
             if self.balance.step(chart.mechanical(), &node, self.plan.until)
                 && let Some(why) = contradiction::explain(chart.mechanical(), phase.start.size, node.state.t)
@@ -240,7 +241,11 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
     }
 
     /// Why a run cannot go on, with the joints and drivers that lock.
-    fn explain(&self, phase: &Phases<G>, chart: &mut Charted<'m, G>, run: &mut Integration, halt: &Halt) -> String {
+    fn explain(&self, phase: &Phases<G>, chart: &mut Charted<'m, G>, run: &mut Integration, (state, halt): (&State, &Halt)) -> String {
+        let faster = runaway::faster(self.model, phase, state).filter(|_| self.undefined.is_none());
+        if let Some(why) = faster.and_then(|faster| runaway::explain(&faster, halt)) {
+            return why;
+        }
         let locked = if chart.is_whole() { explain::locked(&phase.mechanism, halt, &run.dependence(chart.system())) } else { None };
         locked.unwrap_or_else(|| explain::halt(self.model, &phase.mechanism, chart.mechanical(), self.plan, halt))
     }

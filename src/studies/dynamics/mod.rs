@@ -13,6 +13,7 @@ pub(crate) mod march;
 mod pace;
 pub(crate) mod phases;
 pub(crate) mod rows;
+mod runaway;
 pub(crate) mod setup;
 pub(crate) mod stepping;
 pub(crate) mod system;

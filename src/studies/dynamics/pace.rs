@@ -5,6 +5,7 @@
 //! are more than could be kept, it stops and says what is so fast. Fixed steps are as many as the user has asked for.
 
 use super::phases::Phases;
+use super::runaway::{HOLD, faster};
 use super::setup::Plan;
 use crate::dynamics::{Linearizer, Point};
 use crate::geometry::Space;
@@ -79,6 +80,9 @@ impl Slow {
             }
             Self::Memory(count) => (count, format!("{count} steps fill the memory that a run may take")),
         };
+        if let Some(faster) = faster(model, phase, &node.state) {
+            return format!("at t = {t:.3e} s {faster}, so that its steps become ever shorter ({why}): {HOLD}");
+        }
         let fastest = fastest(model, phase, node);
         let what = fastest.as_ref().map_or_else(String::new, |(names, value)| format!(": {names} {}", pace_of(*value)));
         let stiff = fastest.is_some_and(|(_, value)| value.re < -value.im.abs());
