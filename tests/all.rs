@@ -21,6 +21,7 @@ mod face;
 mod figures;
 mod frames;
 mod friction;
+mod full_turn;
 mod functions;
 mod hand_written;
 mod impulses;

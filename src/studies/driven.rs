@@ -11,6 +11,7 @@ use super::common::observe::Observer;
 use super::common::recorder::{Recorded, Recorder};
 use super::common::watched::{Watched, in_variable, unresolved};
 use super::common::{scene, stops};
+use super::full_turn::turns_fully;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
@@ -176,9 +177,9 @@ fn observe<G: Space<S = f64>>(
     };
     let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
     stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
-    let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion)).collect();
-    findings.extend(open);
     let unit = unit(mechanism, clock);
+    let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion, &name, unit)).collect();
+    findings.extend(open);
     findings.extend(jumps(case, &mut motion, &name, unit));
     findings.extend(backwards(case, &motion, &name, unit));
     findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
@@ -188,28 +189,29 @@ fn observe<G: Space<S = f64>>(
         let at = clock.value(motion.ends[1]);
         if let Some((driver, [before, after])) = law_that_jumps(&mut motion) {
             return format!(
-                "the law of the driver `{driver}` jumps at {name} = {at:.6}, from {} to {} (SI): what is driven has to get from one place to the other",
+                "the law of the driver `{driver}` jumps at {name} = {:.6} {}, from {} to {} (SI): what is driven has to get from one place to the other",
+                at * unit.0,
+                unit.1,
                 short(before),
                 short(after)
             );
         }
         if let Some(row) = motion.path.open {
             return format!(
-                "{name} cannot go beyond {at:.6}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
+                "{name} cannot go beyond {:.6} {}: the constraints contradict each other there, {} cannot be met with the others; drivers and couplings that hold the same motion must agree at all times, remove one of them",
+                at * unit.0,
+                unit.1,
                 mechanism.name_of_row(row)
             );
         }
         let mover = if mechanism.drives.is_empty() { "coupling" } else { "driver" };
         format!(
-            "{name} cannot go beyond {:.6} {} nor below {:.6} {}: dead point, the links are in a line there and the {mover} cannot move them on",
-            at.max(clock.value(motion.ends[0])) * unit.0,
-            unit.1,
-            at.min(clock.value(motion.ends[0])) * unit.0,
-            unit.1
+            "{}: dead point, the links are in a line there and the {mover} cannot move them on",
+            reach(&motion, &name, unit)
         )
     });
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
-        results.push(if complete && undefined.is_none() { 1.0 } else { 0.0 });
+        results.push(turns_fully(case, mechanism, start, clock, complete && undefined.is_none()));
     }
     let sources = Sources { case, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
     let numbers = sources.numbers(undefined.is_none());
@@ -300,8 +302,34 @@ fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock
     measure.map_or_else(|| format!("{}.{word}", joint.name), |m| m.name.clone())
 }
 
+/// How far the independent variable goes, in words, from its start to the dead points.
+fn reach<G: Space<S = f64>>(motion: &Motion<'_, G>, name: &str, (size, unit): (f64, &str)) -> String {
+    let (clock, from) = (motion.clock, motion.clock.value(0.0));
+    let dead = dead_ends(motion).into_iter().map(|end| clock.value(end));
+    let [above, below]: [Option<f64>; 2] = [1.0, -1.0].map(|sense| dead.clone().find(|x| sense * (x - from) > 0.0));
+    let [far, near] = [above, below].map(|end| end.map(|x| if clock.is_driver() { x * size } else { x.abs() }));
+    match (far, near, clock.is_driver()) {
+        (Some(far), Some(near), true) => format!("{name} cannot go beyond {far:.6} {unit} nor below {near:.6} {unit}"),
+        (Some(far), Some(near), false) => {
+            format!("{name} cannot go beyond {far:.6} {unit}, nor the motion back from its start for more than {near:.6} {unit}")
+        }
+        (Some(far), None, _) => format!("{name} cannot go beyond {far:.6} {unit}"),
+        (None, Some(near), true) => format!("{name} cannot go below {near:.6} {unit}"),
+        (None, Some(near), false) => format!("the motion cannot go back from its start for more than {near:.6} {unit}"),
+        (None, None, _) => format!("{name} cannot leave its start at {:.6} {unit}", from * size),
+    }
+}
+
+/// Progress at the dead points: ahead, and back from the start.
+fn dead_ends<G: Space<S = f64>>(motion: &Motion<'_, G>) -> Vec<f64> {
+    let dead = &motion.path.dead;
+    let [ahead, behind] = if motion.clock.end() < 0.0 { [&dead[0], &dead[1]] } else { [&dead[1], &dead[0]] };
+    let end = |dead: &Option<_>, side: usize| dead.is_some().then(|| motion.ends[side]);
+    [end(ahead, 1), end(behind, 0)].into_iter().flatten().collect()
+}
+
 /// What the motion itself shows: change points on the way.
-fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>) -> Vec<Finding> {
+fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>, name: &str, (size, unit): (f64, &str)) -> Vec<Finding> {
     let mut out = Vec::new();
     if mechanism.rows.len() > mechanism.nv {
         out.push(Finding {
@@ -314,12 +342,19 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>)
             path: "joints".into(),
         });
     }
-    if let (Some(t), None) = (motion.path.dead.iter().flatten().next(), motion.path.open) {
-        out.push(Finding {
-            code: "dead-point".into(),
-            message: format!("the motion ends at a dead point at t = {} s", t.0),
-            path: "drivers".into(),
-        });
+    if motion.path.open.is_none() {
+        let (clock, with) = (motion.clock, if motion.clock.end() < 0.0 { -1.0 } else { 1.0 });
+        out.extend(dead_ends(motion).into_iter().map(|end| {
+            let value = clock.value(end);
+            let place = match (clock.is_driver(), value < 0.0) {
+                (true, _) => format!("at {name} = {:.6} {unit}", value * size),
+                (false, false) => format!("{value:.6} {unit} after the start"),
+                (false, true) => format!("{:.6} {unit} before the start", -value),
+            };
+            let way = if with * end > 0.0 { "on the way of the drivers" } else { "against the way of the drivers" };
+            let message = format!("{way} the motion ends at a dead point, {place}");
+            Finding { code: "dead-point".into(), message, path: "drivers".into() }
+        }));
     }
     out
 }

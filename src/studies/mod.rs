@@ -8,6 +8,7 @@ pub mod common;
 pub mod compare;
 pub(crate) mod driven;
 pub mod dynamics;
+mod full_turn;
 pub mod grid;
 pub mod integrators;
 mod linearize;

@@ -316,7 +316,9 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
     // results that no run has although its kind gives lists, as the frequency of a mode that is not there, are left out
     let lists = outcomes.iter().flatten().any(|o| !o.lists.is_empty());
     let has = |i: usize| outcomes.iter().flatten().any(|o| o.results.get(i).is_some_and(|x| !x.is_nan()));
-    for (i, result) in study.results.iter().enumerate().filter(|(i, _)| !lists || has(*i)) {
+    // nor is a turn told where nothing turns
+    let turns = |i: usize| study.results[i].name != "turns_fully" || has(i) || outcomes.is_empty() || outcomes.iter().any(Option::is_none);
+    for (i, result) in study.results.iter().enumerate().filter(|(i, _)| (!lists || has(*i)) && turns(*i)) {
         // a range that could not be begun is not a full turn
         let none = if result.name == "turns_fully" { 0.0 } else { f64::NAN };
         columns.push(named::column(model, &result.name, result.dimension, of(&|o| o.results.get(i).copied(), none)));

@@ -129,8 +129,9 @@ pub(crate) fn plots(model: &Model, study: &Study) -> Vec<Plot> {
 /// Those taken from other studies, those of the kind that are there, those of the file.
 fn scalars(model: &Model, study: &Study, outcome: &Outcome) -> Vec<Scalar> {
     let taken = study.take.iter().map(|t| scalar(model, &t.name, t.dimension, t.value, By::Study));
-    // a kind may name results that this mechanism does not have, as the frequency of a mode
-    let present = study.results.iter().zip(&outcome.results).filter(|(_, value)| outcome.lists.is_empty() || !value.is_nan());
+    // a kind may name results that this mechanism does not have, as the frequency of a mode, or a turn where nothing turns
+    let own = |name: &str| outcome.lists.is_empty() && name != "turns_fully";
+    let present = study.results.iter().zip(&outcome.results).filter(|(r, value)| own(&r.name) || !value.is_nan());
     let of_kind = present.map(|(r, value)| scalar(model, &r.name, r.dimension, *value, By::Kind));
     let own = study.scalars.iter().zip(&outcome.scalars).map(|(s, value)| {
         let (quantity, shown_in) = told(model, study, s.dimension, s.value);
