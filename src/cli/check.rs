@@ -1,9 +1,10 @@
 //! `grashof check`: a look at a model before it moves.
 
 use super::{Common, code, files, print_out};
-use grashof::expression::parse_unit;
+use grashof::expression::{Id, Node, parse_unit};
+use grashof::kinematics::mobility::Grashof;
 use grashof::kinematics::survey::{Survey, survey};
-use grashof::model::{Document, Kind, Model};
+use grashof::model::{Document, Kind, Model, Quantity};
 use grashof::output::{json_number, json_numbers};
 use grashof::studies::common::case::parameters;
 use grashof::studies::loader::quickly;
@@ -40,7 +41,7 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     findings.extend(remarks(&survey, model.drivers.len()));
     findings.extend(document.study_names().iter().filter_map(|study| hindered(&document, study, common)));
     if arguments.json {
-        let mut all = as_json(&model.name, &survey, &findings);
+        let mut all = as_json(&model, &survey, &findings);
         all["notes"] = document.notes().into();
         print_out(&serde_json::to_string_pretty(&all).unwrap_or_default());
     } else {
@@ -110,7 +111,12 @@ impl<'m> In<'m> {
     fn of(model: &'m Model, si: &'m str) -> Self {
         let dimension = parse_unit(si).map(|(_, dimension)| dimension);
         let asked = dimension.and_then(|dimension| model.units.iter().find(|unit| unit.dimension.is_shown_as(dimension)));
-        asked.map_or(Self { unit: si, size: 1.0 }, |asked| Self { unit: &asked.name, size: asked.size })
+        match asked {
+            Some(asked) => Self { unit: &asked.name, size: asked.size },
+            // as in all messages
+            None if si == "rad" => Self { unit: "deg", size: std::f64::consts::PI / 180.0 },
+            None => Self { unit: si, size: 1.0 },
+        }
     }
 
     fn number(&self, x: f64) -> String {
@@ -158,14 +164,7 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
         print_out("\nfour-bar");
         print_out(&format!("  Grashof class             {}", g.class));
         print_out(&format!("  {:<25} {}", format!("links [{}]", length_in.unit), lengths.join(", ")));
-        print_out(&match g.range {
-            None => "  range of the input        full turn".to_string(),
-            Some((a, b)) => format!(
-                "  range of the input        {} to {} deg from the line of the ground pivots, to either side",
-                short(a.to_degrees()),
-                short(b.to_degrees())
-            ),
-        });
+        print_out(&format!("  range of the input        {}", range_of_the_input(model, g)));
     }
     if !survey.start.is_empty() {
         print_out("\nstart                        asked            found");
@@ -189,6 +188,41 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
     }
 }
 
+/// The range of a four-bar's input, in the measure of the user that follows it, else in the angle of its joint.
+fn range_of_the_input(model: &Model, grashof: &Grashof) -> String {
+    if grashof.angles.is_empty() {
+        return "full turn".to_owned();
+    }
+    let values = parameters(model);
+    let measured = model.measures.iter().filter(|m| m.dimension.is_angle()).find_map(|m| {
+        let (slope, offset) = along(model, &values, m.value, grashof.input)?;
+        (slope.abs() == 1.0).then_some((m.name.clone(), slope, offset))
+    });
+    let (name, slope, offset) = measured.unwrap_or_else(|| (format!("{}.angle", model.joints[grashof.input].name), 1.0, 0.0));
+    let angle_in = In::of(model, "rad");
+    let mut ranges: Vec<[f64; 2]> = grashof.angles.iter().map(|range| range.map(|x| slope * x + offset)).collect();
+    ranges.iter_mut().for_each(|range| range.sort_by(f64::total_cmp));
+    let told: Vec<String> = ranges.iter().map(|[a, b]| format!("{} to {}", angle_in.number(*a), angle_in.number(*b))).collect();
+    format!("{name} {} {}", told.join(" or "), angle_in.unit)
+}
+
+/// Slope and offset of an expression that is a linear function of the angle of a joint alone.
+fn along(model: &Model, values: &[f64], id: Id, joint: usize) -> Option<(f64, f64)> {
+    let of = |id: Id| along(model, values, id, joint);
+    match model.pool.node(id) {
+        Node::Const(_) | Node::Parameter(_) => Some((0.0, model.pool.value(id, values))),
+        Node::Input(i) => match model.inputs[i as usize] {
+            Quantity::Joint { joint: j, slot: 0, order: 0 } if j == joint => Some((1.0, 0.0)),
+            Quantity::Angle { body, order: 0 } if model.joints[joint].a.body == 0 && model.joints[joint].b.body == body => Some((1.0, 0.0)),
+            _ => None,
+        },
+        Node::Neg(a) => of(a).map(|(slope, offset)| (-slope, -offset)),
+        Node::Add(a, b) => of(a).zip(of(b)).map(|(a, b)| (a.0 + b.0, a.1 + b.1)),
+        Node::Sub(a, b) => of(a).zip(of(b)).map(|(a, b)| (a.0 - b.0, a.1 - b.1)),
+        _ => None,
+    }
+}
+
 /// `1 study`, `2 studies`.
 fn counted(n: usize, one: &str, more: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { more })
@@ -202,10 +236,10 @@ fn print_notes(notes: &[String]) {
     }
 }
 
-fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
+fn as_json(model: &Model, survey: &Survey, findings: &[String]) -> Value {
     let m = &survey.mobility;
     json!({
-        "name": name,
+        "name": model.name,
         "bodies": survey.bodies.iter().map(|(name, mass, com, inertia)| json!({
             "name": name, "mass": json_number(*mass), "com": json_numbers(com), "inertia": json_numbers(inertia),
         })).collect::<Vec<_>>(),
@@ -225,6 +259,8 @@ fn as_json(name: &str, survey: &Survey, findings: &[String]) -> Value {
             "class": g.class,
             "links": g.links.iter().map(|(n, l)| json!({ "name": n, "length": json_number(*l) })).collect::<Vec<_>>(),
             "range": g.range.map(|(a, b)| json_numbers(&[a, b])),
+            "input": model.joints[g.input].name,
+            "angles": g.angles.iter().map(|range| json_numbers(range)).collect::<Vec<_>>(),
         })),
         "start": survey.start.iter().map(|f| json!({
             "name": f.name, "guess": f.guess, "asked": json_number(f.asked), "found": json_number(f.found),

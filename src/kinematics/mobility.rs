@@ -7,6 +7,7 @@ use crate::mechanism::{Mechanism, RowOwner};
 use crate::model::{Kind, Model, Study};
 use crate::results::Failure;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
+use std::f64::consts::{PI, TAU};
 
 /// The mobility of a mechanism at its start.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,6 +126,21 @@ pub struct Grashof {
     pub links: [(String, f64); 4],
     /// Range of the input angle from the ground line, rad; none if it turns fully.
     pub range: Option<(f64, f64)>,
+    /// The joint of the input, by its index.
+    pub input: usize,
+    /// The ranges of that joint's angle, rad: one through the line of the pivots, or one on either side of it; none if it turns fully.
+    pub angles: Vec<[f64; 2]>,
+}
+
+impl Grashof {
+    /// Counts the turns of the ranges so that they are those next to an angle, rad.
+    pub(super) fn near(&mut self, angle: f64) {
+        for [from, to] in &mut self.angles {
+            let turns = TAU * ((angle - 0.5 * (*from + *to)) / TAU).round();
+            (*from, *to) = (*from + turns, *to + turns);
+        }
+        self.angles.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
 }
 
 /// The class of a planar four-bar of revolute joints, its driven link as the input; none for any other mechanism.
@@ -178,5 +194,20 @@ pub fn grashof<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Option<Grashof> {
     let (near, far) = (cosine((b - c).abs()), cosine(b + c));
     let full = near >= 1.0 - 1e-12 && far <= -1.0 + 1e-12;
     let range = (!full).then(|| (near.clamp(-1.0, 1.0).acos(), far.clamp(-1.0, 1.0).acos()));
-    Some(Grashof { class, links, range })
+    // the line of the ground pivots in the world, that of the input in its body
+    let between = |body: usize, joints: [usize; 2]| {
+        let d = point(joints[1], body) - point(joints[0], body);
+        G::component(d, 1).atan2(G::component(d, 0))
+    };
+    let far_joint = of(input).into_iter().find(|j| *j != input_joint)?;
+    let line = between(0, [input_joint, output_joint]) - between(input, [input_joint, far_joint]);
+    let sense = if m.joints[input_joint].a.0 == 0 { 1.0 } else { -1.0 };
+    let sides = match range {
+        None => vec![],
+        Some((0.0, far)) => vec![[line - far, line + far]],
+        Some((near, far)) if far >= PI => vec![[line + near, line + TAU - near]],
+        Some((near, far)) => vec![[line + near, line + far], [line - far, line - near]],
+    };
+    let angles = sides.into_iter().map(|[a, b]| if sense > 0.0 { [a, b] } else { [-b, -a] }).collect();
+    Some(Grashof { class, links, range, input: input_joint, angles })
 }

@@ -4,6 +4,7 @@ use super::assemble::Found;
 use super::held::settled;
 use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
 use super::undefined::{assembled, in_state};
+use crate::dynamics::Dynamics;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, describe_loop};
 use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
@@ -78,7 +79,13 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         loops: m.joints.iter().filter(|j| j.tree.is_none()).map(|j| describe_loop(m, j)).collect(),
         sizes: (m.nq, m.nv, m.rows.len()),
         mobility: mobility(m, &start),
-        grashof: grashof(m),
+        grashof: grashof(m).map(|mut found| {
+            let mut dynamics = Dynamics::new(m);
+            dynamics.time(0.0, &modes);
+            dynamics.position(&start.q, &modes);
+            found.near(dynamics.work.readings[m.joints[found.input].slots[0]].x);
+            found
+        }),
         lengths: m
             .joints
             .iter()

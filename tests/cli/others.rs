@@ -210,6 +210,60 @@ fn check_tells_what_a_model_is() {
     assert!(place.run(&["check", "model.yaml", "--set", "l3=5"]).ends(2).stderr.contains("cannot be assembled"));
 }
 
+#[test]
+fn check_tells_angles_as_the_user_measures_them() {
+    let place = Place::new("check-angles");
+    let text = |joint: &str, measures: &str, units: &str| {
+        format!(
+            "grashof: 1
+name: three rockers
+space: planar
+gravity: none
+{units}
+ground: {{ P: [0, 0], R: [600 mm, 300 mm] }}
+bodies:
+  crank: {{ bar: {{ length: 300 mm, mass: 1 kg }} }}
+  coupler: {{ bar: {{ length: 300 mm, mass: 1 kg }} }}
+  rocker: {{ bar: {{ length: 300 mm, mass: 1 kg }} }}
+joints:
+  O: {{ revolute: {joint} }}
+  A: {{ revolute: [crank.end, coupler.start] }}
+  C: {{ revolute: [ground.R, rocker.start] }}
+  B: {{ revolute: [coupler.end, rocker.end] }}
+drivers: {{ turn: {{ joint: O, speed: 60 rpm }} }}
+measures: {{ {measures} }}
+start: {{ crank.angle: 30 deg, coupler.angle: ~33 deg, rocker.angle: ~120 deg }}
+studies:
+  part: {{ kinematics: {{ over: 10 deg, samples: 2 }} }}
+"
+        )
+    };
+    let along = "[ground.P, crank.start]";
+    // the line of the pivots stands at 26.565 deg, and the crank goes 63.435 deg to either side of it
+    for (joint, measures, units, range) in [
+        (along, "", "", "O.angle -36.869898 to 90 deg"),
+        (along, "theta: O.angle", "", "theta -36.869898 to 90 deg"),
+        (along, "path: crank.end.x, theta: crank.angle", "units: [mm, deg]", "theta -36.869898 to 90 deg"),
+        (along, "phi: 90 deg - O.angle", "", "phi 0 to 126.8699 deg"),
+        (along, "theta: O.angle", "units: [rad]", "theta -0.64350111 to 1.5707963 rad"),
+        ("[crank.start, ground.P]", "", "", "O.angle -90 to 36.869898 deg"),
+    ] {
+        place.put("model.yaml", &text(joint, measures, units));
+        let done = place.run(&["check", "model.yaml"]).ends(0);
+        let line = format!("range of the input        {range}");
+        assert!(done.stdout.contains(&line), "no `{line}` in:\n{}", done.stdout);
+        let start = if units.contains("rad") { "0.52359878 rad" } else { "30 deg" };
+        assert!(done.stdout.contains(start), "no `{start}` in:\n{}", done.stdout);
+    }
+    // a crank that cannot pass the line of the pivots on its far side, or on either
+    place.put("model.yaml", &text(along, "", "").replace("crank: { bar: { length: 300 mm", "crank: { bar: { length: 450 mm"));
+    let done = place.run(&["check", "model.yaml"]).ends(0);
+    let json = place.run(&["check", "model.yaml", "--json"]).ends(0).json();
+    assert_eq!(json["grashof"]["input"], "O");
+    let ranges = json["grashof"]["angles"].as_array().unwrap().len();
+    assert_eq!(done.stdout.contains(" or "), ranges == 2, "{}", done.stdout);
+}
+
 /// A finding for whatever would keep a study from its first row, and none where it would run.
 #[test]
 fn check_begins_the_studies() {
