@@ -201,6 +201,8 @@ impl Shapes<'_> {
             unknown.extend(glued.map(|(name, _)| table.field(name).map(|f| f.key)));
         }
         let mut present: Vec<&'static str> = Vec::new();
+        // the fault of the first key that is like none of the table
+        let mut strange: Option<usize> = None;
         self.each(node, at, &cut, |shapes, key, value| {
             let here = at.key(key);
             match table.field(key) {
@@ -219,6 +221,9 @@ impl Shapes<'_> {
                     let fault = shapes.fault("unknown-key", &here, format!("unknown key `{}`", clip(key)), expected);
                     fault.spot = Spot::Key;
                     fault.help = help;
+                    if near.is_none() {
+                        strange.get_or_insert(shapes.faults.len() - 1);
+                    }
                 }
             }
         });
@@ -229,7 +234,16 @@ impl Shapes<'_> {
         let included = |key: &str| self.over && key == "bodies" && std::ptr::eq(table, &FILE);
         let missing: Vec<_> =
             table.fields.iter().filter(|f| f.required && !present.contains(&f.key) && !meant(f.key) && !included(f.key)).collect();
+        // a strange key where one is missing: one mistake; a section of the file stands for itself
+        let mut strange = strange.filter(|_| !std::ptr::eq(table, &FILE));
+        let alone = missing.len() == 1;
         for field in missing {
+            if let Some(strange) = strange.take_if(|_| alone) {
+                let fault = &mut self.faults[strange];
+                fault.expected = format!("`{}`, which is missing in {}", field.key, table.what);
+                fault.help = Some(format!("write `{}:` in its place {}", field.key, lower_first(field.doc)));
+                continue;
+            }
             let fault = self.fault("missing-key", at, format!("`{}` is missing in {}", field.key, table.what), field.shape.expected());
             fault.spot = Spot::Key;
             fault.help = Some(format!("add `{}:` {}", field.key, lower_first(field.doc)));
@@ -237,7 +251,12 @@ impl Shapes<'_> {
         for choice in table.choices {
             let found: Vec<&str> = present.iter().copied().filter(|key| choice.keys.contains(key)).collect();
             let list = || suggest::known(choice.keys.iter().copied()).unwrap_or_default();
-            if found.is_empty() && choice.required && !choice.keys.iter().any(|key| meant(key)) {
+            let lacks = found.is_empty() && choice.required && !choice.keys.iter().any(|key| meant(key));
+            if let Some(strange) = strange.take_if(|_| lacks) {
+                let fault = &mut self.faults[strange];
+                fault.expected = format!("one of {}, of which {} needs one", list(), table.what);
+                fault.help = choice.keys.first().map(|key| format!("write one of them in its place, for example `{key}: ...`"));
+            } else if lacks {
                 let fault = self.fault("missing-key", at, format!("{} needs one more key", table.what), format!("one of {}", list()));
                 fault.spot = Spot::Key;
                 fault.help = choice.keys.first().map(|key| format!("add one of them, for example `{key}: ...`"));

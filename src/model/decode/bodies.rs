@@ -369,8 +369,14 @@ impl<'n> Decoder<'n> {
                     let rest = &text[body.len()..];
                     let near = suggest::nearest(body, bodies.iter().copied()).map(|near| format!("did you mean `{near}{rest}`?"));
                     let list = suggest::known(bodies.iter().copied()).unwrap_or_default();
+                    // a point without its body
+                    let mut owners = self.name_space.model.bodies.iter().filter(|b| b.points.iter().any(|p| p.name == text));
+                    let owner = match (owners.next(), owners.next()) {
+                        (Some(owner), None) => Some(format!("did you mean `{}.{text}`?", owner.name)),
+                        _ => None,
+                    };
                     let message = is.unwrap_or_else(|| format!("unknown body `{}`", clip(body)));
-                    self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help = near;
+                    self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help = owner.or(near);
                     return None;
                 }
             }
