@@ -124,24 +124,38 @@ bodies: { bar: { bar: { length: 1 m, mass: 1 kg } } }
 joints: { J: { revolute: [ground, bar.start] } }
 loads: { push: { joint: J, torque: 1 N m } }
 start: { J.angle: 0 deg, J.omega: 0 }
-measures: { load: 1 N m, lost: energy.total - energy.kinetic }
+measures: { load: 1 N m, lost: energy.total - energy.kinetic, half: J.angle/2, more: 2*energy.kinetic - 1 J, per_angle: energy.kinetic/J.angle, per_half: energy.total/half, part: energy.total*J.angle/half }
 studies:
   swing:
     dynamics: { until: 0.1 s }
-    columns: [time, energy.kinetic, lost, load, J.m]
-    scalars: { most: max(energy.total), done: work_loads, largest: max(load), put_in: integral(load*J.omega) }
+    columns: [time, energy.kinetic, lost, load, J.m, more, per_angle, per_half, part]
+    undefined: [per_angle, per_half, part]
+    scalars: { most: max(energy.total), done: work_loads, largest: max(load), put_in: integral(load*J.omega), by_angle: max(energy.total)/max(abs(half)), of_mean: sqrt(mean(energy.total)*work_loads) }
 ";
     let model = common::model(text, Some("swing"));
     let study = model.study.clone().expect("the study");
     let results = named(&model, &study, common::study(text, "swing", Coordinates::Joint));
     let told = |quantity: &str, unit: &str| format!("{quantity} in {unit}");
     let columns: Vec<String> = results.table.columns.iter().map(|c| told(&c.quantity, c.shown().0)).collect();
-    assert_eq!(columns, ["time in s", "energy in J", "energy in J", "torque in N m", "torque in N m"]);
+    assert_eq!(
+        columns,
+        [
+            "time in s",
+            "energy in J",
+            "energy in J",
+            "torque in N m",
+            "torque in N m",
+            "energy in J",
+            "torque in N m",
+            "torque in N m",
+            "energy in J"
+        ]
+    );
     let scalars: Vec<String> = results
         .scalars
         .iter()
         .filter(|s| s.by == By::File)
         .map(|s| told(&s.quantity, s.shown_in.as_ref().map_or(&s.unit, |u| &u.unit)))
         .collect();
-    assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m", "energy in J"]);
+    assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m", "energy in J", "torque in N m", "energy in J"]);
 }

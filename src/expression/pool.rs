@@ -305,7 +305,8 @@ impl Pool {
     }
 
     /// Everything that `ids` are computed from, themselves included, in order of evaluation.
-    pub(super) fn reach(&self, ids: &[Id]) -> Vec<Id> {
+    #[must_use]
+    pub fn reach(&self, ids: &[Id]) -> Vec<Id> {
         // operands have smaller ids: downwards from the largest, what is met more than once comes in a row
         let mut left: BinaryHeap<Id> = ids.iter().copied().collect();
         let mut all = Vec::new();

@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod clock;
+mod energies;
 pub(crate) mod functional;
 pub mod motion;
 pub mod named;

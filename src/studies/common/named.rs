@@ -1,10 +1,11 @@
 //! An outcome with names: the [`Results`] of one run.
 
+use super::energies::is_energy;
 use super::outcome::Outcome;
 use super::scene::{beyond, fill_arrows};
 use super::watched::{extra_curves, of_pictures};
 use crate::expression::{Dimension, Id, parse_unit};
-use crate::model::{self, Functional, FunctionalKind, Kind, Model, Quantity, Shown, ShownWhat, Study};
+use crate::model::{self, Kind, Model, Shown, ShownWhat, Study};
 use crate::results::{By, Column, LinearSystem, Plot, PlotAxis, PlotBeside, PlotRight, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
@@ -65,20 +66,6 @@ fn told(model: &Model, study: &Study, dimension: Dimension, value: Id) -> (Strin
         return ("energy".into(), asked.or_else(|| Some(ShownIn { unit: "J".into(), size: 1.0 })));
     }
     (dimension.quantity().into(), asked)
-}
-
-/// Whether a value is made of energies, works or integrals that are one, and has their dimension.
-fn is_energy(model: &Model, study: &Study, dimension: Dimension, value: Id) -> bool {
-    let mut leaves = model.pool.inputs_of(&[value]).into_iter().map(|i| model.inputs[i as usize]);
-    dimension == Dimension::ENERGY
-        && leaves.any(|leaf| match leaf {
-            Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. } | Quantity::Work(_) => true,
-            Quantity::Functional(k) => {
-                let Functional { kind, of, dimension: own, .. } = &study.functionals[k];
-                *kind == FunctionalKind::Integral && *own == Dimension::ENERGY || is_energy(model, study, *own, *of)
-            }
-            _ => false,
-        })
 }
 
 /// The unit in which the model asks to show numbers of a dimension.
