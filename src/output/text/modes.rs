@@ -1,12 +1,14 @@
 //! Modes in a table, with what the methods have spent and what there is to say.
 
 use crate::results::{Column, Results, number};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Coordinates that count in the printed shape, of the largest one.
 const PART: f64 = 0.1;
 /// Coordinates that are printed of a shape.
 const PARTS: usize = 4;
+/// Sine of a phase that is rounding.
+const REAL: f64 = 1e-6;
 /// Columns of the table that are numbers of a mode.
 const NUMBERS: [&str; 5] = ["eigenvalue_real", "eigenvalue_imaginary", "eigenvalue", "frequency", "damping_ratio"];
 
@@ -49,17 +51,58 @@ fn methods(results: &Results) -> String {
     if lines.is_empty() { String::new() } else { format!("  {}\n", lines.join("; ")) }
 }
 
-/// The coordinates that move most in a shape, the largest first; of the largest one 1.
+/// The coordinates that move most in a shape, the largest first, as parts of it: with a sign where all of them are in phase or opposite,
+/// else with the angle, in degrees, by which each is ahead of the largest.
 fn parts(shape: &[(String, f64)]) -> String {
     let mut parts: Vec<&(String, f64)> = shape.iter().filter(|(name, _)| !name.ends_with(".phase")).collect();
     parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-    let Some(largest) = parts.first().map(|p| p.1) else { return String::new() };
-    let shown = parts.iter().filter(|p| p.1.abs() >= PART * largest.abs()).take(PARTS);
-    shown.map(|(name, x)| format!("{name} {}", digits(x / largest, 3))).collect::<Vec<_>>().join(", ")
+    let Some((first, largest)) = parts.first().copied() else { return String::new() };
+    let phase = |of: &str| shape.iter().find(|(name, _)| name.strip_suffix(".phase") == Some(of)).map_or(0.0, |(_, phase)| *phase);
+    let shown: Vec<(&str, f64, f64)> = parts
+        .iter()
+        .filter(|p| p.1.abs() >= PART * largest.abs())
+        .take(PARTS)
+        .map(|(name, x)| (name.as_str(), x / largest, phase(name) - phase(first)))
+        .collect();
+    let real = shown.iter().all(|(_, _, ahead)| ahead.sin().abs() < REAL);
+    let told = shown.into_iter().enumerate().map(|(i, (name, x, ahead))| match real {
+        true => format!("{name} {}", digits(x * ahead.cos().signum(), 3)),
+        false if i == 0 => format!("{name} {}", digits(x, 3)),
+        // from −180° (not itself) to 180°
+        false => format!("{name} {} at {} deg", digits(x, 3), digits((PI - (PI - ahead).rem_euclid(TAU)).to_degrees(), 3)),
+    });
+    told.collect::<Vec<_>>().join(", ")
 }
 
 /// Significant digits, without trailing zeros; `-` for what is no number.
 fn digits(x: f64, count: usize) -> String {
     let rounded: f64 = format!("{x:.*e}", count - 1).parse().unwrap_or(x);
     if rounded.is_finite() { number(rounded) } else { "-".into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn shape(of: &[(&str, f64, Option<f64>)]) -> Vec<(String, f64)> {
+        let own = |(name, x, phase): &(&str, f64, Option<f64>)| {
+            let phase = phase.map(|phase| (format!("{name}.phase"), phase));
+            [Some(((*name).to_owned(), *x)), phase].into_iter().flatten().collect::<Vec<_>>()
+        };
+        of.iter().flat_map(own).collect()
+    }
+
+    #[test]
+    fn parts_of_a_shape_have_their_sign_or_their_phase() {
+        let undamped = [("a", 0.5, None), ("b", -1.0, None), ("c", 0.01, None)];
+        assert_eq!(parts(&shape(&undamped)), "b 1, a -0.5");
+        // in phase or opposite, whatever the phase of the largest
+        let real = [("a", 0.5, Some(PI - 0.3)), ("b", 1.0, Some(-0.3)), ("c", 0.25, Some(TAU - 0.3))];
+        assert_eq!(parts(&shape(&real)), "b 1, a -0.5, c 0.25");
+        let damped = [("a", 0.5, Some(FRAC_PI_2)), ("b", 1.0, Some(0.0)), ("c", 0.25, Some(-3.0)), ("d", 0.2, Some(PI))];
+        assert_eq!(parts(&shape(&damped)), "b 1, a 0.5 at 90 deg, c 0.25 at -172 deg, d 0.2 at 180 deg");
+        let beyond = [("a", 0.5, Some(3.0)), ("b", 1.0, Some(-3.0))];
+        assert_eq!(parts(&shape(&beyond)), "b 1, a 0.5 at -16.2 deg");
+    }
 }
