@@ -314,7 +314,7 @@ class Runs(Sequence[Results]):
         return found
 
     def label(self, index: int) -> str:
-        """The swept values of a run: ``l3 = 0.3 m``."""
+        """The swept values of a run, in the units in which they are written: ``l3 = 60 cm``."""
         return str(self._run(range(len(self))[index])[0])
 
     def whole(self) -> Iterator[Results]:

@@ -23,6 +23,9 @@ def test_a_sweep_has_a_row_a_run() -> None:
     assert np.array_equal(sweep.runs[3]["drive.torque"], alone["drive.torque"])
     assert sweep["mean_power"][3] == alone.scalars["mean_power"]
     assert sweep.runs.label(3) == "l3 = 0.5 m, load_max = 3000 N"
+    # in the units of the values, where they have them
+    written = model.sweep("one-turn", over={"l3": ["50 cm", "60 cm"]})
+    assert written.runs.label(1) == "l3 = 60 cm"
     assert sweep.runs[-1].parameters["load_max"] == 3000
     assert len(sweep.runs[2:4]) == 2
     frame = sweep.to_pandas()

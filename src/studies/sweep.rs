@@ -269,11 +269,14 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
     })
 }
 
-/// The swept values of a run with some digits: `l3 = 0.3 m`.
+/// The swept values of a run with some digits, in the units that the model asks for, else in those in which they are written:
+/// `l3 = 60 cm`.
 fn label(model: &Model, study: &Study, at: &[f64], digits: usize) -> String {
     let value = |(sweep, x): (&Sweep, &f64)| {
         let parameter = &model.parameters[sweep.parameter];
-        let value = named::scalar(model, &parameter.name, parameter.dimension, *x, By::File);
+        let mut value = named::scalar(model, &parameter.name, parameter.dimension, *x, By::File);
+        let written_in = sweep.unit.clone().map(|(unit, size)| ShownIn { unit, size });
+        value.shown_in = value.shown_in.or(written_in);
         let (x, unit) = value.shown();
         format!("{} = {} {unit}", value.name, number(significant(x, digits))).trim_end().to_string()
     };

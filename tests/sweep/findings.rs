@@ -34,7 +34,7 @@ fn findings_of_runs_are_told_once() {
     let results = Model::parse(POLES).unwrap().study("turn").unwrap().over("l3", "50 cm, 55 cm, 60 cm").run().unwrap();
     let told: Vec<&str> = results.findings.iter().filter(|f| f.code == "unresolved").map(|f| &*f.message).collect();
     assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].starts_with("in 3 of 3 runs, the first of them run 1 (l3 = 0.5 m): column `advantage` varies too fast"), "{}", told[0]);
+    assert!(told[0].starts_with("in 3 of 3 runs, the first of them run 1 (l3 = 50 cm): column `advantage` varies too fast"), "{}", told[0]);
 }
 
 #[test]
