@@ -228,6 +228,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "friction-bristle-in-inverse",
             "limits-beyond-at-the-start",
             "restitution-at-a-stop",
+            "start-against-a-driver",
             "no-studies",
             "take-out-of-range",
             "linearize-without-mass",

@@ -6,6 +6,9 @@ use super::rotation::orientation;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Joint, Mechanism, Row, RowKind, RowOwner, Start, describe_loop};
 
+/// A start value below this, rad or m, is told as 0.
+const ROUND_OFF: f64 = 1e-12;
+
 impl<G: Space<S = f64>> System<'_, G> {
     pub(super) fn explain_facing(&self) -> AssemblyFault {
         let joint = self.wrong_way().unwrap_or(0);
@@ -72,10 +75,14 @@ impl<G: Space<S = f64>> System<'_, G> {
         let list = |value: &dyn Fn(&Start) -> f64| -> String {
             starts.iter().map(|s| format!("{} = {}", s.name, written(value(s), unit(m, s.asked)))).collect::<Vec<_>>().join(", ")
         };
-        let found = |start: &Start| match start.asked {
-            Asked::Gauge { gauge, .. } => w.readings[gauge].x,
-            Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r).0,
-            Asked::Spin { .. } => 0.0,
+        let found = |start: &Start| {
+            let x = match start.asked {
+                Asked::Gauge { gauge, .. } => w.readings[gauge].x,
+                Asked::Orientation(k) => orientation::<G>(&m.orientations[k], start.value, w.places[m.orientations[k].body].r).0,
+                Asked::Spin { .. } => 0.0,
+            };
+            // round-off of a value that is zero
+            if x.abs() < ROUND_OFF { 0.0 } else { x }
         };
         let one = starts.len() == 1;
         AssemblyFault {
