@@ -20,8 +20,10 @@ const BESIDE_MIDDLE: f64 = 1.5;
 const PROBES: usize = 7;
 /// Numbers of all frames at most.
 const NUMBERS: usize = 600_000;
+/// Multiples of the cells of the first grid that are tried for one in which a place is a frame.
+const TRIES: usize = 10;
 /// Positions that a still picture shows.
-const SHOWN: usize = 6;
+pub(super) const SHOWN: usize = 6;
 
 /// A part of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +36,13 @@ pub(crate) struct Span {
     pub(crate) first: usize,
     /// Cells at most.
     pub(crate) most: usize,
+    /// A place of the independent variable that is to be a frame.
+    pub(crate) at: Option<f64>,
 }
 
 impl Default for Span {
     fn default() -> Self {
-        Self { ends: [0.0; 2], turns: false, first: CELLS, most: 4095 }
+        Self { ends: [0.0; 2], turns: false, first: CELLS, most: 4095, at: None }
     }
 }
 
@@ -63,15 +67,19 @@ pub(super) fn of_poses<G: Space<S = f64>>(poses: &[Vec<Pose<G>>]) -> Frames {
 pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: &mut At<'_, G>) -> Frames {
     let [low, high] = span.ends;
     let sampler = Sampler { reaches: reaches(mechanism), stride: if G::VECTOR == 2 { 3 } else { 7 }, size: mechanism.size() };
-    let mut look = |part: f64| {
-        // the ends as they are given, not as they are rounded
-        let s = if part == 1.0 { high } else { low + (high - low) * part };
-        let (x, poses) = at(s)?;
+    // the ends as they are given, not as they are rounded
+    let progress = |part: f64| if part == 1.0 { high } else { low + (high - low) * part };
+    let grid = span
+        .at
+        .and_then(|x| part_of(x, &mut |part| Some(at(progress(part))?.0)))
+        .map_or_else(|| Grid { cells: span.first, knot: None }, |part| Grid::with(part, span.first));
+    let (first, mut look) = (grid.cells, |part: f64| {
+        let (x, poses) = at(progress(grid.part(part)))?;
         Some((x, flat(&poses)))
-    };
+    });
     let width = (mechanism.bodies.len() - 1) * sampler.stride;
-    let most = span.most.min(NUMBERS / width.max(1)).max(span.first);
-    let mut grid: Vec<Option<Frame>> = (0..=span.first).map(|i| look(i as f64 / span.first as f64)).collect();
+    let most = span.most.min(NUMBERS / width.max(1)).max(first);
+    let mut grid: Vec<Option<Frame>> = (0..=first).map(|i| look(i as f64 / first as f64)).collect();
     let mut before = f64::INFINITY;
     let error = loop {
         let cells = grid.len() - 1;
@@ -91,6 +99,54 @@ pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: 
         grid = interleaved(grid, middles);
     };
     sampler.frames(span, &grid, error)
+}
+
+/// The part of a span at which the independent variable has a value between those of its ends, by regula falsi.
+fn part_of(x: f64, at: &mut dyn FnMut(f64) -> Option<f64>) -> Option<f64> {
+    let mut ends = [(0.0, at(0.0)? - x), (1.0, at(1.0)? - x)];
+    let range = (ends[1].1 - ends[0].1).abs();
+    for _ in 0..50 {
+        let [(a, fa), (b, fb)] = ends;
+        if fa * fb >= 0.0 {
+            return None;
+        }
+        let part = a - fa * (b - a) / (fb - fa);
+        let off = at(part)? - x;
+        if off.abs() <= 1e-12 * range {
+            return Some(part);
+        }
+        ends[usize::from(off * fa < 0.0)] = (part, off);
+    }
+    None
+}
+
+/// A first grid of cells of one size, or of one size before a knot and of another one behind it.
+#[derive(Clone, Copy)]
+struct Grid {
+    cells: usize,
+    /// Cells before the knot, and the part of the span where it is.
+    knot: Option<(usize, f64)>,
+}
+
+impl Grid {
+    /// The grid of few cells, multiples of `first`, in which a part of the span is an edge of a cell.
+    fn with(part: f64, first: usize) -> Self {
+        let on_edge = |cells: &usize| (part * *cells as f64 - (part * *cells as f64).round()).abs() < 1e-9;
+        match (1..=TRIES).map(|k| k * first).find(on_edge) {
+            Some(cells) => Self { cells, knot: None },
+            None => {
+                let cells = 2 * first;
+                Self { cells, knot: Some((((part * cells as f64).round() as usize).clamp(1, cells - 1), part)) }
+            }
+        }
+    }
+
+    /// The part of the span at a part of the cells.
+    fn part(&self, part: f64) -> f64 {
+        let Some((before, at)) = self.knot else { return part };
+        let knot = before as f64 / self.cells as f64;
+        if part <= knot { part / knot * at } else { 1.0 - (1.0 - part) / (1.0 - knot) * (1.0 - at) }
+    }
 }
 
 /// A grid of twice as many cells.
@@ -217,5 +273,24 @@ impl Sampler {
             let (k, turned) = if self.stride == 3 { (2, turned) } else { (3, if turned < 1e-7 { 0.0 } else { turned }) };
             a[..k].iter().zip(&b[..k]).all(|(a, b)| (a - b).abs() <= near) && turned * reach.max(self.size * 1e-3) <= near
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_that_is_asked_for_is_an_edge_of_a_cell() {
+        // by cells of one size where few of them do, else by a knot
+        for (x, knot) in [(0.25, false), (0.4, false), (0.123_456, true), (0.999, true)] {
+            let found = part_of(x, &mut |part| Some(part.powi(3))).expect("a part");
+            assert!((found - f64::cbrt(x)).abs() < 1e-9, "{found}");
+            let grid = Grid::with(x, CELLS);
+            assert_eq!(grid.knot.is_some(), knot, "{x}");
+            let nearest = (0..=grid.cells).map(|i| (grid.part(i as f64 / grid.cells as f64) - x).abs()).fold(1.0, f64::min);
+            assert!(nearest < 1e-12 && (grid.part(1.0), grid.part(0.0)) == (1.0, 0.0), "{x}: {nearest}");
+        }
+        assert_eq!(part_of(2.0, &mut Some), None);
     }
 }

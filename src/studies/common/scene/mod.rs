@@ -10,6 +10,7 @@ mod places;
 mod shafts;
 mod shapes;
 mod traces;
+mod turn;
 
 pub(crate) use arrows::fill_arrows;
 pub(crate) use asked::beyond;
@@ -48,7 +49,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
     /// The scene of a motion, which tells at any progress the independent variable and the poses of the bodies there.
     #[must_use]
     pub(crate) fn over(&self, span: Span, at: &mut frames::At<'_, G>) -> Scene {
-        self.with(frames::over(self.mechanism, span, at))
+        self.with(frames::over(self.mechanism, Span { at: self.shown_at(), ..span }, at))
     }
 
     /// The scene of given poses, the first one drawn strongly.
@@ -57,13 +58,18 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         self.with(frames::of_poses(poses))
     }
 
+    /// The place that the study asks to be shown.
+    fn shown_at(&self) -> Option<f64> {
+        self.case.study.shown_at.map(|at| self.case.value(at)).filter(|at| at.is_finite())
+    }
+
     /// All but the frames follows from the mechanism, and from them.
     fn with(&self, frames: Frames) -> Scene {
         let Self { case, mechanism } = *self;
         let mut scene = Scene {
             dimensions: G::VECTOR,
             view: view(case),
-            at: case.study.shown_at.map(|at| case.value(at)).filter(|at| at.is_finite()),
+            at: self.shown_at(),
             length: shown_in(case.model, Dimension::LENGTH),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
@@ -77,6 +83,9 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         gears::outline_wheels(&scene.gears, &mut scene.bodies);
         shafts::outline_shafts(&mut scene);
         scene.traces = traces::traces(case, mechanism, &scene);
+        if let Some(shown) = turn::first_turn(&scene) {
+            scene.frames.shown = shown;
+        }
         scene
     }
 }
