@@ -34,6 +34,7 @@ mod panel;
 mod parquet;
 mod picture;
 mod plot;
+mod polytope;
 mod pose;
 mod posed;
 mod raster;

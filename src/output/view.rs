@@ -18,9 +18,12 @@ impl View {
     /// The x-y plane.
     pub(super) const PLANE: Self = Self { right: [1.0, 0.0, 0.0], above: [0.0, 1.0, 0.0], toward: [0.0, 0.0, 1.0] };
 
+    /// Azimuth and elevation of the isometric view, rad.
+    pub(super) const ISOMETRIC: [f64; 2] = [std::f64::consts::FRAC_PI_4, ISOMETRIC];
+
     /// An isometric view, in which `up` points upwards; lengths along the axes are drawn as they are.
     pub(super) fn isometric(up: [f64; 3]) -> Self {
-        let View { right, above, toward } = Self::from(up, std::f64::consts::FRAC_PI_4, ISOMETRIC);
+        let View { right, above, toward } = Self::from(up, Self::ISOMETRIC[0], Self::ISOMETRIC[1]);
         // an axis is seen under acos √(2/3)
         let stretch = 1.5_f64.sqrt();
         Self { right: right.map(|x| x * stretch), above: above.map(|x| x * stretch), toward }
@@ -28,17 +31,7 @@ impl View {
 
     /// The view of an eye at an azimuth from the first level axis (x, with z upwards) about `up`, and an elevation, rad.
     pub(super) fn from(up: [f64; 3], azimuth: f64, elevation: f64) -> Self {
-        let length = dot(up, up).sqrt();
-        let up = up.map(|x| x / length);
-        // of x, y, z that which follows the one nearest to up
-        let nearest = (0..3).fold(2, |best, i| if up[i].abs() > up[best].abs() + 1e-9 { i } else { best });
-        let mut first = [0.0; 3];
-        first[(nearest + 1) % 3] = 1.0;
-        let height = dot(first, up);
-        let first: [f64; 3] = std::array::from_fn(|i| first[i] - height * up[i]);
-        let size = dot(first, first).sqrt();
-        let first = first.map(|x| x / size);
-        let second = cross(up, first);
+        let [up, first, second] = level(up);
         let ((sa, ca), (se, ce)) = (azimuth.sin_cos(), elevation.sin_cos());
         let level: [f64; 3] = std::array::from_fn(|i| ca * first[i] + sa * second[i]);
         Self {
@@ -62,6 +55,21 @@ impl View {
     pub(super) fn stretch(&self) -> f64 {
         dot(self.right, self.right).sqrt()
     }
+}
+
+/// The unit direction upwards, and two level ones from which azimuths are counted, counter-clockwise seen from above.
+pub(super) fn level(up: [f64; 3]) -> [[f64; 3]; 3] {
+    let length = dot(up, up).sqrt();
+    let up = up.map(|x| x / length);
+    // of x, y, z that which follows the one nearest to up
+    let nearest = (0..3).fold(2, |best, i| if up[i].abs() > up[best].abs() + 1e-9 { i } else { best });
+    let mut first = [0.0; 3];
+    first[(nearest + 1) % 3] = 1.0;
+    let height = dot(first, up);
+    let first: [f64; 3] = std::array::from_fn(|i| first[i] - height * up[i]);
+    let size = dot(first, first).sqrt();
+    let first = first.map(|x| x / size);
+    [up, first, cross(up, first)]
 }
 
 /// a · b.

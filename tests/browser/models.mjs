@@ -143,6 +143,19 @@ studies:
         right: { show: [speed], in: mm/s }
         data: { seen: { file: seen.csv, x: time, y: height, in: [s, mm] } }
 `,
+  // seen from above, and at a place of its motion that no frame has by itself
+  door: `grashof: 1
+name: door
+space: spatial
+ground: { H: [0, 0, 0] }
+gravity: none
+bodies: { leaf: { box: { size: [80 cm, 4 cm, 200 cm], mass: 20 kg }, points: { edge: [-40 cm, 0, 0] } } }
+joints: { H: { revolute: [ground.H, leaf.edge], axis: [0, 0, 1] } }
+drivers: { open: { joint: H, speed: 1 rad/s } }
+start: { H.angle: 0 deg }
+studies:
+  open: { kinematics: { over: 100 deg, samples: 20 }, columns: [H.angle], view: top, at: 37 deg }
+`,
 };
 
 /** Files beside these models. */

@@ -311,10 +311,43 @@ const namesOver = (tab, count) => tab.evaluate(async (steps) => {
   return out;
 }, count);
 
+export async function the_page_begins_as_the_figure_is_seen(open) {
+  const { tab } = await open('door');
+  near(await time(tab), (37 * Math.PI) / 180, 1e-9, 'the place that `at` names');
+  // of another study at its first position, from the side from which figures are isometric
+  const { tab: other } = await open('heavy_top', { study: 'nutation' });
+  assert.equal(await time(other), 0);
+  for (const [page, azimuth, elevation] of [[tab, -Math.PI / 2, Math.PI / 2], [other, Math.PI / 4, Math.asin(1 / Math.sqrt(3))]]) {
+    const [, , , turn, tilt] = await page.evaluate(() => grashof.look());
+    near(turn, azimuth, 1e-9, 'azimuth');
+    near(tilt, elevation, 1e-9, 'elevation');
+  }
+}
+
+export async function bodies_have_their_names_and_colours(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await tab.getByLabel('paths').selectOption('no paths');
+  await picture(tab);
+  const bodies = (await tab.evaluate(() => grashof.names())).filter(({ of }) => of === 'body');
+  assert.deepEqual(bodies.map(({ text }) => text).sort(), ['coupler', 'crank', 'rocker']);
+  // the fill of the figure, beside the line between the pins
+  const { at: [x, y] } = bodies.find(({ text }) => text === 'coupler');
+  const color = await tab.evaluate(([x, y]) => {
+    const [canvas, ratio] = [document.querySelector('.canvas canvas'), window.devicePixelRatio];
+    return [...canvas.getContext('2d').getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data].slice(0, 3);
+  }, [x, y]);
+  assert.deepEqual(color, [232, 200, 148]);
+}
+
 export async function names_stand_beside_their_joints_and_keep_their_sides(open) {
   for (const [model, study, count] of [['stewart_platform', 'ride', 12], ['jansen_leg', 'step', 7], ['arm', 'lift', 8], ['inline_four', 'firing', 9], ['andrews', 'squeeze', 7], ['short', 'turn', 4]]) {
     const { tab } = await open(model, { study });
-    const all = await namesOver(tab, 60);
+    const every = await namesOver(tab, 60);
+    const all = every.map((names) => names.filter(({ of }) => of === 'joint'));
+    for (const names of every) {
+      const clash = names.find(({ box: [l, t, r, b] }, i) => names.slice(i + 1).some(({ box: [left, top, right, bottom] }) => left < r && l < right && top < b && t < bottom));
+      assert.ok(!clash, `${model}: ${clash?.text} lies over another name`);
+    }
     const { width, height } = await tab.locator('.canvas').boundingBox();
     const known = [...new Set(all.flatMap((names) => names.map(({ text }) => text)))];
     const sides = new Map(known.map((text) => [text, new Set()]));

@@ -1,19 +1,23 @@
-// Names beside the joints of a drawing. Each keeps its side over the whole motion, so that nothing jumps while it plays: the side on which
-// it meets the fewest other names and joints at some places of the motion. Where names meet all the same, the later one is left out.
+// Names beside the joints of a drawing, and of its bodies where there is room. Each keeps its side over the whole motion, so that nothing
+// jumps while it plays: the side on which it meets the fewest other names and joints at some places of the motion. Where names meet all the
+// same, the later one is left out.
 
 import type { Motion, Vector } from './motion';
 import { type Pen, type Point, off } from './plane/pen';
-import type { Inks } from './theme';
-import type { Place } from './types';
+import { type Inks, bodyInks } from './theme';
+import type { Place, Shape } from './types';
 
 /** Left, top, right, bottom. */
 export type Box = [number, number, number, number];
 
-/** A name that is drawn: where its joint is, and where its text stands. */
-export interface Named { text: string; at: Point; box: Box }
+/** A name that is drawn: where its joint or a place on its body is, and where its text stands. */
+export interface Named { text: string; at: Point; box: Box; of: 'joint' | 'body' }
 
-/** Joints that are at one place all the time, by the first of them; how wide their names are, and where these stand. */
-interface Group { text: string; joint: Place; width: number; points: Point[]; side: number }
+/** Joints that are at one place all the time, by the first of them, or a body; how wide their names are, and where these stand. */
+interface Group { text: string; joint: Place; width: number; points: Point[]; side: number; body: number | null }
+
+/** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
+interface Spot { joint: Place; places: Vector[]; wide: boolean }
 
 /** Places of the motion that are looked at, and comparisons of a name with a joint, at most. */
 const LOOKS = 24;
@@ -30,17 +34,26 @@ const near = (w: number): Point[] => [[9, -8], [9, 16], [-9 - w, -8], [-9 - w, 1
 const far = (w: number): Point[] => [[22, -24], [22, 32], [-22 - w, -24], [-22 - w, 32], [-w / 2, -32], [-w / 2, 42], [36, 4], [-36 - w, 4]];
 const SIDES = 16;
 const NEAR = 8;
+/** The side of a name that lies on its body. */
+const ON = 16;
 /** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, or to stand nearer to a wrong joint. */
 const COST = { name: 10, edge: 12, joint: 9, wrong: 9 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
 const STAY = 0.6;
+/** From which cost on a body has no name, and the part of the picture that all names may cover if bodies are to have theirs. */
+const CROWDED = 4;
+const NAMED = 0.2;
+const ROW = 14;
+/** Parts of a bar where its name may stand. */
+const ALONG = [0.5, 0.35, 0.65, 0.2, 0.8];
 
 const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room < a[2] && a[1] - room < b[3] && b[1] - room < a[3];
 
 /** The box of a text on one of its sides. */
 function boxOn(side: number, [x, y]: Point, width: number): Box {
+  if (side === ON) return [x - width / 2, y - 6, x + width / 2, y + 6];
   const [dx, dy] = (side < NEAR ? near(width) : far(width))[side % NEAR]!;
   return [x + dx, y + dy - 10, x + dx + width, y + dy + 2];
 }
@@ -57,20 +70,42 @@ function toBox([x, y]: Point, [left, top, right, bottom]: Box): { to: Point; far
   return { to, far: Math.hypot(to[0] - x, to[1] - y) };
 }
 
+/** Where the name of a body may stand, in its frame: along a bar, in the middle of what is wide. */
+function spots(shape: Shape): { places: number[][]; wide: boolean } {
+  const middle = (points: number[][]) => points[0]!.map((_, i) => points.reduce((sum, p) => sum + p[i]!, 0) / points.length);
+  const along = (from: number[], to: number[]) => ALONG.map((s) => from.map((x, i) => x + s * (to[i]! - x)));
+  switch (shape.kind) {
+    case 'bar': return { places: along(shape.from, shape.to), wide: false };
+    case 'cylinder': return { places: [middle([shape.from, shape.to])], wide: true };
+    case 'hull': return shape.points.length === 2 ? { places: along(shape.points[0]!, shape.points[1]!), wide: false } : { places: [middle(shape.points)], wide: shape.points.length > 2 };
+    case 'polygon': return { places: [middle(shape.points)], wide: true };
+    case 'mass': return { places: [shape.at], wide: false };
+    default: return { places: [shape.center], wide: true };
+  }
+}
+
 export class Names {
   /** What was drawn last. */
   drawn: Named[] = [];
   private groups: Group[] = [];
   private readonly joints: { name: string; joint: Place; places: Vector[] }[];
+  private readonly bodies: { name: string; body: number; spots: Spot[] }[];
   /** The names that were left out last. */
   private hidden = new Set<string>();
   private view = '';
 
   constructor(private readonly motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
-    const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length, 1) ** 2))));
+    const { bodies } = motion.scene;
+    const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length + bodies.length, 1) ** 2))));
     const at = motion.sampled(looks);
-    this.joints = joints.map(({ name, b }) => ({ name, joint: b, places: at.map((place) => motion.world(b, place)) }));
+    const over = (joint: Place) => at.map((place) => motion.world(joint, place));
+    this.joints = joints.map(({ name, b }) => ({ name, joint: b, places: over(b) }));
+    this.bodies = bodies.flatMap(({ name, shapes: [shape] }, body) => {
+      if (body === 0 || !shape) return [];
+      const { places, wide } = spots(shape);
+      return [{ name, body, spots: places.map((own) => ({ joint: { body, at: own }, places: over({ body, at: own }), wide })) }];
+    });
   }
 
   /** Finds the sides anew with the next drawing, whatever they were. */
@@ -86,7 +121,8 @@ export class Names {
     this.view = seen;
     this.drawn = [];
     const hidden = new Set<string>();
-    for (const { text, joint, width, side } of this.groups) {
+    const colors: string[] = [];
+    for (const { text, joint, width, side, body } of this.groups) {
       const at = pixel(this.motion.world(joint, place));
       const box = within(boxOn(side, at, width), size);
       const room = this.hidden.has(text) ? BACK : 0;
@@ -95,11 +131,13 @@ export class Names {
         continue;
       }
       const { to, far: length } = toBox(at, box);
-      if (side >= NEAR && length > SIGN) pen.path([off(at, [(to[0] - at[0]) / length, (to[1] - at[1]) / length], SIGN, 0), to]).stroke(inks.faint, 1);
-      this.drawn.push({ text, at, box });
+      if (side >= NEAR && side < ON && length > SIGN) pen.path([off(at, [(to[0] - at[0]) / length, (to[1] - at[1]) / length], SIGN, 0), to]).stroke(inks.faint, 1);
+      if (side >= NEAR && side < ON && body !== null) pen.circle(at, 1.8).fill(inks.soft);
+      this.drawn.push({ text, at, box, of: body === null ? 'joint' : 'body' });
+      colors.push(body === null ? inks.soft : bodyInks(this.motion.scene.bodies[body]!.color, inks).edge);
     }
     this.hidden = hidden;
-    for (const { text, box } of this.drawn) pen.text(text, [box[0], box[3] - 2], inks.soft, inks.paper);
+    this.drawn.forEach(({ text, box }, k) => pen.text(text, [box[0], box[3] - 2], colors[k]!, inks.paper));
   }
 
   /** Finds the side of each name in a view. */
@@ -107,16 +145,37 @@ export class Names {
     const before = new Map(this.groups.map(({ text, side }) => [text, side]));
     this.groups = this.together(pen, pixel);
     const taken: Box[][] = [];
+    const take = ({ points, side, width }: Group) => points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(side, at, width), size)));
     for (const group of this.groups) {
-      const { points, width, text } = group;
-      let least = Infinity;
-      for (let side = 0; side < SIDES; side++) {
-        const first = (side < NEAR ? 0 : LINE) + NEXT * (side % NEAR) - (before.get(text) === side ? STAY : 0);
-        const cost = this.cost(group, side, taken, size, (least - first) * points.length) / points.length + first;
-        if (cost < least) [least, group.side] = [cost, side];
-      }
-      points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(group.side, at, width), size)));
+      this.choose(group, SIDES, before.get(group.text), taken, size);
+      take(group);
     }
+    const joints = this.groups;
+    const area = [...joints.map(({ width }) => width), ...this.bodies.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
+    if (area > NAMED * size[0] * size[1]) return;
+    for (const { name: text, body, spots: all } of this.bodies) {
+      const width = pen.width(text);
+      const groups = all.map(({ joint, places, wide }, k) => {
+        const group: Group = { text, joint, width, points: places.map(pixel), side: 0, body };
+        return { group, cost: this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k };
+      });
+      const best = groups.reduce((a, b) => (b.cost < a.cost ? b : a));
+      if (best.cost > CROWDED) continue;
+      take(best.group);
+      this.groups = [...this.groups, best.group];
+    }
+  }
+
+  /** Gives a name the best of its sides; how bad that is. */
+  private choose(group: Group, sides: number, before: number | undefined, taken: Box[][], size: Point): number {
+    const { points } = group;
+    let least = Infinity;
+    for (let side = 0; side < sides; side++) {
+      const first = (side < NEAR || side === ON ? 0 : LINE) + (side === ON ? -NEXT : NEXT * (side % NEAR)) - (before === side ? STAY : 0);
+      const cost = this.cost(group, side, taken, size, (least - first) * points.length) / points.length + first;
+      if (cost < least) [least, group.side] = [cost, side];
+    }
+    return least;
   }
 
   /** What stands in the way of a name on a side over the motion; no more than `most` is of interest. */
@@ -151,7 +210,7 @@ export class Names {
     }
     return groups.map(({ names, joint, points }) => {
       const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      return { text, joint, points, width: pen.width(text), side: 0 };
+      return { text, joint, points, width: pen.width(text), side: 0, body: null };
     });
   }
 }

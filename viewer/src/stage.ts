@@ -263,6 +263,7 @@ export class Stage {
     const kinds = arrows.kinds();
     this.options.arrows = new Set([...this.options.arrows].filter((kind) => kinds.includes(kind)));
     if (!this.begun) arrows.asked().filter((kind) => kinds.includes(kind)).forEach((kind) => this.options.arrows.add(kind));
+    const shown = this.begun ? null : motion.scene.at;
     this.begun = true;
     this.showOptions(kinds, arrows);
     const { error } = motion.scene.frames;
@@ -271,6 +272,7 @@ export class Stage {
     this.offer(again);
     if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));
     this.clock.range(still ? motion.end : motion.begin, motion.end, seconds, place);
+    if (shown !== null) this.clock.seek(shown);
     this.state();
   }
 

@@ -1,6 +1,6 @@
 // Light and dark, and the colours of pictures in either.
 
-export interface Inks { paper: string; ink: string; soft: string; faint: string; grid: string; accent: string; curves: string[]; light: boolean }
+export interface Inks { paper: string; ink: string; soft: string; faint: string; grid: string; accent: string; rust: string; curves: string[]; light: boolean }
 
 type Rgb = [number, number, number];
 const KEY = 'grashof-theme';
@@ -16,12 +16,25 @@ export function mixed(a: string, b: string, part: number): string {
   return `#${from.map((x, i) => Math.round(x + (to[i]! - x) * part).toString(16).padStart(2, '0')).join('')}`;
 }
 
+/** The fill and the edge of a body of a colour, as in the figures of the program; in the dark the fill is darkened in their place. */
+export function bodyInks(color: string, { light }: Inks): { fill: string; edge: string } {
+  const dark = mixed(color, '#000000', 0.5);
+  return light ? { fill: color, edge: dark } : { fill: dark, edge: color };
+}
+
+/** Of rods without mass. */
+const ROD = '#c8c8c4';
+export const rodInks = (inks: Inks): { fill: string; edge: string } => bodyInks(ROD, inks);
+
+/** Of point masses. */
+export const massInk = ({ ink, paper }: Inks): string => mixed(ink, paper, 0.27);
+
 /** The colours that hold now. */
 export function inks(): Inks {
   const style = getComputedStyle(document.documentElement);
   const read = (name: string) => style.getPropertyValue(`--${name}`).trim();
   return {
-    paper: read('paper'), ink: read('ink'), soft: read('soft'), faint: read('faint'), grid: read('grid'), accent: read('accent'),
+    paper: read('paper'), ink: read('ink'), soft: read('soft'), faint: read('faint'), grid: read('grid'), accent: read('accent'), rust: read('rust'),
     curves: [0, 1, 2, 3, 4, 5, 6].map((k) => read(`curve-${k}`)),
     light: read('scheme') !== 'dark',
   };

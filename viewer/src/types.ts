@@ -144,7 +144,8 @@ export interface Place { body: number; at: number[] }
 
 export type Shape =
   | { kind: 'bar'; from: number[]; to: number[]; width: Num }
-  | { kind: 'hull'; points: number[][] }
+  /** In space with the corners of its faces, counter-clockwise from outside, where it is no bundle of legs. */
+  | { kind: 'hull'; points: number[][]; faces?: number[][] }
   | { kind: 'polygon'; points: number[][] }
   | { kind: 'disc'; center: number[]; radius: number; axis: number[] | null; thickness: Num }
   | { kind: 'box'; center: number[]; size: number[] }
@@ -176,7 +177,11 @@ interface Parts<A> {
   dimensions: 2 | 3;
   length: Column['shown_in'];
   up: [number, number, number];
-  bodies: { name: string; shapes: Shape[] }[];
+  /** In space from where it is seen: azimuth and elevation, rad, from the first of two level axes. */
+  view: { level: [[number, number, number], [number, number, number]]; azimuth: number; elevation: number } | null;
+  /** The place of the motion that the study asks to be shown. */
+  at: Num;
+  bodies: { name: string; shapes: Shape[]; color: string }[];
   joints: Joint[];
   links: Link[];
   gears: Gear[];

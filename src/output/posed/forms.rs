@@ -1,6 +1,7 @@
 //! Shapes of bodies in the picture; solids as the faces that are seen.
 
 use super::Posed;
+use crate::output::polytope;
 use crate::output::pose::{Form, FormKind};
 use crate::output::view::{across, cross, dot};
 use crate::results::scene::{Place, Shape};
@@ -11,6 +12,12 @@ const CORNERS: usize = 96;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
 
+/// The faces of the hull of points in space, of those that are not joined by legs.
+pub(in crate::output) fn faces_of(points: &[Vec<f64>]) -> Vec<Vec<usize>> {
+    let places: Vec<[f64; 3]> = points.iter().map(|p| std::array::from_fn(|i| p.get(i).copied().unwrap_or(0.0))).collect();
+    if places.len() > LEGS { polytope::faces(&places) } else { Vec::new() }
+}
+
 impl Posed<'_> {
     /// A shape of a body in one position.
     pub(super) fn forms(&self, poses: &[f64], body: usize, shape: &Shape) -> Vec<Form> {
@@ -20,7 +27,15 @@ impl Posed<'_> {
             Shape::Bar { from, to, width } => vec![self.bar(world(from), world(to), *width)],
             Shape::Hull { points } => {
                 let places: Vec<[f64; 3]> = points.iter().map(|p| world(p)).collect();
-                if planar || places.len() < 3 || places.len() > LEGS { vec![self.plate(&places)] } else { self.legs(&places) }
+                match if planar { Vec::new() } else { faces_of(points) } {
+                    _ if !planar && (3..=LEGS).contains(&places.len()) => self.legs(&places),
+                    // a flat one is a plate
+                    faces if faces.len() < 3 => vec![self.plate(&places)],
+                    faces => {
+                        let corners = faces.iter().map(|face| face.iter().map(|k| places[*k]).collect::<Vec<_>>());
+                        corners.filter_map(|corners| self.face(&corners)).collect()
+                    }
+                }
             }
             Shape::Polygon { points } => vec![self.area(&points.iter().map(|p| world(p)).collect::<Vec<_>>(), 1.0)],
             Shape::Disc { center, radius, axis, thickness } => match axis {
@@ -61,6 +76,16 @@ impl Posed<'_> {
                 vec![Form { kind: FormKind::Mass { center: self.view.flat(c), radius: radius * self.view.stretch() }, depth }]
             }
         }
+    }
+
+    /// A plane face around its corners, counter-clockwise from outside; none if it is turned away.
+    fn face(&self, corners: &[[f64; 3]]) -> Option<Form> {
+        let from = |k: usize| std::array::from_fn(|i| corners[k][i] - corners[0][i]);
+        let normal = (1..corners.len() - 1).fold([0.0; 3], |sum, k| {
+            let n = cross(from(k), from(k + 1));
+            std::array::from_fn(|i| sum[i] + n[i])
+        });
+        self.light(normal).map(|light| self.area(corners, light))
     }
 
     fn bar(&self, a: [f64; 3], b: [f64; 3], width: Option<f64>) -> Form {
@@ -195,5 +220,8 @@ mod tests {
         assert!(face.len() == CORNERS && tall(outline) > tall(face) + 0.1, "{} {}", tall(outline), tall(face));
         let hull = |n: usize| Shape::Hull { points: (0..n).map(|i| vec![i as f64, (i * i) as f64, 0.5]).collect() };
         assert_eq!((seen(hull(2), None).len(), seen(hull(3), None).len(), seen(hull(8), None).len()), (1, 3, 1));
+        // what is solid is seen by its faces, as a box is
+        let corners = (0..8).map(|k| vec![f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
+        assert_eq!(seen(Shape::Hull { points: corners }, None).len(), 3);
     }
 }

@@ -1,7 +1,7 @@
 //! The drawing of a scene: its shown frames in the plane of the picture.
 
 mod forces;
-mod forms;
+pub(super) mod forms;
 mod gears;
 mod joints;
 
@@ -43,6 +43,11 @@ pub(super) fn at_all(scene: &Scene, places: &[f64]) -> Drawing {
     let forces = poses.iter().zip(places).flat_map(|(poses, x)| one(poses.as_slice()).forces(*x).collect::<Vec<_>>()).collect();
     let all = Posed { scene, view: view(scene), frames: poses.iter().map(Vec::as_slice).collect() };
     Drawing { forces, ..all.positions() }
+}
+
+/// Azimuth and elevation of the eye of a scene in space, rad.
+pub(super) fn eye(scene: &Scene) -> [f64; 2] {
+    scene.view.unwrap_or(View::ISOMETRIC)
 }
 
 /// From where a scene is seen.

@@ -3,6 +3,10 @@
 use super::poses::{self, Coded};
 use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
 use crate::output::json_number;
+use crate::output::posed::{self, forms::faces_of};
+use crate::output::sheet::body_color;
+use crate::output::view::level;
+use crate::results::scene::Shape;
 use crate::results::{Plot, Results, Scene};
 use serde_json::{Value, json};
 
@@ -161,6 +165,22 @@ fn drawing(scene: &Scene) -> Value {
     value["frames"]["poses"] = json(&poses);
     for (arrow, values) in value["arrows"].as_array_mut().into_iter().flatten().zip(arrows) {
         arrow["values"] = json(&values);
+    }
+    // what figures make of a scene: the colours of bodies, the faces of hulls in space, and from where these are seen
+    for (index, body) in value["bodies"].as_array_mut().into_iter().flatten().enumerate() {
+        let [r, g, b] = body_color(index);
+        body["color"] = format!("#{r:02x}{g:02x}{b:02x}").into();
+        for (shape, of) in body["shapes"].as_array_mut().into_iter().flatten().zip(&scene.bodies[index].shapes) {
+            if let (3, Shape::Hull { points }) = (scene.dimensions, of) {
+                shape["faces"] = json(&faces_of(points));
+            }
+        }
+    }
+    if scene.dimensions == 3 {
+        let [up, first, second] = level(scene.up);
+        let [azimuth, elevation] = posed::eye(scene);
+        value["up"] = json(&up);
+        value["view"] = json!({ "level": [first, second], "azimuth": azimuth, "elevation": elevation });
     }
     value
 }

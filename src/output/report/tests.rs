@@ -58,6 +58,22 @@ fn the_data_of_a_page_read_back() {
 }
 
 #[test]
+fn scenes_have_the_colours_faces_and_view_of_the_figures() {
+    use crate::results::Scene;
+    use crate::results::scene::{Body, Shape};
+    let points = (0..8).map(|k| vec![f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
+    let bodies = vec![Body::default(), Body { name: "b".into(), shapes: vec![Shape::Hull { points }] }];
+    let scene = Scene { dimensions: 3, up: [0.0, 0.0, 2.0], bodies, ..Scene::default() };
+    let results = Results { scenes: vec![("mechanism".into(), scene)], ..Results::default() };
+    let study: Value = serde_json::from_str(ReportStudy::of(&results, "").json()).unwrap();
+    let scene = &study["scenes"][0][1];
+    assert_eq!(scene["bodies"][1]["color"], "#a3beda");
+    assert_eq!(scene["bodies"][1]["shapes"][0]["faces"].as_array().map(Vec::len), Some(6));
+    assert_eq!(scene["view"]["level"], json!([[1, 0, 0], [0, 1, 0]]));
+    assert_eq!(scene["view"]["azimuth"], json!(std::f64::consts::FRAC_PI_4));
+}
+
+#[test]
 fn a_page_is_whole_and_asks_for_nothing() {
     let page = page();
     assert_eq!(between(&page, "<title>", "</title>"), "a &lt; b &amp; &quot;c&quot;");

@@ -5,7 +5,7 @@ import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
 import { type Told, tellScales } from '../scales';
-import { type Inks, mixed } from '../theme';
+import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
@@ -22,6 +22,19 @@ const PATH = 400;
 const CLOSE = 4;
 /** Dashes of the first seven paths, the next seven, and so on. */
 const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
+
+/** Large plates lie under small ones and under bars; a disc is as large as the square around it. */
+function depth(shape: Shape): number {
+  switch (shape.kind) {
+    case 'mass': return Number.MAX_VALUE;
+    case 'disc': case 'sphere': return -Math.sqrt(8) * shape.radius;
+    case 'hull': case 'polygon': {
+      const span = (i: number) => Math.max(...shape.points.map((p) => p[i]!)) - Math.min(...shape.points.map((p) => p[i]!));
+      return shape.points.length > 2 ? -Math.hypot(span(0), span(1)) : 0;
+    }
+    default: return 0;
+  }
+}
 
 export class Plane implements Renderer {
   private readonly pen: Pen;
@@ -100,19 +113,24 @@ export class Plane implements Renderer {
     const { pen } = this;
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
+    for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) if (end.body === 0) signs.bearing(pen, this.point(end), inks);
     scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
     const wheels = new Set(this.gears.wheels.map(({ wheel }) => wheel.body));
-    scene.bodies.forEach((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).forEach((shape) => this.shape(index, shape)));
-    this.gears.wheels.forEach((wheel) => this.wheel(wheel));
+    // what is large lies below
+    const shapes = scene.bodies.flatMap((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).map((shape) => ({ depth: depth(shape), draw: () => this.shape(index, shape) })));
+    const rods = scene.links.filter(({ kind }) => kind === 'rod').map((rod) => ({ depth: 0, draw: () => this.rod(rod) }));
+    const toothed = this.gears.wheels.map((wheel) => ({ depth: -Math.sqrt(8) * Math.abs(wheel.wheel.radius), draw: () => this.wheel(wheel) }));
+    [...toothed, ...shapes, ...rods].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
     this.gears.racks.forEach((rack) => signs.rack(pen, this.rackLine(rack), inks));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
-    scene.links.forEach((link) => this.link(link));
+    scene.links.filter(({ kind }) => kind !== 'rod').forEach((link) => this.link(link));
     // over the bodies, as in the figures of the program, and under the pins
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.sign(joint));
+    for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) signs.pin(pen, 'revolute', this.point(end), false, inks);
     if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks);
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
@@ -121,10 +139,10 @@ export class Plane implements Renderer {
 
   /** A wheel with its teeth, which takes the place of its disc. */
   private wheel({ wheel, teeth, outline }: Toothed): void {
-    const color = this.inks.curves[(wheel.body + 5) % 6] ?? this.inks.soft;
+    const { fill, edge } = this.colors(wheel.body);
     const pitch = (2 * Math.PI * Math.abs(wheel.radius) * this.scale) / (teeth || 1);
     const points = pitch > CLOSE ? outline.map((at) => this.point({ body: wheel.body, at })) : [];
-    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, points, this.along(wheel.body, [1, 0]), wheel.radius < 0, color, this.inks);
+    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, points, this.along(wheel.body, [1, 0]), wheel.radius < 0, this.paler(fill, 0.7), edge);
   }
 
   private rackLine(rack: Rack): Point[] {
@@ -138,7 +156,13 @@ export class Plane implements Renderer {
     if (kind === 'rope') signs.rope(this.pen, this.point(a), ra, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), this.inks);
   }
 
-  /** A spring, damper or rod, with the ground at its ends where no joint has its bearing. */
+  /** A rod without mass: a bar. */
+  private rod({ a, b }: Link): void {
+    const { fill, edge } = rodInks(this.inks);
+    this.rounded([this.point(a), this.point(b)], BAR, fill, edge);
+  }
+
+  /** A spring or damper, with the ground at its ends where no joint has its bearing. */
   private link({ kind, a, b }: Link): void {
     const [from, to] = [this.point(a), this.point(b)];
     if (kind === 'torsion') {
@@ -147,7 +171,7 @@ export class Plane implements Renderer {
     }
     const bearings = this.motion.scene.joints.filter(({ kind, a, b }) => kind === 'revolute' && (a.body === 0 || b.body === 0)).map((joint) => this.point(joint.a));
     for (const [end, other, body] of [[from, to, a.body], [to, from, b.body]] as const) {
-      if (kind !== 'rod' && body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
+      if (body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
     }
     signs.link(this.pen, kind, from, to, this.inks);
   }
@@ -208,9 +232,12 @@ export class Plane implements Renderer {
   }
 
   private colors(body: number): { fill: string; edge: string } {
-    if (body === 0) return { fill: mixed(this.inks.paper, this.inks.faint, 0.25), edge: this.inks.faint };
-    const edge = this.inks.curves[(body - 1) % 6]!;
-    return { fill: mixed(this.inks.paper, edge, this.inks.light ? 0.24 : 0.3), edge };
+    return bodyInks(this.motion.scene.bodies[body]!.color, this.inks);
+  }
+
+  /** What is large is paler, as in the figures. */
+  private paler(fill: string, part: number): string {
+    return mixed(this.inks.paper, fill, part);
   }
 
   private shape(body: number, shape: Shape): void {
@@ -226,25 +253,25 @@ export class Plane implements Renderer {
       }
       case 'hull': {
         const outline = hull(points(shape.points));
-        if (outline.length > 0) this.rounded(outline, BAR, outline.length > 2 ? mixed(this.inks.paper, fill, 0.75) : fill, edge);
+        if (outline.length > 0) this.rounded(outline, BAR, outline.length > 2 ? this.paler(fill, 0.7) : fill, edge);
         break;
       }
       case 'polygon':
-        pen.path(points(shape.points), true).fill(fill).stroke(edge, 1.5);
+        pen.path(points(shape.points), true).fill(this.paler(fill, 0.85)).stroke(edge, 1.5);
         break;
       case 'box': {
         const [w, h] = [(shape.size[0] ?? 0) / 2, (shape.size[1] ?? 0) / 2];
         const [x, y] = [shape.center[0] ?? 0, shape.center[1] ?? 0];
-        pen.path(points([[x - w, y - h], [x + w, y - h], [x + w, y + h], [x - w, y + h]]), true).fill(fill).stroke(edge, 1.5);
+        pen.path(points([[x - w, y - h], [x + w, y - h], [x + w, y + h], [x - w, y + h]]), true).fill(this.paler(fill, 0.85)).stroke(edge, 1.5);
         break;
       }
       case 'mass':
-        pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, 5)).fill(mixed(fill, edge, 0.45)).stroke(edge, 1.5);
+        pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, 5)).fill(massInk(this.inks)).stroke(this.inks.ink, 1.2);
         break;
       default: {
         const center = this.point({ body, at: shape.center });
         const radius = Math.max(shape.radius * this.scale, 3);
-        pen.circle(center, radius).fill(fill).stroke(edge, 1.5);
+        pen.circle(center, radius).fill(this.paler(fill, 0.7)).stroke(edge, 1.5);
         // a disc that turns is seen to turn
         pen.path([center, off(center, this.along(body, [1, 0]), radius, 0)]).stroke(edge, 1);
       }

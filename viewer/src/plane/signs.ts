@@ -71,7 +71,7 @@ export function pin(pen: Pen, kind: string, at: Point, driven: boolean, inks: In
  * where its bearing is not.
  */
 export function dashpot(pen: Pen, center: Point, slide: Point | null, inks: Inks): void {
-  const color = inks.curves[2]!;
+  const color = inks.rust;
   // s from what moves to what holds it, t across
   const at = ([s, t]: Point): Point => {
     if (slide) return off(center, slide, -BOX[0] - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
@@ -105,13 +105,12 @@ function damper(pen: Pen, a: Point, along: Point, from: number, to: number, acro
   pen.path([p((low + high) / 2, -4), p((low + high) / 2, 4)]).stroke(color, 2.6);
 }
 
-/** A spring, a damper, both, or a rod between two points. Springs about a hinge are spirals. */
+/** A spring, a damper or both between two points. Springs about a hinge are spirals. */
 export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): void {
-  const color = kind === 'rod' ? inks.ink : inks.curves[2]!;
+  const color = inks.rust;
   const { along, length } = toward(a, b);
   const end = Math.min(0.2 * length, 16);
   [a, b].forEach((point) => pen.circle(point, 2.6).fill(color));
-  if (kind === 'rod') pen.path([a, b]).stroke(color, 1.8);
   if (kind === 'spring') pen.path([a, ...coil(a, along, end, length - end, 0), b]).stroke(color, 1.7);
   if (kind === 'damper') damper(pen, a, along, 0, length, 0, color);
   if (kind === 'spring-damper') {
@@ -131,13 +130,13 @@ export function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): v
     const [angle, radius] = [a + (k / 60) * (to - a), outer + (k / 60) * (inner - outer)];
     return [at[0] + radius * Math.cos(angle), at[1] - radius * Math.sin(angle)];
   });
-  pen.path(points).stroke(inks.curves[2]!, 1.6);
+  pen.path(points).stroke(inks.rust, 1.6);
 }
 
 /** A wheel: its teeth along an outline, if there are any, its pitch circle, and a line that shows how it turns; of a ring also its rim. */
-export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, inner: boolean, color: string, inks: Inks): void {
+export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, inner: boolean, fill: string, color: string): void {
   const wheel = outline.length > 0 ? pen.path(outline, true) : pen.circle(center, radius);
-  if (!inner) wheel.fill(mixed(inks.paper, color, 0.14));
+  if (!inner) wheel.fill(fill);
   if (outline.length > 0 || !inner) wheel.stroke(color, 1.2);
   pen.circle(center, radius).stroke(color, 0.8, PITCH);
   if (inner) pen.circle(center, RIM * radius).stroke(color, 1.8);

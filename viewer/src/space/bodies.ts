@@ -2,7 +2,7 @@
 
 import type { Vector } from '../motion';
 import type { Scene, Shape } from '../types';
-import { type Face, add, ball, box, hull, scaled, sheet, tube, unit } from './vectors';
+import { type Face, add, ball, box, face, scaled, sheet, tube, unit } from './vectors';
 
 /** Sides of round bars and discs. */
 const SIDES = 14;
@@ -11,13 +11,16 @@ const RIM = 48;
 
 const vector = (at: number[]): Vector => [at[0] ?? 0, at[1] ?? 0, at[2] ?? 0];
 
+/** Colours of a body and of a point mass on it. */
+export interface Colors { body: string; mass: string }
+
 /** Faces of a shape; `thin` is the radius of a bar whose true one the model does not give. */
-function faces(shape: Shape, thin: number, color: string): Face[] {
+function faces(shape: Shape, thin: number, { body: color, mass }: Colors): Face[] {
   switch (shape.kind) {
     case 'bar': return tube(vector(shape.from), vector(shape.to), Math.max((shape.width ?? 0) / 2, thin), Math.max((shape.width ?? 0) / 2, thin), 10, color);
     case 'cylinder': return tube(vector(shape.from), vector(shape.to), shape.radius, shape.radius, SIDES, color);
     case 'sphere': return ball(vector(shape.center), shape.radius, color);
-    case 'mass': return ball(vector(shape.at), Math.max(shape.radius, 1.6 * thin), color);
+    case 'mass': return ball(vector(shape.at), Math.max(shape.radius, 1.6 * thin), mass);
     case 'box': return box(vector(shape.center), vector(shape.size), color);
     case 'polygon': return shape.points.length > 2 ? sheet(shape.points.map(vector), color) : [];
     case 'disc': {
@@ -29,8 +32,7 @@ function faces(shape: Shape, thin: number, color: string): Face[] {
       const points = shape.points.map(vector);
       if (points.length === 1) return ball(points[0]!, 1.8 * thin, color);
       if (points.length === 2) return tube(points[0]!, points[1]!, thin, thin, 10, color);
-      const solid = hull(points, 0.02 * thin, color);
-      if (solid) return solid;
+      if (shape.faces?.length) return shape.faces.map((corners) => face(corners.map((k) => points[k]!), color, true));
       const middle = scaled(points.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vector), 1 / points.length);
       return points.flatMap((point) => tube(middle, point, 0.7 * thin, 0.7 * thin, 8, color));
     }
@@ -51,7 +53,11 @@ function pieces(all: Face[], longest: number): Face[] {
 }
 
 /** Faces of all bodies, body by body. */
-export function bodies(scene: Scene, size: number, color: (body: number) => string): Face[][] {
+export function bodies(scene: Scene, size: number, colors: (body: number) => Colors): Face[][] {
   const thin = 0.013 * size;
-  return scene.bodies.map((body, index) => pieces(body.shapes.flatMap((shape) => faces(shape, thin, color(index))), 0.12 * size));
+  // a body of one point is shown by the joint there, if there is one
+  const ends = scene.joints.filter(({ kind }) => kind !== 'free' && kind !== 'distance').flatMap(({ a, b }) => [a, b]);
+  const same = (at: number[], point: number[]) => at.every((x, i) => Math.abs(x - point[i]!) <= 1e-6 * size);
+  const hidden = (shape: Shape, body: number) => shape.kind === 'hull' && shape.points.length === 1 && ends.some((end) => end.body === body && same(end.at, shape.points[0]!));
+  return scene.bodies.map(({ shapes }, index) => pieces(shapes.filter((shape) => !hidden(shape, index)).flatMap((shape) => faces(shape, thin, colors(index))), 0.12 * size));
 }

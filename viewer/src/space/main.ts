@@ -7,16 +7,20 @@ import { Pen, type Point, toward } from '../plane/pen';
 import { dashpot, link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
 import { type Told, tellScales } from '../scales';
-import { type Inks, mixed } from '../theme';
+import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
 import { type Face, add, dot, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
+/** How much darker a face is that is turned away. */
+const SHADE = 0.4;
 const LOOKS = 48;
 const PATH = 400;
 /** Width of the axes at the lower left, pixels. */
 const AXES = 90;
+/** Joints whose second body slides on a guide of the first. */
+const SLIDES = ['slider', 'prismatic', 'cylindrical'];
 /** What is drawn of a picture in space, with its distance from the eye. */
 interface Item { depth: number; draw(): void }
 
@@ -33,8 +37,8 @@ class Space implements Renderer {
   private readonly seen: Vector[] = [];
   private extent: Point = [1, 1];
   private faces: { of: Inks | null; all: Face[][]; pins: Face[][] } = { of: null, all: [], pins: [] };
-  private turn = 0.75;
-  private tilt = 0.5;
+  private turn: number;
+  private tilt: number;
   private zoomed = 1;
   private shift: Point = [0, 0];
   private place = 0;
@@ -49,9 +53,9 @@ class Space implements Renderer {
     this.pen = new Pen(context);
     this.names = new Names(motion);
     this.up = unit(motion.scene.up);
-    const first: Vector = Math.abs(this.up[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0];
-    const x = unit(add(first, this.up, -dot(first, this.up)));
-    this.level = [x, cross(this.up, x)];
+    const { level, azimuth, elevation } = motion.scene.view!;
+    this.level = level;
+    [this.turn, this.tilt] = [azimuth, elevation];
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ at, points: at.map((place) => motion.world(trace, place)) }));
     ({ middle: this.middle, size: this.size, floor: this.floor } = this.measure());
@@ -63,7 +67,8 @@ class Space implements Renderer {
   }
 
   fit(): void {
-    [this.turn, this.tilt, this.zoomed, this.shift] = [0.75, 0.5, 1, [0, 0]];
+    const { azimuth, elevation } = this.motion.scene.view!;
+    [this.turn, this.tilt, this.zoomed, this.shift] = [azimuth, elevation, 1, [0, 0]];
     this.names.forget();
   }
 
@@ -108,17 +113,22 @@ class Space implements Renderer {
     this.ground(inks);
     const items: Item[] = [];
     const { all, pins } = this.shapes(inks);
-    all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body, inks)));
-    motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body, inks)));
+    all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body)));
+    motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body)));
     for (const { kind, a, b } of motion.scene.links) {
       const [p, q] = [motion.world(a, place), motion.world(b, place)];
+      if (kind === 'rod') {
+        this.rod(items, p, q, inks);
+        continue;
+      }
       const draw = () => (kind === 'torsion' ? spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : link(pen, kind, this.pixel(p), this.pixel(q), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) items.push(this.dashpot(joint, inks));
-    if (options.paths !== 'none') this.drawPaths(items, options.paths === 'growing', inks);
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
+    // over the bodies, as in the figures of the program
+    if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
     if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks);
@@ -143,9 +153,8 @@ class Space implements Renderer {
   /** Directions of the picture from those of the eye. */
   private look(width: number, height: number): void {
     const [x, y] = this.level;
-    const across = add(scaled(x, Math.cos(this.turn)), y, Math.sin(this.turn));
-    const level = add(scaled(x, Math.sin(this.turn)), y, -Math.cos(this.turn));
-    this.right = across;
+    const level = add(scaled(x, Math.cos(this.turn)), y, Math.sin(this.turn));
+    this.right = add(scaled(x, -Math.sin(this.turn)), y, Math.cos(this.turn));
     this.toEye = unit(add(scaled(level, Math.cos(this.tilt)), this.up, Math.sin(this.tilt)));
     this.above = cross(this.toEye, this.right);
     this.scale = Math.min((width - 90) / this.extent[0], (height - 90) / this.extent[1]) * this.zoomed;
@@ -198,8 +207,11 @@ class Space implements Renderer {
   private shapes(inks: Inks): { all: Face[][]; pins: Face[][] } {
     if (this.faces.of?.paper !== inks.paper) {
       const { scene } = this.motion;
-      const color = (body: number) => (body === 0 ? mixed(inks.paper, inks.faint, 0.6) : mixed(inks.curves[(body - 1) % 6]!, inks.light ? '#ffffff' : '#000000', inks.light ? 0.3 : 0.2));
-      this.faces = { of: inks, all: bodies(scene, this.size, color), pins: scene.joints.map((joint) => this.pin(joint, inks)) };
+      const colors = (body: number) => ({ body: bodyInks(scene.bodies[body]!.color, inks).fill, mass: massInk(inks) });
+      const all = bodies(scene, this.size, colors);
+      const pins = scene.joints.map((joint) => this.pin(joint, inks));
+      scene.joints.forEach((joint) => all[joint.b.body]!.push(...this.slideBox(joint, inks)));
+      this.faces = { of: inks, all, pins };
     }
     return this.faces;
   }
@@ -212,20 +224,43 @@ class Space implements Renderer {
     const r = 0.017 * this.size;
     if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return tube(add(at, [0, 0, -r]), add(at, [0, 0, r]), 1.15 * r, 1.15 * r, 10, color);
     const along = unit([axis[0]!, axis[1]!, axis[2]!]);
-    const slides = ['slider', 'prismatic', 'cylindrical'].includes(kind);
-    const [low, high] = slides && stroke ? [stroke[0] - r, stroke[1] + r] : [-1.9 * r, 1.9 * r];
-    return tube(add(at, along, low), add(at, along, high), slides ? 0.4 * r : r, slides ? 0.4 * r : r, 12, color);
+    if (!SLIDES.includes(kind)) return tube(add(at, along, -1.9 * r), add(at, along, 1.9 * r), r, r, 12, color);
+    // a guide in the colour of the body that it belongs to
+    const [low, high] = stroke ?? [0, 0];
+    const own = a.body === 0 ? mixed(inks.paper, inks.faint, 0.7) : bodyInks(this.motion.scene.bodies[a.body]!.color, inks).edge;
+    return tube(add(at, along, low - 2 * r), add(at, along, high + 2 * r), 0.35 * r, 0.35 * r, 10, own);
   }
 
-  /** A face that is seen, in the light from above the eye's left shoulder. */
-  private face(items: Item[], { points, normal, color, edged, clear }: Face, body: number, inks: Inks): void {
+  /** The box of a slide on its guide. */
+  private slideBox({ kind, a, b, axis, driven }: Joint, inks: Inks): Face[] {
+    if (!SLIDES.includes(kind) || axis.length < 3) return [];
+    // a slide does not turn its body
+    const world = this.motion.direction(a.body, axis, this.motion.from);
+    const own = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as Vector[]).map((e) => dot(this.motion.direction(b.body, e, this.motion.from), world)) as Vector;
+    const at: Vector = [b.at[0] ?? 0, b.at[1] ?? 0, b.at[2] ?? 0];
+    const r = 0.017 * this.size;
+    return tube(add(at, own, -1.5 * r), add(at, own, 1.5 * r), 1.2 * r, 1.2 * r, 4, driven ? inks.accent : mixed(inks.ink, inks.paper, 0.5));
+  }
+
+  /** A rod without mass. */
+  private rod(items: Item[], from: Vector, to: Vector, inks: Inks): void {
+    const { fill, edge } = rodInks(inks);
+    const [width, pieces] = [Math.max(0.022 * this.size * this.scale, 3), 8];
+    const at = (k: number) => add(from, add(to, from, -1), k / pieces);
+    for (let k = 0; k < pieces; k++) {
+      const ends = [at(k), at(k + 1)].map((p) => this.pixel(p));
+      items.push({ depth: this.depth(at(k + 0.5)), draw: () => this.pen.path(ends).stroke(edge, width).path(ends).stroke(fill, width - 2) });
+    }
+  }
+
+  /** A face that is seen, in light from the eye and from above. */
+  private face(items: Item[], { points, normal, color, edged, clear }: Face, body: number): void {
     const out = this.motion.direction(body, normal, this.place);
     if (dot(out, this.toEye) <= 0) return;
     const world = points.map((at) => this.motion.world({ body, at }, this.place));
     const middle = scaled(world.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vector), 1 / world.length);
-    const light = unit(add(add(this.toEye, this.above, 0.9), this.right, -0.5));
-    const bright = Math.max(0, dot(out, light));
-    const lit = mixed(mixed(color, '#000000', inks.light ? 0.42 : 0.5), mixed(color, '#ffffff', 0.18), bright);
+    const bright = 0.5 * dot(out, this.toEye) + 0.5 * Math.max(0, dot(out, this.up));
+    const lit = clear ? color : mixed(color, '#000000', SHADE * (1 - bright));
     items.push({
       depth: this.depth(middle),
       // a hair's breadth of the face's own colour closes the gap between neighbours
@@ -263,13 +298,13 @@ class Space implements Renderer {
     for (let k = Math.ceil((cy - reach) / step); k * step <= cy + reach; k++) this.pen.path([at(cx - reach, k * step), at(cx + reach, k * step)]).stroke(inks.grid, 1);
   }
 
-  private drawPaths(items: Item[], growing: boolean, inks: Inks): void {
+  private drawPaths(growing: boolean, inks: Inks): void {
     this.paths.forEach(({ at, points }, k) => {
-      const color = inks.curves[(k + 1) % 6]!;
+      const color = inks.curves[(k + 1) % 7]!;
       points.slice(1).forEach((point, i) => {
         const done = !growing || (this.motion.falls ? at[i]! >= this.place : at[i + 1]! <= this.place);
         const ink = done ? color : mixed(inks.paper, color, 0.3);
-        items.push({ depth: this.depth(point), draw: () => this.pen.path([this.pixel(points[i]!), this.pixel(point)]).stroke(ink, done ? 2 : 1.2) });
+        this.pen.path([this.pixel(points[i]!), this.pixel(point)]).stroke(ink, done ? 2 : 1.2);
       });
     });
   }

@@ -21,7 +21,8 @@ export function across(axis: Vector): [Vector, Vector] {
 /** A plane face of a body, in the frame of the body, around its outward normal; one that is clear lets through what is behind it. */
 export interface Face { points: Vector[]; normal: Vector; color: string; edged: boolean; clear?: boolean }
 
-function face(points: Vector[], color: string, edged: boolean): Face {
+/** A face around its corners, counter-clockwise from outside. */
+export function face(points: Vector[], color: string, edged: boolean): Face {
   const normal = unit(cross(add(points[1]!, points[0]!, -1), add(points[2]!, points[1]!, -1)));
   return { points, normal, color, edged };
 }
@@ -70,28 +71,4 @@ export function ball(center: Vector, radius: number, color: string): Face[] {
     }
   }
   return out;
-}
-
-/** The convex hull of points that lie in no plane, in triangles; none for points of one plane, to `thin`, and for very many. */
-export function hull(points: Vector[], thin: number, color: string): Face[] | null {
-  const n = points.length;
-  const faces: Face[] = [];
-  if (n < 4 || n > 40) return null;
-  let deepest = 0;
-  for (let i = 0; i < n; i++) {
-    for (let j = i + 1; j < n; j++) {
-      for (let k = j + 1; k < n; k++) {
-        const [a, b, c] = [points[i]!, points[j]!, points[k]!];
-        const normal = cross(add(b, a, -1), add(c, a, -1));
-        const size = Math.hypot(...normal);
-        if (size < thin * thin) continue;
-        const heights = points.map((p) => dot(add(p, a, -1), normal) / size);
-        const [low, high] = [Math.min(...heights), Math.max(...heights)];
-        if (high <= thin) faces.push(face([a, b, c], color, false));
-        if (low >= -thin) faces.push(face([a, c, b], color, false));
-        if (high <= thin || low >= -thin) deepest = Math.max(deepest, high - low);
-      }
-    }
-  }
-  return deepest > 4 * thin ? faces : null;
 }
