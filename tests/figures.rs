@@ -70,6 +70,19 @@ fn axes_have_the_units_and_ends_that_are_asked_for() {
 }
 
 #[test]
+fn axes_have_one_scale_where_they_are_coordinates_of_one_place() {
+    // rows of lengths over lengths all the same
+    for (plot, path) in [
+        ("{ show: [crank.end.y], over: crank.end.x }", true),
+        ("{ show: [com.y], over: com.x }", true),
+        ("{ show: [depth], over: crank.end.x }", false),
+        ("{ show: [rod.end.y], over: crank.end.x }", false),
+    ] {
+        assert_eq!(figure(plot).equal, path, "{plot}");
+    }
+}
+
+#[test]
 fn other_studies_and_measured_data_stand_beside() {
     let figure = figure("{ show: [depth], with: [fast], data: { measured: { file: lift.csv, x: angle, y: lift, in: [deg, mm] } } }");
     let labels: Vec<&str> = figure.curves.iter().map(|curve| curve.label.as_str()).collect();

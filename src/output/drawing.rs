@@ -161,7 +161,8 @@ impl Pen<'_> {
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.kind == SymbolKind::Slot) {
             let more = 11.0 * self.signs.size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
-            self.signs.slot(&mut self.scene, way, &ink);
+            let own = if symbol.way_grounded { ink } else { Self::looks(body_color(symbol.way_body), strength) };
+            self.signs.slot(&mut self.scene, way, &Looks { fill: ink.fill, ..own });
             if strong {
                 if symbol.way_grounded {
                     self.signs.hatched_below(&mut self.scene, way, 12.0);
@@ -180,8 +181,11 @@ impl Pen<'_> {
             if strong {
                 let half = 1.2 * self.signs.pin_radius(true);
                 self.letters.avoid(placement.at, [half; 2], [0.0; 2]);
-                self.beside(symbol, placement);
             }
+        }
+        // over the pins of other joints
+        if strong {
+            joints.iter().for_each(|(symbol, placement)| self.beside(symbol, placement));
         }
     }
 
@@ -192,7 +196,8 @@ impl Pen<'_> {
             let more = self.signs.slide_box()[0] + 14.0 * size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
             if ink.strong {
-                self.signs.slideway(&mut self.scene, way, symbol.way_grounded, placement.clear);
+                let body = Self::looks(body_color(symbol.way_body), 1.0);
+                self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement.clear);
                 let [half, height] = self.signs.slide_box();
                 self.letters.avoid(placement.at, [half + 2.0, height + 4.0], [0.0; 2]);
                 let below =
@@ -301,14 +306,20 @@ impl Pen<'_> {
 
     /// The names of the strong position, unless they would cover more of the sheet than can be read, and those of paths.
     fn names(&mut self, names: Vec<Name>, paper: Rect) {
-        // the path of a body that is named goes without a name of its own
+        // the one path of a body that is named goes without a name of its own
         let known: Vec<String> = names.iter().map(|name| name.text.clone()).collect();
         let area: f64 = names.iter().map(|name| font::width(&name.text, LETTERS) * LETTERS).sum();
         let mut all = if area <= NAMED * paper.width() * paper.height() { names } else { Vec::new() };
-        for (index, trace) in self.drawing.traces.iter().enumerate().filter(|(_, trace)| !known.contains(&trace.name)) {
+        let alone = self.drawing.traces.len() == 1;
+        for (index, trace) in self.drawing.traces.iter().enumerate() {
+            let named = known.contains(&trace.name);
+            if named && alone {
+                continue;
+            }
             let pixels = self.sheet.points(&trace.points);
             if let Some(at) = pixels.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) {
-                let (text, color) = (trace.name.clone(), path_stroke(index).0);
+                let text = if named { format!("path of {}", trace.name) } else { trace.name.clone() };
+                let color = path_stroke(index).0;
                 all.push(Name { text, at, also: Vec::new(), reach: 6.0, color, of: Named::Path(pixels) });
             }
         }
@@ -381,6 +392,29 @@ mod tests {
         let drawing = Drawing { joints: vec![symbol("A", [0.0; 2]), symbol("B", [1.0, 0.0]), symbol("C", [0.0; 2])], ..Drawing::default() };
         let texts = texts(&drawing);
         assert!(texts.contains(&"A, C".into()) && texts.contains(&"B".into()) && !texts.contains(&"C".into()), "{texts:?}");
+    }
+
+    #[test]
+    fn each_of_several_paths_has_its_name() {
+        let trace = |name: &str, y: f64| Trace { name: name.into(), points: vec![[0.0, y], [1.0, y]] };
+        let body = named("rod", vec![plate(vec![[0.0, 0.0], [1.0, 0.0]])]);
+        let of = |traces| texts(&Drawing { bodies: vec![Outline::default(), body.clone()], traces, ..Drawing::default() });
+        let one = of(vec![trace("rod", 1.0)]);
+        assert_eq!(one.iter().filter(|text| text.contains("rod")).count(), 1, "{one:?}");
+        let two = of(vec![trace("rod", 1.0), trace("rod.end", 2.0)]);
+        assert!(["rod", "path of rod", "rod.end"].iter().all(|name| two.contains(&(*name).into())), "{two:?}");
+    }
+
+    #[test]
+    fn a_guide_has_the_colour_of_its_body() {
+        let way = Placement { way: Some([[0.0, 0.0], [1.0, 0.0]]), along: [1.0, 0.0], ..Placement::default() };
+        let edge = |way_body| Pen::looks(body_color(way_body), 1.0).edge;
+        let drawn = |way_grounded| {
+            let slide = Symbol { kind: SymbolKind::Slide, way_grounded, way_body: 2, poses: vec![way], ..Symbol::default() };
+            let items = layout(&Drawing { joints: vec![slide], ..Drawing::default() }).items;
+            items.iter().any(|item| matches!(item, Item::Path { stroke: Some(stroke), .. } if stroke.color == edge(2)))
+        };
+        assert!(drawn(false) && !drawn(true));
     }
 
     #[test]

@@ -46,11 +46,14 @@ pub fn write_dxf(drawing: &Drawing) -> String {
         if symbol.kind == SymbolKind::Slot {
             rounded(&mut out, Layer::Joints, &longer(way, &placement, 11.0 * signs.size).map(back), 13.0 * signs.size * mm);
         }
+        let guide = longer(way, &placement, signs.slide_box()[0] + 14.0 * signs.size);
+        if symbol.kind == SymbolKind::Slide && !symbol.way_grounded {
+            rounded(&mut out, Layer::Joints, &guide.map(back), signs.guide_width() * mm);
+        }
         let ground = |scene: &mut Sheet| {
-            if symbol.kind == SymbolKind::Slide {
-                let more = signs.slide_box()[0] + 14.0 * signs.size;
-                signs.slideway(scene, longer(way, &placement, more), symbol.way_grounded, placement.clear);
-            } else if stands(symbol) {
+            if symbol.kind == SymbolKind::Slide && symbol.way_grounded {
+                signs.slideway(scene, guide, None, placement.clear);
+            } else if symbol.kind != SymbolKind::Slide && stands(symbol) {
                 signs.ground(scene, placement.at);
             }
         };

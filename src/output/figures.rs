@@ -7,6 +7,9 @@ use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results};
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;
 
+/// How much steeper than beside it a curve of whole runs is where it jumps.
+const STEEP: f64 = 8.0;
+
 /// Figures of a study by name; of a sweep curves for each run, told apart by its label, and numbers of whole runs.
 pub fn figures(results: &Results) -> Vec<(String, Figure)> {
     let runs: Vec<(Option<&str>, &Results)> = if results.table.reasons.is_none() {
@@ -50,9 +53,9 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
         _ => vec![],
     };
     let shown: Vec<&Column> = first.map_or_else(Vec::new, |run| plot.show.iter().filter_map(|name| column(run, name)).collect());
-    let lengths = |column: &Column| column.unit == "m" && unit(column, plot.y.as_ref()).0 == x.unit;
+    let alike = |column: &Column| unit(column, plot.y.as_ref()).0 == x.unit;
     let free = plot.right.is_none() && plot.y.as_ref().is_none_or(|y| y.range == [None; 2]) && plot.range == [None; 2];
-    let same_plane = free && plot.over.is_some() && shown.iter().copied().all(lengths) && over.is_some_and(|over| over.unit == "m");
+    let same_plane = free && plot.path && shown.iter().copied().all(alike);
     let y = match shown[..] {
         [only] if (several || !plot.beside.is_empty()) && left.len() == 1 => {
             Axis { label: only.name.clone(), unit: unit(only, plot.y.as_ref()).0, ..Axis::default() }
@@ -106,7 +109,7 @@ fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
             (true, _) => format!("{name}, {}", pretty(&family.label)),
             _ => name.clone(),
         };
-        let points = family.rows.iter().map(|row| (over.values[*row], column.values[*row])).collect();
+        let points = broken(family.rows.iter().map(|row| (over.values[*row], column.values[*row])).collect());
         Curve { dots, ..curve(label, column, points, plot, on_right) }
     };
     let mut curves: Vec<Curve> = families.iter().flat_map(|family| names.iter().map(|name| shown(name, family))).collect();
@@ -136,6 +139,26 @@ fn joined(x: &[f64], y: &[f64], switches: &[usize], path: bool) -> Vec<(f64, f64
         }
     }
     points
+}
+
+/// Points of whole runs with a gap where a quantity jumps from one run to the next, as where a mechanism is assembled otherwise from
+/// there on: where its slope is [`STEEP`] times those on both sides, over more than a tenth of its range.
+fn broken(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let slope = |k: usize| ((points[k + 1].1 - points[k].1) / (points[k + 1].0 - points[k].0)).abs();
+    let values = points.iter().map(|point| point.1).filter(|y| y.is_finite());
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
+    let jumps = |k: usize| {
+        let far = (points[k + 1].1 - points[k].1).abs() > 0.1 * (high - low);
+        far && k > 0 && k + 2 < points.len() && slope(k) > STEEP * slope(k - 1).max(slope(k + 1))
+    };
+    let mut out = Vec::with_capacity(points.len());
+    for (k, point) in points.iter().enumerate() {
+        out.push(*point);
+        if k + 1 < points.len() && jumps(k) {
+            out.push((point.0, f64::NAN));
+        }
+    }
+    out
 }
 
 fn title(results: &Results, plot: &Plot) -> String {
@@ -195,6 +218,29 @@ mod tests {
         assert_eq!((figure.y.label.as_str(), figure.curves[0].dots), ("peak", false));
         let drawn = Results { swept: swept(SweptBy::Drawn), ..sweep };
         assert!(figures(&drawn).remove(0).1.curves.iter().all(|curve| curve.dots));
+    }
+
+    #[test]
+    fn curves_of_runs_break_where_they_jump() {
+        let over = |y: &[f64]| y.iter().enumerate().map(|(k, y)| (k as f64, *y)).collect::<Vec<_>>();
+        let gaps = |y: &[f64]| broken(over(y)).iter().enumerate().filter(|(_, point)| point.1.is_nan()).map(|(k, _)| k).collect::<Vec<_>>();
+        // a truss that falls through, and a count
+        assert_eq!(gaps(&[0.49, 0.47, 0.45, 0.43, 0.39, -0.79, -0.795, -0.8]), [5]);
+        assert_eq!(gaps(&[1.0, 1.0, 0.0, 0.0]), [2]);
+        // a peak between two runs, a steep rise, and ends of which nothing is known beyond
+        assert!(gaps(&[0.0, 0.1, 5.0, 0.1, 0.0]).is_empty());
+        assert!(gaps(&[0.0, 0.1, 0.5, 2.0, 5.0, 6.0]).is_empty() && gaps(&[0.0, 5.0, 5.1]).is_empty());
+    }
+
+    #[test]
+    fn axes_of_different_places_fill_their_ranges() {
+        let column = |name: &str| Column { name: name.into(), unit: "m".into(), values: vec![0.0, 1.0], ..Column::default() };
+        let of = |path: bool| {
+            let plot = Plot { name: "f".into(), show: vec!["y".into()], over: Some("x".into()), path, ..Plot::default() };
+            let table = Table { columns: vec![column("x"), column("y")], ..Table::default() };
+            figures(&Results { table, plots: vec![plot], ..Results::default() }).remove(0).1.equal
+        };
+        assert!(of(true) && !of(false));
     }
 
     #[test]

@@ -118,7 +118,7 @@ impl Signs {
                 let side = if along[0] >= 0.0 { -8.0 } else { 8.0 };
                 return off(placement.at, along, -self.slide_box()[0] - 38.0 * size * s, size * (side + 6.0 * t));
             }
-            let ((sin, cos), radius) = ((3.1 + 1.6 * s).sin_cos(), size * (17.5 + 5.0 * t));
+            let ((sin, cos), radius) = ((3.0 + 1.8 * s).sin_cos(), size * (27.0 + 7.5 * t));
             [placement.at[0] + radius * (cos * u[0] + sin * v[0]), placement.at[1] + radius * (cos * u[1] + sin * v[1])]
         };
         let run = |from: f64, to: f64, t: f64| (0..=10).map(move |k| (from + (to - from) * f64::from(k) / 10.0, t));
@@ -127,13 +127,13 @@ impl Signs {
             scene.line(points, Stroke::solid(RUST, self.pen(width)));
         };
         // a rod with its piston, the pot around it, and what that is fixed to
-        line(run(0.0, 0.55, 0.0).collect(), 2.0);
-        line(vec![(0.55, -0.65), (0.55, 0.65)], 2.8);
-        line(run(0.35, 0.8, -1.0).chain(run(0.8, 0.35, 1.0)).collect(), 2.0);
-        line(run(0.8, 1.0, 0.0).collect(), 2.0);
-        line(vec![(1.0, -0.9), (1.0, 0.9)], 2.0);
+        line(run(0.0, 0.55, 0.0).collect(), 2.4);
+        line(vec![(0.55, -0.65), (0.55, 0.65)], 3.2);
+        line(run(0.35, 0.8, -1.0).chain(run(0.8, 0.35, 1.0)).collect(), 2.4);
+        line(run(0.8, 1.0, 0.0).collect(), 2.4);
+        line(vec![(1.0, -0.9), (1.0, 0.9)], 2.4);
         if !slides {
-            line(vec![(0.0, 0.0), (0.0, -1.9)], 2.0);
+            line(vec![(0.0, 0.0), (0.0, -2.4)], 2.4);
         }
         run(0.0, 1.0, 0.0).map(|(s, t)| at(s, t)).collect()
     }
@@ -244,7 +244,10 @@ mod tests {
         let mut scene = Scene::default();
         let drive = Signs { size: 1.0 }.drive(&mut scene, &Placement { at, across, sense: 1.0, ..Placement::default() }, false);
         let far = |p: &Point| drive.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
-        assert!(hinge.iter().all(|p| far(p) > 6.0 && (p[0] - 100.0).hypot(p[1] - 100.0) < 23.0), "{hinge:?}");
+        assert!(hinge.iter().all(|p| far(p) > 6.0 && (p[0] - 100.0).hypot(p[1] - 100.0) < 35.0), "{hinge:?}");
+        // as wide as the pin that it stands beside
+        let reach = hinge.iter().map(|p| (p[0] - 100.0).hypot(p[1] - 100.0)).fold(0.0, f64::max);
+        assert!(reach > 4.0 * Signs { size: 1.0 }.pin_radius(true), "{reach}");
     }
 
     #[test]

@@ -75,6 +75,8 @@ pub struct Symbol {
     pub grounded: bool,
     /// Of a slide: the way belongs to the frame.
     pub way_grounded: bool,
+    /// Of a slide or slot: the body that the way belongs to.
+    pub way_body: usize,
     /// Something drives it.
     pub driven: bool,
     /// It has viscous damping.

@@ -142,13 +142,21 @@ impl Signs {
         self.hatched(scene, a, b);
     }
 
-    /// What a slide slides on: hatched ground, at least `clear` pixels below the way, or a thin line on another body.
-    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], grounded: bool, clear: f64) {
-        if grounded {
-            self.hatched_below(scene, way, (BOX[1] + 2.0).max(clear / self.size));
-        } else {
-            scene.line(way.to_vec(), Stroke::solid(INK, self.pen(3.0)));
+    /// What a slide slides on: hatched ground, at least `clear` pixels below the way, or a guide on the body with `looks`, as wide as
+    /// the box.
+    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], body: Option<&Looks>, clear: f64) {
+        match body {
+            None => self.hatched_below(scene, way, (BOX[1] + 2.0).max(clear / self.size)),
+            Some(looks) => {
+                scene.line(way.to_vec(), Stroke::solid(looks.edge, self.guide_width() + 2.0 * self.pen(2.0)));
+                scene.line(way.to_vec(), Stroke::solid(pale(looks.fill, 0.25), self.guide_width()));
+            }
         }
+    }
+
+    /// Width of a guide on a body, pixels.
+    pub(super) fn guide_width(self) -> f64 {
+        2.0 * self.slide_box()[1] + 6.0 * self.size
     }
 
     /// Half length and half height of a sliding box, pixels.

@@ -15,6 +15,9 @@ pub struct Plot {
     pub unit: Option<(String, f64)>,
     /// Whether it shows numbers of whole runs over a swept parameter.
     pub of_runs: bool,
+    /// Whether its axes are coordinates of one place: one unit of x is as long as one of y.
+    #[serde(default)]
+    pub path: bool,
     /// Ends of the horizontal axis, SI, where the file gives them.
     pub range: [Option<f64>; 2],
     /// Unit and range of the vertical axis of one quantity.

@@ -339,6 +339,28 @@ export async function bodies_have_their_names_and_colours(open) {
   assert.deepEqual(color, [232, 200, 148]);
 }
 
+export async function paths_have_their_names(open) {
+  const { tab } = await open('jansen_leg', { study: 'step' });
+  const paths = async () => {
+    await picture(tab);
+    return (await tab.evaluate(() => grashof.names())).filter(({ of }) => of === 'path').map(({ text }) => text);
+  };
+  assert.deepEqual(await paths(), ['shin.S']);
+  await tab.getByLabel('paths').selectOption('no paths');
+  assert.deepEqual(await paths(), []);
+}
+
+export async function scales_of_space_stand_below_the_mechanism(open) {
+  const { tab } = await open('stewart_platform', { study: 'ride', width: 390 });
+  for (const kind of ['velocities', 'accelerations']) await tab.getByRole('checkbox', { name: kind }).check();
+  await picture(tab);
+  const { height } = await tab.locator('.canvas').boundingBox();
+  assert.equal((await tab.evaluate(() => grashof.scales())).length, 2);
+  // the axes of the world take 66 pixels
+  const lowest = Math.max(...(await tab.evaluate(() => grashof.names())).map(({ at }) => at[1]));
+  assert.ok(lowest < height - 66, `a joint at ${lowest} of ${height} pixels`);
+}
+
 export async function names_stand_beside_their_joints_and_keep_their_sides(open) {
   for (const [model, study, count] of [['stewart_platform', 'ride', 12], ['jansen_leg', 'step', 7], ['arm', 'lift', 8], ['inline_four', 'firing', 9], ['andrews', 'squeeze', 7], ['short', 'turn', 4]]) {
     const { tab } = await open(model, { study });

@@ -1,4 +1,4 @@
-// Names beside the joints of a drawing, and of its bodies where there is room. Each keeps its side over the whole motion, so that nothing
+// Names beside the joints of a drawing, and of its bodies and paths where there is room. Each keeps its side over the whole motion, so that nothing
 // jumps while it plays: the side on which it meets the fewest other names and joints at some places of the motion. Where names meet all the
 // same, the later one is left out.
 
@@ -11,10 +11,13 @@ import type { Place, Shape } from './types';
 export type Box = [number, number, number, number];
 
 /** A name that is drawn: where its joint or a place on its body is, and where its text stands. */
-export interface Named { text: string; at: Point; box: Box; of: 'joint' | 'body' }
+export interface Named { text: string; at: Point; box: Box; of: 'joint' | 'body' | 'path' }
 
-/** Joints that are at one place all the time, by the first of them, or a body; how wide their names are, and where these stand. */
-interface Group { text: string; joint: Place; width: number; points: Point[]; side: number; body: number | null }
+/** Joints that are at one place all the time, by the first of them, or a body or path; how wide their names are, and where these stand. */
+interface Group { text: string; joint: Place; width: number; points: Point[]; side: number; other: Other | null }
+
+/** A body or path with its name and the places where that may stand. */
+interface Other { name: string; of: 'body' | 'path'; spots: Spot[]; color(inks: Inks): string }
 
 /** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
 interface Spot { joint: Place; places: Vector[]; wide: boolean }
@@ -89,22 +92,30 @@ export class Names {
   drawn: Named[] = [];
   private groups: Group[] = [];
   private readonly joints: { name: string; joint: Place; places: Vector[] }[];
-  private readonly bodies: { name: string; body: number; spots: Spot[] }[];
+  private readonly others: Other[];
   /** The names that were left out last. */
   private hidden = new Set<string>();
   private view = '';
 
   constructor(private readonly motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
-    const { bodies } = motion.scene;
+    const { bodies, traces } = motion.scene;
     const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length + bodies.length, 1) ** 2))));
     const at = motion.sampled(looks);
     const over = (joint: Place) => at.map((place) => motion.world(joint, place));
     this.joints = joints.map(({ name, b }) => ({ name, joint: b, places: over(b) }));
-    this.bodies = bodies.flatMap(({ name, shapes: [shape] }, body) => {
+    this.others = bodies.flatMap(({ name, shapes: [shape], color }, body): Other[] => {
       if (body === 0 || !shape) return [];
       const { places, wide } = spots(shape);
-      return [{ name, body, spots: places.map((own) => ({ joint: { body, at: own }, places: over({ body, at: own }), wide })) }];
+      const all = places.map((own) => ({ joint: { body, at: own }, places: over({ body, at: own }), wide }));
+      return [{ name, of: 'body', spots: all, color: (inks) => bodyInks(color, inks).edge }];
+    });
+    // the one path of a joint or body that is named goes without a name of its own
+    const known = new Set([...joints, ...bodies].map(({ name }) => name));
+    traces.forEach(({ name, body, at: own }, k) => {
+      if (known.has(name) && traces.length === 1) return;
+      const text = known.has(name) ? `path of ${name}` : name;
+      this.others.push({ name: text, of: 'path', spots: [{ joint: { body, at: own }, places: over({ body, at: own }), wide: false }], color: (inks) => inks.curves[(k + 1) % 7]! });
     });
   }
 
@@ -114,34 +125,34 @@ export class Names {
     this.hidden.clear();
   }
 
-  /** Draws the names at a place of the motion, where `pixel` sees points; `view` is another one when it sees them elsewhere. */
-  draw(pen: Pen, place: number, pixel: (at: Vector) => Point, view: number[], size: Point, inks: Inks): void {
-    const seen = [...view, ...size].join();
-    if (seen !== this.view) this.arrange(pen, pixel, size);
+  /** Draws the names at a place of the motion, where `pixel` sees points; `view` is another one when it sees them elsewhere; with those of paths if these are drawn. */
+  draw(pen: Pen, place: number, pixel: (at: Vector) => Point, view: number[], size: Point, inks: Inks, paths: boolean): void {
+    const seen = [...view, ...size, paths].join();
+    if (seen !== this.view) this.arrange(pen, pixel, size, paths);
     this.view = seen;
     this.drawn = [];
     const hidden = new Set<string>();
     const colors: string[] = [];
-    for (const { text, joint, width, side, body } of this.groups) {
+    for (const { text, joint, width, side, other } of this.groups) {
       const at = pixel(this.motion.world(joint, place));
       const box = within(boxOn(side, at, width), size);
       const room = this.hidden.has(text) ? BACK : 0;
-      if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((other) => overlap(box, other.box, room))) {
+      if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => overlap(box, one.box, room))) {
         hidden.add(text);
         continue;
       }
       const { to, far: length } = toBox(at, box);
       if (side >= NEAR && side < ON && length > SIGN) pen.path([off(at, [(to[0] - at[0]) / length, (to[1] - at[1]) / length], SIGN, 0), to]).stroke(inks.faint, 1);
-      if (side >= NEAR && side < ON && body !== null) pen.circle(at, 1.8).fill(inks.soft);
-      this.drawn.push({ text, at, box, of: body === null ? 'joint' : 'body' });
-      colors.push(body === null ? inks.soft : bodyInks(this.motion.scene.bodies[body]!.color, inks).edge);
+      if (side >= NEAR && side < ON && other) pen.circle(at, 1.8).fill(inks.soft);
+      this.drawn.push({ text, at, box, of: other?.of ?? 'joint' });
+      colors.push(other ? other.color(inks) : inks.soft);
     }
     this.hidden = hidden;
     this.drawn.forEach(({ text, box }, k) => pen.text(text, [box[0], box[3] - 2], colors[k]!, inks.paper));
   }
 
   /** Finds the side of each name in a view. */
-  private arrange(pen: Pen, pixel: (at: Vector) => Point, size: Point): void {
+  private arrange(pen: Pen, pixel: (at: Vector) => Point, size: Point, paths: boolean): void {
     const before = new Map(this.groups.map(({ text, side }) => [text, side]));
     this.groups = this.together(pen, pixel);
     const taken: Box[][] = [];
@@ -151,12 +162,14 @@ export class Names {
       take(group);
     }
     const joints = this.groups;
-    const area = [...joints.map(({ width }) => width), ...this.bodies.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
+    const others = this.others.filter(({ of }) => of === 'body' || paths);
+    const area = [...joints.map(({ width }) => width), ...others.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
     if (area > NAMED * size[0] * size[1]) return;
-    for (const { name: text, body, spots: all } of this.bodies) {
+    for (const other of others) {
+      const { name: text, spots: all } = other;
       const width = pen.width(text);
       const groups = all.map(({ joint, places, wide }, k) => {
-        const group: Group = { text, joint, width, points: places.map(pixel), side: 0, body };
+        const group: Group = { text, joint, width, points: places.map(pixel), side: 0, other };
         return { group, cost: this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k };
       });
       const best = groups.reduce((a, b) => (b.cost < a.cost ? b : a));
@@ -210,7 +223,7 @@ export class Names {
     }
     return groups.map(({ names, joint, points }) => {
       const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      return { text, joint, points, width: pen.width(text), side: 0, body: null };
+      return { text, joint, points, width: pen.width(text), side: 0, other: null };
     });
   }
 }

@@ -33,17 +33,30 @@ function told(kind: Kind, pixels: number, arrows: Arrows): Told {
   return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}`, length: value * size * pixels };
 }
 
-/** Draws them from the right corner at the foot to `left`, in rows one above the other where there is no room. */
-export function tellScales(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, [width, height]: [number, number], inks: Inks): Told[] {
+/** Those that are shown, from the right corner at the foot to `left`, each with its left end and foot, in rows one above the other. */
+function placed(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, [width, height]: [number, number]): (Told & { from: number; foot: number })[] {
   const all = KINDS.filter((kind) => shown.has(kind) && arrows.most(kind) > 0 && pixels(kind) > 0).map((kind) => told(kind, pixels(kind), arrows));
   let [right, foot] = [width - EDGE, height - 12];
-  for (const { kind, text, length } of [...all].reverse()) {
-    const room = length + BEHIND + pen.width(text, LETTERS);
+  return [...all].reverse().map((one) => {
+    const room = one.length + BEHIND + pen.width(one.text, LETTERS);
     if (right - room < left && right < width - EDGE) [right, foot] = [width - EDGE, foot - ROW];
     const from = right - room;
+    right = from - BETWEEN;
+    return { ...one, from, foot };
+  });
+}
+
+/** Height of the foot of a drawing that they take, pixels. */
+export function scalesHeight(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, size: [number, number]): number {
+  return Math.max(0, ...placed(pen, arrows, shown, pixels, left, size).map(({ foot }) => size[1] - foot + ROW));
+}
+
+/** Draws them from the right corner at the foot to `left`, in rows one above the other where there is no room. */
+export function tellScales(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, size: [number, number], inks: Inks): Told[] {
+  const all = placed(pen, arrows, shown, pixels, left, size);
+  for (const { kind, text, length, from, foot } of all) {
     pen.arrow([from, foot - 4], [from + length, foot - 4], inks.curves[COLOR[kind]]!, 2.2);
     pen.text(text, [from + length + BEHIND, foot], inks.soft, inks.paper, LETTERS);
-    right = from - BETWEEN;
   }
-  return all;
+  return all.reverse().map(({ kind, text, length }) => ({ kind, text, length }));
 }

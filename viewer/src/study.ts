@@ -5,7 +5,7 @@ import { column } from './curves';
 import { h } from './dom';
 import { type ShowPlace, facts, rowsInWords } from './facts';
 import { coded, heading, pretty, shownIn } from './numbers';
-import { drawable } from './plot/curves';
+import { drawable, isPath } from './plot/curves';
 import { type PlotKept, PlotView } from './plot/plot';
 import { Stage, type StageKept } from './stage';
 import { table } from './table';
@@ -160,7 +160,7 @@ export class StudyView {
     const draw = () => {
       const [kind, name] = [show.value.slice(0, 2), show.value.slice(2)];
       const horizontal = kind === 'r:' || over.value === '' || !column(this.source(), over.value) ? null : over.value;
-      const plot = { name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:', range: [null, null] as [null, null], y: null, right: null, beside: [] };
+      const plot = { name: `${name}${horizontal ? ` over ${horizontal}` : ''}${this.count++ > 0 ? ` (${this.count})` : ''}`, show: [name], over: horizontal, unit: null, of_runs: kind === 'r:', path: isPath(name, horizontal), range: [null, null] as [null, null], y: null, right: null, beside: [] };
       this.own.push(plot);
       this.add(plot, true);
     };

@@ -38,6 +38,8 @@ export interface Plot {
   over: string | null;
   unit: [string, number] | null;
   of_runs: boolean;
+  /** Whether its axes are coordinates of one place. */
+  path: boolean;
   range: Ends;
   /** The vertical axis of one quantity, and a second one on the right. */
   y: PlotAxis | null;

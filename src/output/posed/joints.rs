@@ -14,6 +14,7 @@ impl Posed<'_> {
                 kind,
                 grounded: joint.a.body == 0 || joint.b.body == 0,
                 way_grounded: joint.a.body == 0,
+                way_body: joint.a.body,
                 driven: joint.driven,
                 damped: joint.damped,
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),

@@ -4,8 +4,8 @@ use super::energies::is_energy;
 use super::outcome::Outcome;
 use super::scene::{beyond, fill_arrows};
 use super::watched::{extra_curves, of_pictures};
-use crate::expression::{Dimension, Id, parse_unit};
-use crate::model::{self, Kind, Model, Shown, ShownWhat, Study};
+use crate::expression::{Dimension, Id, Node, parse_unit};
+use crate::model::{self, Kind, Model, Quantity, Shown, ShownWhat, Study};
 use crate::results::{By, Column, LinearSystem, Plot, PlotAxis, PlotBeside, PlotRight, Results, Scalar, ShownIn, Table};
 
 /// What one run of a study has come to, with names.
@@ -105,12 +105,28 @@ pub(crate) fn plots(model: &Model, study: &Study) -> Vec<Plot> {
         over: p.over.as_ref().map(|s| s.name.clone()),
         unit: p.unit.clone(),
         of_runs: !p.show.iter().chain(&p.over).all(of_run),
+        path: is_path(model, p),
         range: p.x.as_ref().map(range).unwrap_or_default(),
         y: p.y.as_ref().map(axis),
         right: p.right.as_ref().map(|(show, of)| PlotRight { show: names(show), axis: axis(of) }),
         beside: p.beside.iter().map(beside).collect(),
     };
     study.plots.iter().map(plot).collect()
+}
+
+/// Whether the axes of a figure are coordinates of one place, a point or the centre of mass.
+fn is_path(model: &Model, plot: &model::Plot) -> bool {
+    let coordinate = |shown: &Shown| {
+        let ShownWhat::Column(id) = shown.what else { return None };
+        let Node::Input(input) = model.pool.node(id) else { return None };
+        match model.inputs[input as usize] {
+            Quantity::Point { at, axis, order: 0 } => Some((Some(at), axis)),
+            Quantity::Com { axis, order: 0 } => Some((None, axis)),
+            _ => None,
+        }
+    };
+    let Some((place, axis)) = plot.over.as_ref().and_then(coordinate) else { return false };
+    plot.show.iter().all(|shown| coordinate(shown).is_some_and(|(own, other)| own == place && other != axis))
 }
 
 /// Those taken from other studies, those of the kind that are there, those of the file.

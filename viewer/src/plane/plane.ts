@@ -4,7 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
-import { type Told, tellScales } from '../scales';
+import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
@@ -15,6 +15,8 @@ import { type Rack, type Toothed, rackLine, toothed } from './teeth';
 const BAR = 15;
 /** Room below the mechanism for the scale and for the largest symbol of a joint, pixels. */
 const BELOW = 38;
+/** About where the scale of lengths ends. */
+const BAR_ROOM = 200;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
@@ -107,10 +109,16 @@ export class Plane implements Renderer {
     this.inks = inks;
     const { low, high } = this.bounds;
     const room = 34;
-    const tall = height - BELOW;
-    this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (tall - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
-    this.middle = [width / 2, tall / 2];
     const { pen } = this;
+    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    const fit = (below: number) => {
+      const tall = height - below;
+      this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (tall - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
+      this.middle = [width / 2, tall / 2];
+    };
+    fit(BELOW);
+    const scales = scalesHeight(pen, this.arrows, options.arrows, pixels, BAR_ROOM, [width, height]);
+    if (scales > BELOW) fit(scales);
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
     for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) if (end.body === 0) signs.bearing(pen, this.point(end), inks);
@@ -130,9 +138,10 @@ export class Plane implements Renderer {
     // over the bodies, as in the figures of the program, and under the pins
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.sign(joint));
+    // over the pins of other joints
+    scene.joints.forEach((joint) => this.dashpot(joint));
     for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) signs.pin(pen, 'revolute', this.point(end), false, inks);
-    if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks);
-    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
   }
@@ -300,7 +309,7 @@ export class Plane implements Renderer {
 
   private way(joint: Joint): void {
     const { a, b, kind } = joint;
-    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 || b.body === 0, this.inks);
+    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 || b.body === 0 ? null : this.colors(a.body), this.inks);
     else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
   }
 
@@ -312,10 +321,12 @@ export class Plane implements Renderer {
     if (joint.kind !== 'pin-in-slot' && this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
   }
 
-  private sign(joint: Joint): void {
-    const { kind, a, b, driven, damped } = joint;
+  private dashpot(joint: Joint): void {
+    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), this.slides(joint) ? this.along(joint.a.body, joint.axis) : null, this.inks);
+  }
+
+  private sign({ kind, a, b, driven }: Joint): void {
     if (kind === 'distance' || kind === 'free') return;
-    if (damped) signs.dashpot(this.pen, this.point(b), this.slides(joint) ? this.along(a.body, joint.axis) : null, this.inks);
     signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
   }
 

@@ -34,10 +34,10 @@ export function anchor(pen: Pen, at: Point, along: Point, inks: Inks): void {
   hatched(pen, off(at, along, 0, 9), off(at, along, 0, -9), inks);
 }
 
-/** What a slide slides on, from one end to the other: hatched ground on its lower side, or a line on another body. */
-export function slideway(pen: Pen, a: Point, b: Point, grounded: boolean, inks: Inks): void {
-  if (!grounded) {
-    pen.path([a, b]).stroke(inks.soft, 1.8);
+/** What a slide slides on, from one end to the other: hatched ground on its lower side, or a guide on a body of these colours, as wide as the box. */
+export function slideway(pen: Pen, a: Point, b: Point, body: { fill: string; edge: string } | null, inks: Inks): void {
+  if (body) {
+    pen.path([a, b]).stroke(body.edge, 2 * BOX[1] + 7).stroke(mixed(inks.paper, body.fill, 0.25), 2 * BOX[1] + 4);
     return;
   }
   const backwards = b[0] - a[0] < -1e-6 || (Math.abs(b[0] - a[0]) <= 1e-6 && b[1] > a[1]);
@@ -75,17 +75,17 @@ export function dashpot(pen: Pen, center: Point, slide: Point | null, inks: Inks
   // s from what moves to what holds it, t across
   const at = ([s, t]: Point): Point => {
     if (slide) return off(center, slide, -BOX[0] - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
-    const [angle, radius] = [2.9 - 1.6 * s, 12 + 3.5 * t];
+    const [angle, radius] = [3 - 1.8 * s, 19 + 5.5 * t];
     return [center[0] + radius * Math.cos(angle), center[1] - radius * Math.sin(angle)];
   };
   const run = (from: number, to: number, t: number) => Array.from({ length: 9 }, (_, k): Point => [from + ((to - from) * k) / 8, t]);
   const line = (places: Point[], width: number) => pen.path(places.map(at)).stroke(color, width);
-  line(run(0, 0.55, 0), 1.4);
-  line([[0.55, -0.65], [0.55, 0.65]], 2);
-  line([...run(0.35, 0.8, -1), ...run(0.8, 0.35, 1)], 1.4);
-  line(run(0.8, 1, 0), 1.4);
-  line([[1, -0.9], [1, 0.9]], 1.4);
-  if (!slide) line([[0, 0], [0, -1.9]], 1.4);
+  line(run(0, 0.55, 0), 1.7);
+  line([[0.55, -0.65], [0.55, 0.65]], 2.4);
+  line([...run(0.35, 0.8, -1), ...run(0.8, 0.35, 1)], 1.7);
+  line(run(0.8, 1, 0), 1.7);
+  line([[1, -0.9], [1, 0.9]], 1.7);
+  if (!slide) line([[0, 0], [0, -2.4]], 1.7);
 }
 
 /** The points of a coil between two points of the line from a along `along`. */

@@ -4,7 +4,7 @@ import { column, drawn, fineOf, places, valueAt } from '../curves';
 import { pretty, shownIn } from '../numbers';
 import type { Column, Ends, Num, Plot, PlotAxis, Results, Study } from '../types';
 import type { Curve, Figure } from './chart';
-import { families } from './families';
+import { broken, families } from './families';
 
 /** Switches that are marked by lines in a figure, at most. */
 const MOST_MARKED = 16;
@@ -83,6 +83,12 @@ function ranges(plot: Plot, size: number, found: (name: string) => Column | unde
   };
 }
 
+/** Whether two columns are coordinates of one place by their names: `P.x` and `P.y`. */
+export function isPath(show: string, over: string | null): boolean {
+  const [own, other] = [show, over ?? ''].map((name) => /^(.+)\.([xyz])$/.exec(name));
+  return Boolean(own && other && own[1] === other[1] && own[2] !== other[2]);
+}
+
 /** A figure that a study asks for, or a reader; none if nothing of it is there. */
 export function drawable(study: Study, plot: Plot): Drawable | null {
   return plot.of_runs ? ofRuns(study, plot) : ofColumns(study, plot);
@@ -119,7 +125,7 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
   const first = runs[0]!.results;
   const marked = !several && !plot.over && first.table.switches.length <= MOST_MARKED;
   const free = !plot.right && !plot.y?.range.some((end) => end !== null) && !plot.range.some((end) => end !== null);
-  const plane = free && plot.over !== null && over.unit === 'm' && curves.every((curve) => curve.unit === unit);
+  const plane = free && plot.path && curves.every((curve) => curve.unit === unit);
   const figure: Figure = {
     x: { label: over.name, unit },
     y: (several || plot.beside.length > 0) && plot.show.length === 1 ? plot.show[0]! : '',
@@ -148,7 +154,7 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
       const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
       const at = (of: Column, by: number) => rows.map((row) => (of.values[row] ?? NaN) / by);
       const text = !several ? c.name : shown.length > 1 ? `${c.name}, ${label}` : label;
-      curves.push(new Later(text, own, curves.length, c.quantity, () => ({ x: at(over, size), y: at(c, high) }), right, dots));
+      curves.push(new Later(text, own, curves.length, c.quantity, () => broken(at(over, size), at(c, high)), right, dots));
     }
   }
   if (curves.length === 0) return null;

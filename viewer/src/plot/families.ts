@@ -6,6 +6,8 @@ import type { Column, Study } from '../types';
 /** Digits of values in names of curves, and all that a number has. */
 const IN_NAMES = 6;
 const ALL = 17;
+/** How much steeper than beside it a curve of whole runs is where it jumps. */
+const STEEP = 8;
 
 /** Runs that make one curve: what tells it from others, empty if there is no other; and their rows in the table. */
 export interface Family {
@@ -37,6 +39,26 @@ export function families(study: Study, over: string | null): { families: Family[
     families: [...found.values()].map((rows, k) => ({ label: names[k]!, rows })),
     dots: swept.some(({ by }) => by === 'drawn') || (swept.length > 0 && !onGrid),
   };
+}
+
+/**
+ * A curve of whole runs with a gap where it jumps from one run to the next, as in the figures of the program: where its slope is STEEP
+ * times those on both sides, over more than a tenth of its range.
+ */
+export function broken(x: number[], y: number[]): { x: number[]; y: number[] } {
+  const slope = (k: number) => Math.abs((y[k + 1]! - y[k]!) / (x[k + 1]! - x[k]!));
+  const known = y.filter(Number.isFinite);
+  const range = known.reduce((most, v) => Math.max(most, v), -Infinity) - known.reduce((least, v) => Math.min(least, v), Infinity);
+  const jumps = (k: number) => Math.abs(y[k + 1]! - y[k]!) > 0.1 * range && k > 0 && k + 2 < y.length && slope(k) > STEEP * Math.max(slope(k - 1), slope(k + 1));
+  const [u, v]: [number[], number[]] = [[], []];
+  y.forEach((value, k) => {
+    u.push(x[k]!);
+    v.push(value);
+    if (!jumps(k)) return;
+    u.push(x[k]!);
+    v.push(NaN);
+  });
+  return { x: u, y: v };
 }
 
 /** A parameter with its value in a row, in the unit that the model asks for, else in that in which its values are written. */

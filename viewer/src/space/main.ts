@@ -6,7 +6,7 @@ import { type Named, Names } from '../names';
 import { Pen, type Point, toward } from '../plane/pen';
 import { dashpot, link, spiral } from '../plane/signs';
 import type { Options, Renderer } from '../renderer';
-import { type Told, tellScales } from '../scales';
+import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
@@ -19,6 +19,9 @@ const LOOKS = 48;
 const PATH = 400;
 /** Width of the axes at the lower left, pixels. */
 const AXES = 90;
+/** Height of these, and the width of a drawing in which the mechanism stands above them, pixels. */
+const AXES_HEIGHT = 70;
+const NARROW = 480;
 /** Joints whose second body slides on a guide of the first. */
 const SLIDES = ['slider', 'prismatic', 'cylindrical'];
 /** What is drawn of a picture in space, with its distance from the eye. */
@@ -107,8 +110,11 @@ class Space implements Renderer {
 
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
-    this.look(width, height);
     const { pen, motion } = this;
+    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    this.look(width, height, 0);
+    const scales = scalesHeight(pen, this.arrows, options.arrows, pixels, AXES, [width, height]);
+    this.look(width, height, width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
     pen.on.clearRect(0, 0, width, height);
     this.ground(inks);
     const items: Item[] = [];
@@ -125,23 +131,22 @@ class Space implements Renderer {
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
-    for (const joint of motion.scene.joints.filter(({ damped }) => damped)) items.push(this.dashpot(joint, inks));
     items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
     // over the bodies, as in the figures of the program
+    for (const joint of motion.scene.joints.filter(({ damped }) => damped)) this.dashpot(joint, inks);
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
-    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
-    if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks);
+    if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks, options.paths !== 'none');
     this.axes(height, inks);
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, AXES, [width, height], inks);
   }
 
-  /** The damping of a joint, in front of its pin. */
-  private dashpot({ kind, a, b, axis }: Joint, inks: Inks): Item {
+  /** The damping of a joint. */
+  private dashpot({ kind, a, b, axis }: Joint, inks: Inks): void {
     const at = this.motion.world(b, this.place);
     const along = this.motion.direction(a.body, axis, this.place);
     const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], [dot(along, this.right), -dot(along, this.above)]).along : null;
-    return { depth: this.depth(at) + 0.05 * this.size, draw: () => dashpot(this.pen, this.pixel(at), slide, inks) };
+    dashpot(this.pen, this.pixel(at), slide, inks);
   }
 
   /** Direction of the x axis of a body in the picture, rad. */
@@ -151,14 +156,15 @@ class Space implements Renderer {
   }
 
   /** Directions of the picture from those of the eye. */
-  private look(width: number, height: number): void {
+  private look(width: number, height: number, foot: number): void {
     const [x, y] = this.level;
     const level = add(scaled(x, Math.cos(this.turn)), y, Math.sin(this.turn));
     this.right = add(scaled(x, -Math.sin(this.turn)), y, Math.cos(this.turn));
     this.toEye = unit(add(scaled(level, Math.cos(this.tilt)), this.up, Math.sin(this.tilt)));
     this.above = cross(this.toEye, this.right);
-    this.scale = Math.min((width - 90) / this.extent[0], (height - 90) / this.extent[1]) * this.zoomed;
-    this.center = [width / 2, height / 2];
+    // the scales of arrows have room of their own below the mechanism
+    this.scale = Math.min((width - 90) / this.extent[0], (height - Math.max(90, foot + 45)) / this.extent[1]) * this.zoomed;
+    this.center = [width / 2, (height - Math.max(0, foot - 45)) / 2];
   }
 
   private pixel(at: Vector): Point {
@@ -193,7 +199,7 @@ class Space implements Renderer {
 
   /** The middle and the size of the first view. */
   private centre(): void {
-    this.look(100, 100);
+    this.look(100, 100, 0);
     const range = (along: Vector): Point => this.seen.reduce<Point>(([low, high], at) => [Math.min(low, dot(at, along)), Math.max(high, dot(at, along))], [Infinity, -Infinity]);
     const [across, upwards] = [range(this.right), range(this.above)];
     if (this.seen.length === 0) return;
