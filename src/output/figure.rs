@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::plot::{Curve, Figure, Scale};
 use super::raster::RenderError;
 use super::scene::{Rect, Scene};
-use super::{font, thin};
+use super::{font, poles, thin};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 640.0;
@@ -92,8 +92,12 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
     let curves = || indices.iter().map(|index| &figure.curves[*index]);
     let within =
         |point: &&(f64, f64)| figure.x.range[0].is_none_or(|low| point.0 >= low) && figure.x.range[1].is_none_or(|high| point.0 <= high);
+    let bounds = [false, true].map(|right| poles::bounded(curves().filter(|curve| curve.right == right)));
     let values_of = |right: bool| {
-        curves().filter(move |curve| curve.right == right).flat_map(move |curve| curve.points.iter().filter(within).map(|point| point.1))
+        let [low, high] = bounds[usize::from(right)].unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let points = curves().filter(move |curve| curve.right == right).flat_map(move |curve| curve.points.iter().filter(within));
+        // the axis ends within what grows without bound
+        points.map(move |point| point.1.max(low).min(high))
     };
     let mut axis = figure.y.clone();
     let names: Vec<_> = curves().filter(|curve| !curve.right).map(|curve| curve.label.as_str()).filter(|label| !label.is_empty()).collect();
@@ -152,6 +156,7 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         entries,
         legend: Legend::Inside(Vec::new(), [0.0; 2]),
         marks,
+        clipped: bounds.map(|bounds| bounds.is_some()),
         label: 0.0,
         side: 0.0,
     }

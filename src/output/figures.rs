@@ -37,7 +37,9 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
                 _ => y.name.clone(),
             };
             let points = joined(x.map_or(&[], |x| &x.values), &y.values, &run.table.switches, plot.over.is_some());
-            curves.push(curve(name, y, points, plot, on_right));
+            // a dead point is where a motion ends, on one side or both
+            let dead = plot.over.is_none() && run.findings.iter().any(|finding| finding.code == "dead-point");
+            curves.push(Curve { poles: [dead; 2], ..curve(name, y, points, plot, on_right) });
         }
     }
     let first = runs.first().map(|(_, run)| *run);
@@ -177,7 +179,7 @@ fn curve(label: String, column: &Column, mut points: Vec<(f64, f64)>, plot: &Plo
     let axis = if right { plot.right.as_ref().map(|right| &right.axis) } else { plot.y.as_ref() };
     let (unit, size) = unit(column, axis);
     points.iter_mut().for_each(|point| point.1 /= size);
-    Curve { label, unit: Some(unit), quantity: column.quantity.clone(), points, right, dots: false }
+    Curve { label, unit: Some(unit), quantity: column.quantity.clone(), points, right, ..Curve::default() }
 }
 
 /// The unit in which figures show a column, and its size in SI: that of an axis for its quantity, else that of the model, else degrees

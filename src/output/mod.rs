@@ -34,6 +34,7 @@ mod panel;
 mod parquet;
 mod picture;
 mod plot;
+mod poles;
 mod polytope;
 mod pose;
 mod posed;

@@ -231,6 +231,8 @@ pub(super) struct Panel {
     pub(super) entries: Vec<Entry>,
     pub(super) legend: Legend,
     pub(super) marks: Vec<Mark>,
+    /// Whether values near poles leave the axis on the left, and that on the right.
+    pub(super) clipped: [bool; 2],
     /// The base line of the label of y, in pixels; the same for all panels.
     pub(super) label: f64,
     /// What the axis on the right takes, in pixels.
@@ -296,6 +298,13 @@ impl Panel {
                 }
             }
             heads.into_iter().for_each(|head| scene.shape(head.to_vec(), Some(line.color), None));
+            if self.clipped[usize::from(line.right)] {
+                self.leaving(scene, line, x, breaks);
+            }
+        }
+        if self.clipped.contains(&true) {
+            let at = [right, bottom + if lowest { 66.0 } else { 22.0 }];
+            scene.text(at, "arrows: without bound towards a dead point", 0.8 * TICK, Anchor::End);
         }
         if empty {
             let [x, y] = self.rect.center();
@@ -303,6 +312,22 @@ impl Panel {
         }
         self.draw_marks(scene, x, breaks);
         self.legend.draw(scene, self.rect, self.side);
+    }
+
+    /// Arrows where a curve leaves the axis towards a pole.
+    fn leaving(&self, scene: &mut Scene, line: &Line, x: &Ruler, breaks: &[f64]) {
+        let Rect { top, bottom, .. } = self.rect;
+        for end in self.pieces(line, x, breaks).iter().flat_map(|piece| [piece.first(), piece.last()]).flatten() {
+            let [edge, way] = if end[1] < top + 1.0 {
+                [top, 1.0]
+            } else if end[1] > bottom - 1.0 {
+                [bottom, -1.0]
+            } else {
+                continue;
+            };
+            let corners = [[0.0, 2.0], [-7.0, 16.0], [7.0, 16.0]].map(|[s, t]| [end[0] + s, edge + way * t]);
+            scene.shape(corners.to_vec(), Some(line.color), None);
+        }
     }
 
     fn axes(&self, scene: &mut Scene, x: &Ruler, lowest: bool) {

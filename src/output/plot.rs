@@ -84,6 +84,8 @@ pub struct Curve {
     pub right: bool,
     /// Whether it is shown by its points alone, as what was measured.
     pub dots: bool,
+    /// Whether a dead point is where it begins, and where it ends: values that grow without bound towards it may leave the axis.
+    pub poles: [bool; 2],
 }
 
 /// A point of interest on a curve.

@@ -143,6 +143,31 @@ studies:
         right: { show: [speed], in: mm/s }
         data: { seen: { file: seen.csv, x: time, y: height, in: [s, mm] } }
 `,
+  // from dead point to dead point
+  stuck: `grashof: 1
+name: stuck
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0], C: [40 cm, 0] }
+bodies:
+  crank: { bar: { length: 20 cm, mass: 1 kg } }
+  coupler: { bar: { length: 25 cm, mass: 1 kg } }
+  rocker: { bar: { length: 20 cm, mass: 1 kg } }
+joints:
+  O: { revolute: [ground.O, crank.start] }
+  A: { revolute: [crank.end, coupler.start] }
+  B: { revolute: [coupler.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start] }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 60 deg, coupler.angle: ~0 deg, rocker.angle: ~90 deg }
+studies:
+  turn:
+    kinematics: { over: 1 turn, samples: 360 }
+    columns: [O.angle, rocker.alpha, crank.omega]
+    plot:
+      alpha: { show: [rocker.alpha] }
+      speed: { show: [crank.omega] }
+`,
   // seen from above, and at a place of its motion that no frame has by itself
   door: `grashof: 1
 name: door
@@ -160,6 +185,9 @@ studies:
 
 /** Files beside these models. */
 export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5,-90\n' }, winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };
+
+/** Models a study of which stops on its way. */
+export const STOPPED = ['stuck'];
 
 /** Models that are run with their figures. */
 export const WITH_FIGURES = ['swing'];

@@ -268,3 +268,27 @@ export async function legends_tell_values_in_the_units_of_axes(open) {
   }));
   gaps.forEach(([between, behind]) => assert.ok(between > 8 && behind > 0, `${between} and ${behind} pixels`));
 }
+
+export async function poles_at_dead_points_leave_the_axis_with_a_word(open) {
+  const { tab, directory } = await open('stuck');
+  const found = csv(`${directory}/turn.csv`)['rocker.alpha'].filter(Number.isFinite);
+  assert.ok(Math.max(...found) > 4000, 'without bound');
+  const ticks = (await plot(tab, 'alpha').locator('text').allTextContents()).map((text) => Number(text.replace('−', '-'))).filter(Number.isFinite);
+  assert.ok(ticks.includes(100) && ticks.every((tick) => Math.abs(tick) < 1000), ticks.join());
+  assert.equal(await plot(tab, 'alpha').locator('.leaving').count(), 2);
+  assert.equal(await plot(tab, 'alpha').locator('.note').innerText(), 'arrows: without bound towards a dead point');
+  // a rate that stays as it is has no pole
+  assert.equal(await plot(tab, 'speed').locator('.leaving').count(), 0);
+  assert.equal(await plot(tab, 'speed').locator('.note').isVisible(), false);
+}
+
+export async function axes_of_different_places_fill_their_ranges(open) {
+  const { tab } = await open('double_wishbone', { study: 'bump' });
+  const ticks = (await plot(tab, 'track').locator('text').allTextContents()).map((text) => Number(text.replace('−', '-'))).filter(Number.isFinite);
+  // from -18 mm to 4 mm over 169 mm
+  assert.ok(ticks.includes(-15) && ticks.includes(-5), ticks.join());
+  // of a truss that falls through the line is broken
+  const { tab: truss } = await open('truss', { study: 'path' });
+  const line = await plot(truss, 'height').locator('path[stroke-linejoin=round]').first().getAttribute('d');
+  assert.equal(line.split('M').length - 1, 2, line);
+}

@@ -5,6 +5,7 @@ import { heading, pretty } from '../numbers';
 import type { Ends } from '../types';
 import { type Axis, axis, over, scaled } from './axis';
 import { type Point, heads } from './heads';
+import { bounded } from './poles';
 
 export interface Curve {
   label: string;
@@ -19,6 +20,8 @@ export interface Curve {
   /** Whether it is drawn over the axis on the right, and whether by its points alone. */
   right?: boolean;
   dots?: boolean;
+  /** Whether its study reports a dead point, where values may grow without bound. */
+  dead?: boolean;
 }
 
 export interface Figure {
@@ -49,7 +52,7 @@ export interface View {
 
 interface Scaled { axis: Axis; factor: number; unit: string; own: string }
 /** Curves of one unit that are shown; `own` is that unit, `unit` the one of the axis. */
-export interface Panel { curves: Curve[]; own: string; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled }
+export interface Panel { curves: Curve[]; own: string; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled; clipped: boolean }
 export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
@@ -99,11 +102,13 @@ export function layout(figure: Figure, view: View): Layout {
     const left = shown.filter((curve) => curve.unit === unit && !curve.right);
     const others = k === 0 ? shown.filter((curve) => curve.right) : [];
     const seen = view.x ?? [x.low, x.high];
-    const fitted = () => limited(figure.ranges?.find((r) => r.unit === unit)?.range, unit, view.log, 44, axis(within(left, seen), unit, view.log, false, 44));
+    const bounds = view.log ? null : bounded(left);
+    const values = () => (bounds ? [...within(left, seen)].map((y) => Math.min(Math.max(y, bounds[0]), bounds[1])) : within(left, seen));
+    const fitted = () => limited(figure.ranges?.find((r) => r.unit === unit)?.range, unit, view.log, 44, axis(values(), unit, view.log, false, 44));
     const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : fitted();
-    const { unit: name, factor } = scaled(unit, Math.max(largest(all(left, 'y')), figure.ranges?.some((r) => r.unit === unit) ? Math.abs(own.high) : 0));
+    const { unit: name, factor } = scaled(unit, Math.max(bounds ? Math.max(Math.abs(own.low), Math.abs(own.high)) : largest(all(left, 'y')), figure.ranges?.some((r) => r.unit === unit) ? Math.abs(own.high) : 0));
     const right = k === 0 && figure.right ? scaledRight(figure.right, others, seen) : undefined;
-    return { curves: [...left, ...others], own: unit, top: 12 + k * (height + 18), height, y: own, factor, unit: name, ...(right && { right }) };
+    return { curves: [...left, ...others], own: unit, top: 12 + k * (height + 18), height, y: own, factor, unit: name, clipped: bounds !== null, ...(right && { right }) };
   });
   const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
   const beside = panels.flatMap(({ right, height: room }) => (right ? scaledTicks(right.axis, right.factor, right.own, room).map((tick) => tick.text.length) : []));
@@ -222,6 +227,22 @@ function inside(lines: Point[][], { left, right }: Layout, { top, height }: Pane
   });
 }
 
+/** Arrows where pieces leave a panel above or below. */
+function leaving(lines: Point[][], { top, height }: Panel): Point[][] {
+  const out: Point[][] = [];
+  for (const line of lines) {
+    line.slice(1).forEach(([u, v], k) => {
+      const [pu, pv] = line[k]!;
+      for (const [edge, way] of [[top, 1], [top + height, -1]] as const) {
+        if ((v - edge) * (pv - edge) >= 0) continue;
+        const at = pu + ((edge - pv) / (v - pv)) * (u - pu);
+        out.push([[at, edge + way], [at - 4, edge + 9 * way], [at + 4, edge + 9 * way]]);
+      }
+    });
+  }
+  return out;
+}
+
 function clamp(x: number): string {
   return Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
 }
@@ -258,7 +279,8 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       const [{ stroke, ...dash }, opacity] = [style(curve, figure), strong === false ? FAINT : 1];
       const line = s('path', { d: path(own, curve.dots), fill: 'none', stroke, ...dash, 'stroke-width': width, 'stroke-opacity': opacity, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
       const seen = curve.dots || curve.x.length <= FEW ? [] : heads(inside(own, out, panel), right - left, panel.curves.length);
-      return [line, ...seen.map((head) => s('polygon', { points: head.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, opacity }))];
+      const leaves = panel.clipped && !curve.right ? leaving(own, panel).map((corners) => s('polygon', { points: corners.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, class: 'leaving' })) : [];
+      return [line, ...leaves, ...seen.map((head) => s('polygon', { points: head.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, opacity }))];
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);

@@ -27,7 +27,7 @@ class Later implements Curve {
   shown = true;
   private points: { x: number[]; y: number[] } | null = null;
 
-  constructor(readonly label: string, readonly unit: string, readonly place: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false) {}
+  constructor(readonly label: string, readonly unit: string, readonly place: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false, readonly dead = false) {}
 
   get x(): number[] {
     return (this.points ??= this.make()).x;
@@ -107,13 +107,14 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
     const size = plot.unit?.[1] ?? shownIn(horizontal).size;
     let x: number[] | null = null;
     const across = () => (x ??= (plot.over ? drawn(horizontal.values, fineOf(results)) : places(fineOf(results))).map((v) => v / size));
+    const dead = plot.over === null && results.findings.some(({ code }) => code === 'dead-point');
     const value = (values: Column['values'], at: number) => valueAt(fineOf(results), values, at);
     for (const [k, { name, right }] of shown.entries()) {
       const vertical = column(results, name);
       if (!vertical) continue;
       const { unit, size: high } = unitOf(vertical, right ? plot.right!.axis : plot.y);
       const text = !several ? name : shown.length > 1 ? `${name}, ${pretty(label)}` : pretty(label);
-      curves.push(new Later(text, unit, begun * shown.length + k, vertical.quantity, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right));
+      curves.push(new Later(text, unit, begun * shown.length + k, vertical.quantity, () => ({ x: across(), y: drawn(vertical.values, fineOf(results)).map((v) => v / high) }), right, false, dead));
       points.push((at) => [(plot.over ? value(horizontal.values, at) : at) / size, value(vertical.values, at) / high]);
       numbers.push(index);
     }

@@ -114,11 +114,12 @@ export class PlotView {
     return several ? { ...this.view, strong: (k) => runs[k] === undefined || runs[k] === this.run } : this.view;
   }
 
-  /** Tells what a logarithmic axis leaves out. */
+  /** Tells what an axis leaves out. */
   private tellBelow(): void {
     const count = this.view.log ? below(this.of.figure, this.place) : 0;
-    this.note.hidden = count === 0;
-    this.note.textContent = count === 0 ? '' : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
+    const clipped = this.place.panels.some((panel) => panel.clipped);
+    this.note.hidden = count === 0 && !clipped;
+    this.note.textContent = count === 0 ? (clipped ? 'arrows: without bound towards a dead point' : '') : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
   }
 
   private title(): string {
