@@ -339,6 +339,12 @@ export async function bodies_have_their_names_and_colours(open) {
   assert.deepEqual(color, [232, 200, 148]);
 }
 
+export async function springs_have_their_names(open) {
+  const { tab } = await open('cam_follower', { study: 'turn' });
+  await picture(tab);
+  assert.deepEqual((await tab.evaluate(() => grashof.names())).filter(({ of }) => of === 'link').map(({ text }) => text), ['return']);
+}
+
 export async function paths_have_their_names(open) {
   const { tab } = await open('jansen_leg', { study: 'step' });
   const paths = async () => {

@@ -1,26 +1,26 @@
-// Names beside the joints of a drawing, and of its bodies and paths where there is room. Each keeps its side over the whole motion, so that nothing
+// Names beside the joints of a drawing, and of its bodies, springs and paths where there is room. Each keeps its side over the whole motion, so that nothing
 // jumps while it plays: the side on which it meets the fewest other names and joints at some places of the motion. Where names meet all the
 // same, the later one is left out.
 
 import type { Motion, Vector } from './motion';
 import { type Pen, type Point, off } from './plane/pen';
 import { type Inks, bodyInks } from './theme';
-import type { Place, Shape } from './types';
+import type { Shape } from './types';
 
 /** Left, top, right, bottom. */
 export type Box = [number, number, number, number];
 
 /** A name that is drawn: where its joint or a place on its body is, and where its text stands. */
-export interface Named { text: string; at: Point; box: Box; of: 'joint' | 'body' | 'path' }
+export interface Named { text: string; at: Point; box: Box; of: 'joint' | Other['of'] }
 
-/** Joints that are at one place all the time, by the first of them, or a body or path; how wide their names are, and where these stand. */
-interface Group { text: string; joint: Place; width: number; points: Point[]; side: number; other: Other | null }
+/** Joints that are at one place all the time, by the first of them, or something else; how wide their names are, and where these stand. */
+interface Group { text: string; at(place: number): Vector; width: number; points: Point[]; side: number; other: Other | null }
 
-/** A body or path with its name and the places where that may stand. */
-interface Other { name: string; of: 'body' | 'path'; spots: Spot[]; color(inks: Inks): string }
+/** A body, spring or path with its name and the places where that may stand. */
+interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; color(inks: Inks): string }
 
 /** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
-interface Spot { joint: Place; places: Vector[]; wide: boolean }
+interface Spot { at(place: number): Vector; places: Vector[]; wide: boolean }
 
 /** Places of the motion that are looked at, and comparisons of a name with a joint, at most. */
 const LOOKS = 24;
@@ -91,31 +91,38 @@ export class Names {
   /** What was drawn last. */
   drawn: Named[] = [];
   private groups: Group[] = [];
-  private readonly joints: { name: string; joint: Place; places: Vector[] }[];
+  private readonly joints: (Spot & { name: string })[];
   private readonly others: Other[];
   /** The names that were left out last. */
   private hidden = new Set<string>();
   private view = '';
 
-  constructor(private readonly motion: Motion) {
+  constructor(motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
-    const { bodies, traces } = motion.scene;
+    const { bodies, links, traces } = motion.scene;
     const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length + bodies.length, 1) ** 2))));
     const at = motion.sampled(looks);
-    const over = (joint: Place) => at.map((place) => motion.world(joint, place));
-    this.joints = joints.map(({ name, b }) => ({ name, joint: b, places: over(b) }));
+    const spot = (of: (place: number) => Vector, wide = false): Spot => ({ at: of, places: at.map(of), wide });
+    this.joints = joints.map(({ name, b }) => ({ name, ...spot((place) => motion.world(b, place)) }));
     this.others = bodies.flatMap(({ name, shapes: [shape], color }, body): Other[] => {
       if (body === 0 || !shape) return [];
       const { places, wide } = spots(shape);
-      const all = places.map((own) => ({ joint: { body, at: own }, places: over({ body, at: own }), wide }));
+      const all = places.map((own) => spot((place) => motion.world({ body, at: own }, place), wide));
       return [{ name, of: 'body', spots: all, color: (inks) => bodyInks(color, inks).edge }];
     });
+    for (const { name, kind, a, b } of links) {
+      const between = (s: number) => (place: number): Vector => {
+        const [from, to] = [motion.world(a, place), motion.world(b, place)];
+        return [0, 1, 2].map((i) => from[i]! + s * (to[i]! - from[i]!)) as Vector;
+      };
+      if (name !== '') this.others.push({ name, of: 'link', spots: (kind === 'torsion' ? [0.5] : ALONG).map((s) => spot(between(s))), color: (inks) => inks.rust });
+    }
     // the one path of a joint or body that is named goes without a name of its own
     const known = new Set([...joints, ...bodies].map(({ name }) => name));
     traces.forEach(({ name, body, at: own }, k) => {
       if (known.has(name) && traces.length === 1) return;
       const text = known.has(name) ? `path of ${name}` : name;
-      this.others.push({ name: text, of: 'path', spots: [{ joint: { body, at: own }, places: over({ body, at: own }), wide: false }], color: (inks) => inks.curves[(k + 1) % 7]! });
+      this.others.push({ name: text, of: 'path', spots: [spot((place) => motion.world({ body, at: own }, place))], color: (inks) => inks.curves[(k + 1) % 7]! });
     });
   }
 
@@ -133,8 +140,8 @@ export class Names {
     this.drawn = [];
     const hidden = new Set<string>();
     const colors: string[] = [];
-    for (const { text, joint, width, side, other } of this.groups) {
-      const at = pixel(this.motion.world(joint, place));
+    for (const { text, at: where, width, side, other } of this.groups) {
+      const at = pixel(where(place));
       const box = within(boxOn(side, at, width), size);
       const room = this.hidden.has(text) ? BACK : 0;
       if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => overlap(box, one.box, room))) {
@@ -162,14 +169,14 @@ export class Names {
       take(group);
     }
     const joints = this.groups;
-    const others = this.others.filter(({ of }) => of === 'body' || paths);
+    const others = this.others.filter(({ of }) => of !== 'path' || paths);
     const area = [...joints.map(({ width }) => width), ...others.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
     if (area > NAMED * size[0] * size[1]) return;
     for (const other of others) {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
-      const groups = all.map(({ joint, places, wide }, k) => {
-        const group: Group = { text, joint, width, points: places.map(pixel), side: 0, other };
+      const groups = all.map(({ at, places, wide }, k) => {
+        const group: Group = { text, at, width, points: places.map(pixel), side: 0, other };
         return { group, cost: this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k };
       });
       const best = groups.reduce((a, b) => (b.cost < a.cost ? b : a));
@@ -213,17 +220,17 @@ export class Names {
 
   /** The joints in groups that are at one place all the time. */
   private together(pen: Pen, pixel: (at: Vector) => Point): Group[] {
-    const groups: { names: string[]; joint: Place; points: Point[] }[] = [];
-    for (const { name, joint, places } of this.joints) {
+    const groups: { names: string[]; at: Group['at']; points: Point[] }[] = [];
+    for (const { name, at, places } of this.joints) {
       const points = places.map(pixel);
-      const near = (at: Point, k: number) => Math.hypot(at[0] - points[k]![0], at[1] - points[k]![1]) < ONE;
+      const near = (p: Point, k: number) => Math.hypot(p[0] - points[k]![0], p[1] - points[k]![1]) < ONE;
       const known = groups.find((group) => group.points.every(near));
       if (known) known.names.push(name);
-      else groups.push({ names: [name], joint, points });
+      else groups.push({ names: [name], at, points });
     }
-    return groups.map(({ names, joint, points }) => {
+    return groups.map(({ names, at, points }) => {
       const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      return { text, joint, points, width: pen.width(text), side: 0, other: null };
+      return { text, at, points, width: pen.width(text), side: 0, other: null };
     });
   }
 }

@@ -18,8 +18,7 @@ export function mixed(a: string, b: string, part: number): string {
 
 /** The fill and the edge of a body of a colour, as in the figures of the program; in the dark the fill is darkened in their place. */
 export function bodyInks(color: string, { light }: Inks): { fill: string; edge: string } {
-  const dark = mixed(color, '#000000', 0.5);
-  return light ? { fill: color, edge: dark } : { fill: dark, edge: color };
+  return light ? { fill: color, edge: mixed(color, '#000000', 0.5) } : { fill: mixed(color, '#000000', 0.4), edge: color };
 }
 
 /** Of rods without mass. */
