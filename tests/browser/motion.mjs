@@ -339,6 +339,30 @@ export async function bodies_have_their_names_and_colours(open) {
   assert.deepEqual(color, [232, 200, 148]);
 }
 
+export async function ground_stands_beside_what_slides_on_it(open) {
+  const { tab } = await open('quarter_car', { study: 'bump' });
+  await tab.getByRole('checkbox', { name: 'names' }).uncheck();
+  await picture(tab);
+  const inked = await tab.evaluate(() => {
+    const canvas = document.querySelector('.canvas canvas');
+    const { data, width, height } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const ratio = window.devicePixelRatio;
+    // from the middle of the body to its right edge, and there to the hatch of its guide
+    const fill = (x, y) => data[4 * (y * width + x) + 3] === 255;
+    let found = 0;
+    for (let y = 0; y < height; y++) {
+      const middle = Math.round(width / 2);
+      let x = middle + Math.round(20 * ratio);
+      if (!fill(x, y) || data[4 * (y * width + x) + 2] < 200) continue;
+      while (x < width && fill(x, y)) x++;
+      if (x - middle < 60 * ratio) continue;
+      for (let k = 3; k < 8; k++) if (data[4 * (y * width + x + Math.round(k * ratio)) + 3] > 0) found++;
+    }
+    return found;
+  });
+  assert.ok(inked > 20, `${inked} points of hatch beside the body`);
+}
+
 export async function springs_have_their_names(open) {
   const { tab } = await open('cam_follower', { study: 'turn' });
   await picture(tab);

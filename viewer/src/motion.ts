@@ -106,7 +106,11 @@ export class Motion {
   /** Every place that is drawn, for bounds of a picture. */
   *places(): Iterable<Place> {
     const { bodies, joints, links, gears, traces } = this.scene;
-    for (const { a, b } of joints) yield* [a, b];
+    for (const { a, b, axis, stroke } of joints) {
+      yield* [a, b];
+      // the ends of a guide
+      for (const s of stroke ?? []) yield { body: a.body, at: a.at.map((x, i) => x + s * (axis[i] ?? 0)) };
+    }
     for (const { a, b } of links) yield* [a, b];
     for (const { a, b, kind } of gears) {
       yield* round(a.body, a.at, a.radius);

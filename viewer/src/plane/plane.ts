@@ -309,8 +309,23 @@ export class Plane implements Renderer {
 
   private way(joint: Joint): void {
     const { a, b, kind } = joint;
-    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 || b.body === 0 ? null : this.colors(a.body), this.inks);
+    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
     else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
+  }
+
+  /** How far the outlines of the body that slides reach from the way to its lower side, pixels. */
+  private clear({ a, b, axis }: Joint): number {
+    const [u, v] = this.along(a.body, axis);
+    const lower: Point = signs.isBackwards([u, v]) ? [v, -u] : [-v, u];
+    const from = this.point(b);
+    const reach = (at: number[]) => {
+      const [x, y] = this.point({ body: b.body, at });
+      return lower[0] * (x - from[0]) + lower[1] * (y - from[1]);
+    };
+    return Math.max(0, ...this.motion.scene.bodies[b.body]!.shapes.flatMap((shape) => {
+      if (shape.kind === 'polygon') return shape.points.map(reach);
+      return shape.kind === 'disc' || shape.kind === 'sphere' ? [reach(shape.center) + shape.radius * this.scale] : [];
+    }));
   }
 
   private slot(joint: Joint): void {
@@ -318,7 +333,10 @@ export class Plane implements Renderer {
   }
 
   private box(joint: Joint): void {
-    if (joint.kind !== 'pin-in-slot' && this.slides(joint)) signs.box(this.pen, this.point(joint.b), this.along(joint.a.body, joint.axis), this.inks);
+    if (joint.kind === 'pin-in-slot' || !this.slides(joint)) return;
+    const [at, along] = [this.point(joint.b), this.along(joint.a.body, joint.axis)];
+    if (joint.b.body === 0) signs.foot(this.pen, at, along, this.inks);
+    signs.box(this.pen, at, along, this.inks);
   }
 
   private dashpot(joint: Joint): void {

@@ -34,16 +34,27 @@ export function anchor(pen: Pen, at: Point, along: Point, inks: Inks): void {
   hatched(pen, off(at, along, 0, 9), off(at, along, 0, -9), inks);
 }
 
-/** What a slide slides on, from one end to the other: hatched ground on its lower side, or a guide on a body of these colours, as wide as the box. */
-export function slideway(pen: Pen, a: Point, b: Point, body: { fill: string; edge: string } | null, inks: Inks): void {
+/** What a slide slides on, from one end to the other: hatched ground on its lower side, at least `clear` pixels away, or a guide on a body of these colours, as wide as the box. */
+export function slideway(pen: Pen, a: Point, b: Point, body: { fill: string; edge: string } | null, clear: number, inks: Inks): void {
   if (body) {
     pen.path([a, b]).stroke(body.edge, 2 * BOX[1] + 7).stroke(mixed(inks.paper, body.fill, 0.25), 2 * BOX[1] + 4);
     return;
   }
-  const backwards = b[0] - a[0] < -1e-6 || (Math.abs(b[0] - a[0]) <= 1e-6 && b[1] > a[1]);
-  const [from, to] = backwards ? [b, a] : [a, b];
+  const [from, to] = isBackwards([b[0] - a[0], b[1] - a[1]]) ? [b, a] : [a, b];
   const { along } = toward(from, to);
-  hatched(pen, off(from, along, 0, BOX[1] + 1), off(to, along, 0, BOX[1] + 1), inks);
+  const below = Math.max(BOX[1] + 1, clear);
+  hatched(pen, off(from, along, 0, below), off(to, along, 0, below), inks);
+}
+
+/** Whether a direction has its lower side on the left. */
+export function isBackwards([u, v]: Point): boolean {
+  return u < -1e-6 || (Math.abs(u) <= 1e-6 && v > 0);
+}
+
+/** The ground below the box of a slide that goes along a direction. */
+export function foot(pen: Pen, at: Point, along: Point, inks: Inks): void {
+  const [u, v]: Point = isBackwards(along) ? [-along[0], -along[1]] : along;
+  hatched(pen, off(at, [u, v], -BOX[0], BOX[1] + 1), off(at, [u, v], BOX[0], BOX[1] + 1), inks);
 }
 
 /** The box of a slide. */
