@@ -397,14 +397,18 @@ fn a_drawing_shows_the_place_that_is_asked_for() {
         let grashof::output::FormKind::Bar { to, .. } = drawing.bodies[1].poses[0][0].kind else { panic!("a bar") };
         (to, drawing.forces[0].along, drawing.bodies[1].poses.len())
     };
-    for (shown, angle, more) in
-        [("show: [loads]", 0.0_f64, 0), ("at: 40 deg + 10 deg, show: [loads]", 50.0, 1), ("at: 90 deg, show: [loads]", 90.0, 0)]
-    {
+    for (shown, angle, more) in [
+        ("show: [loads]", 0.0_f64, 0),
+        ("at: 40 deg + 10 deg, show: [loads]", 50.0, 1),
+        // in the place of the position of 36 degrees
+        ("at: 37.123 deg, show: [loads]", 37.123, 0),
+        ("at: 90 deg, show: [loads]", 90.0, 0),
+    ] {
         let (s, c) = angle.to_radians().sin_cos();
         let (to, force, poses) = drawn(shown);
         assert!((to[0] - 2.0 * c).hypot(to[1] - 2.0 * s) < 1e-5, "{shown}: {to:?}");
-        // forces are on straight lines between frames
-        assert!((force[0] - 5.0 * s).hypot(force[1] + 5.0 * c) < 0.05, "{shown}: {force:?}");
+        // the place is a frame, so that forces are those there
+        assert!((force[0] - 5.0 * s).hypot(force[1] + 5.0 * c) < 1e-9, "{shown}: {force:?}");
         // one that is shown anyway is not drawn twice
         assert_eq!(poses, 6 + more, "{shown}");
     }
