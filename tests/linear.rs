@@ -329,6 +329,35 @@ fn oscillator_has_its_textbook_matrices() {
     close("D", matrix(system, "D").as_slice(), &[0.0, 0.5, 0.0, 0.0], 1e-10);
 }
 
+#[test]
+fn inputs_of_any_size_have_their_slope() {
+    for (law, slope) in [
+        ("1e-12 N m^2/(1 um - u)^2", 2e6),
+        ("1e-6 N m^2/(1 mm - u)^2", 2e3),
+        ("1 N*sin(u/0.1 mm)", 1e4),
+        ("1 N*sin(u/1 mm)", 1e3),
+        ("3 N/m*u", 3.0),
+        ("1 N/m^2*u*abs(u)", 0.0),
+    ] {
+        let text = format!(
+            "grashof: 1
+name: gap
+space: planar
+gravity: none
+parameters: {{ u: 0 m }}
+bodies: {{ a: {{ mass: 1 kg }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+loads: {{ f: {{ joint: A, force: {law} }} }}
+studies: {{ l: {{ linearize: {{ inputs: [u] }}, columns: [A.acceleration] }} }}
+"
+        );
+        let outcome = study(&text, "l", Coordinates::Joint);
+        let b = matrix(linear(&outcome), "B")[1];
+        assert!((b - slope).abs() < 1e-8 * slope.abs().max(1.0), "{law}: {b}");
+        assert!(outcome.findings.iter().all(|f| f.code != "rough-differences"), "{law}: {:?}", outcome.findings);
+    }
+}
+
 const CART: &str = "grashof: 1
 name: pendulum on a cart
 space: planar

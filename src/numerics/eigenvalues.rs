@@ -1,6 +1,7 @@
 //! Eigenvalues of a real matrix, found in a bounded number of steps or not at all.
 
 use nalgebra::linalg::Schur;
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Iterations of the QR algorithm for each row and column; it takes two or three.
@@ -13,7 +14,8 @@ const ROUNDINGS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// Part of an eigenvalue up to which its imaginary part is round-off: half of the digits, since two equal ones are no better known.
 const PAIRED: f64 = 1e-7;
 
-/// Eigenvalues by the QR algorithm; none if the size of the matrix is no number, with which neither balancing nor the algorithm
+/// Eigenvalues by the QR algorithm, behind a balancing by powers of two (Parlett & Reinsch, Numer. Math. 13 (1969) 293-304), since
+/// coordinates, rates and states differ by orders of magnitude; none if the size of the matrix is no number, with which neither balancing nor the algorithm
 /// would end, or if it does not converge.
 #[must_use]
 pub fn eigenvalues(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
@@ -23,7 +25,9 @@ pub fn eigenvalues(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     if !measurable(a) {
         return None;
     }
-    let schur = ROUNDINGS.into_iter().find_map(|part| Schur::try_new(a.clone(), part * f64::EPSILON, PER_ROW * (a.nrows() + 1)))?;
+    let mut balanced = a.clone();
+    balance_parlett_reinsch(&mut balanced);
+    let schur = ROUNDINGS.into_iter().find_map(|part| Schur::try_new(balanced.clone(), part * f64::EPSILON, PER_ROW * (a.nrows() + 1)))?;
     Some(schur.complex_eigenvalues().iter().copied().collect())
 }
 
@@ -63,6 +67,21 @@ pub(crate) fn measurable(a: &DMatrix<f64>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_do_not_cost_digits() {
+        // a slow state of a fast oscillator, in units 1e12 apart
+        let slow = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, -1.6e7, -160.0, 1e-6, 0.0, 1e6, -0.01]);
+        let units = [1.0, 1e-3, 1e12];
+        let scaled = DMatrix::from_fn(3, 3, |i, j| slow[(i, j)] * units[i] / units[j]);
+        let least = |a: &DMatrix<f64>| eigenvalues(a).unwrap().into_iter().map(|x| x.re).fold(f64::NEG_INFINITY, f64::max);
+        // −det / (sum of the products of pairs), to the square of its part of them
+        let expected = -0.01 * 1.6e7 / (1.6e7 + 1.6 - 1.0);
+        for a in [&slow, &scaled] {
+            assert!((least(a) / expected - 1.0).abs() < 1e-6, "{} {expected}", least(a));
+        }
+        assert!((least(&slow) / least(&scaled) - 1.0).abs() < 1e-10);
+    }
 
     #[test]
     fn equal_ones_are_found_however_many() {

@@ -1,4 +1,4 @@
-//! Numerical methods without mechanics: curves and their resolution, roots, extremes, quadrature, least squares, eigenvalues.
+//! Numerical methods without mechanics: curves and their resolution, roots, extremes, quadrature, least squares, eigenvalues, slopes.
 
 pub mod chebyshev;
 pub(crate) mod complementarity;
@@ -14,3 +14,4 @@ pub mod resolve;
 pub mod root;
 pub mod samples;
 pub(crate) mod sampling;
+pub(crate) mod slope;

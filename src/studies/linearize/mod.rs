@@ -1,14 +1,9 @@
 //! The linear system next to a state: the study kind `linearize`.
 //!
 //! x = (independent coordinates, their rates, first-order states), u = parameters, y = the columns of the study. A is exact, by
-//! [`Linear::reduce`](crate::kinematics::linear::Linear::reduce). B, C and D are central differences of sixth order
-//!
-//! ```text
-//! f′(0) ≈ (45 (f(h) − f(−h)) − 9 (f(2h) − f(−2h)) + (f(3h) − f(−3h)))/(60 h),   error h⁶ f⁽⁷⁾/140
-//! ```
-//!
-//! (Fornberg, Math. Comp. 51 (1988) 699-706, table 1), with the loops closed anew at each place, h a thousandth, and switches kept in
-//! their modes. With a parameter the mechanism is built anew; its independent coordinates and velocities stay.
+//! [`Linear::reduce`](crate::kinematics::linear::Linear::reduce). B, C and D are differences (`numerics/slope.rs`), with the loops closed
+//! anew at each place, steps of a thousandth or less, and switches kept in their modes. With a parameter the mechanism is built anew; its
+//! independent coordinates and velocities stay.
 
 mod probe;
 
@@ -30,13 +25,16 @@ use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::{Coordinates, Leaf, Mechanism, build_beside};
 use crate::model::{Linearize, Study};
 use crate::numerics::eigenvalues::eigenvalues;
+use crate::numerics::slope::slope;
 use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
 use crate::studies::common::outcome::Outcome;
 use nalgebra::{DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
 
-/// Steps of differences, of the value or of 1.
+/// Longest steps of differences, of the value or of 1.
 const STEP: f64 = 1e-3;
+/// Part of an entry up to which differences may be wrong without a word.
+const ROUGH: f64 = 1e-6;
 
 /// Runs a study of the kind `linearize`.
 ///
@@ -65,7 +63,8 @@ where
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };
     let names = Names::new(&bench);
     let (base, reduced) = bench.linear(&mut at, &names)?;
-    let system = bench.system(&at, &base, &reduced, &names)?;
+    let (system, rough) = bench.system(&at, &base, &reduced, &names)?;
+    findings.extend(rough);
     findings.extend(bench.findings(&at, &base, &names, &reduced.partition));
     let poles = eigenvalues(&reduced.a).ok_or_else(|| {
         Failure::numerical(
@@ -174,8 +173,8 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         Ok((answer, reduced))
     }
 
-    /// A, B, C and D with their names.
-    fn system(&self, at: &Whole, base: &Answer, reduced: &Reduced, names: &Names) -> Result<LinearSystem, Failure> {
+    /// A, B, C and D with their names, and that differences have not found them.
+    fn system(&self, at: &Whole, base: &Answer, reduced: &Reduced, names: &Names) -> Result<(LinearSystem, Option<Finding>), Failure> {
         let m = self.mechanism;
         let own = &reduced.partition.independent;
         let (n, nz) = (own.len(), at.z.len());
@@ -185,8 +184,17 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         states.extend(self.case.model.states.iter().map(|s| s.name.clone()));
         let u: Vec<f64> = own.iter().map(|&i| at.v[i]).collect();
         let x: Vec<f64> = own.iter().map(|&i| coordinate(m, &at.q, i)).chain(u.iter().copied()).chain(at.z.iter().copied()).collect();
-        let (b, d) = self.by_inputs(at, &reduced.partition)?;
-        let c = self.by_state(at, &reduced.partition)?;
+        let (b, d, by_inputs) = self.by_inputs(at, &reduced.partition)?;
+        let (c, by_state) = self.by_state(at, &reduced.partition)?;
+        let rough = f64::max(by_inputs, by_state);
+        let finding = (rough > ROUGH).then(|| Finding {
+            code: "rough-differences".into(),
+            message: format!(
+                "entries of B, C or D are uncertain by {:.1e} of their size: a force or a column has a kink or a jump in the state, or changes within a part of an input that differences do not resolve",
+                rough
+            ),
+            path: self.case.study.place.clone(),
+        });
         let order = 2 * n + nz;
         // without columns the outputs are the states
         let silent = self.ids.is_empty();
@@ -195,7 +203,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let y = if silent { x.clone() } else { base.outputs.clone() };
         let matrices = [("A", &reduced.a), ("B", &b), ("C", &c), ("D", &d)].into_iter();
         let mechanical = [("mass", &reduced.mass), ("damping", &reduced.damping), ("stiffness", &reduced.stiffness)];
-        Ok(LinearSystem {
+        let system = LinearSystem {
             coordinates: all(&names.coordinates),
             outputs,
             inputs: self.asked.inputs.iter().map(|&p| self.case.model.parameters[p].name.clone()).collect(),
@@ -204,15 +212,16 @@ impl<G: Space<S = f64>> Bench<'_, G> {
             states,
             csv: self.asked.csv,
             mat: self.asked.mat,
-        })
+        };
+        Ok((system, finding))
     }
 
-    /// C (outputs × states) by differences in x.
-    fn by_state(&self, at: &Whole, partition: &Partition) -> Result<DMatrix<f64>, Failure> {
+    /// C (outputs × states) by differences in x, and how much of an entry may be wrong.
+    fn by_state(&self, at: &Whole, partition: &Partition) -> Result<(DMatrix<f64>, f64), Failure> {
         let (n, nz) = (partition.independent.len(), at.z.len());
-        let mut c = DMatrix::zeros(self.ids.len(), 2 * n + nz);
+        let (mut c, mut rough) = (DMatrix::zeros(self.ids.len(), 2 * n + nz), 0.0);
         if self.ids.is_empty() {
-            return Ok(c);
+            return Ok((c, rough));
         }
         let mut probe = Probe::new(self.case.model, self.mechanism, self.case.parameters, self.ids, &self.start.metric);
         let u = DVector::from_iterator(n, partition.independent.iter().map(|&i| at.v[i]));
@@ -232,15 +241,18 @@ impl<G: Space<S = f64>> Bench<'_, G> {
                 let mut next = probe.state(&base, partition, &dx, &u)?;
                 Some(probe.answer(&mut next, &partition.independent, false)?.outputs)
             });
-            c.set_column(j, &column.ok_or_else(|| self.lost("a state"))?);
+            let (column, wrong) = column.ok_or_else(|| self.lost("a state"))?;
+            rough = f64::max(rough, wrong);
+            c.set_column(j, &DVector::from_vec(column));
         }
-        Ok(c)
+        Ok((c, rough))
     }
 
-    /// B (states × inputs) and D (outputs × inputs) by differences in the parameters.
-    fn by_inputs(&self, at: &Whole, partition: &Partition) -> Result<(DMatrix<f64>, DMatrix<f64>), Failure> {
+    /// B (states × inputs) and D (outputs × inputs) by differences in the parameters, and how much of an entry may be wrong.
+    fn by_inputs(&self, at: &Whole, partition: &Partition) -> Result<(DMatrix<f64>, DMatrix<f64>, f64), Failure> {
         let (n, nz, inputs) = (partition.independent.len(), at.z.len(), &self.asked.inputs);
         let (mut b, mut d) = (DMatrix::zeros(2 * n + nz, inputs.len()), DMatrix::zeros(self.ids.len(), inputs.len()));
+        let mut rough = 0.0;
         let u = DVector::from_iterator(n, partition.independent.iter().map(|&i| at.v[i]));
         for (j, &input) in inputs.iter().enumerate() {
             let column = slope(STEP * sized(self.case.parameters[input]), |e| {
@@ -256,11 +268,14 @@ impl<G: Space<S = f64>> Bench<'_, G> {
                 let answer = probe.answer(&mut next, &partition.independent, false)?;
                 Some([answer.rates, answer.outputs].concat())
             });
-            let column = column.ok_or_else(|| self.lost(&format!("the input `{}`", self.case.model.parameters[input].name)))?;
+            let lost = || self.lost(&format!("the input `{}`", self.case.model.parameters[input].name));
+            let (column, wrong) = column.ok_or_else(lost)?;
+            let column = DVector::from_vec(column);
+            rough = f64::max(rough, wrong);
             b.view_mut((n, j), (n + nz, 1)).copy_from(&column.rows(0, n + nz));
             d.set_column(j, &column.rows(n + nz, self.ids.len()));
         }
-        Ok((b, d))
+        Ok((b, d, rough))
     }
 
     fn slides(&self, velocity: usize) -> bool {
@@ -269,7 +284,7 @@ impl<G: Space<S = f64>> Bench<'_, G> {
 
     fn lost(&self, what: &str) -> Failure {
         Failure::numerical(
-            format!("the mechanism cannot be assembled a thousandth beside the state in {what}: the position is nearly singular"),
+            format!("the mechanism cannot be assembled beside the state in {what}: the position is nearly singular"),
             "take another state, away from a dead point",
         )
     }
@@ -308,20 +323,6 @@ fn coordinate<G: Space>(mechanism: &Mechanism<G>, q: &[f64], velocity: usize) ->
 /// The size of a number, 1 for 0.
 fn sized(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.abs() }
-}
-
-/// f′(0), by the differences above; none where f has no value.
-fn slope(h: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<DVector<f64>> {
-    let mut sum = None;
-    for (k, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
-        let pair = DVector::from_vec(f(k * h)?) - DVector::from_vec(f(-k * h)?);
-        let part = pair * (weight / (60.0 * h));
-        sum = Some(match sum {
-            None => part,
-            Some(sum) => sum + part,
-        });
-    }
-    sum
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {

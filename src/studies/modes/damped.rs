@@ -58,8 +58,7 @@ pub fn state_matrix(held: &Held, with_damping: bool) -> Option<DMatrix<f64>> {
 
 /// Eigenvalues of a state matrix of which the first `n` states are coordinates, by rising |μ|: one of each complex pair.
 ///
-/// The matrix is balanced by powers of two (Parlett & Reinsch, Numer. Math. 13 (1969) 293-304) before the QR algorithm, since
-/// coordinates and rates differ by the size of the frequencies. Vectors come from inverse iteration.
+/// Vectors come from inverse iteration.
 ///
 /// None if the matrix is beyond what they can be found of, as [`eigenvalues`] says.
 #[must_use]
@@ -70,9 +69,7 @@ pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
     if !measurable(a) {
         return None;
     }
-    let mut balanced = a.clone();
-    nalgebra::linalg::balancing::balance_parlett_reinsch(&mut balanced);
-    let mut values = of_each_pair(eigenvalues(&balanced)?);
+    let mut values = of_each_pair(eigenvalues(a)?);
     values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
     let shape = |i, value| by_largest(&eigenvector(a, value, i).rows(0, n).into_owned());
     Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(i, value), value }).collect())
