@@ -6,6 +6,7 @@ mod faults;
 mod forces;
 mod linkages;
 mod many;
+mod states;
 
 use crate::common;
 use grashof::mechanism::Coordinates;

@@ -6,7 +6,6 @@ use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
 use super::rest::{Lost, Rest};
 use super::search::{Ended, Found};
-use super::states::RESTS;
 use crate::dynamics::Differentiable;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -38,8 +37,6 @@ pub(super) struct Settled {
     pub(super) found: Found,
     /// The ridge on which the mechanism would stay by symmetry alone.
     pub(super) passed: Option<Found>,
-    /// Whether states rest in this position alone.
-    pub(super) together: bool,
 }
 
 impl<'a, 'm, G> Bench<'a, 'm, G>
@@ -73,14 +70,13 @@ where
             Err(_) => Some(&begin),
         };
         let found = near.and_then(|near| self.rest.with_states(near)).and_then(|pose| self.rest.judged(pose).ok());
-        let together = found.is_some();
         if let Some(found) = found {
             searched = Ok((found, None));
         }
         match searched {
             Ok((found, passed)) => match self.rest.beyond(self.case, &found.pose.position) {
                 Some(joint) => Err(self.names.beyond(&self.case.model.joints[joint].name, &self.case.study.place)),
-                None => Ok(Settled { begin, found, passed, together }),
+                None => Ok(Settled { begin, found, passed }),
             },
             Err(ended) => match *ended {
                 (_, Ended::Stopped) => Err(Failure::interrupted()),
@@ -186,7 +182,8 @@ where
             };
             add("no-energy", format!("the forces have no energy (the tangent stiffness is not symmetric): {of}"), place);
         }
-        for (state, rate) in model.states.iter().zip(&found.pose.position.drift).filter(|(_, rate)| rate.abs() > RESTS) {
+        let rests = self.rest.rests(&found.pose.position);
+        for ((state, rate), _) in model.states.iter().zip(&found.pose.position.drift).zip(rests).filter(|(_, rests)| !rests) {
             add("state-without-rest", format!("the state `{}` does not come to rest, its rate is {}", state.name, six(*rate)), "states");
         }
         if self.rest.system.dynamics.mechanism.held().next().is_some() {

@@ -45,7 +45,6 @@ use pose::Pose;
 use rest::Position;
 pub(crate) use rest::Still;
 use search::Found;
-use states::RESTS;
 
 /// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind.
 ///
@@ -107,17 +106,17 @@ where
         outcome.findings.extend(bench.region(&pose));
         return Ok(outcome);
     }
-    let Settled { begin, found, passed, together } = bench.settle(&start, stop)?;
+    let Settled { begin, found, passed } = bench.settle(&start, stop)?;
     let mut all = vec![found];
     all.extend(passed);
     if all[0].stability.zero == 0 {
         let known: Vec<&Pose> = all.iter().map(|f| &f.pose).collect();
         let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| Failure::interrupted())?;
-        let elsewhere = further.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none());
-        // what rests in one position alone does so in no other
-        let rests: Vec<bool> = all[0].pose.position.drift.iter().map(|rate| rate.abs() <= RESTS).collect();
-        let also = |f: &Found| f.pose.position.drift.iter().zip(&rests).all(|(rate, rests)| !rests || rate.abs() <= RESTS);
-        all.extend(elsewhere.filter(|f| !together || also(f)));
+        // what rests in the first must rest in all others
+        let rests = bench.rest.rests(&all[0].pose.position);
+        let mut also = |f: &Found| bench.rest.rests(&f.pose.position).iter().zip(&rests).all(|(here, first)| *here || !first);
+        let resting: Vec<Found> = further.into_iter().filter(|f| also(f)).collect();
+        all.extend(resting.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none()));
     }
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     bench.outcome(&watched, &begin, &all)

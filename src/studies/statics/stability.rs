@@ -14,15 +14,20 @@ use crate::kinematics::linear::Linear;
 use crate::kinematics::partition::preferred;
 use crate::numerics::eigenvalues::eigenvalues;
 use nalgebra::linalg::{Schur, SymmetricEigen};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// Part of the stiffness that acts below which an eigenvalue counts as zero: an equilibrium with a zero one is found to 1e-5 of
 /// its place only, since the force is flat there.
 const ZERO: f64 = 1e-8;
 /// Part of H that may be unsymmetric by round-off.
 const SYMMETRIC: f64 = 1e-9;
-/// Part of the fastest pole below which the real part of a pole is round-off; a double zero is known to half of the digits.
-const STEADY: f64 = 1e-7;
+/// Part of the fastest pole below which a pole, or the real part of one, is round-off, and part of a pole below which its real part is.
+const ROUND_OFF: f64 = 1e-11;
+const UNDAMPED: f64 = 1e-8;
+/// Part of the fastest pole up to which two that are opposite to each other are a double zero, which is known to half of the digits, and
+/// part of them by which they may fail to be opposite.
+const DOUBLE: f64 = 1e-7;
+const OPPOSITE: f64 = 1e-2;
 /// Sweeps of an eigensolver.
 const SWEEPS: usize = 10_000;
 
@@ -85,14 +90,11 @@ impl Stability {
         let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
             return;
         };
-        let steady = STEADY * poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
-        // one of each pair
-        let growing = poles.iter().filter(|p| p.re > steady && p.im >= 0.0).count();
+        let (growing, still) = growing_and_still(&poles);
         // a state may hold what falls without it
         if self.symmetric && growing <= self.negative && z.is_empty() {
             return;
         }
-        let still = poles.iter().filter(|p| p.norm() <= steady).count();
         self.of_motion = true;
         self.negative = growing;
         self.zero = if self.symmetric { self.zero.min(still) } else { still };
@@ -106,5 +108,34 @@ impl Stability {
     /// The lowest eigenvalue; 0 without freedom.
     pub(super) fn lowest(&self) -> f64 {
         self.values.first().copied().unwrap_or(0.0)
+    }
+}
+
+/// How many motions grow, one of each pair, and how many poles are zero.
+fn growing_and_still(poles: &[Complex<f64>]) -> (usize, usize) {
+    let fastest = poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
+    let still = |i: usize| {
+        let p = poles[i];
+        let opposite = |(j, q): (usize, &Complex<f64>)| i != j && (p + q).norm() <= OPPOSITE * p.norm();
+        p.norm() <= ROUND_OFF * fastest || p.norm() <= DOUBLE * fastest && poles.iter().enumerate().any(opposite)
+    };
+    let grows = |i: usize| {
+        let p = poles[i];
+        p.im >= 0.0 && p.re > f64::max(ROUND_OFF * fastest, UNDAMPED * p.norm()) && !still(i)
+    };
+    ((0..poles.len()).filter(|i| grows(*i)).count(), (0..poles.len()).filter(|i| still(*i)).count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slow_pole_is_no_zero_and_a_double_zero_is_no_growth() {
+        let of = |poles: &[(f64, f64)]| growing_and_still(&poles.iter().map(|&(re, im)| Complex::new(re, im)).collect::<Vec<_>>());
+        assert_eq!(of(&[(-2e4, 0.0), (1e-3, 0.0), (-1.0, 30.0), (-1.0, -30.0)]), (1, 0));
+        assert_eq!(of(&[(-10.0, 223.0), (-10.0, -223.0), (-1e-5, 0.0)]), (0, 0));
+        assert_eq!(of(&[(0.0, 100.0), (0.0, -100.0), (3e-7, 0.0), (-3e-7, 0.0)]), (0, 2));
+        assert_eq!(of(&[(1e-9, 100.0), (1e-9, -100.0), (0.1, 2.0), (0.1, -2.0)]), (1, 0));
     }
 }

@@ -8,25 +8,28 @@
 //! | Z_q P    Z_z    | | δz | = | −ż |
 //! ```
 //!
-//! of the states that act on a force, by themselves or through others; what only records, or counts on, need not rest.
+//! of the states that act on a force, by themselves or through others; what only records, or counts on, need not rest. Sums of states
+//! that no motion changes stay as they are: δz = B w, with the columns of B those of Z_q P and Z_z, and w is what is sought.
 
 use super::pose::Pose;
-use super::rest::{Rest, norm};
+use super::rest::{Position, Rest, norm};
 use super::search::{CLOSE, LONGEST, STEPS};
 use crate::geometry::Space;
 use crate::numerics::least_squares::shortest;
 use grashof_solvers::System;
 use nalgebra::{DMatrix, DVector};
 
-/// A rate below which a state rests, in its unit per second.
-pub(super) const RESTS: f64 = 1e-9;
+/// Part of a state by which it may change in a second and still rest, and round-off of a rate in what it is made of.
+const RESTS: f64 = 1e-9;
+const ROUND_OFF: f64 = 1e-11;
 /// Halvings of a step.
 const HALVINGS: i32 = 8;
 
 /// The linear equations of position and states at a pose, each divided by its largest coefficient.
 struct Together {
-    /// States that act, by index.
+    /// States that act, by index, and the ways on which motions lead them (states × ways).
     states: Vec<usize>,
+    ways: DMatrix<f64>,
     /// Coefficients, row after row, and right sides.
     rows: Vec<f64>,
     right: Vec<f64>,
@@ -38,25 +41,39 @@ impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
 {
+    /// Which states rest in a position.
+    pub(super) fn rests(&mut self, position: &Position) -> Vec<bool> {
+        self.stand_at(position);
+        self.system.tangent(self.state.at(), &self.zeros, &position.lambda, &mut self.tangent);
+        let Self { tangent, unit, .. } = self;
+        let made_of = |i: usize| {
+            let by_states: f64 = position.z.iter().enumerate().map(|(j, z)| (tangent.z_z.at(i, j) * z).abs()).sum();
+            by_states + unit.iter().enumerate().map(|(j, unit)| (tangent.z_q.at(i, j) * unit).abs()).sum::<f64>()
+        };
+        let rests = |(i, (rate, z)): (usize, (&f64, &f64))| rate.abs() <= f64::max(RESTS * z.abs().min(1.0), ROUND_OFF * made_of(i));
+        position.drift.iter().zip(&position.z).enumerate().map(rests).collect()
+    }
+
     /// The equilibrium near a pose in which the states that act on a force rest as well; none if there is no such, or the pose is it.
     pub(super) fn with_states(&mut self, from: &Pose) -> Option<Pose> {
-        if from.position.drift.iter().all(|rate| rate.abs() <= RESTS) {
+        if from.position.z.is_empty() || self.rests(&from.position).iter().all(|rests| *rests) {
             return None;
         }
         let mut pose = from.clone();
         for _ in 0..STEPS {
             let at = self.together(&pose)?;
-            if at.states.iter().all(|&i| pose.position.drift[i].abs() <= RESTS) && self.is_balanced(&pose).ok()? {
+            let rests = self.rests(&pose.position);
+            if at.states.iter().all(|&i| rests[i]) && self.is_balanced(&pose).ok()? {
                 return self.polish(pose).ok();
             }
             let step = at.step(&pose);
-            let (y, dz) = step.split_at(pose.force.len());
-            let y = DVector::from_column_slice(y);
+            let (y, ways) = step.split_at(pose.force.len());
+            let (y, dz) = (DVector::from_column_slice(y), &at.ways * DVector::from_column_slice(ways));
             let long = (self.measure(&(&pose.basis * &y)) / LONGEST).max(1.0);
             let before = at.left(&pose);
             let shorter = (0..HALVINGS).find_map(|halves| {
                 let part = 0.5_f64.powi(halves) / long;
-                let next = self.beside(&pose, &(&y * part), &at.states, dz, part)?;
+                let next = self.beside(&pose, &(&y * part), &at.states, dz.as_slice(), part)?;
                 (at.left(&next) < before).then_some(next)
             });
             match shorter {
@@ -101,14 +118,20 @@ where
             return None;
         }
         let n = pose.force.len();
-        let mut at = Together { states, rows: Vec::new(), right: Vec::new(), sizes: Vec::new() };
+        let pick = |of: &DMatrix<f64>| of.select_rows(&states);
+        // of a length of 1 each, since states have units of all sizes
+        let mut ways: Vec<DVector<f64>> = pick(&rates).column_iter().chain(pick(&z_z).column_iter()).map(|way| way.into_owned()).collect();
+        ways.retain(|way| way.norm() > 0.0);
+        ways.iter_mut().for_each(|way| *way /= way.norm());
+        let ways = if ways.is_empty() { DMatrix::zeros(states.len(), 0) } else { DMatrix::from_columns(&ways) };
+        let by_ways = |of: &DMatrix<f64>| of.select_columns(&states) * &ways;
+        let (forces, slopes) = (by_ways(&forces), by_ways(&z_z));
+        let mut at = Together { states, ways, rows: Vec::new(), right: Vec::new(), sizes: Vec::new() };
         for i in 0..n {
-            let row = stiffness.row(i).iter().copied().chain(at.states.iter().map(|&j| forces[(i, j)])).collect();
-            at.add(row, pose.force[i]);
+            at.add(stiffness.row(i).iter().chain(forces.row(i).iter()).copied().collect(), pose.force[i]);
         }
         for i in at.states.clone() {
-            let row = rates.row(i).iter().copied().chain(at.states.iter().map(|&j| z_z[(i, j)])).collect();
-            at.add(row, -pose.position.drift[i]);
+            at.add(rates.row(i).iter().chain(slopes.row(i).iter()).copied().collect(), -pose.position.drift[i]);
         }
         Some(at)
     }
@@ -123,11 +146,9 @@ impl Together {
         self.sizes.push(size);
     }
 
-    /// Newton's step: y, then the changes of the states that act.
+    /// Newton's step: y, then the lengths of the ways of the states.
     fn step(&self, pose: &Pose) -> Vec<f64> {
-        let states = self.states.iter().map(|&i| (1.0 + pose.position.z[i].abs()).powi(-2));
-        let metric: Vec<f64> = std::iter::repeat_n(1.0, pose.force.len()).chain(states).collect();
-        shortest(&self.rows, &self.right, &metric, 0.0)
+        shortest(&self.rows, &self.right, &vec![1.0; pose.force.len() + self.ways.ncols()], 0.0)
     }
 
     /// What is left of the equations at a pose, in the units of these rows.
