@@ -113,6 +113,8 @@ pub struct Engine {
     pub size_q: Vec<f64>,
     /// Sizes of velocities: errors of v count relative to size + |v|, |v| without what bodies share in a common translation.
     pub size_v: Vec<f64>,
+    /// Sizes of states: errors of z count relative to size + |z|.
+    pub size_z: Vec<f64>,
     /// Common translations, from the pattern, and which velocities share in one (nv).
     common: Vec<Common>,
     shares: Vec<bool>,
@@ -148,6 +150,7 @@ impl Engine {
             control,
             size_q: pattern.size_q.clone(),
             size_v: pattern.size_v.clone(),
+            size_z: pattern.size_z.clone(),
             shares: (0..dims.v).map(|k| pattern.common.iter().flatten().any(|(shared, _)| *shared == k)).collect(),
             common: pattern.common.clone(),
             row_unit: pattern.g_scale.iter().map(|g| g.sqrt().recip()).collect(),

@@ -114,6 +114,7 @@ impl<S: System> Minimal<S> {
         p.g_scale = row_scale(&p.g, terms.g.values(), &p.metric);
         p.size_q = inner.size_q.clone();
         p.size_v = loops.independent.iter().map(|&i| inner.size_v[i]).collect();
+        p.size_z.clone_from(&inner.size_z);
         let place = |k: usize| loops.independent.iter().position(|i| *i == k);
         p.common = inner.common.iter().map(|common| restricted(common, place)).collect();
         p.power = inner.power;

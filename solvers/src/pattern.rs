@@ -48,6 +48,8 @@ pub struct Pattern {
     /// The same for displacements and velocities (nv): errors of v count relative to size + |v|, where |v| is what is left without
     /// the velocity in `common`.
     pub size_v: Vec<f64>,
+    /// The same for states (nz): errors of z count relative to size + |z|.
+    pub size_z: Vec<f64>,
     /// Translations of bodies that nothing holds in place: a constant velocity of all of them is no motion that errors are measured by.
     pub common: Vec<Common>,
     /// What the powers of [`System::power`](crate::System::power) are functions of.
@@ -83,6 +85,7 @@ impl Pattern {
             g_scale: vec![1.0; m],
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],
+            size_z: vec![1.0; z],
             common: Vec::new(),
             power: Power::Reactions,
             roots_by_reactions: false,

@@ -426,3 +426,45 @@ studies:
     }
     verdict.give("the times of events");
 }
+
+#[test]
+fn events_of_one_instant_count_each() {
+    let (run, table) = done(
+        "gravity: none
+bodies: { a: { mass: 1 kg }, b: { mass: 1 kg } }
+joints: { A: { slider: [ground, a.origin], axis: [1, 0] }, B: { slider: [ground, b.origin], axis: [0, 1] } }
+parameters: { n: 1 }
+start: { A.velocity: 1 m/s, B.velocity: 1 m/s }
+events:
+  one: { when: A.position - 1 m, set: { n: n + 1 } }
+  other: { when: B.position - 1 m, set: { n: 10*n } }
+measures: { counted: n }
+studies: { run: { dynamics: { until: 2 s, every: 0.5 s }, columns: [counted], scalars: { end: last(counted) } } }
+",
+    );
+    assert_eq!(scalar(&run, "run", "end"), 20.0);
+    assert_eq!(table.rows.last().unwrap().last(), Some(&20.0));
+}
+
+#[test]
+fn small_states_have_the_digits_of_large_ones() {
+    for unit in [1.0, 1e-3, 1e-6, 1e-9, 1e-12] {
+        let (run, _) = done(&format!(
+            "gravity: none
+bodies: {{ a: {{ mass: 1 kg }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+states:
+  pumped: {{ start: 0, rate: ({unit}/1 s)*(1 + cos(300 rad/s*t)) }}
+  charge: {{ start: {unit}, rate: current/1 s }}
+  current: {{ start: 0, rate: -1e4*charge/1 s }}
+start: {{ A.velocity: 1 m/s }}
+studies: {{ run: {{ dynamics: {{ until: 1 s }}, columns: [pumped], scalars: {{ volume: last(pumped), left: last(charge) }} }} }}
+"
+        ));
+        let exact = [1.0 + 300.0_f64.sin() / 300.0, 100.0_f64.cos()];
+        for (name, exact) in ["volume", "left"].iter().zip(exact) {
+            let off = scalar(&run, "run", name) / (unit * exact) - 1.0;
+            assert!(off.abs() < 1e-5, "{name} in units of {unit:e}: {off:e}");
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::State;
 const ROUNDED: f64 = 4.0;
 
 impl Engine {
-    /// Norm of an error, 1 at the tolerance: root mean square of e_q/(tol·size_q), e_v/(tol·(size_v + |v|)), e_z/(tol·(1 + |z|)).
+    /// Norm of an error, 1 at the tolerance: root mean square of e_q/(tol·size_q), e_v/(tol·(size_v + |v|)), e_z/(tol·(size_z + |z|)).
     pub fn norm(&self, at: &State, e_q: &[f64], e_v: &[f64], e_z: &[f64]) -> f64 {
         let q: f64 = e_q.iter().zip(&self.size_q).map(|(e, s)| (e / s).powi(2)).sum();
         self.with_rates(at, q, e_q.len(), e_v, e_z) / self.tolerance().max(ROUNDED * self.rounding(&at.q))
@@ -28,7 +28,7 @@ impl Engine {
         let part = |k: usize, speed: f64| (e_v[k] / (self.size_v[k] + speed.abs())).powi(2);
         let mut v: f64 = at.v.iter().enumerate().map(|(k, v)| if self.shares[k] { 0.0 } else { part(k, *v) }).sum();
         self.shared(&at.v, |k, speed| v += part(k, speed));
-        let z: f64 = e_z.iter().zip(&at.z).map(|(e, z)| (e / (1.0 + z.abs())).powi(2)).sum();
+        let z: f64 = e_z.iter().zip(&at.z).zip(&self.size_z).map(|((e, z), size)| (e / (size + z.abs())).powi(2)).sum();
         let count = count + e_v.len() + e_z.len();
         ((q + v + z) / count.max(1) as f64).sqrt()
     }

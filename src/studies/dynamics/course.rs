@@ -260,15 +260,24 @@ impl<'a> Course<'a> {
         system.columns(&before.state.modes, &mut outputs);
         let functions = self.model.events.iter().map(|e| 1 + usize::from(e.restitution.is_some())).sum::<usize>();
         let mut place = self.columns + functions;
+        let mut one_has_set = false;
         for (i, event) in self.model.events.iter().enumerate() {
-            for &(parameter, _) in &event.set {
-                if counted.contains(&i) {
-                    self.changed.retain(|(p, _)| *p != parameter);
-                    self.changed.push((parameter, outputs[place]));
-                    self.begins = Begins::Parameters;
+            if counted.contains(&i) && !event.set.is_empty() {
+                if one_has_set {
+                    // what another one of the same instant has set counts for this one
+                    self.take_parameters();
+                    system.observer = Observer::new(self.model, system.dynamics.mechanism, &self.parameters, &self.outputs);
+                    system.observe(&before.state.at(), &before.a, &before.lambda);
+                    system.columns(&before.state.modes, &mut outputs);
                 }
-                place += 1;
+                for (k, &(parameter, _)) in event.set.iter().enumerate() {
+                    self.changed.retain(|(p, _)| *p != parameter);
+                    self.changed.push((parameter, outputs[place + k]));
+                }
+                self.begins = Begins::Parameters;
+                one_has_set = true;
             }
+            place += event.set.len();
         }
         self.piles = !self.met.is_empty();
         if self.begins == Begins::Parameters {

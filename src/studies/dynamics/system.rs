@@ -25,6 +25,7 @@ mod events;
 mod power;
 mod root;
 mod seen;
+mod states;
 mod sticking;
 mod works;
 
@@ -175,6 +176,7 @@ where
             metric: start.metric.clone(),
             size_q,
             size_v: size,
+            size_z: vec![1.0; nz],
             common: mechanism.translations(),
             power: works::depends(mechanism),
             roots_by_reactions: observer.switches_by_forces()
@@ -189,7 +191,7 @@ where
         };
         let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
         let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
-        Self {
+        let mut system = Self {
             reactions: dynamics.reactions(),
             linearizer: None,
             mechanism,
@@ -218,7 +220,11 @@ where
             timed,
             direct,
             kkt: None,
+        };
+        if nz > 0 {
+            system.pattern.size_z = system.sizes_of_states(start);
         }
+        system
     }
 
     /// What makes exact tangents, itself made when it is asked for first.

@@ -307,7 +307,7 @@ impl Equations for Lent<'_> {
         }
         let engine = &self.engine;
         engine.shared(v, |k, speed| w_v[k] = whole / (engine.size_v[k] + speed.abs()));
-        w_z.iter_mut().zip(z).for_each(|(w, z)| *w = whole / (1.0 + z.abs()));
+        w_z.iter_mut().zip(z).zip(&engine.size_z).for_each(|((w, z), size)| *w = whole / (size + z.abs()));
         w_lambda.fill(1e-30);
         w_mu.fill(1e-30);
     }
