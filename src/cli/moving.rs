@@ -134,7 +134,7 @@ fn named<'a>(asked: Option<&'a str>, known: &'a [String]) -> Option<&'a str> {
         (None, []) => {
             print_error(
                 "the model has no studies, so there is no motion",
-                "add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`",
+                "add one, as `studies: { turn: { kinematics: { over: 1 turn, samples: 72 } } }`",
             );
             None
         }

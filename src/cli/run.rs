@@ -89,7 +89,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     if known.is_empty() {
         print_error(
             "the model has no studies, so there is nothing to run",
-            "add one, as `studies: { turn: { kinematics: { over: 1 turn } } }`, or use `grashof check`",
+            "add one, as `studies: { turn: { kinematics: { over: 1 turn, samples: 72 } } }`, or use `grashof check`",
         );
         return code::INPUT;
     }

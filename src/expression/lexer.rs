@@ -28,8 +28,11 @@ pub(super) struct Lexeme<'a> {
 /// Longer signs first.
 const SIGNS: [&str; 15] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ",", "%"];
 
+/// What to write of a temperature.
+pub(super) const NO_TEMPERATURE: &str = "there are no temperatures: write the number without a unit";
+
 /// Signs of other languages, and what to write instead.
-const FOREIGN: [(&str, &str); 15] = [
+const FOREIGN: [(&str, &str); 17] = [
     ("**", "write `^` for a power"),
     ("&&", "write `and`"),
     ("&", "write `and`"),
@@ -42,6 +45,8 @@ const FOREIGN: [(&str, &str); 15] = [
     ("≠", "write `!=`"),
     ("·", "write `*`"),
     ("×", "write `*`"),
+    ("°C", NO_TEMPERATURE),
+    ("°F", NO_TEMPERATURE),
     ("°", "write `deg`"),
     ("π", "write `pi`"),
     ("~", "`~` may only precede a whole value of `start`"),

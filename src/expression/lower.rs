@@ -119,6 +119,8 @@ impl Lowerer<'_> {
             Err(mut unknown) => {
                 if unknown.help.is_none() && unit(path).is_some() {
                     unknown.help = Some(format!("`{path}` is a unit and follows its number: `1 {path}`"));
+                } else if unknown.help.is_none() && matches!(path, "h" | "hr" | "hour" | "hours") {
+                    unknown.help = Some("hours are no unit: write `60 min` for one, as in `5 km/(60 min)`".to_owned());
                 } else if unknown.help.is_none()
                     && let Some(near) = nearest_unit(path)
                 {

@@ -12,7 +12,7 @@
 use super::lexer::{Lexeme, Token, lexemes};
 use super::switch::Compare;
 pub(super) use super::syntax::SyntaxError;
-use super::units::Dimension;
+use super::units::{Dimension, unit};
 use std::ops::Range;
 
 /// Deepest nesting of parentheses, signs and powers.
@@ -113,6 +113,17 @@ const COMPARISONS: [(&str, Compare); 6] = [
     ("!=", Compare::NotEqual),
 ];
 
+/// Functions of one argument, whose parentheses another language may leave out.
+const OF_ONE: [&str; 18] = [
+    "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "log10", "sinh", "cosh", "tanh", "floor", "ceil", "round", "sqrt", "abs",
+    "sign",
+];
+
+/// The word that joins or turns conditions and that stands there in capitals.
+fn word_of(word: &str) -> Option<&'static str> {
+    ["and", "or", "not"].into_iter().find(|known| *known != word && known.eq_ignore_ascii_case(word))
+}
+
 /// Position in the lexemes of a text.
 pub(super) struct Parser<'a> {
     text: &'a str,
@@ -183,7 +194,7 @@ impl<'a> Parser<'a> {
                 Token::Sign(sign) => matches!(sign, ")" | "%"),
                 Token::End => false,
             };
-        let help = match self.peek() {
+        let help = self.of_other_languages().or_else(|| match self.peek() {
             Token::End if self.open > 0 => Some(format!("a parenthesis is not closed; {TRAP}")),
             Token::Sign(")") if self.open == 0 => Some(format!("no parenthesis is open here; {TRAP}")),
             Token::Sign(",") if self.open == 0 => Some(match (self.last().token, self.token(1)) {
@@ -199,8 +210,36 @@ impl<'a> Parser<'a> {
                 Some(format!("a product is written with a star: `{left}*{there}`"))
             }
             _ => None,
-        };
+        });
         SyntaxError { at: self.here(), found: self.found(), expected: expected.to_owned(), help }
+    }
+
+    /// What to write where two operands meet as they may in another language: `5 % 3`, `a AND b`, `sin 3`, `120 1/min`.
+    fn of_other_languages(&self) -> Option<String> {
+        let begins = |token: Token<'_>| matches!(token, Token::Number(_) | Token::Word(_) | Token::Path(_) | Token::Sign("("));
+        let operand =
+            |at: usize| self.lexemes.get(at).map(|l| if matches!(l.token, Token::Sign("(" | ")")) { "(..)" } else { self.slice(&l.at) });
+        let before = self.next.checked_sub(1)?;
+        match (self.last().token, self.peek()) {
+            (_, Token::Sign("%")) if begins(self.token(1)) => {
+                Some(format!("a remainder is `mod({}, {})`", operand(before)?, operand(self.next + 1)?))
+            }
+            (Token::Sign("%"), next) if begins(next) => {
+                Some(format!("a remainder is `mod({}, {})`", operand(before.checked_sub(1)?)?, operand(self.next)?))
+            }
+            (Token::Number(_), Token::Number(1.0)) if self.token(1) == Token::Sign("/") => {
+                let (number, unit) = (operand(before)?, operand(self.next + 2).filter(|word| unit(word).is_some())?);
+                let turns = matches!(unit, "min" | "s").then(|| format!(", or `{number} turn/{unit}` for turns"));
+                Some(format!("write `{number} {unit}^-1`{}", turns.unwrap_or_default()))
+            }
+            (_, Token::Word(word)) if word_of(word).is_some() => Some(format!("write `{}`", word_of(word)?)),
+            (Token::Word(word), next) if word_of(word).is_some() && begins(next) => Some(format!("write `{}`", word_of(word)?)),
+            (Token::Word("if"), next) if begins(next) && next != Token::Sign("(") => Some("write `if(condition, then, else)`".to_owned()),
+            (Token::Word(word), next) if OF_ONE.contains(&word) && begins(next) && next != Token::Sign("(") => {
+                Some(format!("write `{word}({})`", operand(self.next)?))
+            }
+            _ => None,
+        }
     }
 
     /// Runs `rule` one level deeper.

@@ -1,6 +1,6 @@
 //! The unit behind a number, and what to say when something else stands there.
 
-use super::lexer::Token;
+use super::lexer::{NO_TEMPERATURE, Token};
 use super::parser::{Expr, Kind, Parser, SyntaxError};
 use super::units::{Dimension, nearest_unit, unit};
 use std::f64::consts::TAU;
@@ -114,6 +114,15 @@ impl Parser<'_> {
             let radians = format!("{:.2e}", hertz * TAU).parse().unwrap_or(hertz * TAU);
             return error("turn/s or rad/s", format!("write `{hertz} turn/s` or `{radians} rad/s`"));
         }
+        if matches!(word, "K" | "degC" | "degF" | "celsius" | "kelvin") {
+            return error("a unit or an operator", NO_TEMPERATURE.to_owned());
+        }
+        if matches!(word, "kph" | "kmh" | "kmph") {
+            return error("a unit or an operator", format!("write `{text} km/(60 min)`"));
+        }
+        if let Some(word) = ["and", "or"].into_iter().find(|known| known.eq_ignore_ascii_case(word)) {
+            return error("a unit or an operator", format!("write `{word}`"));
+        }
         if self.token(1) != Token::Sign("(")
             && let Some(units) = meant(word)
         {
@@ -142,7 +151,10 @@ fn shifted(number: f64, power: i32) -> f64 {
 
 /// The units that a word probably means: `Nm` is `N m`, `KG` is `kg`, `mm2` is `mm^2`.
 fn meant(word: &str) -> Option<String> {
-    const LONG: [(&str, &str); 24] = [
+    const LONG: [(&str, &str); 27] = [
+        ("rps", "turn/s"),
+        ("RPS", "turn/s"),
+        ("mps", "m/s"),
         ("degree", "deg"),
         ("degrees", "deg"),
         ("radian", "rad"),
@@ -240,6 +252,20 @@ mod tests {
             ("30 degrees", "write `30 deg`"),
             ("5 cms", "did you mean `5 cm`? A product is written with a star: `5*cms`"),
             ("0.5 lbs", "write `0.5 lb`"),
+            ("2 rps", "write `2 turn/s`"),
+            ("50 kph", "write `50 km/(60 min)`"),
+            ("20 degC", "there are no temperatures: write the number without a unit"),
+            ("20 °C", "there are no temperatures: write the number without a unit"),
+            ("293 K", "there are no temperatures: write the number without a unit"),
+            ("120 1/min", "write `120 min^-1`, or `120 turn/min` for turns"),
+            ("5 % 3", "a remainder is `mod(5, 3)`"),
+            ("a % b", "a remainder is `mod(a, b)`"),
+            ("a AND b", "write `and`"),
+            ("a > 1 Or b > 2", "write `or`"),
+            ("NOT a", "write `not`"),
+            ("sin 3", "write `sin(3)`"),
+            ("2*cos x", "write `cos(x)`"),
+            ("if t > 1 s", "write `if(condition, then, else)`"),
             ("2 k", "a product is written with a star: `2*k`"),
             ("2 f(a)", "a product is written with a star: `2*f(..)`"),
         ] {
