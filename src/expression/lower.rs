@@ -232,6 +232,11 @@ impl Lowerer<'_> {
     /// An expression as a condition; a number is true unless it is 0.
     fn condition(&mut self, expr: &Expr) -> Option<Lowered> {
         let a = self.expr(expr)?;
+        if !a.any && (a.dimension != Dimension::NONE || a.dimension.is_angle()) {
+            let help = Some(format!("compare it, as `{} > 0`", self.slice(&expr.at)));
+            self.fault(&expr.at, a.dimension.name(), "a condition, as `a > b`", help);
+            return None;
+        }
         let text = format!("{} != 0", self.slice(&expr.at));
         let id = self.pool.condition(a.id, &text);
         Some(Lowered { id, dimension: Dimension::NONE, any: false, bare: a.bare, boolean: true })

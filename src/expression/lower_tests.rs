@@ -303,9 +303,9 @@ fn tables_take_bare_numbers() {
 #[test]
 fn switches_quote_the_text() {
     let mut pool = Pool::new();
-    let l = lowered(&mut pool, "if(slide.x <= l3 and slide.vx, 2, abs(slide.vx - 2 m/s)*0)").unwrap();
+    let l = lowered(&mut pool, "if(slide.x <= l3 and slide.vx/(1 m/s), 2, abs(slide.vx - 2 m/s)*0)").unwrap();
     let texts: Vec<_> = pool.switches().iter().map(|s| s.text.as_str()).collect();
-    assert_eq!(texts, ["slide.x <= l3", "slide.vx != 0", "abs(slide.vx - 2 m/s)"]);
+    assert_eq!(texts, ["slide.x <= l3", "slide.vx/(1 m/s) != 0", "abs(slide.vx - 2 m/s)"]);
     assert!(!l.boolean && lowered(&mut pool, "slide.x <= l3").unwrap().boolean);
 }
 

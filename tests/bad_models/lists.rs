@@ -74,6 +74,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "decimal-comma",
             "missing-operator",
             "chained-comparison",
+            "condition-with-a-unit",
             "unbalanced-parenthesis",
             "wrong-number-of-arguments",
             "expression-too-deep",
