@@ -8,7 +8,7 @@ use super::files::Files;
 use super::include;
 use super::included::{Included, find};
 use super::merge::Node;
-use super::reading::{report, shown, text_of};
+use super::reading::{BYTE_ORDER, report, shown, text_of};
 use super::spans::Spans;
 use super::study::Samples;
 use super::suggest;
@@ -78,6 +78,7 @@ impl Document {
     }
 
     fn new(text: &str, file: &str, files: &Files<'_>) -> Result<Self, Report> {
+        let text = text.strip_prefix(BYTE_ORDER).unwrap_or(text);
         let root = yaml::read(text).map_err(|faults| report(file, text, &faults, &[]))?;
         let included = include::read(&root, file, text, files)?;
         let data = DataFiles::read(&root, files);

@@ -9,9 +9,13 @@ use std::collections::HashSet;
 /// Most findings of one report.
 const MOST_SHOWN: usize = 200;
 
-/// Bytes as text; `most` of them are shown if they are none.
+/// The sign of the byte order that some editors put in front of a text.
+pub(super) const BYTE_ORDER: char = '\u{feff}';
+
+/// Bytes as text, without the sign of a byte order in front; `most` of them are shown if they are none.
 pub(crate) fn text_of<'b>(bytes: &'b [u8], file: &str, most: usize) -> Result<&'b str, Report> {
-    std::str::from_utf8(bytes).map_err(|error| {
+    let text = std::str::from_utf8(bytes).map(|text| text.strip_prefix(BYTE_ORDER).unwrap_or(text));
+    text.map_err(|error| {
         let good = error.valid_up_to();
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(most)]);
         let fault = Fault::new("not-utf8", String::new(), format!("byte {} is not UTF-8", good + 1), "a text file in UTF-8")

@@ -46,6 +46,15 @@ fn select<'a>(study: Option<&'a str>, variants: &[&str], sets: &[(&str, &str)]) 
 }
 
 #[test]
+fn a_byte_order_mark_is_passed_over() {
+    let text = format!("\u{feff}{}", FILES[3].1);
+    for document in [Document::read(&text, "marked").unwrap(), Document::from_bytes(text.as_bytes(), "marked").unwrap()] {
+        assert_eq!(document.text(), FILES[3].1);
+        assert!(!document.check_all(&Selection::default()).failed());
+    }
+}
+
+#[test]
 fn every_study_of_every_draft_decodes() {
     for (name, text) in FILES {
         let document = Document::read(text, name).unwrap();
