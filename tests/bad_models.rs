@@ -242,7 +242,8 @@ fn warnings_are_told() {
 /// Each file of the directory belongs to a test, so that no snapshot is forgotten.
 #[test]
 fn no_file_is_left_over() {
-    let mut known: BTreeSet<String> = ["base.yaml", "solve.yaml", "angle-in-degrees.yaml", "angle-in-degrees.txt"].map(String::from).into();
+    let mut known: BTreeSet<String> =
+        ["base.yaml", "compare.yaml", "solve.yaml", "angle-in-degrees.yaml", "angle-in-degrees.txt"].map(String::from).into();
     for name in FILES.iter().flat_map(|(_, names)| *names) {
         known.extend([format!("{name}.yaml"), format!("{name}.txt")]);
     }

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 /// What every command understands.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Common {
-    /// Directory for results [default: results/<model file without extension>]; with `import` and `animate` the file to write
+    /// Directory for results [default: results/<model file without extension>]; with `new`, `import`, `animate`, `schema` and `completions` the
+    /// file to write
     #[arg(short, long, global = true, value_name = "PATH")]
     pub(super) output: Option<PathBuf>,
     /// Replace files of the names of results that no earlier run is recorded to have written

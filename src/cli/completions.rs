@@ -1,6 +1,6 @@
 //! `grashof completions`.
 
-use super::code;
+use super::{Common, files};
 use clap_complete::Shell;
 
 #[derive(clap::Args)]
@@ -9,10 +9,9 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-/// Prints a completion script for a command line.
-pub(super) fn print(arguments: &Arguments, command: &mut clap::Command) -> u8 {
+/// Prints a completion script for a command line, or writes it to the file of `--output`.
+pub(super) fn print(arguments: &Arguments, command: &mut clap::Command, common: &Common) -> u8 {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, command, "grashof", &mut script);
-    super::print_out(String::from_utf8_lossy(&script).trim_end());
-    code::DONE
+    files::print_or_write(String::from_utf8_lossy(&script).trim_end(), common)
 }

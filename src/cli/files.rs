@@ -2,7 +2,7 @@
 
 use super::interrupt::{interrupted, uncut};
 use super::terminal::{print_error, print_failure, print_report};
-use super::{Common, code, print_note};
+use super::{Common, code, print_note, print_out};
 use grashof::api::{beside, explained, why};
 use grashof::model::{Document, Report, Selection};
 use grashof::output::{Staging, WriteError};
@@ -66,6 +66,16 @@ pub(super) fn write_new(file: &Path, bytes: &[u8], common: &Common) -> bool {
     let _ = std::fs::remove_file(&new);
     unwritten(file, &error);
     false
+}
+
+/// Prints a text, or writes it to the file of `--output`, `-` being stdout; a failure was reported.
+pub(super) fn print_or_write(text: &str, common: &Common) -> u8 {
+    match common.output.as_deref().filter(|file| file.as_os_str() != "-") {
+        None => print_out(text),
+        Some(file) if !write_new(file, format!("{text}\n").as_bytes(), common) => return code::INPUT,
+        Some(_) => {}
+    }
+    code::DONE
 }
 
 /// Gives a whole file its name, which must be free unless `--force` says otherwise.

@@ -139,7 +139,8 @@ pub(crate) fn main() -> ExitCode {
             return ended(code::DONE, Vec::new());
         }
     };
-    let to_file = matches!(cli.command, Command::Import(_) | Command::Animate(_));
+    let to_file =
+        matches!(cli.command, Command::Import(_) | Command::Animate(_) | Command::New(_) | Command::Schema(_) | Command::Completions(_));
     if !to_file && cli.common.output.as_ref().is_some_and(|path| path.as_os_str() == "-") {
         print_error("`-o -` names no directory", "write `-o DIR`; `--json` prints results on stdout without it");
         return ended(code::INPUT, take_errors());
@@ -160,8 +161,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::check(arguments, &cli.common),
         Command::New(arguments) => new::new(arguments, &cli.common),
         Command::Import(arguments) => import::import(arguments, &cli.common),
-        Command::Schema(arguments) => schema::print(arguments),
-        Command::Completions(arguments) => completions::print(arguments, &mut Cli::command()),
+        Command::Schema(arguments) => schema::print(arguments, &cli.common),
+        Command::Completions(arguments) => completions::print(arguments, &mut Cli::command(), &cli.common),
     };
     ended(code, take_errors())
 }

@@ -8,7 +8,7 @@ pub(super) struct Arguments {
     /// Kind of model; `--list` shows them
     #[arg(default_value = "four-bar")]
     kind: String,
-    /// File to write [default: the kind with `_`, as four_bar.yaml]; `-` for stdout
+    /// File to write, or that of `--output` [default: the kind with `_`, as four_bar.yaml]; `-` for stdout
     file: Option<PathBuf>,
     /// List the kinds
     #[arg(long)]
@@ -39,7 +39,16 @@ pub(super) fn new(arguments: &Arguments, common: &Common) -> u8 {
         print_error(&format!("no model of the kind `{}`", arguments.kind), &help);
         return code::INPUT;
     };
-    let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));
+    if let (Some(file), Some(output)) = (&arguments.file, &common.output) {
+        let message = format!("two files to write: `{}` and `-o {}`", file.display(), output.display());
+        print_error(&message, "name one of them");
+        return code::INPUT;
+    }
+    let file = arguments
+        .file
+        .clone()
+        .or_else(|| common.output.clone())
+        .unwrap_or_else(|| PathBuf::from(format!("{}.yaml", kind.replace('-', "_"))));
     if file.as_os_str() == "-" {
         print_out(text.trim_end());
         return code::DONE;

@@ -106,7 +106,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     let mut page = paged.then(|| report::begun(&document, common));
     let mut worst = code::DONE;
     let mut loader = Loader::new(&document, common.threads());
-    let mut noted = false;
+    let (mut noted, mut uncut) = (false, 0);
     for study in &studies {
         let mut reported = |report: Option<String>| {
             let errors = take_errors();
@@ -146,6 +146,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         }
         // a part of a file is that of its sweeps
         if arguments.shard.is_some() && arguments.study.is_empty() && model.study.as_ref().is_some_and(|s| s.sweep.is_empty()) {
+            uncut += 1;
             continue;
         }
         request.drop_expectations(&mut model, common.changes(), &mut noted);
@@ -158,6 +159,13 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         if let (Some(page), Some(study)) = (&mut page, &told.page) {
             page.add(study);
         }
+    }
+    if uncut == studies.len() {
+        print_error(
+            "`--shard` cuts sweeps, and no study of the model is one",
+            "leave it out, give a study `sweep:`, or use `grashof sweep --study S --over NAME=VALUES --shard K/N`",
+        );
+        return code::INPUT;
     }
     if arguments.shard.is_none() {
         worst = worst.max(report::written(page, &directory, common));

@@ -1,6 +1,6 @@
 //! `grashof schema`.
 
-use super::{code, print_out};
+use super::{Common, files};
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -9,9 +9,8 @@ pub(super) struct Arguments {
     results: bool,
 }
 
-/// Prints the JSON Schema of model files, or of results.
-pub(super) fn print(arguments: &Arguments) -> u8 {
+/// Prints the JSON Schema of model files, or of results, or writes it to the file of `--output`.
+pub(super) fn print(arguments: &Arguments, common: &Common) -> u8 {
     let schema = if arguments.results { grashof::output::results_schema() } else { grashof::model::schema() };
-    print_out(&serde_json::to_string_pretty(&schema).unwrap_or_default());
-    code::DONE
+    files::print_or_write(&serde_json::to_string_pretty(&schema).unwrap_or_default(), common)
 }

@@ -167,6 +167,17 @@ fn new_models_run() {
 }
 
 #[test]
+fn texts_go_to_the_file_of_output() {
+    let place = Place::new("to-file");
+    for (arguments, file) in [(&["new", "four-bar"][..], "mine.yaml"), (&["schema"], "s.json"), (&["completions", "bash"], "c.sh")] {
+        let printed = place.run(&[arguments, &["-o", "-"]].concat()).ends(0).stdout;
+        let done = place.run(&[arguments, &["-o", file]].concat()).ends(0);
+        assert!(done.stdout.is_empty() && place.text(file) == printed, "{file}");
+        assert!(place.run(&[arguments, &["-o", file]].concat()).ends(2).stderr.contains("--force"), "{file}");
+    }
+}
+
+#[test]
 fn new_never_overwrites() {
     let place = Place::new("overwrite");
     place.put("mine.yaml", "mine");

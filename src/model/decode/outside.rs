@@ -100,7 +100,15 @@ impl<'n> Decoder<'n> {
         let origin = Origin::Outside(&argument.given, argument.value + begin);
         let (lowered, _): (Lowered, _) = self.lower(inner, origin, &At::ROOT, allow, local)?;
         match lowered.expect(wanted) {
-            Ok(_) => Some(lowered.id),
+            Ok(_) => {
+                if wanted.is_angle() && inner.parse::<f64>().is_ok_and(|x| x.abs() > std::f64::consts::TAU) {
+                    let message = format!("`{name}` is {inner} rad, more than a turn");
+                    let fault = self.fault("bare-angle", &At::ROOT, message, "an angle in rad, or with its unit");
+                    (fault.spot, fault.warning) = (origin.spot(0..inner.len()), true);
+                    fault.help = Some(format!("if degrees are meant, write `{inner} deg`"));
+                }
+                Some(lowered.id)
+            }
             Err(other) => {
                 let fault = self.fault("wrong-dimension", &At::ROOT, format!("found {other}"), wanted.name());
                 fault.spot = origin.spot(0..inner.len());
