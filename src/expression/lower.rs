@@ -319,6 +319,15 @@ impl Lowerer<'_> {
             self.fault(&operands[0].1, dimension.name(), "a quantity whose square root has a unit", None);
             return None;
         };
+        if let ("clamp", &[_, low, high]) = (function.name, &ids[..])
+            && let (Some(low), Some(high)) = (self.pool.constant_value(low), self.pool.constant_value(high))
+            && low > high
+        {
+            let found = format!("bounds from {} to {}", self.slice(&operands[1].1), self.slice(&operands[2].1));
+            let expected = format!("`{}` with `low` not above `high`", function.usage);
+            self.fault(at, found, expected, Some("exchange the bounds".to_owned()));
+            return None;
+        }
         let text = self.slice(at).to_owned();
         let id = match function.node(self.pool, &ids, &text) {
             Some(id) => id,

@@ -146,7 +146,9 @@ impl<'n> Decoder<'n> {
             if !keys.ratio.given() {
                 self.missing(at, keys.ratio, of, "how far the second turns per turn of the first");
             }
-            self.read(keys.ratio, at)
+            let ratio = self.read(keys.ratio, at);
+            self.check_key(Rule::NotZero("the ratio"), ratio, at, keys.ratio);
+            ratio
         } else {
             if !keys.radius.given() {
                 self.missing(at, keys.radius, of, if rope { "the radius of the drum (m)" } else { "the radius of the pinion (m)" });

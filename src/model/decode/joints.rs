@@ -198,6 +198,7 @@ impl<'n> Decoder<'n> {
         let rpy = keys.rpy.node.and_then(|rpy| self.roll_pitch_yaw(rpy, &rpy_at));
         let zero = self.read_as(keys.zero, at, wanted_of(single));
         let damping = self.read_of(keys.damping, at, effort.div(rate));
+        self.check_key(Rule::NotNegative("the damping"), damping, at, keys.damping);
         let friction = keys.friction.node.and_then(|inner| self.friction((name, &kind), inner, &at.key(keys.friction), single));
         let limits = keys.limits.node.map(|inner| self.limits(name, inner, &at.key(keys.limits), single));
         let (limit, stops) = limits.unwrap_or_default();

@@ -17,6 +17,7 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::rules::Rule;
 use crate::model::scope::{Allow, Local};
+use crate::model::vocabulary::Known;
 use serde_yaml::Value;
 
 /// The rate of a state may use what a load may.
@@ -203,7 +204,12 @@ impl<'n> Decoder<'n> {
         let spring_at = section.key(name);
         let allow = Allow { what: "a spring's `stretch`", ..Allow::POSITION };
         let lowered = self.finish(&entries.drafts[i], &spring_at.key(stretch), allow, &mut Local::default());
-        if let (Some((lowered, _)), Some(index)) = (lowered, self.name_space.renumbered.springs.get(file).copied().flatten()) {
+        if let (Some((lowered, reach)), Some(index)) = (lowered, self.name_space.renumbered.springs.get(file).copied().flatten()) {
+            if reach.level == Known::Constant {
+                let message = format!("the stretch of `{name}` never changes");
+                let fault = self.fault("constant", &spring_at.key(stretch), message, "an expression of positions");
+                fault.help = Some("name what the spring is stretched by, as `stretch: slide.position - 2*wheel.angle*r`".to_owned());
+            }
             self.name_space.stretches[index] = Some(lowered.dimension);
             self.name_space.model.springs[index].on = SpringOn::Stretch(lowered.id);
         }

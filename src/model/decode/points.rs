@@ -30,6 +30,10 @@ impl<'n> Decoder<'n> {
     pub(super) fn point_list(&mut self, points: Node<'n>, section: &At<'_, 'n>, swept: &mut Vec<Sweep>, local: &mut Local<'n>) -> usize {
         let lists = points.entries();
         let wanted = lists.first().map_or(1, |(_, list)| list.items().len());
+        if lists.is_empty() {
+            let fault = self.fault("nothing-swept", section, "no parameter has a list", "parameters with lists of one length");
+            fault.help = Some("give two, as `{ l1: [10 cm, 12 cm], l3: [50 cm, 55 cm] }`, or remove `points`".to_owned());
+        }
         let mut place = 0;
         for (name, list) in &lists {
             let here = section.key(*name);

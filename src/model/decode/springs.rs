@@ -92,8 +92,8 @@ impl<'n> Decoder<'n> {
                 }
                 SpringOn::Stretch(_) => self.timed(rest, &at, Want::Of(stretch), Rule::Finite),
             };
+            let damping = self.timed(keys.damping, &at, Want::Of(stiffness.mul(Dimension::TIME)), Rule::NotNegative("the damping"));
             let mut number = |entry: Entry<'n>, dimension| self.timed(entry, &at, Want::Of(dimension), Rule::Finite);
-            let damping = number(keys.damping, stiffness.mul(Dimension::TIME));
             let preload = number(keys.preload, force);
             let law = if keys.stiffness.given() {
                 number(keys.stiffness, stiffness).map(SpringLaw::Stiffness)

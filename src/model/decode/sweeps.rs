@@ -94,6 +94,10 @@ impl<'n> Decoder<'n> {
             runs = runs.saturating_mul(count as u64);
             swept.push(Sweep { parameter, values, place: self.place(&here), unit: written(value) });
         }
+        if sweep.given() && sweep.entries().is_empty() {
+            let fault = self.fault("nothing-swept", &section, "no parameter is swept", "parameters with their values");
+            fault.help = Some("give one, as `{ k: [1, 2] }`, or remove `sweep`".to_owned());
+        }
         let samples = self.samples(&section, &swept, samples, seed);
         runs = runs.saturating_mul(samples.map_or(1, |samples| samples.count as u64));
         if runs > MOST_RUNS {
@@ -157,12 +161,13 @@ impl<'n> Decoder<'n> {
                     self.fault("missing-key", section, "values are drawn from distributions, and nothing says how many", "`samples`");
                 (fault.spot, fault.help) = (Spot::Key, Some("add `samples: 200`".into()));
             }
-            Some(_) => {
-                let expected = "a parameter with `normal` or `uniform`";
-                let fault = self.fault("nothing-drawn", &section.key("samples"), "no parameter has a distribution", expected);
-                fault.help = Some("remove it, or give a parameter `{ normal: [mean, deviation] }`".into());
+            _ => {
+                for (key, _) in [("samples", samples), ("seed", seed)].into_iter().filter(|(_, count)| count.is_some()) {
+                    let expected = "a parameter with `normal` or `uniform`";
+                    let fault = self.fault("nothing-drawn", &section.key(key), "no parameter has a distribution", expected);
+                    fault.help = Some("remove it, or give a parameter `{ normal: [mean, deviation] }`".into());
+                }
             }
-            None => {}
         }
         None
     }
