@@ -19,6 +19,7 @@ joints:
   P: { revolute: [ground, rod.start] }
   Q: { revolute: [rod.end, lower.start] }
 start: { P.angle: -20 deg, Q.angle: -30 deg, P.omega: 0, Q.omega: 1 rad/s }
+measures: { below: sign(P.angle - 10 rad) }
 studies:
   swing:
     dynamics: { until: 2 s, every: 50 ms, tolerance: 1e-8 }
@@ -29,6 +30,13 @@ studies:
   loose:
     dynamics: { until: 2 s, every: 50 ms, integrator: rk4, step: 0.2 s }
     columns: [time, Q.omega]
+  silent:
+    dynamics: { until: 2 s, every: 50 ms, integrator: rk4, step: 0.2 s }
+    columns: [time]
+  summed:
+    dynamics: { until: 2 s, every: 50 ms, integrator: rk4, step: 0.2 s }
+    columns: [time, below]
+    scalars: { fast: max(Q.omega) }
   fixed:
     dynamics: { until: 1 s, integrator: rk4, step: 5 ms }
     columns: [time, P.angle, Q.angle]
@@ -285,7 +293,7 @@ studies: { run: { dynamics: { until: 2 s, every: 0.1 s, tolerance: 1e-10 }, colu
 fn the_only_motion_in_time_need_not_be_named() {
     let place = Place::new("only");
     let done = place.compare(&["--no-plots"]);
-    done.refused(&["the model has 5 motions in time", "name one with `--study`", "`swing`, `all-steps`"]);
+    done.refused(&["the model has 7 motions in time", "name one with `--study`", "`swing`, `all-steps`"]);
     let (head, _) = MODEL.split_once("  all-steps:").unwrap();
     let (_, masses) = MODEL.split_once("  masses:").unwrap();
     let (masses, _) = masses.split_once("  wild:").unwrap();
@@ -307,4 +315,16 @@ fn the_only_motion_in_time_need_not_be_named() {
     assert_eq!((named.code, errors(&rows, &header)), (0, errors(&again, &header)));
     fs::write(place.0.join("model.yaml"), format!("{}studies:\n{rests}", MODEL.split_once("studies:").unwrap().0)).unwrap();
     place.compare(&[]).refused(&["no motion in time of one run"]);
+}
+
+#[test]
+fn a_motion_is_judged_where_columns_do_not_show_it() {
+    let place = Place::new("silent");
+    let done = place.verify("silent", &[]);
+    assert!(done.code == 1 && done.stdout.contains("0 digits, because `"), "{}", done.stdout);
+    let done = place.verify("summed", &[]);
+    assert!(done.stdout.contains(" digits against ") && !done.stdout.contains("16.0 digits"), "{}", done.stdout);
+    let done = place.compare(&["--study", "silent", "--no-plots", "--steps", "0.2,1e-3", "--integrators", "rk4", "--json"]);
+    let json: Value = serde_json::from_str(&done.stdout).unwrap();
+    assert!(json["runs"][0]["error"].as_f64().unwrap() > 1e-3, "{json}");
 }

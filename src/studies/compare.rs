@@ -5,6 +5,7 @@
 //! explicit integrators and Dormand-Prince for all others; how well these two agree is said, and no error below that means much.
 
 use super::common::case::Case;
+use super::compared::with_motion;
 use super::dynamics;
 use super::integrators::{self, By, OwnIntegrator, Steps, is_explicit};
 use super::run::run;
@@ -42,6 +43,7 @@ pub fn compare(
     watch: Watch<'_>,
 ) -> Result<Compared, NoReference> {
     let values = super::common::case::parameters(model);
+    let study = &with_motion(model, study);
     let (integrators, sizes) = asked;
     let fixed = matches!(sizes.first(), Some(Steps::Fixed(_)));
     let tightest = sizes.iter().map(|steps| steps.size()).fold(f64::INFINITY, f64::min);

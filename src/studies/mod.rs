@@ -6,6 +6,7 @@
 mod balance;
 pub mod common;
 pub mod compare;
+mod compared;
 pub(crate) mod driven;
 pub mod dynamics;
 mod full_turn;

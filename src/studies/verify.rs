@@ -5,13 +5,15 @@
 //! column counts in units of its largest value, but no less than a thousandth of the largest of its dimension and of what its kind
 //! is in this mechanism and motion: the unit of length is the mechanism's size, that of time the shortest in which it moves by that
 //! size or a radian, that of mass follows from the largest energy or work of the run. An energy counts in units of that itself. What
-//! is zero but for rounding so has no digits to lose.
+//! is zero but for rounding so has no digits to lose. Scalars count likewise; where no column says anything of the motion, the places and
+//! angles of all bodies do.
 
+use super::compared::with_motion;
 use super::integrators::{self, Steps};
-use crate::expression::Dimension;
+use crate::expression::{Dimension, Id};
 use crate::geometry::{Planar, Spatial};
 use crate::mechanism::{Coordinates, build};
-use crate::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Study};
+use crate::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Scalar, Study};
 use crate::results::Failure;
 use crate::results::number;
 use crate::studies::common::case::Case;
@@ -91,11 +93,13 @@ fn said(both: &[Verified], runs: usize) -> String {
 fn one(case: Case<'_>, forward: &Forward, stop: &dyn Fn() -> bool) -> Result<Option<[Verified; 2]>, Failure> {
     let Case { study, parameters, .. } = case;
     let mut model = case.model.clone();
+    let study = &with_motion(&mut model, study);
     let steps = integrators::steps(&model, forward, parameters);
     let until = model.pool.value(forward.until, parameters);
     let every = forward.every.map_or_else(|| output_step(steps, until), |id| model.pool.value(id, parameters));
     let compute = |model: &mut Model, by: Integrator, steps: Steps| {
-        let study = integrators::changed(model, study, forward, by, steps, Some(every));
+        let changed = integrators::changed(model, study, forward, by, steps, Some(every));
+        let study = Study { scalars: study.scalars.clone(), functionals: study.functionals.clone(), ..changed };
         run(Case::new(model, &study, parameters).undrawn(), stop)
     };
     let base = compute(&mut model, forward.integrator, steps)?;
@@ -180,14 +184,12 @@ impl Comparison<'_> {
         if self.events {
             self.same_events(&other, with)?;
         }
-        let scales = self.scales();
+        let (scales, least) = self.scales();
         let mut worst = (0.0, 0, 0, 0);
         for (i, k) in self.pairs(&other) {
             for (c, scale) in scales.iter().enumerate() {
                 let (x, y) = (self.base.rows[i][c], other.rows[k][c]);
-                let off = if x.is_nan() && y.is_nan() || (x - y).abs() <= ROUNDING { 0.0 } else { factor * (x - y).abs() / scale };
-                // what is defined in one of them alone is a difference, too
-                let off = if off.is_nan() { f64::INFINITY } else { off };
+                let off = factor * difference(x, y) / scale;
                 if off > worst.0 {
                     worst = (off, i, k, c);
                 }
@@ -196,13 +198,30 @@ impl Comparison<'_> {
         let (off, i, k, c) = worst;
         let digits = (-off.log10()).min(MOST);
         if digits >= ENOUGH {
-            return Ok(digits);
+            return self.digits_of_scalars(&other, factor, with, least).map(|of_scalars| digits.min(of_scalars));
         }
         let column = &self.study.columns[c];
         let unit = column.dimension.si();
         let value = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
         let [x, y] = [self.base.rows[i][c], other.rows[k][c]].map(value);
         Err(format!("`{}` is {x} at t = {:.6} s, and {y} with {with}", column.name, self.base.places[i]))
+    }
+
+    /// Digits of the scalars that agree, or why none do; a scalar counts no less than a column of its dimension.
+    fn digits_of_scalars(&self, other: &Outcome, factor: f64, with: &str, (units, energy): ([f64; 4], f64)) -> Result<f64, String> {
+        let mut digits = MOST;
+        for ((scalar, x), y) in self.study.scalars.iter().zip(&self.base.scalars).zip(&other.scalars) {
+            let least = LEAST * scalar.dimension.size(units);
+            let least = if self.of_energies(scalar) { least.max(energy) } else { least };
+            let off = factor * difference(*x, *y) / x.abs().max(least).max(ROUNDING);
+            digits = digits.min(-off.log10());
+            if digits < ENOUGH {
+                let unit = scalar.dimension.si();
+                let [x, y] = [*x, *y].map(|x| format!("{} {unit}", short(x)).trim_end().to_string());
+                return Err(format!("the scalar `{}` is {x}, and {y} with {with}", scalar.name));
+            }
+        }
+        Ok(digits)
     }
 
     /// Whether the other run has the same events and switches in the same order.
@@ -234,8 +253,8 @@ impl Comparison<'_> {
         inside.collect()
     }
 
-    /// The size of each column.
-    fn scales(&self) -> Vec<f64> {
+    /// The size of each column; the sizes of m, kg, s and A, and the largest energy.
+    fn scales(&self) -> (Vec<f64>, ([f64; 4], f64)) {
         let largest = |c: usize| self.base.rows.iter().map(|r| r[c].abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
         let columns = &self.study.columns;
         let sizes: Vec<f64> = (0..columns.len()).map(largest).collect();
@@ -246,7 +265,7 @@ impl Comparison<'_> {
             let least = LEAST * alike.fold(c.dimension.size(units), f64::max);
             if self.is_energy(c) { least.max(energy) } else { least }
         };
-        columns.iter().zip(&sizes).map(|(c, size)| size.max(least(c)).max(ROUNDING)).collect()
+        (columns.iter().zip(&sizes).map(|(c, size)| size.max(least(c)).max(ROUNDING)).collect(), (units, energy))
     }
 
     /// Sizes of m, kg, s and A in this motion, from the sizes of the columns and the largest energy.
@@ -263,9 +282,32 @@ impl Comparison<'_> {
 
     /// Whether a column is made of energies, not of torques, which have the same dimension.
     fn is_energy(&self, column: &Column) -> bool {
-        let energies =
-            |i: u32| matches!(self.model.inputs[i as usize], Quantity::Kinetic | Quantity::Potential | Quantity::SpringEnergy { .. });
-        column.dimension == Dimension::ENERGY && self.model.pool.inputs_of(&[column.value]).into_iter().any(energies)
+        column.dimension == Dimension::ENERGY && self.has_energies(&[column.value])
+    }
+
+    /// The same of a scalar.
+    fn of_energies(&self, scalar: &Scalar) -> bool {
+        let inputs = self.model.pool.inputs_of(&[scalar.value]).into_iter();
+        let taken = |i: u32| if let Quantity::Functional(k) = self.model.inputs[i as usize] { self.study.functionals.get(k) } else { None };
+        let of: Vec<Id> = inputs.filter_map(taken).map(|functional| functional.of).chain([scalar.value]).collect();
+        scalar.dimension == Dimension::ENERGY && self.has_energies(&of)
+    }
+
+    fn has_energies(&self, ids: &[Id]) -> bool {
+        use Quantity::{Kinetic, Potential, SpringEnergy, Work};
+        let energies = |i: u32| matches!(self.model.inputs[i as usize], Kinetic | Potential | SpringEnergy { .. } | Work(_));
+        self.model.pool.inputs_of(ids).into_iter().any(energies)
+    }
+}
+
+/// How far two values are apart, but for rounding; what is defined in one of them alone is a difference, too.
+fn difference(x: f64, y: f64) -> f64 {
+    let off = (x - y).abs();
+    match (x.is_nan(), y.is_nan()) {
+        (true, true) => 0.0,
+        (false, false) if x == y || off <= ROUNDING => 0.0,
+        (false, false) => off,
+        _ => f64::INFINITY,
     }
 }
 
