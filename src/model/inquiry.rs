@@ -6,6 +6,7 @@ use super::decode::{self, Decoder, Outside, Parsed, Scalars, StudyKeys, Taken};
 use super::diagnostics::Report;
 use super::document::{Document, Selection};
 use super::fault::{At, Fault, Spot};
+use super::idle;
 use super::included::Included;
 use super::merge::{self, Layers, Merged, Node};
 use super::shape;
@@ -78,7 +79,12 @@ impl<'d, 's> Inquiry<'d, 's> {
 
     /// Faults of form.
     pub(super) fn form(&mut self) -> Vec<Fault> {
-        shape::check_file(&self.plain(), Node::Plain(&self.document.root))
+        let layers = self.plain();
+        let mut faults = shape::check_file(&layers, Node::Plain(&self.document.root));
+        if faults.is_empty() {
+            faults.extend(idle::idle(layers.file, &layers.below));
+        }
+        faults
     }
 
     /// The patch of a variant; the fault is reported at its place, or where it was asked for from outside.

@@ -20,6 +20,7 @@ mod faults;
 mod fields;
 mod figure;
 mod files;
+mod idle;
 mod include;
 mod included;
 mod inquiry;

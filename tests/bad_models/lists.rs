@@ -36,6 +36,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "take-from-nowhere",
             "take-from-a-sweep",
             "study-name-too-long",
+            "variant-removes-nothing",
+            "variant-parameter-unused",
             "solve-equal-bounds",
             "solve-target-of-the-run",
             "duplicate-name",
