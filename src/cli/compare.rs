@@ -66,6 +66,9 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
         None => only_motion(&document, common)?,
     };
     let selection = files::selection(common, Some(&name)).ok_or(code::INPUT)?;
+    if common.output.is_none() && document.study_names().iter().any(|study| study == "compare") {
+        return Err(refuse("the files of a comparison have the names of those of the study `compare`", "say where they go with `-o DIR`"));
+    }
     let report = document.check_all(&selection);
     if report.failed() {
         files::print(&report, common);

@@ -10,6 +10,7 @@ use super::idle;
 use super::included::Included;
 use super::merge::{self, Layers, Merged, Node};
 use super::shape;
+use super::stems;
 use super::suggest;
 use super::whole::Model;
 use crate::expression::Id;
@@ -83,6 +84,7 @@ impl<'d, 's> Inquiry<'d, 's> {
         let mut faults = shape::check_file(&layers, Node::Plain(&self.document.root));
         if faults.is_empty() {
             faults.extend(idle::idle(layers.file, &layers.below));
+            faults.extend(stems::shared(&self.document.named("studies")));
         }
         faults
     }

@@ -40,6 +40,7 @@ mod scope;
 mod selected;
 mod shape;
 mod spans;
+mod stems;
 mod study;
 mod suggest;
 mod tables;
