@@ -244,8 +244,11 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        for shift in [1e-15, -1e-15, 1e-13, -1e-13, 1e-11, -1e-11] {
-            let beside = s + shift * self.clock.length;
+        let inside = 1..self.breaks.len().saturating_sub(1);
+        let located = [(piece, 1.0), (piece + 1, -1.0)].into_iter().find(|(k, _)| inside.contains(k) && self.breaks[*k] == s);
+        let inwards = located.map_or(0.0, |(_, inwards)| inwards);
+        for shift in [1e-15, 1e-13, 1e-11].into_iter().filter(|_| inwards != 0.0) {
+            let beside = s + inwards * shift * self.clock.length;
             self.solve(beside, Some(piece))?;
             if self.read(beside, out).is_ok() {
                 return Ok(());

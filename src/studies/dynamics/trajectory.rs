@@ -393,9 +393,10 @@ where
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
+        let located = piece + 1 < self.pieces.len() && t == self.pieces[piece].to;
         let length = self.pieces.last().map_or(0.0, |p| p.to);
-        for shift in [-1e-15, 1e-15, -1e-13, 1e-13, -1e-11, 1e-11] {
-            if self.columns_at(t + shift * length, piece, part, out).is_ok() {
+        for shift in [1e-15, 1e-13, 1e-11].into_iter().filter(|_| located) {
+            if self.columns_at(t - shift * length, piece, part, out).is_ok() {
                 return Ok(());
             }
         }
