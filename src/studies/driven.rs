@@ -5,6 +5,7 @@ use super::balance::Unbalanced;
 use super::common::case::Case;
 use super::common::clock::Clock;
 use super::common::functional::Functionals;
+use super::common::laws::{Jump, jump};
 use super::common::motion::{Lost, Motion};
 use super::common::numbers::Sources;
 use super::common::observe::Observer;
@@ -25,12 +26,6 @@ use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve::Resolved;
 use crate::results::{Certificate, Failure, Finding};
 use crate::studies::common::outcome::Outcome;
-
-/// How far beside the end of a motion laws of drivers are looked at, as part of the whole range.
-const BESIDE: f64 = 1e-7;
-
-/// Part of its value by which a law that does not jump may differ on two sides by round-off.
-const STEADY: f64 = 1e-9;
 
 /// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
 const STILL: f64 = 1e-9;
@@ -187,14 +182,8 @@ fn observe<G: Space<S = f64>>(
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
-        if let Some((driver, [before, after])) = law_that_jumps(&mut motion) {
-            return format!(
-                "the law of the driver `{driver}` jumps at {name} = {:.6} {}, from {} to {} (SI): what is driven has to get from one place to the other",
-                at * unit.0,
-                unit.1,
-                short(before),
-                short(after)
-            );
+        if let Some(jump) = law_that_jumps(&mut motion) {
+            return jump.told(&format!("{name} = {:.6} {}", at * unit.0, unit.1));
         }
         if let Some(row) = motion.path.open {
             return format!(
@@ -359,22 +348,11 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>,
     out
 }
 
-/// The driver whose law jumps where the motion ends, with its values on both sides, SI.
-fn law_that_jumps<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Option<(String, [f64; 2])> {
-    let beside = BESIDE * motion.clock.end().abs();
+/// The law of a driver that jumps where the motion ends.
+fn law_that_jumps<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Option<Jump> {
     let ends: Vec<f64> = motion.path.dead.iter().flatten().map(|(t, _)| *t).collect();
-    let mut modes = motion.modes.clone();
-    let dynamics = &mut motion.driven.dynamics;
-    let laws = dynamics.mechanism.drives.iter().filter(|drive| drive.speed.is_none());
-    laws.flat_map(|drive| ends.iter().map(move |t| (drive, *t))).find_map(|(drive, t)| {
-        let [far_before, before, after, far_after] = [-2.0, -1.0, 1.0, 2.0].map(|k| {
-            dynamics.follow_time(t + k * beside, &mut modes);
-            dynamics.work.motions[drive.output]
-        });
-        let steady = (before - far_before).abs() + (far_after - after).abs();
-        let jumps = (after - before).abs() > 1e3 * steady + STEADY * before.abs().max(after.abs());
-        jumps.then(|| (drive.name.clone(), [before, after]))
-    })
+    let (mut modes, range) = (motion.modes.clone(), motion.clock.end());
+    ends.into_iter().find_map(|t| jump(&mut motion.driven.dynamics, &mut modes, t, range))
 }
 
 /// That no place of the masses holds the centre of mass still; `residual` is how far it moves, m.

@@ -27,6 +27,7 @@ pub use unrecorded::Unrecorded;
 use super::common::case::Case;
 use super::common::clock::Clock;
 use super::common::functional::Functionals;
+use super::common::laws::first_jump;
 use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene::{self, Span, Subject};
@@ -63,7 +64,7 @@ where
     let clock = Clock::of_time(plan.until);
     let rows = || Rows::new(Recorder::new(case, &watched, clock, ["time", "t"]), plan.every);
     let mut taken = rows();
-    let Recorded { mut trajectory, stopped, mut undefined, mut events, certificate, mut findings } =
+    let Recorded { mut trajectory, mut stopped, mut undefined, mut events, certificate, mut findings } =
         march::march(case, &plan, &watched.ids, &phases, None, (stop, Some(&mut taken)))?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
@@ -71,6 +72,15 @@ where
             Some(undefined) => Failure::Undefined(undefined),
             None => Failure::numerical(reason.clone(), "the motion stops before its first row: look at the start with `grashof check`"),
         });
+    }
+    let times: Vec<f64> = (0..trajectory.pieces()).flat_map(|piece| trajectory.ends_of(piece)).collect();
+    let modes = trajectory.node.state.modes.clone();
+    if let Some((before, jump)) = first_jump(&mut trajectory.system(0).dynamics, &modes, &times) {
+        let reason = jump.told(&format!("time = {before:.6}"));
+        if !trajectory.end_at(before) {
+            return Err(Failure::numerical(reason, "begin with the value that the law has just behind the start"));
+        }
+        (stopped, undefined, taken) = (Some(reason), None, rows());
     }
     let seen = loop {
         match see(&mut trajectory, case, &watched, &plan, taken) {

@@ -190,6 +190,12 @@ where
                 Err(why) => (bad, off) = (middle, why),
             }
         }
+        self.end_at(good).then_some(off)
+    }
+
+    /// Lets the motion end at a time; whether anything of it is left.
+    pub(crate) fn end_at(&mut self, good: f64) -> bool {
+        let Some(from) = self.pieces.first().map(|p| p.from) else { return false };
         let last = self.pieces.iter().position(|p| good <= p.to).unwrap_or(0);
         self.pieces.truncate(last + 1);
         let piece = &mut self.pieces[last];
@@ -200,7 +206,7 @@ where
         if let Some(step) = self.steps.last_mut() {
             (step.end, step.whole) = (good, true);
         }
-        (good > from).then_some(off)
+        good > from
     }
 
     /// Bytes in use by steps.
