@@ -468,3 +468,22 @@ studies: {{ run: {{ dynamics: {{ until: 1 s }}, columns: [pumped], scalars: {{ v
         }
     }
 }
+
+#[test]
+fn a_column_may_end_where_an_event_ends_the_motion() {
+    for speed in ["1", "0.3", "7"] {
+        let (run, table) = done(&format!(
+            "gravity: none
+bodies: {{ a: {{ mass: 1 kg }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+springs: {{ s: {{ joint: A, stiffness: 1 N/m }} }}
+measures: {{ root: sqrt(0.25 - A.position/1 m) }}
+start: {{ A.velocity: {speed} m/s }}
+events: {{ end: {{ when: A.position - 0.25 m, action: stop }} }}
+studies: {{ run: {{ dynamics: {{ until: 5 s, every: 0.01 s }}, columns: [root], scalars: {{ x: last(A.position) }} }} }}
+"
+        ));
+        assert!((scalar(&run, "run", "x") - 0.25).abs() < 1e-9, "{speed}");
+        assert!(table.rows.last().unwrap()[0].abs() < 1e-5, "{:?}", table.rows.last());
+    }
+}

@@ -74,6 +74,8 @@ pub(super) struct Course<'a> {
     pub(super) begins: Begins,
     /// When a joint has met a stop last, s.
     blow: f64,
+    /// Whether an event has ended the motion.
+    pub(super) ended: bool,
 }
 
 impl<'a> Course<'a> {
@@ -98,6 +100,7 @@ impl<'a> Course<'a> {
             open: Vec::new(),
             begins: Begins::Run,
             blow: f64::NEG_INFINITY,
+            ended: false,
         }
     }
 
@@ -243,6 +246,7 @@ impl<'a> Course<'a> {
             return After::Stopped(explain::restless(self.model, event, before.state.t));
         }
         if counted.iter().any(|&e| self.model.events[e].stop) {
+            self.ended = true;
             return After::Done;
         }
         let system = chart.mechanical();

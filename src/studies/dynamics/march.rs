@@ -86,11 +86,12 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
         }
     };
     flow.findings.extend(explain::not_unique(phases, &flow.course.open));
-    let Flow { course: Course { events, .. }, balance, undefined, findings: mut unresolved, .. } = flow;
+    let Flow { course: Course { events, ended, .. }, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan, &study.place);
     unresolved.dedup_by(|a, b| a.path == b.path);
     findings.append(&mut unresolved);
     trajectory.finish();
+    trajectory.ended_by_event = ended;
     Ok(Recorded { trajectory, stopped, undefined, events, certificate, findings })
 }
 

@@ -77,6 +77,8 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>> {
     follow: bool,
     /// How far a state may be off the constraints where columns are followed between rows, as part of its size.
     pub(crate) near_enough: f64,
+    /// Whether an event has ended the motion.
+    pub(super) ended_by_event: bool,
     /// The step found last.
     near: usize,
     /// The present phase.
@@ -103,6 +105,7 @@ where
             out: vec![0.0; outputs],
             follow,
             near_enough: 0.0,
+            ended_by_event: false,
             near: 0,
             current: 0,
         }
@@ -399,7 +402,7 @@ where
             return found;
         }
         // a located switch lies on its far side, where the formula of this side may just not be defined any more
-        let located = piece + 1 < self.pieces.len() && t == self.pieces[piece].to;
+        let located = t == self.pieces[piece].to && (piece + 1 < self.pieces.len() || self.ended_by_event);
         let length = self.pieces.last().map_or(0.0, |p| p.to);
         for shift in [1e-15, 1e-13, 1e-11].into_iter().filter(|_| located) {
             if self.columns_at(t - shift * length, piece, part, out).is_ok() {
