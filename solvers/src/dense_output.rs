@@ -150,26 +150,30 @@ impl Dense {
     /// The interpolant by the steps before, without an evaluation: q by the polynomial of degree 11 through q, q̇ and q̈ at four nodes, v
     /// by its rate; for systems without z in which q̇ = v. The errors are O(h¹²) and O(h¹¹).
     ///
-    /// `nodes` are y = (q, v) and ẏ at the begins of the last three steps and at the end of the last; `lengths` those of the steps, s.
-    pub(crate) fn through_nodes(&mut self, t: f64, [far, near, h]: [f64; 3], nodes: [(&[f64], &[f64]); 4]) {
+    /// `nodes` are y = (q, v) and ẏ at the begins of the last three steps and at the end of the last, which goes between `ends`; `before` are the lengths of the
+    /// others, s.
+    /// Gives an estimate of its error, 1 at the tolerance: each node before takes a part of what was left, as the last two show.
+    pub(crate) fn through_nodes(&mut self, engine: &Engine, ends: [&State; 2], before: [f64; 2], nodes: [(&[f64], &[f64]); 4]) -> f64 {
         let nq = self.dims.q;
-        (self.t, self.h, self.form) = (t, h, Form { powers: nodes::POWERS, rates: true });
+        let ([from, to], [far, near]) = (ends, before);
+        let h = to.t - from.t;
+        (self.t, self.h, self.form) = (from.t, h, Form { powers: nodes::POWERS, rates: true });
         let places = Places::new([-near / h, -(near + far) / h]);
         for i in 0..nq {
             let begin = nodes[2].0[i];
             // far from zero, differences have more digits
             let jets = nodes.map(|(y, rate)| [y[i] - begin, h * rate[i], h * h * rate[nq + i]]);
-            let mut powers = places.through(jets);
-            // of the round-off nothing is left at the end, by what is flat at the begin
-            let [off, slope] = [0, 1]
-                .map(|k| jets[3][k] - powers.iter().enumerate().rev().map(|(p, c)| if k == 0 { *c } else { p as f64 * c }).sum::<f64>());
-            powers[2] += 3.0 * off - slope;
-            powers[3] += slope - 2.0 * off;
+            let (mut powers, changes) = places.through(jets);
             powers[0] = begin;
+            for (k, [change, of_rate]) in changes.into_iter().enumerate() {
+                (self.rates[2 * k * nq + i], self.rates[(2 * k + 1) * nq + i]) = (change, of_rate / h);
+            }
             for (row, power) in self.coefficients.chunks_exact_mut(nq).zip(powers) {
                 row[i] = power;
             }
         }
+        let [near, far] = [0, 2].map(|k| engine.norm(to, &self.rates[k * nq..][..nq], &self.rates[(k + 1) * nq..][..nq], &[]));
+        if far < near { far * (far / near) } else { far }
     }
 
     /// Hermite's quintic of q.

@@ -326,3 +326,35 @@ studies: {{ run: {{ dynamics: {{ until: 2 s, every: 2 s, {dynamics} }}, columns:
     }
     verdict.give("ball joints");
 }
+
+/// A mass under a force that turns round within some hundredths of a second has a speed in closed form, 5 w ln cosh((t − c)/w): between
+/// the steps it is as good as the tolerance, also where these have just become short or long.
+#[test]
+fn rows_between_steps_follow_a_sudden_force() {
+    for (tolerance, width) in [(1e-4, 0.01), (1e-4, 0.05), (1e-8, 0.01), (1e-8, 0.05)] {
+        for place in [0.5, 0.47, 0.525] {
+            let run = run_text(
+                &format!(
+                    "grashof: 1
+name: sudden
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+loads: {{ p: {{ joint: S, force: \"5 N*tanh((t - {place} s)/({width} s))\" }} }}
+start: {{ S.position: 0.1 m }}
+studies: {{ s: {{ dynamics: {{ until: 1 s, every: 1 ms, tolerance: {tolerance}, integrator: dop853 }}, columns: [time, S.velocity] }} }}
+"
+                ),
+                &["--no-plots"],
+            )
+            .succeeded();
+            let far = |x: f64| x.abs() + (-2.0 * x.abs()).exp().ln_1p();
+            for row in &run.table("s").rows {
+                let exact = 5.0 * width * (far((row[0] - place) / width) - far(place / width));
+                let off = (row[1] - exact).abs() / tolerance;
+                assert!(off < 12.0, "{off:.1} tolerances of {tolerance:e} at {} s, {width} s at {place} s", row[0]);
+            }
+        }
+    }
+}

@@ -7,6 +7,9 @@
 /// Number of coefficients.
 pub(super) const POWERS: usize = 12;
 
+/// Places inside of the step near to those where what a node adds is steepest.
+const STEEP: [f64; 2] = [0.3, 0.8];
+
 /// Value, rate and second rate by θ at a node.
 pub(super) type Jet = [f64; 3];
 
@@ -38,14 +41,30 @@ impl Places {
         Self { corrections: [first, Correction::new(far, weight)] }
     }
 
-    /// The polynomial through what is at the far and the near node before, at 0 and at 1.
-    pub(super) fn through(&self, [far, near, begin, end]: [Jet; 4]) -> [f64; POWERS] {
+    /// The polynomial through what is at the far and the near node before, at 0 and at 1; and how much the near and then the far node
+    /// changes it on [0, 1], in its values and rates.
+    pub(super) fn through(&self, [far, near, begin, end]: [Jet; 4]) -> ([f64; POWERS], [[f64; 2]; 2]) {
         let mut powers = [0.0; POWERS];
         powers[..6].copy_from_slice(&quintic(begin, end));
-        for (correction, jet) in self.corrections.iter().zip([near, far]) {
-            correction.add(&mut powers, jet);
+        let mut changes = [[0.0; 2]; 2];
+        for ((correction, node), change) in self.corrections.iter().zip([near, far]).zip(&mut changes) {
+            let before = STEEP.map(|x| jet(&powers, x));
+            correction.add(&mut powers, node);
+            for (before, x) in before.iter().zip(STEEP) {
+                let after = jet(&powers, x);
+                change
+                    .iter_mut()
+                    .zip(after)
+                    .zip(before)
+                    .for_each(|((most, after), before)| *most = f64::max(*most, (after - before).abs()));
+            }
         }
-        powers
+        // of the round-off nothing is left at the end, by what is flat at the begin
+        let at = jet(&powers, 1.0);
+        let [off, slope] = [end[0] - at[0], end[1] - at[1]];
+        powers[2] += 3.0 * off - slope;
+        powers[3] += slope - 2.0 * off;
+        (powers, changes)
     }
 }
 
@@ -101,7 +120,7 @@ mod tests {
     fn four_nodes_give_back_a_polynomial_of_degree_eleven() {
         let powers = [0.3, -1.1, 0.7, 2.0, -0.4, 0.9, 1.3, -0.8, 0.5, 0.2, -0.1, 0.05];
         for (near, far) in [(-1.0, -2.0), (-0.5, -1.2), (-2.0, -3.5)] {
-            let found = Places::new([near, far]).through([far, near, 0.0, 1.0].map(|x| jet(&powers, x)));
+            let found = Places::new([near, far]).through([far, near, 0.0, 1.0].map(|x| jet(&powers, x))).0;
             for (found, given) in found.iter().zip(&powers) {
                 assert!((found - given).abs() < 1e-10, "{found} {given} with nodes at {near} and {far}");
             }

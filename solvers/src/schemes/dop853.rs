@@ -289,8 +289,9 @@ impl Scheme for Dop853 {
     fn dense(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, to: &Node, out: &mut Dense) -> Result<(), Why> {
         let n = self.flow.n;
         let end = (&self.y1[..], &self.k[LAST * n..][..n]);
-        if let Some(([far, near, _], nodes)) = self.past.nodes(engine, to, end) {
-            out.through_nodes(from.state.t, [far, near, to.state.t - from.state.t], nodes);
+        if let Some((before, nodes)) = self.past.nodes(engine, to, end)
+            && out.through_nodes(engine, [&from.state, &to.state], before, nodes) < past::ERROR
+        {
             return Ok(());
         }
         out.begin(from.state.t, to.state.t - from.state.t, 8);
