@@ -21,7 +21,7 @@ pub use certificate::{Certificate, March};
 pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};
 pub use finding::{Checked, Finding, Happened};
-pub use number::number;
+pub use number::{number, six_digits};
 pub use plot::{Plot, PlotAxis, PlotBeside, PlotRight};
 pub use rows::{Rows, Sink};
 pub use scene::Scene;

@@ -14,3 +14,9 @@ pub fn number(x: f64) -> String {
         format!("{x}")
     }
 }
+
+/// The same of six significant digits, for messages.
+#[must_use]
+pub fn six_digits(x: f64) -> String {
+    number(format!("{x:.5e}").parse().unwrap_or(x))
+}

@@ -24,7 +24,7 @@ use crate::model::{Kind, Model, Over, Quantity, Range};
 use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve::Resolved;
-use crate::results::{Certificate, Failure, Finding};
+use crate::results::{Certificate, Failure, Finding, six_digits};
 use crate::studies::common::outcome::Outcome;
 
 /// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
@@ -361,7 +361,7 @@ fn still_moves(case: Case<'_>, residual: f64, size: f64) -> Option<Finding> {
         code: "not-balanced".into(),
         message: format!(
             "the centre of mass still moves, by {} m at most from its middle: the masses that are moved cannot hold it, only keep it as still as they can",
-            short(residual)
+            six_digits(residual)
         ),
         path: case.study.place.clone(),
     })
@@ -377,7 +377,7 @@ fn jumps<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>, name: &s
         code: "velocity-jump".into(),
         message: format!(
             "velocities jump at {name} = {} {}{others}: a law there has a kink, and {left_out} are impulses, which no row, extreme, mean or integral holds; a law without kinks has none, as a table `between: cubic`",
-            short(first * unit.0),
+            six_digits(first * unit.0),
             unit.1
         ),
         path: case.study.place.clone(),
@@ -391,16 +391,11 @@ fn backwards<G: Space<S = f64>>(case: Case<'_>, motion: &Motion<'_, G>, name: &s
         code: "backwards".into(),
         message: format!(
             "the range is negative: it is followed against the driver, back in time, to {name} = {} {}; a positive one goes the way of the driver",
-            short(motion.clock.value(motion.clock.length) * unit.0),
+            six_digits(motion.clock.value(motion.clock.length) * unit.0),
             unit.1
         ),
         path: format!("{}.over", case.study.place),
     })
-}
-
-/// Six significant digits.
-fn short(x: f64) -> String {
-    format!("{x:.5e}").parse::<f64>().unwrap_or(x).to_string()
 }
 
 /// Residuals over the rows.

@@ -14,8 +14,7 @@ use crate::expression::{Dimension, Id};
 use crate::geometry::{Planar, Spatial};
 use crate::mechanism::{Coordinates, build};
 use crate::model::{Column, Dimensions, Forward, Integrator, Kind, Model, Quantity, Scalar, Study};
-use crate::results::Failure;
-use crate::results::number;
+use crate::results::{Failure, six_digits};
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::run::run;
@@ -140,18 +139,13 @@ fn finer(forward: &Forward, steps: Steps) -> (Steps, f64, String) {
         Steps::Tolerance(x) => {
             let finer = (0.1 * x).max(1e-14);
             // no tolerance below the smallest one: the difference is what there is
-            (Steps::Tolerance(finer), if finer < x { 1.0 / (1.0 - finer / x) } else { 1.0 }, format!("tolerance {}", short(finer)))
+            (Steps::Tolerance(finer), if finer < x { 1.0 / (1.0 - finer / x) } else { 1.0 }, format!("tolerance {}", six_digits(finer)))
         }
         Steps::Fixed(h) => {
             let order = forward.order.unwrap_or(forward.integrator.description().order) as i32;
-            (Steps::Fixed(0.5 * h), 1.0 / (1.0 - 0.5f64.powi(order)), format!("a step of {} s", short(0.5 * h)))
+            (Steps::Fixed(0.5 * h), 1.0 / (1.0 - 0.5f64.powi(order)), format!("a step of {} s", six_digits(0.5 * h)))
         }
     }
-}
-
-/// Six digits of a number.
-fn short(x: f64) -> String {
-    number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
 /// A run that is compared with others of the same study.
@@ -202,7 +196,7 @@ impl Comparison<'_> {
         }
         let column = &self.study.columns[c];
         let unit = column.dimension.si();
-        let value = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
+        let value = |x: f64| format!("{} {unit}", six_digits(x)).trim_end().to_string();
         let [x, y] = [self.base.rows[i][c], other.rows[k][c]].map(value);
         Err(format!("`{}` is {x} at t = {:.6} s, and {y} with {with}", column.name, self.base.places[i]))
     }
@@ -217,7 +211,7 @@ impl Comparison<'_> {
             digits = digits.min(-off.log10());
             if digits < ENOUGH {
                 let unit = scalar.dimension.si();
-                let [x, y] = [*x, *y].map(|x| format!("{} {unit}", short(x)).trim_end().to_string());
+                let [x, y] = [*x, *y].map(|x| format!("{} {unit}", six_digits(x)).trim_end().to_string());
                 return Err(format!("the scalar `{}` is {x}, and {y} with {with}", scalar.name));
             }
         }

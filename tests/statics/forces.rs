@@ -87,26 +87,19 @@ start: {{ P.angle: 60 deg }}"
 
 #[test]
 fn a_controller_alone_finds_the_place_at_which_nothing_acts() {
-    let outcome = planar(
-        "[0, 0]",
-        &format!(
-            "{LIFT}\nstates: {{ z: {{ start: 3 N, rate: -(4 N/m/s)*(S.position - 0.5 m) - z/(1 s) }} }}\nloads: {{ push: {{ joint: S, force: z }} }}\nstart: {{ S.position: 2 m }}"
-        ),
-        "y: last(box.y), push: last(z)",
-    );
-    near(outcome.scalars[0], 0.5, 1e-12);
-    near(outcome.scalars[1], 0.0, 1e-12);
-    let integrating = planar(
-        "[0, 0]",
-        &format!(
-            "{LIFT}\nstates: {{ z: {{ start: 3 N, rate: -(4 N/m/s)*(S.position - 0.5 m) }} }}\nloads: {{ push: {{ joint: S, force: z }} }}\nstart: {{ S.position: 2 m }}"
-        ),
-        "y: last(box.y), push: last(z)",
-    );
-    near(integrating.scalars[0], 0.5, 1e-12);
-    near(integrating.scalars[1], 0.0, 1e-12);
-    // m s³ + ki has roots with a positive real part
-    assert_eq!(integrating.results, [0.0]);
+    // m s³ + (m/τ) s² + k has roots with a positive real part, with and without the leak 1/τ of the integrator
+    for leak in ["", " - z/(1 s)"] {
+        let outcome = planar(
+            "[0, 0]",
+            &format!(
+                "{LIFT}\nstates: {{ z: {{ start: 3 N, rate: -(4 N/m/s)*(S.position - 0.5 m){leak} }} }}\nloads: {{ push: {{ joint: S, force: z }} }}\nstart: {{ S.position: 2 m }}"
+            ),
+            "y: last(box.y), push: last(z)",
+        );
+        near(outcome.scalars[0], 0.5, 1e-12);
+        near(outcome.scalars[1], 0.0, 1e-12);
+        assert_eq!(outcome.results, [0.0]);
+    }
 }
 
 #[test]

@@ -41,6 +41,7 @@ pub use fault::AssemblyFault;
 pub use found::Found;
 use grashof_solvers::kkt;
 pub(crate) use metric::units;
+use std::sync::OnceLock;
 
 /// A consistent start.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +60,8 @@ pub struct Assembled {
     pub found: Vec<Found>,
     /// What the position is if branches of the motion cross there.
     pub change: Option<ChangePoint>,
+    /// Sizes of the first-order states (nz) in which their errors count, once a motion in time has asked for them.
+    pub(crate) state_sizes: OnceLock<Vec<f64>>,
 }
 
 impl Assembled {
@@ -92,7 +95,7 @@ pub fn assemble<G: Space<S = f64>>(
     let size = mechanism.size();
     let found = found::found(&mechanism, &begun)?;
     let Begun { q, v, modes, change } = begun;
-    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change }))
+    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change, state_sizes: OnceLock::new() }))
 }
 
 /// Position and velocity on the tree at hand.

@@ -2,6 +2,7 @@
 
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
+use crate::results::six_digits;
 
 /// How far beside a place laws of drivers are looked at, as part of the whole range.
 const BESIDE: f64 = 1e-7;
@@ -23,7 +24,7 @@ pub(crate) struct Jump {
 impl Jump {
     /// What is told of it; `at` is the place, as `time = 0.5`.
     pub(crate) fn told(&self, at: &str) -> String {
-        let [before, after] = self.sides.map(short);
+        let [before, after] = self.sides.map(six_digits);
         format!(
             "the law of the driver `{}` jumps at {at}, from {before} to {after} (SI): what is driven has to get from one place to the other",
             self.driver
@@ -79,9 +80,4 @@ pub(crate) fn first_jump<G: Space<S = f64>>(dynamics: &mut Dynamics<'_, G>, mode
         now = end;
     }
     None
-}
-
-/// Six digits of a number.
-fn short(x: f64) -> String {
-    crate::results::number(format!("{x:.5e}").parse().unwrap_or(x))
 }

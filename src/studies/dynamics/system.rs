@@ -222,7 +222,8 @@ where
             kkt: None,
         };
         if nz > 0 {
-            system.pattern.size_z = system.sizes_of_states(start);
+            // the same behind events, at which parameters and holds change
+            system.pattern.size_z = start.state_sizes.get_or_init(|| system.sizes_of_states(start)).clone();
         }
         system
     }

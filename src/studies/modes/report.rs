@@ -5,7 +5,7 @@ use crate::geometry::Space;
 use crate::kinematics::coordinates::Coordinate;
 use crate::mechanism::Mechanism;
 use crate::model::Study;
-use crate::results::{Certificate, Finding, List, Scene};
+use crate::results::{Certificate, Finding, List, Scene, six_digits};
 use crate::studies::common::case::Case;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
@@ -63,7 +63,7 @@ impl Report<'_> {
         let unit = |c: &Coordinate| if c.turns { "N m" } else { "N" };
         let held: Vec<(&Coordinate, &f64)> =
             self.own.iter().zip(forces).filter(|(_, (f, noise))| f.abs() > *noise).map(|(c, (f, _))| (c, f)).collect();
-        let mut by: Vec<String> = held.iter().take(NAMED).map(|(c, f)| format!("`{}` {} {}", c.name, short(**f), unit(c))).collect();
+        let mut by: Vec<String> = held.iter().take(NAMED).map(|(c, f)| format!("`{}` {} {}", c.name, six_digits(**f), unit(c))).collect();
         if held.len() > NAMED {
             by.push(format!("{} others", held.len() - NAMED));
         }
@@ -93,8 +93,8 @@ impl Report<'_> {
                     "mode {} is unstable, {}: it grows like exp({} t/s), by e in {} s",
                     i + 1,
                     self.parts(&shape.abs()),
-                    short(rate),
-                    short(rate.recip())
+                    six_digits(rate),
+                    six_digits(rate.recip())
                 );
                 self.finding("unstable", message);
             }
@@ -132,8 +132,12 @@ impl Report<'_> {
                 let message = format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&amplitudes));
                 self.finding("free-motion", message);
             } else if grows(mode) {
-                let message =
-                    format!("mode {} is unstable, {}: it grows like exp({} t/s)", i + 1, self.parts(&amplitudes), short(mode.value.re));
+                let message = format!(
+                    "mode {} is unstable, {}: it grows like exp({} t/s)",
+                    i + 1,
+                    self.parts(&amplitudes),
+                    six_digits(mode.value.re)
+                );
                 self.finding("unstable", message);
             }
         }
@@ -141,7 +145,7 @@ impl Report<'_> {
             let count = beyond.iter().filter(|mode| grows(mode)).count();
             let message = format!(
                 "{count} more of the modes that are not listed are unstable: the fastest grows like exp({} t/s); `lowest` asks for more",
-                short(fastest)
+                six_digits(fastest)
             );
             self.finding("unstable", message);
         }
@@ -208,10 +212,4 @@ fn caption(frequency: Option<f64>, ratio: Option<f64>) -> String {
     let digits = |x: f64| format!("{x:.3e}").parse().unwrap_or(x).to_string();
     let damping = ratio.map_or_else(String::new, |ratio| format!(", damping ratio {}", digits(ratio)));
     format!("{} Hz{damping}", digits(frequency / std::f64::consts::TAU))
-}
-
-/// Six significant digits.
-fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    format!("{rounded}")
 }

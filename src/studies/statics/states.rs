@@ -33,7 +33,7 @@ struct Together {
     /// Coefficients, row after row, and right sides.
     rows: Vec<f64>,
     right: Vec<f64>,
-    /// What each row was divided by, and the largest one, 0 where nothing moves it.
+    /// Largest coefficient of each row, by which it was divided; 0 where nothing moves what it holds.
     sizes: Vec<f64>,
 }
 
@@ -66,7 +66,7 @@ where
             if at.states.iter().all(|&i| rests[i]) && self.is_balanced(&pose).ok()? {
                 return self.polish(pose).ok();
             }
-            let step = at.step(&pose);
+            let step = at.step();
             let (y, ways) = step.split_at(pose.force.len());
             let (y, dz) = (DVector::from_column_slice(y), &at.ways * DVector::from_column_slice(ways));
             let long = (self.measure(&(&pose.basis * &y)) / LONGEST).max(1.0);
@@ -147,8 +147,9 @@ impl Together {
     }
 
     /// Newton's step: y, then the lengths of the ways of the states.
-    fn step(&self, pose: &Pose) -> Vec<f64> {
-        shortest(&self.rows, &self.right, &vec![1.0; pose.force.len() + self.ways.ncols()], 0.0)
+    fn step(&self) -> Vec<f64> {
+        let unknowns = self.rows.len() / self.right.len();
+        shortest(&self.rows, &self.right, &vec![1.0; unknowns], 0.0)
     }
 
     /// What is left of the equations at a pose, in the units of these rows.
