@@ -3,6 +3,7 @@
 use super::frames::SHOWN;
 use crate::results::Scene;
 use crate::results::scene::Joint;
+use nalgebra::{Quaternion, UnitQuaternion};
 use std::f64::consts::TAU;
 
 /// Frames at even angles of the first turn of what is driven, the one that is shown first before; none if no hinge is driven for more
@@ -40,31 +41,23 @@ fn angles(scene: &Scene, joint: &Joint, way: &[usize]) -> Option<Vec<f64>> {
 fn step(scene: &Scene, joint: &Joint, frames: [usize; 2]) -> f64 {
     let [before, behind] = frames.map(|index| [&joint.a, &joint.b].map(|place| rotation(scene, index, place.body)));
     // of b in a before and behind, and the one from the other
-    let [from, to] = [before, behind].map(|[a, b]| product(conjugate(a), b));
-    let turn = product(to, conjugate(from));
+    let [from, to] = [before, behind].map(|[a, b]| a.inverse() * b);
+    let turn = to * from.inverse();
     let axis: [f64; 3] =
         if scene.dimensions == 2 { [0.0, 0.0, 1.0] } else { std::array::from_fn(|i| joint.axis.get(i).copied().unwrap_or(0.0)) };
-    let along = turn[1] * axis[0] + turn[2] * axis[1] + turn[3] * axis[2];
-    let angle = 2.0 * along.atan2(turn[0]);
+    let along = turn.i * axis[0] + turn.j * axis[1] + turn.k * axis[2];
+    let angle = 2.0 * along.atan2(turn.w);
     angle - TAU * (angle / TAU).round()
 }
 
-/// The unit quaternion of a body in a frame.
-fn rotation(scene: &Scene, index: usize, body: usize) -> [f64; 4] {
-    let Some(before) = body.checked_sub(1) else { return [1.0, 0.0, 0.0, 0.0] };
+/// How a body is turned in a frame.
+fn rotation(scene: &Scene, index: usize, body: usize) -> UnitQuaternion<f64> {
+    let Some(before) = body.checked_sub(1) else { return UnitQuaternion::identity() };
     match *scene.frame(index).get(before * scene.stride()..body * scene.stride()).unwrap_or_default() {
-        [_, _, angle] => [(0.5 * angle).cos(), 0.0, 0.0, (0.5 * angle).sin()],
-        [_, _, _, w, x, y, z] => [w, x, y, z],
-        _ => [1.0, 0.0, 0.0, 0.0],
+        [_, _, angle] => UnitQuaternion::from_euler_angles(0.0, 0.0, angle),
+        [_, _, _, w, x, y, z] => UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
+        _ => UnitQuaternion::identity(),
     }
-}
-
-fn conjugate([w, x, y, z]: [f64; 4]) -> [f64; 4] {
-    [w, -x, -y, -z]
-}
-
-fn product([a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4]) -> [f64; 4] {
-    [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
 }
 
 #[cfg(test)]
