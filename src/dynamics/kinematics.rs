@@ -6,7 +6,7 @@
 
 use super::{Dynamics, Workspace};
 use crate::geometry::{Motion, Pose, Quaternion, Space};
-use crate::mechanism::{Leaf, Placed, RowKind, RowOwner, StagedProgram, Step, StretchOf};
+use crate::mechanism::{Leaf, Placed, Relative, RowKind, RowOwner, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
@@ -78,8 +78,9 @@ impl<G: Space> Dynamics<'_, G> {
         }
         let Workspace { places, quaternions, columns, references, readings, .. } = &mut self.work;
         let placed = Placed { places, quaternions, q, columns, windings: &modes[m.switches..] };
+        let mut points = Default::default();
         for (gauge, reading) in m.gauges[..self.active].iter().zip(readings) {
-            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], reading);
+            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], &mut points, reading);
         }
         self.functions(modes);
         self.rows();
@@ -230,8 +231,9 @@ impl<G: Space> Dynamics<'_, G> {
             }
             (w.twists[node.body], w.bias[node.body]) = (twist, bias);
         }
+        let mut relative = Relative::default();
         for (gauge, reading) in m.gauges[..self.active].iter().zip(&mut w.readings) {
-            gauge.velocity(&w.places, &w.twists, &w.bias, v, reading);
+            gauge.velocity(&w.places, [&w.twists, &w.bias], v, &mut relative, reading);
         }
         if m.velocity_program.outputs > 0 {
             self.fill(&m.velocity_program);
@@ -408,9 +410,10 @@ impl<G: Space> Dynamics<'_, G> {
         self.quaternions(q);
         let Workspace { places, quaternions, columns, references, readings, twists, bias, .. } = &mut self.work;
         let placed = Placed { places, quaternions, q, columns, windings: &modes[m.switches..] };
+        let (mut points, mut relative) = (Default::default(), Relative::default());
         for (gauge, reading) in m.gauges.iter().zip(readings).skip(self.active) {
-            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], reading);
-            gauge.velocity(places, twists, bias, v, reading);
+            gauge.position(placed, &references[m.group_between(gauge.a, gauge.b)], &mut points, reading);
+            gauge.velocity(places, [twists, bias], v, &mut relative, reading);
         }
     }
 }

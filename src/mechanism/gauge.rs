@@ -106,6 +106,41 @@ pub struct Gauge<G: Space> {
     pub shift: f64,
     /// Velocity columns it depends on, with +1 for those that move b and −1 for those that move a; common ones cancel.
     pub columns: Vec<(usize, f64)>,
+    /// Whether it is a slide between the points of the slide before it, which has moved them already: a pin off the tree is two or three
+    /// slides between two points.
+    pub same_points: bool,
+}
+
+/// How two points move against each other: what slides between them share.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Relative<G: Space> {
+    /// ω_a.
+    turn: G::Spin,
+    /// d.
+    apart: G::Vector,
+    /// ḋ.
+    rate: G::Vector,
+    /// ω_b×ṗ_b − ω_a×ṗ_a.
+    whirl: G::Vector,
+    /// V_b − V_a.
+    twist: Motion<G>,
+    /// The same of their biases.
+    bias: Motion<G>,
+}
+
+impl<G: Space> Relative<G> {
+    #[inline(always)]
+    fn of([pa, pb]: [G::Vector; 2], [va, vb]: [Motion<G>; 2], [bias_a, bias_b]: [Motion<G>; 2]) -> Self {
+        let (da, db) = (va.at(pa), vb.at(pb));
+        Self {
+            turn: va.w,
+            apart: pb - pa,
+            rate: db - da,
+            whirl: G::turn(vb.w, db) - G::turn(va.w, da),
+            twist: vb - va,
+            bias: bias_b - bias_a,
+        }
+    }
 }
 
 /// Value and wrench of a gauge, and from the velocity stage on its rate and drift.
@@ -121,6 +156,14 @@ pub struct Reading<G: Space> {
     pub rate: G::S,
     /// ẍ at a = 0: c and what the bias of the bodies adds.
     pub drift: G::S,
+}
+
+impl<G: Space> Reading<G> {
+    /// ẋ and ẍ at a = 0 from V_b − V_a, from the bias of b against a, with which the bodies accelerate even at a = 0, and from c.
+    #[inline(always)]
+    fn moves(&mut self, twist: Motion<G>, bias: Motion<G>, c: G::S) {
+        (self.rate, self.drift) = (self.wrench.power(twist), c + self.wrench.power(bias));
+    }
 }
 
 /// Where the bodies of a mechanism are, as gauges see them.
@@ -148,27 +191,32 @@ impl<G: Space> Gauge<G> {
         }
     }
 
-    /// x and W from where the bodies are, about the `reference` point of the group.
+    /// x and W from where the bodies are, about the `reference` point of the group; `points` are those of the gauge before, and of this one
+    /// behind it.
     #[inline(always)]
-    pub fn position(&self, placed: Placed<'_, G>, reference: &G::Vector, out: &mut Reading<G>) {
+    pub fn position(&self, placed: Placed<'_, G>, reference: &G::Vector, points: &mut [G::Vector; 2], out: &mut Reading<G>) {
         let Placed { places, quaternions, q, columns: s, windings } = placed;
-        let place = |body: usize| if body == 0 { Pose::translation(-*reference) } else { places[body] };
-        let (xa, xb) = (place(self.a), place(self.b));
+        let turned = |body: usize| if body == 0 { G::identity() } else { places[body].r };
+        let point = |body: usize, r: G::Vector| if body == 0 { r - *reference } else { places[body].point(r) };
+        let shift = G::S::constant(self.shift);
         match self.measured {
             Measured::Coordinate { along, pb } => {
                 out.x = q[along.q];
                 let column = s[along.v] * G::S::constant(along.sign);
                 // a turning axis is worked on by a moment about it, a sliding one by a force along it at the second point
-                out.wrench = if along.turns { Force::couple(column.w) } else { Force::at(column.v, xb.point(pb)) };
+                out.wrench = if along.turns { Force::couple(column.w) } else { Force::at(column.v, point(self.b, pb)) };
             }
             Measured::Slide { pa, n, pb } => {
-                let (pa, pb, n) = (xa.point(pa), xb.point(pb), G::rotate(xa.r, n));
-                out.x = G::dot(n, pb - pa) + G::S::constant(self.shift);
+                if !self.same_points {
+                    *points = [point(self.a, pa), point(self.b, pb)];
+                }
+                let ([pa, pb], n) = (*points, G::rotate(turned(self.a), n));
+                out.x = G::dot(n, pb - pa) + shift;
                 out.wrench = Force::at(n, pb);
-                out.points = [pa, pb];
+                out.points = *points;
             }
             Measured::Distance { pa, pb } => {
-                let (pa, pb) = (xa.point(pa), xb.point(pb));
+                let (pa, pb) = (point(self.a, pa), point(self.b, pb));
                 let d = pb - pa;
                 out.x = G::dot(d, d).sqrt();
                 // coinciding points have no line of action: no force rather than no number
@@ -177,16 +225,17 @@ impl<G: Space> Gauge<G> {
                 out.points = [pa, pb];
             }
             Measured::Dot { u, w } => {
-                let (u, w) = (G::rotate(xa.r, u), G::rotate(xb.r, w));
+                let (u, w) = (G::rotate(turned(self.a), u), G::rotate(turned(self.b), w));
                 out.x = G::dot(u, w);
                 out.wrench = Force::couple(G::moment(w, u));
             }
             Measured::Angle => {
-                out.x = G::angle(xb.r) - G::angle(xa.r) + G::S::constant(self.shift);
+                out.x = G::angle(turned(self.b)) - G::angle(turned(self.a)) + shift;
                 out.wrench = Force::couple(G::spin([0.0, 0.0, 1.0]));
             }
             Measured::Turn { e1, e2, f, winding } => {
-                let (e1, e2, f) = (G::rotate(xa.r, e1), G::rotate(xa.r, e2), G::rotate(xb.r, f));
+                let r = turned(self.a);
+                let (e1, e2, f) = (G::rotate(r, e1), G::rotate(r, e2), G::rotate(turned(self.b), f));
                 let (c, s) = (G::dot(f, e1), G::dot(f, e2));
                 // measured from the half turn counted, so that the value is smooth a quarter turn beyond it on either side
                 let half = windings[winding];
@@ -206,54 +255,67 @@ impl<G: Space> Gauge<G> {
         }
     }
 
-    /// ẋ and c from the twists; after [`Gauge::position`].
+    /// ẋ and c from the twists and biases of the bodies; after [`Gauge::position`]. `relative` is of the gauge before, and of this one
+    /// behind it.
     #[inline(always)]
-    pub fn velocity(&self, places: &[Pose<G>], twists: &[Motion<G>], bias: &[Motion<G>], v: &[G::S], out: &mut Reading<G>) {
-        let (va, vb) = (twists[self.a], twists[self.b]);
+    pub fn velocity(
+        &self,
+        places: &[Pose<G>],
+        [twists, bias]: [&[Motion<G>]; 2],
+        v: &[G::S],
+        relative: &mut Relative<G>,
+        out: &mut Reading<G>,
+    ) {
         let two = G::S::constant(2.0);
-        match self.measured {
+        let of = |motions: &[Motion<G>]| [motions[self.a], motions[self.b]];
+        let spins = || (twists[self.a].w, twists[self.b].w);
+        let c = match self.measured {
             Measured::Coordinate { along, .. } => {
                 out.rate = v[along.v];
                 out.drift = G::S::default();
                 return;
             }
-            Measured::Angle => out.drift = G::S::default(),
             Measured::Slide { .. } => {
-                let ([pa, pb], n) = (out.points, out.wrench.f);
-                let (da, db) = (va.at(pa), vb.at(pb));
-                let dn = G::turn(va.w, n);
-                out.drift =
-                    G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + two * G::dot(dn, db - da) + G::dot(G::turn(va.w, dn), pb - pa);
+                if !self.same_points {
+                    *relative = Relative::of(out.points, of(twists), of(bias));
+                }
+                let n = out.wrench.f;
+                let dn = G::turn(relative.turn, n);
+                let c = G::dot(n, relative.whirl) + two * G::dot(dn, relative.rate) + G::dot(G::turn(relative.turn, dn), relative.apart);
+                return out.moves(relative.twist, relative.bias, c);
             }
             Measured::Distance { .. } => {
-                let [pa, pb] = out.points;
-                let (da, db) = (va.at(pa), vb.at(pb));
-                let (n, rate) = (out.wrench.f, db - da);
+                let between = Relative::of(out.points, of(twists), of(bias));
+                let (n, rate) = (out.wrench.f, between.rate);
                 let along = G::dot(n, rate);
                 let across = G::dot(rate, rate) - along * along;
                 let turning = if out.x.value() == 0.0 { G::S::default() } else { across / out.x };
-                out.drift = G::dot(n, G::turn(vb.w, db) - G::turn(va.w, da)) + turning;
+                return out.moves(between.twist, between.bias, G::dot(n, between.whirl) + turning);
             }
+            Measured::Angle => G::S::default(),
             Measured::Dot { u, w } => {
                 let (u, w) = (G::rotate(places[self.a].r, u), G::rotate(places[self.b].r, w));
-                out.drift = dot_rates::<G>(va, vb, u, w).1;
+                dot_rates::<G>(spins(), u, w).1
             }
             Measured::Turn { e1, e2, f, .. } => {
                 let (r, f) = (places[self.a].r, G::rotate(places[self.b].r, f));
                 let (e1, e2) = (G::rotate(r, e1), G::rotate(r, e2));
                 let (c, s) = (G::dot(f, e1), G::dot(f, e2));
-                let ((dc, ddc), (ds, dds)) = (dot_rates::<G>(va, vb, e1, f), dot_rates::<G>(va, vb, e2, f));
+                let ((dc, ddc), (ds, dds)) = (dot_rates::<G>(spins(), e1, f), dot_rates::<G>(spins(), e2, f));
                 let k = G::S::constant(1.0) / (c * c + s * s);
                 let rate = (c * ds - s * dc) * k;
                 // θ̈ = (c s̈ − s c̈)/r² − 2 θ̇ (c ċ + s ṡ)/r²
-                out.drift = (c * dds - s * ddc) * k - two * rate * (c * dc + s * ds) * k;
+                (c * dds - s * ddc) * k - two * rate * (c * dc + s * ds) * k
             }
             // Q̈ = ½ (0, α) ∘ Q + ½ (0, ω) ∘ Q̇ and (0, ω) ∘ (0, ω) = −|ω|²
-            Measured::Quaternion { .. } => out.drift = -(G::dot_spin(vb.w, vb.w) * out.x).scale(0.25),
-        }
-        out.rate = out.wrench.power(vb - va);
-        // the bodies accelerate by their bias even at a = 0
-        out.drift += out.wrench.power(bias[self.b] - bias[self.a]);
+            Measured::Quaternion { .. } => {
+                let spin = twists[self.b].w;
+                -(G::dot_spin(spin, spin) * out.x).scale(0.25)
+            }
+        };
+        // what turns is worked on by a couple
+        let couple = |motions: &[Motion<G>]| G::dot_spin(out.wrench.n, motions[self.b].w - motions[self.a].w);
+        (out.rate, out.drift) = (couple(twists), c + couple(bias));
     }
 
     /// ẍ from the accelerations a (nv); after [`Gauge::velocity`].
@@ -289,15 +351,15 @@ impl<G: Space> Gauge<G> {
             Measured::Quaternion { component, sign } => Measured::Quaternion { component, sign },
             Measured::Coordinate { along, pb } => Measured::Coordinate { along, pb: v(pb) },
         };
-        Gauge { a: self.a, b: self.b, measured, shift: self.shift, columns: self.columns.clone() }
+        Gauge { a: self.a, b: self.b, measured, shift: self.shift, columns: self.columns.clone(), same_points: self.same_points }
     }
 }
 
 /// d/dt (u·w) and its drift for u carried by a and w by b.
 #[inline]
-fn dot_rates<G: Space>(va: Motion<G>, vb: Motion<G>, u: G::Vector, w: G::Vector) -> (G::S, G::S) {
-    let (du, dw) = (G::turn(va.w, u), G::turn(vb.w, w));
+fn dot_rates<G: Space>((wa, wb): (G::Spin, G::Spin), u: G::Vector, w: G::Vector) -> (G::S, G::S) {
+    let (du, dw) = (G::turn(wa, u), G::turn(wb, w));
     let rate = G::dot(du, w) + G::dot(u, dw);
-    let drift = G::dot(G::turn(va.w, du), w) + G::S::constant(2.0) * G::dot(du, dw) + G::dot(u, G::turn(vb.w, dw));
+    let drift = G::dot(G::turn(wa, du), w) + G::S::constant(2.0) * G::dot(du, dw) + G::dot(u, G::turn(wb, dw));
     (rate, drift)
 }

@@ -26,7 +26,7 @@ pub use contact::{Contact, ContactLaw};
 pub use force::{
     Buffer, Drive, Effort, EffortLaw, Leaf, PointLoad, Pressed, Pressing, Rotor, StagedProgram, Stop, Stretch, StretchOf, Undefined,
 };
-pub use gauge::{Along, Gauge, Measured, Placed, Reading};
+pub use gauge::{Along, Gauge, Measured, Placed, Reading, Relative};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use loops::describe_loop;

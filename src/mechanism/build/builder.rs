@@ -79,8 +79,14 @@ impl<G: Space> Builder<'_, G> {
             Measured::Coordinate { along, .. } => vec![(along.v, 1.0)],
             _ => self.columns_between(a, b),
         };
-        self.mechanism.gauges.push(Gauge { a, b, measured, shift, columns });
-        self.mechanism.gauges.len() - 1
+        let points = |measured| if let Measured::Slide { pa, pb, .. } = measured { Some((pa, pb)) } else { None };
+        let m = &mut self.mechanism;
+        // those that no row or force needs are read apart
+        let before = m.gauges.last().filter(|_| m.gauges.len() != m.active_gauges);
+        let same_points =
+            before.is_some_and(|g| (g.a, g.b) == (a, b) && points(measured).is_some() && points(g.measured) == points(measured));
+        m.gauges.push(Gauge { a, b, measured, shift, columns, same_points });
+        m.gauges.len() - 1
     }
 
     /// Velocity columns that move b (1) or a (−1) against the other, each rising. What is on both roads to the ground moves both bodies
