@@ -12,6 +12,7 @@ use crate::kkt::{Kkt, ROUND_OFF};
 pub use crate::why::{Rejected, Why};
 use crate::{At, Common, Dims, Line, Span, Stage, State, System, Terms};
 
+pub(crate) mod blows;
 mod norm;
 mod projection;
 #[cfg(test)]
@@ -131,9 +132,6 @@ pub struct Engine {
     modes: Vec<i32>,
 }
 
-/// Part of its mobility without constraints below which a joint cannot give way to a blow.
-const HELD: f64 = 1e-6;
-
 impl Engine {
     /// Tools for a system.
     pub fn new(system: &dyn System, control: Control) -> Self {
@@ -227,34 +225,6 @@ impl Engine {
         let at = At { t: state.t, q: &state.q, v: &state.v, z: &state.z, modes: &self.modes, live: &state.live };
         system.modes(at, &mut state.modes);
         self.modes != state.modes
-    }
-
-    /// The velocities behind an impulse along `row` (nv): δv by [M Gᵀ; G −E] [δv; Λ] = [p rowᵀ; 0] with row·v⁺ = −restitution row·v⁻.
-    ///
-    /// False if the constraints hold row·v, as a driver does, so that no impulse changes it.
-    ///
-    /// # Errors
-    /// If the KKT matrix is singular.
-    pub fn impulse(&mut self, system: &mut dyn System, state: &mut State, row: &[f64], restitution: f64) -> Result<bool, Why> {
-        self.evaluate(system, state.at(), Stage::Dynamics);
-        self.factor()?;
-        self.rhs.fill(0.0);
-        self.kkt.solve(row, &self.rhs, &mut self.delta, &mut self.mu);
-        let along = |x: &[f64]| row.iter().zip(x).map(|(r, x)| r * x).sum::<f64>();
-        let free = |(i, r): (usize, &f64)| match self.terms.mass.at(i, i) {
-            m if m > 0.0 => r * r / m,
-            _ => 0.0,
-        };
-        let free: f64 = row.iter().enumerate().map(free).sum();
-        if along(&self.delta) < HELD * free {
-            return Ok(false);
-        }
-        let p = -(1.0 + restitution) * along(&state.v) / along(&self.delta);
-        if !p.is_finite() {
-            return Err(Why::Singular);
-        }
-        state.v.iter_mut().zip(&self.delta).for_each(|(v, d)| *v += p * d);
-        Ok(true)
     }
 
     /// Evaluates terms, and counts.

@@ -5,6 +5,7 @@
 //! kept for the caller.
 
 use crate::dense_output::Dense;
+use crate::engine::blows::Blow;
 use crate::engine::{Control, Engine, Node, Why};
 use crate::halt::Halt;
 use crate::method::Method;
@@ -114,6 +115,8 @@ pub struct Integration {
     /// Where the present step is asked to end, s.
     goal: f64,
     crossed: Vec<usize>,
+    /// Blows of the event at hand.
+    blows: Vec<Blow>,
     row: Vec<f64>,
     /// Velocities at the start without those in common (nv).
     relative: Vec<f64>,
@@ -191,6 +194,7 @@ impl Integration {
             changed: start.t,
             goal: start.t,
             crossed: Vec::with_capacity(dims.roots),
+            blows: Vec::new(),
             row: vec![0.0; dims.v],
             relative: vec![0.0; dims.v],
             power: vec![0.0; WORK_NODES * dims.work],

@@ -222,6 +222,13 @@ pub trait System {
     ///
     /// `row` (nv) receives the direction of an impulse; without one it is left as it is.
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect;
+
+    /// Gives the switch of a root that has become zero and stays so the mode of equal operands, and tells what that does to the run; none
+    /// if it has it already. The root of a value that comes to rest on what it is compared with never becomes negative. A system in
+    /// which no value rests has nothing to change, which is the default.
+    fn equal(&mut self, _root: usize, _state: &mut State) -> Option<Effect> {
+        None
+    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 
 use super::{Dynamics, Workspace};
 use crate::geometry::{Motion, Pose, Quaternion, Space};
-use crate::mechanism::{Leaf, Placed, Relative, RowKind, RowOwner, StagedProgram, Step, StretchOf};
+use crate::mechanism::{Leaf, Placed, Relative, RowKind, StagedProgram, Step, StretchOf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
@@ -179,7 +179,7 @@ impl<G: Space> Dynamics<'_, G> {
             let (entries, values) = rows.line_mut(index);
             let g: &mut [G::S] = if full { &mut *values } else { &mut *line };
             let clear = |g: &mut [G::S]| entries.iter().for_each(|k| g[*k] = G::S::default());
-            let offset = if let RowOwner::Contact(contact) = row.owner { held[contact] } else { row.offset };
+            let offset = row.target(held);
             match row.kind {
                 RowKind::Gauge(i) => {
                     *phi = readings[i].x - offset;
@@ -272,6 +272,15 @@ impl<G: Space> Dynamics<'_, G> {
             Leaf::Stretch { spring, .. } => self.stretch_rate(spring),
             Leaf::State(state) => w.z[state],
         }
+    }
+
+    /// A gauge that a row holds, on a rigid stop or sticking: exactly where it is held, or 0 for its rate (`order` 1) and acceleration (2).
+    /// What is evaluated there has round-off, by which a comparison would come out now so, now otherwise.
+    #[must_use]
+    pub fn held(&self, gauge: usize, order: usize) -> Option<G::S> {
+        let mut rows = self.mechanism.rows.iter().rev().take_while(|row| row.holds());
+        let row = rows.find(|row| matches!(row.kind, RowKind::Gauge(of) if of == gauge))?;
+        Some(if order == 0 { row.target(&self.work.held) } else { G::S::default() })
     }
 
     /// An angular velocity or acceleration in the axes of a body, or as it is in those of the world.

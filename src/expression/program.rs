@@ -315,6 +315,15 @@ impl Program {
     pub fn neighbour(&self, k: usize, modes: &[i32], registers: &[f64]) -> i32 {
         self.decisions[k].test.neighbour(modes[self.switches[k] as usize], |i| registers[i as usize], &self.tables)
     }
+
+    /// The mode of equal operands for switch number `k` of [`Self::switches`], if what it decides jumps there: a comparison, a sign, a whole
+    /// number. `registers` are those that [`Self::roots`] left.
+    #[must_use]
+    pub fn of_equals(&self, k: usize, registers: &[f64]) -> Option<i32> {
+        let test = self.decisions[k].test;
+        let jumps = matches!(test, Test::Compare(..) | Test::Sign(_) | Test::Whole(_));
+        jumps.then(|| test.mode(|i| registers[i as usize], &self.tables))
+    }
 }
 
 #[cfg(test)]

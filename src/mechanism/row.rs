@@ -29,6 +29,19 @@ pub struct Row<G: Space> {
     pub angular: bool,
 }
 
+impl<G: Space> Row<G> {
+    /// Whether it holds a joint on a rigid stop or what sticks; such rows stand behind all others.
+    pub fn holds(&self) -> bool {
+        matches!(self.owner, RowOwner::Stop(_) | RowOwner::Contact(_))
+    }
+
+    /// Its target, with where contacts are `held`.
+    #[inline(always)]
+    pub fn target(&self, held: &[G::S]) -> G::S {
+        if let RowOwner::Contact(contact) = self.owner { held[contact] } else { self.offset }
+    }
+}
+
 /// What a row asks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowKind {

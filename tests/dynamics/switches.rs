@@ -172,3 +172,109 @@ studies: {{ run: {{ dynamics: {{ until: 2.5 s, {scheme} }}, columns: [time, S.ve
     }
     verdict.give("flight");
 }
+
+/// A table that rests at 0 and 1, and what asks whether it does: a force (1 N on 1 kg), a rate of a state, scalars.
+const PULSE: &str = "grashof: 1
+name: pulse
+space: planar
+gravity: none
+tables: { pulse: { points: [[0 s, 0], [1 s, 0], [2 s, 1], [3 s, 1], [4 s, 0], [5 s, 0]] } }
+bodies: { c: { mass: 1 kg } }
+joints: { S: { slider: [ground, c.origin], axis: [1, 0] } }
+loads: { push: { joint: S, force: \"if(pulse(t) > 0, 1 N, 0 N)\" } }
+states: { full: { start: 0 s, rate: \"if(pulse(t) >= 1, 1, 0)\" } }
+";
+
+#[test]
+fn values_rest_on_what_they_are_compared_with() {
+    let mut verdict = Verdict::default();
+    let scalars = [
+        ("v", "last(S.velocity)", 3.0),
+        ("state", "last(full)", 1.0),
+        ("up", "integral(pulse(t) >= 1)", 1.0),
+        ("below", "integral(pulse(t) < 1)", 4.0),
+        ("zero", "integral(pulse(t) == 0)", 2.0),
+        ("other", "integral(pulse(t) != 0)", 3.0),
+        ("of_first", "first(pulse(t) >= 1)", 2.0),
+        ("of_sign", "integral(sign(pulse(t)))", 3.0),
+        ("of_floor", "integral(floor(pulse(t)))", 1.0),
+        ("of_ceil", "integral(ceil(pulse(t)))", 3.0),
+        ("of_round", "integral(round(pulse(t)/2))", 1.0),
+        ("of_mod", "integral(mod(pulse(t), 1))", 1.0),
+        ("clamped", "integral(max(sin(t/1 s), 0) > 0)", PI),
+    ];
+    let list: Vec<String> = scalars.iter().map(|(name, formula, _)| format!("{name}: \"{formula}\"")).collect();
+    for scheme in SCHEMES {
+        let text = format!(
+            "{PULSE}studies: {{ run: {{ dynamics: {{ until: 5 s, {scheme} }}, columns: [time, S.velocity], scalars: {{ {} }} }} }}\n",
+            list.join(", ")
+        );
+        let run = run_text(&text, &["--no-plots"]).succeeded();
+        for (name, formula, right) in scalars {
+            verdict.close(formula, scheme, scalar(&run, "run", name), right, 1e-9);
+        }
+    }
+    verdict.give("pulse");
+}
+
+/// A damper of 30 N s/m that acts while a buffer of 1 kN/m is pressed, by its depth: half a period of a damped vibration.
+#[test]
+fn a_force_ends_where_a_clamped_depth_comes_to_zero() {
+    let mut verdict = Verdict::default();
+    let free = f64::sqrt(1000.0 - 15.0 * 15.0);
+    let right = f64::exp(-15.0 * PI / free);
+    for scheme in &SCHEMES[..5] {
+        let text = format!(
+            "grashof: 1
+name: buffer
+space: planar
+gravity: none
+bodies: {{ c: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, c.origin], axis: [1, 0] }} }}
+start: {{ S.position: 0.1 m, S.velocity: -1 m/s }}
+measures: {{ depth: \"max(-S.position, 0 m)\" }}
+loads: {{ buffer: {{ joint: S, force: \"1 kN/m*depth - if(depth > 0 m, 30 N s/m, 0 N s/m)*S.velocity\" }} }}
+studies: {{ run: {{ dynamics: {{ until: 0.5 s, {scheme} }}, columns: [time, S.velocity], scalars: {{ v: last(S.velocity) }} }} }}
+"
+        );
+        let run = run_text(&text, &["--no-plots"]).succeeded();
+        verdict.close("v", scheme, scalar(&run, "run", "v"), right, 1e-4);
+    }
+    verdict.give("buffer");
+}
+
+/// A ball that has fallen on a rigid stop, and a block that has come to rest by friction: what asks for their rates has none.
+#[test]
+fn what_a_stop_or_friction_holds_has_no_rate() {
+    let mut verdict = Verdict::default();
+    let fallen = "gravity: [0, -10 m/s^2]
+joints: { S: { slider: [ground, c.origin], axis: [0, 1], limits: { from: 0 m, restitution: 0 } }, X: { slider: [ground, d.origin], axis: [1, 0] } }
+start: { S.position: 1 m }
+";
+    let stuck = "gravity: [0, -10 m/s^2]
+joints: { S: { slider: [ground, c.origin], axis: [-1, 0], friction: { coulomb: 5 N } }, X: { slider: [ground, d.origin], axis: [1, 0] } }
+start: { S.position: 0 m, S.velocity: -1 m/s }
+";
+    for (moves, until_rest) in [(fallen, f64::sqrt(0.2)), (stuck, 0.2)] {
+        for scheme in SCHEMES {
+            let text = format!(
+                "grashof: 1
+name: at rest
+space: planar
+bodies: {{ c: {{ mass: 1 kg }}, d: {{ mass: 1 kg }} }}
+{moves}loads: {{ push: {{ joint: X, force: \"if(S.velocity > 0, 5 N, 1 N)\" }} }}
+studies:
+  run:
+    dynamics: {{ until: 2 s, {scheme} }}
+    columns: [time, S.velocity]
+    scalars: {{ up: integral(S.velocity > 0), down: integral(S.velocity < 0), moving: integral(S.velocity != 0), x: last(X.velocity), a: \"value(S.acceleration, 1.5 s)\" }}
+"
+            );
+            let run = run_text(&text, &["--no-plots"]).succeeded();
+            for (name, right) in [("up", 0.0), ("down", until_rest), ("moving", until_rest), ("x", 2.0), ("a", 0.0)] {
+                verdict.close(name, scheme, scalar(&run, "run", name), right, 1e-4);
+            }
+        }
+    }
+    verdict.give("at rest");
+}

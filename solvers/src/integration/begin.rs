@@ -4,6 +4,9 @@ use super::Integration;
 use crate::engine::{Control, Node, Why};
 use crate::{Span, System};
 
+/// What counts as a moment later, as part of the time in which the motion changes by something like its size.
+pub(super) const MOMENT: f64 = 1e-7;
+
 impl Integration {
     /// The first node, its modes, the first step.
     pub(super) fn begin(&mut self, system: &mut dyn System) -> Result<(), Why> {
@@ -33,7 +36,7 @@ impl Integration {
         self.engine.follow_modes(system, &mut self.node.state);
         self.engine.accelerate(system, &mut self.node)?;
         for _ in 0..6 {
-            let moment = 1e-7 * self.moment();
+            let moment = MOMENT * self.moment();
             self.trial.copy_from(&self.node);
             self.drift(system, moment);
             if !self.engine.follow_modes(system, &mut self.trial.state) {
@@ -46,7 +49,7 @@ impl Integration {
     }
 
     /// Moves the trial node by `h` along its velocities and accelerations.
-    fn drift(&mut self, system: &dyn System, h: f64) {
+    pub(super) fn drift(&mut self, system: &dyn System, h: f64) {
         let Node { state, a, zdot, .. } = &mut self.trial;
         state.t += h;
         for ((d, v), a) in self.row.iter_mut().zip(&state.v).zip(&*a) {
@@ -58,7 +61,7 @@ impl Integration {
     }
 
     /// A time in which the motion changes by something like its size, s.
-    fn moment(&self) -> f64 {
+    pub(super) fn moment(&self) -> f64 {
         let e = &self.engine;
         let v = self.relative.iter().zip(&e.size_v).fold(0.0, |m, (v, s)| f64::max(m, v.abs() / s));
         let a = self.node.a.iter().zip(&e.size_v).fold(0.0, |m, (a, s)| f64::max(m, a.abs() / s));

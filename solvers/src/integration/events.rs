@@ -1,8 +1,10 @@
 //! Events of a run: roots located on the continuous solution, crossings, impacts.
 
+use super::begin::MOMENT;
 use super::resolve::{BESIDE, BETWEEN, COARSE, COARSE_GAP, GAP, NODES, Resolver, Verdict, is_far};
 use super::zeno::PILE;
 use super::{GROWTH, Integration, Progress};
+use crate::engine::blows::Blow;
 use crate::engine::{Node, Why};
 use crate::{Effect, System};
 
@@ -17,6 +19,9 @@ const NOISY: usize = 32;
 
 /// Halvings of a part of a step in the search for a short time on the positive side of a root.
 const MOST_HALVINGS: usize = 30;
+
+/// Switches whose operands become equal at one event.
+const MOST_AT_REST: usize = 16;
 
 /// A root is located to this part of the step.
 const LOCATED: f64 = 1e-11;
@@ -239,6 +244,7 @@ impl Integration {
         self.balance(system, true)?;
         self.before.copy_from(&self.node);
         self.crossed.clear();
+        self.blows.clear();
         self.engine.counts.events += 1;
         let mut stop = false;
         let (mut restart, mut bounces) = (false, false);
@@ -251,20 +257,33 @@ impl Integration {
                 Effect::Record => {}
                 Effect::Stop => stop = true,
                 Effect::Restart => restart = true,
-                Effect::Impulse { restitution, stops } | Effect::Bounce { restitution, stops } => {
-                    if !self.engine.impulse(system, &mut self.node.state, &self.row, restitution)? {
-                        // the motion up to the blow stands; there is none behind it
-                        self.halted = Some(Why::Blocked(root));
-                        return Ok(Progress::Event);
-                    }
-                    restart = true;
-                    stop |= stops;
+                Effect::Impulse { restitution, stops: ends } | Effect::Bounce { restitution, stops: ends } => {
+                    stop |= ends;
+                    self.blows.push(Blow { root, row: self.row.clone(), restitution });
                 }
+            }
+            if !self.blows.is_empty() {
+                // what else is hit at this instant is so with the velocities before
+                next = self.also_crossed(system);
+                if next.is_some() {
+                    continue;
+                }
+                restart = true;
+                if let Some(held) = self.engine.impulses(system, &mut self.node.state, &self.blows)? {
+                    // the motion up to the blow stands; there is none behind it
+                    self.halted = Some(Why::Blocked(held));
+                    return Ok(Progress::Event);
+                }
+                self.blows.clear();
             }
             if let Err(why) = self.engine.settle(system, &mut self.node) {
                 return self.ends_before(why);
             }
             next = self.also_crossed(system).or_else(|| self.also_timed(system));
+        }
+        match self.come_to_rest(system) {
+            Ok(changed) => restart |= changed,
+            Err(why) => return self.ends_before(why),
         }
         if let Some(&root) = self.crossed.first()
             && !bounces
@@ -308,6 +327,35 @@ impl Integration {
         system.roots(state.at(), a, lambda, &mut self.probe);
         let near = |root: &usize| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root);
         self.looked.iter().copied().find(near)
+    }
+
+    /// Gives switches whose roots have become zero at the event and stay so the modes of equal operands, as where a clamp or a segment of a
+    /// table rests on what it is compared with; whether a force has changed.
+    fn come_to_rest(&mut self, system: &mut dyn System) -> Result<bool, Why> {
+        let mut restart = false;
+        for _ in 0..MOST_AT_REST {
+            let Node { state, a, lambda, .. } = &self.node;
+            system.roots(state.at(), a, lambda, &mut self.probe);
+            if self.probe.iter().all(|g| *g != 0.0) {
+                break;
+            }
+            self.trial.copy_from(&self.node);
+            self.drift(system, MOMENT * self.moment());
+            if system.pattern().roots_by_reactions {
+                self.engine.accelerate(system, &mut self.trial)?;
+            }
+            system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[0]);
+            let Self { looked, foresight, crossed, probe, samples, node, .. } = self;
+            // what was crossed just now leaves zero, however slowly
+            let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && !crossed.contains(root);
+            let mut at_rest = looked.iter().chain(&foresight.roots).filter(stays);
+            let Some(effect) = at_rest.find_map(|root| system.equal(*root, &mut node.state)) else { break };
+            if effect == Effect::Restart {
+                restart = true;
+                self.engine.settle(system, &mut self.node)?;
+            }
+        }
+        Ok(restart)
     }
 
     /// The longest of the times between the last events that changed the motion, of which one is now, s.

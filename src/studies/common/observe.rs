@@ -199,6 +199,12 @@ impl<G: Space<S = f64>> Observer<G> {
     pub fn neighbour(&self, k: usize, modes: &[i32]) -> i32 {
         self.program.neighbour(k, modes, &self.registers)
     }
+
+    /// The mode of equal operands for switch number `k`, if what it decides jumps there; after [`Observer::roots`].
+    #[must_use]
+    pub fn of_equals(&self, k: usize) -> Option<i32> {
+        self.program.of_equals(k, &self.registers)
+    }
 }
 
 fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> {
@@ -296,7 +302,7 @@ impl<G: Space<S = f64>> Source<G> {
                 let spin = if order == 1 { w.twists[body].w } else { r.accelerations[body].w };
                 G::spin_component(d.in_axes(body, own, spin), axis)
             }
-            Self::Gauge { gauge, order } => gauge_order(d, gauge, order, a),
+            Self::Gauge { gauge, order } => d.held(gauge, order).unwrap_or_else(|| gauge_order(d, gauge, order, a)),
             Self::Force { joint, axis } => G::component(r.joints[joint].f, axis),
             Self::Moment { joint, axis } => {
                 let (body, at) = m.joints[joint].b;

@@ -8,7 +8,7 @@ use super::phases::Phases;
 use super::setup::Plan;
 use super::system::Mechanical;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Measured, RowOwner};
+use crate::mechanism::{Asked, Measured, Row};
 use crate::model::Study;
 use crate::results::Failure;
 use grashof_solvers::minimal::Minimal;
@@ -43,8 +43,7 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
             return Ok(Self::Whole(Box::new(system)));
         }
         // a joint that rests on a stop, sticks or stands in a change point may be the one that was asked for: then others are
-        let rests = phase.start.change.is_some()
-            || phase.mechanism.rows.iter().any(|row| matches!(row.owner, RowOwner::Stop(_) | RowOwner::Contact(_)));
+        let rests = phase.start.change.is_some() || phase.mechanism.rows.iter().any(Row::holds);
         let asked = phase.mechanism.starts.iter().filter(|s| !s.guess && !rests);
         let velocity = |gauge: usize| match phase.mechanism.gauges[gauge].measured {
             Measured::Coordinate { along, .. } => Some(along.v),

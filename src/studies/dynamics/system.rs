@@ -31,7 +31,7 @@ mod works;
 
 use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point, Reactions, friction_pattern, tangent_pattern};
 use crate::geometry::Space;
-use crate::mechanism::{Measured, Row, RowOwner};
+use crate::mechanism::{Leaf, Measured, Row, RowOwner};
 use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
@@ -264,7 +264,8 @@ where
     fn with_program(&mut self, program: usize, run: impl FnOnce(&crate::expression::Program, &[f64], &mut [f64], &mut [f64])) {
         let staged = self.dynamics.mechanism.programs()[program];
         for &(input, leaf) in &staged.fills {
-            self.inputs[input] = self.dynamics.leaf(leaf);
+            let held = if let Leaf::Gauge { gauge, order: order @ (0 | 1) } = leaf { self.dynamics.held(gauge, order) } else { None };
+            self.inputs[input] = held.unwrap_or_else(|| self.dynamics.leaf(leaf));
         }
         run(&staged.program, &self.inputs, &mut self.registers, &mut self.scratch);
     }
@@ -462,6 +463,30 @@ where
             Root::Holds { contact, sense, .. } => self.meet(contact, sense, row),
             Root::Event(event) => self.cross_event(event, state, row),
         }
+    }
+
+    fn equal(&mut self, root: usize, state: &mut State) -> Option<Effect> {
+        self.look(&state.at(), None);
+        let (switch, mode, effect) = match self.roots[root] {
+            Root::Force { program, k } => {
+                let mut mode = None;
+                self.with_program(program, |p, inputs, registers, roots| {
+                    p.roots(inputs, &state.modes, registers, &mut roots[..p.switches().len()]);
+                    mode = p.of_equals(k, registers);
+                });
+                (self.dynamics.mechanism.programs()[program].program.switches()[k] as usize, mode, Effect::Restart)
+            }
+            Root::Column { k } => {
+                let count = self.observer.program().switches().len();
+                self.observer.roots(&state.modes, &mut self.scratch[..count]);
+                (self.observer.program().switches()[k] as usize, self.observer.of_equals(k), Effect::Record)
+            }
+            _ => return None,
+        };
+        // what sticks and slides is decided at events of its own
+        let changed = mode.filter(|mode| *mode != state.modes[switch] && !self.dynamics.mechanism.is_of_contact(switch))?;
+        state.modes[switch] = changed;
+        Some(effect)
     }
 }
 
