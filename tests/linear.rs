@@ -471,3 +471,26 @@ fn preferred_coordinates_are_those_of_the_start() {
     let own: Vec<&str> = base.reduced().partition.independent.iter().map(|&i| names[i].name.as_str()).collect();
     assert_eq!(own, ["O.angle"]);
 }
+
+/// A reaction that is zero but for round-off has no kink, nor has it an uncertain slope.
+#[test]
+fn an_output_that_stays_zero_is_no_kink() {
+    let text = "\
+grashof: 1
+name: universal joint
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+parameters: { u: 0 N m }
+bodies:
+  a: { mass: 1 kg, com: [0, 0.1, 0.2], inertia: [0.01, 0.01, 0.01] }
+  b: { mass: 1 kg, com: [0.1, 0, 0.2], inertia: [0.01, 0.012, 0.01] }
+joints:
+  P: { revolute: [ground, a.origin], axis: [1, 0, 0] }
+  Q: { revolute: [a.origin, b.origin], axis: [0, 1, 0] }
+loads: { m: { at: a.com, torque: [u, 0, 0] } }
+start: { P.angle: 0.3 rad, Q.angle: 0.2 rad, P.omega: 2 rad/s, Q.omega: 1 rad/s }
+studies: { free: { linearize: { inputs: [u] }, columns: [P.mx] } }
+";
+    let outcome = study(text, "free", Coordinates::Joint);
+    assert!(outcome.findings.iter().all(|f| f.code != "rough-differences"), "{:?}", outcome.findings);
+}

@@ -15,6 +15,12 @@ const SAME: f64 = 1e-9;
 const ROUNDED: f64 = 16.0;
 /// Part of |f| by the longest step up to which a slope that is not known is none.
 const NONE: f64 = 1e-8;
+/// The same in units of the round-off of f, as which alone an f that is zero is seen.
+const SCATTERED: f64 = 1e3;
+/// Places, in longest steps, beside which round-off is measured, and how far apart values are for it.
+const BESIDE: [f64; 2] = [-0.37, 0.37];
+/// See [`BESIDE`].
+const APART: f64 = 1e-9;
 
 /// f′(0), each entry by the step at which it changes least, and how much of it may be wrong, as the largest part of an entry; none
 /// where f has no value beside 0.
@@ -23,15 +29,18 @@ pub(crate) fn slope(longest: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) ->
     // the best slope of each entry, and what it changed by
     let mut best: Vec<(f64, f64)> = Vec::new();
     let mut none = Vec::new();
+    let scatter = scatter(longest, &mut f);
     for k in 0..STEPS {
         let h = longest * 10f64.powi(-(k as i32));
         let Some((now, sizes)) = differences(h, &mut f) else {
             before = None;
             continue;
         };
-        let rounding = sizes.iter().map(|size| ROUNDED * f64::EPSILON * size / h).collect::<Vec<f64>>();
+        let scattered = |i: usize| scatter.get(i).copied().unwrap_or(0.0);
+        let rounding =
+            sizes.iter().enumerate().map(|(i, size)| ROUNDED * (f64::EPSILON * size).max(scattered(i)) / h).collect::<Vec<f64>>();
         if best.is_empty() {
-            none = sizes.iter().map(|size| NONE * size / longest).collect();
+            none = sizes.iter().enumerate().map(|(i, size)| (NONE * size).max(SCATTERED * scattered(i)) / longest).collect();
             best = now.iter().map(|x| (*x, f64::INFINITY)).collect();
         }
         if let Some(before) = &before {
@@ -55,6 +64,24 @@ pub(crate) fn slope(longest: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) ->
     let part = |((x, change), none): (&(f64, f64), &f64)| if *change <= *none { 0.0 } else { change / x.abs() };
     let wrong = best.iter().zip(&none).map(part).fold(0.0, f64::max);
     Some((best.into_iter().map(|(x, _)| x).collect(), wrong))
+}
+
+/// Round-off of each entry of f, beside 0 on either side, where a kink or a jump at 0 takes no part; none where f has no values there.
+fn scatter(longest: f64, f: &mut impl FnMut(f64) -> Option<Vec<f64>>) -> Vec<f64> {
+    let mut found: Vec<f64> = Vec::new();
+    for beside in BESIDE {
+        let rows: Option<Vec<Vec<f64>>> = (-3..=3).map(|k| f((beside + APART * f64::from(k)) * longest)).collect();
+        let Some(rows) = rows else { continue };
+        let of = |i: usize| {
+            // the third difference of noise ε has the variance 20 ε²
+            let third = |w: &[Vec<f64>]| w[3][i] - 3.0 * w[2][i] + 3.0 * w[1][i] - w[0][i];
+            (rows.windows(4).map(|w| third(w).powi(2)).sum::<f64>() / 80.0).sqrt()
+        };
+        let here: Vec<f64> = (0..rows[0].len()).map(of).collect();
+        found.resize(here.len(), 0.0);
+        found.iter_mut().zip(here).filter(|(_, x)| x.is_finite()).for_each(|(most, x)| *most = most.max(x));
+    }
+    found
 }
 
 /// The formula above with a step, and the largest |f| of each entry.
@@ -93,6 +120,15 @@ mod tests {
         assert!((found / 2e6 - 1.0).abs() < 1e-8, "{found}");
         assert!(of(|x| x * x.abs()).0.abs() < 1e-10);
         assert_eq!(of(|_| 3.0), (0.0, 0.0));
+    }
+
+    #[test]
+    fn what_is_zero_but_for_round_off_has_a_slope_of_zero() {
+        // what cancels, beside what it cancels from
+        let (found, wrong) = of(|x| (1.7 + x).sin().powi(2) + (1.7 + x).cos().powi(2) - 1.0);
+        assert!(found.abs() < 1e-11 && wrong == 0.0, "{found:e} {wrong:e}");
+        // a jump as small as that is one all the same
+        assert!(of(|x| if x > 0.0 { 1e-17 } else { 0.0 }).1 > 0.1);
     }
 
     #[test]
