@@ -9,6 +9,8 @@ use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
+mod axes;
+
 const ALL: [Coordinates; 3] = [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian];
 
 /// A column of an outcome.

@@ -288,6 +288,20 @@ impl Shape {
     }
 }
 
+/// An axis of a planar joint within this of the first body's x axis, rad, leaves no direction in the plane to be told by that.
+const ALONG: f64 = 1e-6;
+
+/// The triad of a planar joint of the normal `n`: its first direction is x made normal to that, or y where `n` is along x.
+pub(super) fn plane(n: [f64; 3]) -> [[f64; 3]; 3] {
+    let [x, y] = [0, 1].map(|i| {
+        let mut e = n.map(|x| -n[i] * x);
+        e[i] += 1.0;
+        e
+    });
+    let e1 = unit(if dot(x, x) > ALONG * ALONG { x } else { y });
+    [e1, cross(n, e1), n]
+}
+
 /// The right-handed triad whose last direction is the unit vector `n`.
 pub(super) fn triad(n: [f64; 3]) -> [[f64; 3]; 3] {
     // the world axis least aligned with n; for n = z that is x, so that e1 = x and e2 = y

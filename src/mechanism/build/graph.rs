@@ -119,7 +119,9 @@ impl<G: Space> Builder<'_, G> {
         let (pa, pb) = (self.at(joint.a).1, self.at(joint.b).1);
         let numbers = |p: G::Vector| std::array::from_fn(|i| if i < G::VECTOR { G::component(p, i).value() } else { 0.0 });
         let axis = self.direction(joint.axis.as_deref(), if self.planar { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] }, place);
-        let (mut triad, mut align, mut second) = (joint::triad(axis), joint::axis_rotation(axis, axis), axis);
+        let in_plane = matches!(joint.kind, JointKind::Planar);
+        let mut triad = if in_plane { joint::plane(axis) } else { joint::triad(axis) };
+        let (mut align, mut second) = (joint::axis_rotation(axis, axis), axis);
         if self.planar {
             triad = [axis, [-axis[1], axis[0], 0.0], [0.0, 0.0, 1.0]];
         } else if let Some(to) = &joint.to {
