@@ -327,11 +327,18 @@ impl Shapes<'_> {
                 Some(field) => shapes.check(value, &field.shape, &here),
                 None => {
                     let keys = FILE.fields.iter().map(|f| f.key).filter(|key| !NOT_IN_VARIANTS.contains(key));
-                    let help = suggest::nearest(key, keys).map(|near| format!("did you mean `{near}`?"));
-                    let message = if FILE.field(key).is_some() {
-                        format!("a variant cannot change `{key}`")
-                    } else {
-                        format!("unknown section `{}`", clip(key))
+                    let near = || suggest::nearest(key, keys).map(|near| format!("did you mean `{near}`?"));
+                    let (message, help) = match (key, FILE.field(key)) {
+                        ("include", _) => (
+                            "a variant cannot change `include`: files are read before variants are laid over them".into(),
+                            Some("change bodies, joints and parameters of the robot in the variant, or write a second file with the other `include`".into()),
+                        ),
+                        ("studies", _) => (
+                            "a variant cannot change `studies`".into(),
+                            Some("write a second study beside the first, which may name the variant by `variant:`".into()),
+                        ),
+                        (_, Some(_)) => (format!("a variant cannot change `{key}`"), near()),
+                        (_, None) => (format!("unknown section `{}`", clip(key)), near()),
                     };
                     let fault =
                         shapes.fault("unknown-key", &here, message, "a section of the file, such as `parameters`, `bodies`, `start`");

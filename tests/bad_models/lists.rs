@@ -160,6 +160,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "expect-without-tolerance",
             "balance-of-nothing",
             "variant-changes-studies",
+            "variant-changes-include",
             "no-driver-for-the-range",
             "two-drivers-one-joint",
             // motion in time
