@@ -1,7 +1,8 @@
 //! Whether a driver turns fully, and how dead points are told.
 
-use crate::common::model;
+use crate::common::{model, study};
 use crate::reference::program::{Run, run_text};
+use grashof::mechanism::Coordinates;
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run;
@@ -92,5 +93,30 @@ fn dead_points_are_told_in_the_measure_of_the_range_and_no_time_is_negative() {
         let longest = findings.split(|c: char| !c.is_ascii_digit()).map(str::len).max();
         assert!(longest <= Some(6), "{findings}");
         assert!(!findings.contains("= -0.") && !text.contains("below -0."), "{text}");
+    }
+}
+
+/// A body turns as the joint that drives it only where that counts from the drawn position.
+#[test]
+fn a_range_is_told_in_what_is_driven() {
+    for (zero, name, end) in [("", "turned", 100.0), (", zero: 30 deg", "O.angle", 130.0)] {
+        let text = format!(
+            "\
+grashof: 1
+name: crank
+space: planar
+gravity: none
+bodies: {{ a: {{ bar: {{ length: 2 m, mass: 1 kg }} }} }}
+joints: {{ O: {{ revolute: [ground, a.start]{zero} }} }}
+drivers: {{ d: {{ joint: O, speed: 60 rpm }} }}
+start: {{ a.angle: 10 deg }}
+measures: {{ turned: a.angle }}
+studies: {{ turn: {{ kinematics: {{ over: 90 deg, samples: 3 }}, columns: [O.angle], scalars: {{ end: last(O.angle) }} }} }}
+"
+        );
+        let outcome = study(&text, "turn", Coordinates::Joint);
+        assert_eq!(outcome.independent, name);
+        assert!((outcome.places.last().unwrap().to_degrees() - end).abs() < 1e-9, "{:?}", outcome.places);
+        assert!((outcome.scalars[0].to_degrees() - end).abs() < 1e-9);
     }
 }

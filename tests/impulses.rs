@@ -160,5 +160,5 @@ studies: { s: { inverse: { over: 1.5 s, samples: 3 }, columns: [d.force] } }
     let study = model.study.clone().unwrap();
     let case = grashof::studies::common::case::Case::new(&model, &study, &[]);
     let stopped = grashof::studies::run::run(case, &|| false).unwrap().stopped.unwrap();
-    assert!(stopped.contains("the law of the driver `d` jumps at time = 1.000000 s, from 0 to 0.05 (SI)"), "{stopped}");
+    assert!(stopped.contains("the law of the driver `d` jumps at time = 1 s, from 0 to 0.05 (SI)"), "{stopped}");
 }

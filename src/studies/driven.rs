@@ -3,7 +3,7 @@
 use super::balance;
 use super::balance::Unbalanced;
 use super::common::case::Case;
-use super::common::clock::Clock;
+use super::common::clock::{Clock, Variable};
 use super::common::functional::Functionals;
 use super::common::laws::{Jump, jump};
 use super::common::motion::{Lost, Motion};
@@ -20,7 +20,7 @@ use crate::kinematics::mobility::drivers_fit;
 use crate::kinematics::path::{MOST_NODES, NoPath};
 use crate::kinematics::undefined::{Gap, assembled};
 use crate::mechanism::{Coordinates, Mechanism};
-use crate::model::{Kind, Model, Over, Quantity, Range};
+use crate::model::{Kind, Over, Quantity, Range};
 use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::{Extremes, extrema};
 use crate::numerics::resolve::Resolved;
@@ -43,7 +43,7 @@ pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates:
         let offsets = balance::balance(&mut motion, moved).map_err(|why| match why {
             Unbalanced::NoLine(message) => refused(message, "name masses that are attached away from the origin of bodies that move"),
             Unbalanced::Lost(Lost { at, gap: Some(gap) }) => {
-                Failure::Undefined(gap.explain(model, study, &format!("{} = {at}", independent(model, &mechanism, motion.clock))))
+                Failure::Undefined(gap.explain(model, study, &format!("{} = {at}", independent(case, &mechanism, motion.clock))))
             }
             Unbalanced::Lost(lost) => refused(format!("the motion is lost at {}", lost.at), "start elsewhere, or give a shorter range"),
         })?;
@@ -154,14 +154,25 @@ fn observe<G: Space<S = f64>>(
     let observer = Observer::new(model, mechanism, parameters, &watched.ids);
     let clock = clock(case, mechanism, start, range)?;
     let mut motion = trace(case, mechanism, start, clock, observer, watched.ids.len())?;
-    let name = independent(model, mechanism, clock);
+    let name = independent(case, mechanism, clock);
+    let unit = clock.unit(mechanism);
+    let variable = Variable { name: &name, unit };
     let explain = |gap: &Gap, at: f64| gap.explain(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
     let mut undefined = motion.path.gap.take().map(|gap| explain(&gap, clock.value(motion.ends[1])));
+    let mut barrier: Option<String> = None;
     let seen = loop {
-        match see(&mut motion, case, &watched, range.samples, &name) {
-            Ok(seen) => break seen,
+        match see(&mut motion, case, &watched, range.samples, variable) {
+            Ok(seen) => {
+                let gaps = &seen.extremes[watched.ids.len()..];
+                let Some(found) = stops::barrier(case, variable, &mut motion, &seen.resolved, gaps, start.size)? else { break seen };
+                if found.at > 0.0 {
+                    undefined = None;
+                }
+                motion.end_at(found.at);
+                barrier = barrier.or(Some(found.message));
+            }
             Err(Lost { at, gap: None }) => {
-                let message = format!("the position at {name} = {at} could not be reached");
+                let message = format!("the position at {} could not be reached", variable.at(at));
                 return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
             }
             Err(Lost { at, gap: Some(gap) }) => {
@@ -171,19 +182,17 @@ fn observe<G: Space<S = f64>>(
         }
     };
     let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
-    stops::passes(case, &name, &mut motion, &resolved, &extremes[watched.ids.len()..], start.size)?;
-    let unit = unit(mechanism, clock);
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion, &name, unit)).collect();
     findings.extend(open);
     findings.extend(jumps(case, &mut motion, &name, unit));
     findings.extend(backwards(case, &motion, &name, unit));
-    findings.extend(stops::dwells(study, &name, &mut motion, &resolved));
+    findings.extend(stops::dwells(study, variable, &mut motion, &resolved));
 
     let complete = motion.path.dead == [None, None];
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
         if let Some(jump) = law_that_jumps(&mut motion) {
-            return jump.told(&format!("{name} = {:.6} {}", at * unit.0, unit.1));
+            return jump.told(&variable.at(at));
         }
         if let Some(row) = motion.path.open {
             return format!(
@@ -200,7 +209,7 @@ fn observe<G: Space<S = f64>>(
         )
     });
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
-        results.push(turns_fully(case, mechanism, start, clock, complete && undefined.is_none()));
+        results.push(turns_fully(case, mechanism, start, clock, complete && undefined.is_none() && barrier.is_none()));
     }
     let sources = Sources { case, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
     let numbers = sources.numbers(undefined.is_none());
@@ -210,7 +219,7 @@ fn observe<G: Space<S = f64>>(
     let certificate = Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) };
     let Recorded { places, switches, rows, selected_from } = rows.recorded();
     Ok(Outcome {
-        stopped: undefined.as_ref().map(|u| u.message.clone()).or(stopped),
+        stopped: undefined.as_ref().map(|u| u.message.clone()).or(barrier).or(stopped),
         undefined,
         parameters: case.named(),
         independent: name.clone(),
@@ -245,27 +254,18 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     case: Case<'a>,
     watched: &Watched,
     samples: usize,
-    name: &'a str,
+    variable: Variable<'a>,
 ) -> Result<Seen<'a>, Lost> {
     let resolved = motion.resolve()?;
     motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
     let extremes = extrema(motion, resolved.samples(), &breaks);
-    let mut rows = Recorder::new(case, watched, clock, [name, name]);
+    let mut rows = Recorder::new(case, watched, clock, [variable.name, variable.name]);
     motion.rows(samples, &mut rows)?;
-    let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, name, clock);
+    let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, variable, clock);
     let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = all.all(case, &watched.functionals, &mut findings)?;
     Ok(Seen { resolved, extremes, rows, functionals, findings })
-}
-
-/// In what the independent variable is told: how much of it a unit of SI is, and its name.
-fn unit<G: Space>(mechanism: &Mechanism<G>, clock: Clock) -> (f64, &'static str) {
-    match (clock.is_driver(), drives_angle(mechanism)) {
-        (true, true) => (180.0 / std::f64::consts::PI, "deg"),
-        (true, false) => (1.0, "m"),
-        (false, _) => (1.0, "s"),
-    }
 }
 
 fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
@@ -273,15 +273,18 @@ fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
 }
 
 /// Name of the independent variable: the first measure that is the driven coordinate, else its path, else `time`.
-fn independent<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, clock: Clock) -> String {
+fn independent<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, clock: Clock) -> String {
     if !clock.is_driver() {
         return "time".into();
     }
+    let model = case.model;
     let Some(driver) = model.drivers.first() else { return "time".into() };
     let joint = &model.joints[driver.joint];
+    // a body turns as a joint of it on the ground does, but for where that counts from
+    let from_drawn = joint.zero.is_none_or(|zero| case.value(zero) == 0.0);
     let turning_body = |q: &Quantity| {
         matches!(q, Quantity::Joint { joint: j, slot: 0, order: 0 } if *j == driver.joint)
-            || matches!(q, Quantity::Angle { body, order: 0 } if joint.a.body == 0 && *body == joint.b.body)
+            || matches!(q, Quantity::Angle { body, order: 0 } if from_drawn && joint.a.body == 0 && *body == joint.b.body)
     };
     let measure = model.measures.iter().find(|m| {
         model.pool.inputs_of(&[m.value])[..].iter().all(|&i| turning_body(&model.inputs[i as usize]))

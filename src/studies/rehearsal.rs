@@ -4,6 +4,7 @@
 //! runs that are tried begins.
 
 use super::common::case::{Case, parameters, parameters_with};
+use super::common::clock::Variable;
 use super::common::motion::Lost;
 use super::common::observe::Observer;
 use super::common::watched::Watched;
@@ -94,7 +95,7 @@ fn driven<G: Space<S = f64>>(case: Case<'_>, range: &Range) -> Result<(), Failur
     let watched = Watched::of(study);
     let observer = Observer::new(model, &mechanism, parameters, &watched.ids);
     let mut motion = trace(case, &mechanism, &start, clock, observer, watched.ids.len())?;
-    let seen = see(&mut motion, case, &watched, 1, "the start");
+    let seen = see(&mut motion, case, &watched, 1, Variable { name: "the start", unit: (1.0, "") });
     match motion.path.gap.take().or_else(|| seen.err().and_then(|Lost { gap, .. }| gap)) {
         Some(gap) => Err(Failure::Undefined(gap.explain(model, study, "the start"))),
         None => Ok(()),

@@ -248,8 +248,17 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "linearize-without-mass",
         ],
     ),
-    (Numerical, &["dead-point-start", "limits-passed-by-a-driver", "periodic-stalls", "solve-out-of-range", "statics-without-equilibrium"]),
-    (Stopped, &["dead-point-on-the-way", "event-sets-out-of-range", "column-that-divides-by-zero", "driver-that-jumps"]),
+    (Numerical, &["dead-point-start", "periodic-stalls", "solve-out-of-range", "statics-without-equilibrium"]),
+    (
+        Stopped,
+        &[
+            "dead-point-on-the-way",
+            "limits-passed-by-a-driver",
+            "event-sets-out-of-range",
+            "column-that-divides-by-zero",
+            "driver-that-jumps",
+        ],
+    ),
 ];
 
 /// Bad arguments: name of the snapshot, arguments (`OUT` is a fresh path), exit code.

@@ -176,8 +176,8 @@ studies:
 fn a_driver_does_not_move_through_a_rigid_stop() {
     let text = ball("from: 0 m, to: 1 m, restitution: 0.5", "0 N", "W.position: 0.5 m", "inverse: { over: 2 s, samples: 50 }")
         .replace("start:", "drivers: { drive: { joint: W, position: \"0.5 m + 0.3 m/s*t\" } }\nstart:");
-    let told = tried(&text, "fall").expect_err("a refusal");
-    assert!(told.reason().contains("upper stop at 1"), "{}", told.reason());
+    let told = tried(&text, "fall").expect("rows").stopped.expect("a reason");
+    assert!(told.contains("upper stop at 1 m"), "{told}");
     let beyond = ball("from: 0 m, restitution: 0.5", "0 N", "W.position: -0.1 m", "dynamics: { until: 1 s }");
     let told = tried(&beyond, "fall").expect_err("a refusal");
     assert!(told.reason().contains("beyond the lower stop of joint `W`"), "{}", told.reason());
@@ -294,4 +294,46 @@ studies:
         let off = 9.9296 - 11.0 * period;
         close(&format!("at the top, {of}"), high, 1.0 - 0.5 * g * off * off, 2e4 * tolerance);
     }
+}
+
+/// A driver that reaches a stop ends the study there, with its rows up to it.
+#[test]
+fn a_driven_motion_ends_where_it_meets_a_stop() {
+    for (kind, over) in [("inverse", "90 deg"), ("kinematics", "1 s"), ("kinematics", "-90 deg")] {
+        let text = format!(
+            "\
+grashof: 1
+name: past a stop
+space: planar
+gravity: none
+bodies: {{ arm: {{ bar: {{ length: 1 m, mass: 1 kg }} }} }}
+joints: {{ J: {{ revolute: [ground, arm.start], limits: {{ from: -80 deg, to: 80 deg, restitution: 0 }} }} }}
+drivers: {{ d: {{ joint: J, speed: 90 deg/s }} }}
+start: {{ J.angle: 0 deg }}
+studies: {{ go: {{ {kind}: {{ over: {over}, samples: 7 }}, columns: [time, J.angle], scalars: {{ end: last(J.angle) }} }} }}
+"
+        );
+        let outcome = tried(&text, "go").expect("rows up to the stop");
+        let (sense, word) = if over.starts_with('-') { (-1.0, "lower stop at -80 deg") } else { (1.0, "upper stop at 80 deg") };
+        let told = outcome.stopped.as_deref().expect("a reason");
+        let place = if over == "1 s" { "at time = 0.888889 s".to_string() } else { format!("at J.angle = {} deg", 80.0 * sense) };
+        assert!(told.starts_with(&place) && told.contains(word), "{told}");
+        let row = last(&outcome);
+        assert!((row[0] - sense * 80.0 / 90.0).abs() < 1e-9 && (row[1].to_degrees() - sense * 80.0).abs() < 1e-7, "{row:?}");
+        assert!((outcome.scalars[0].to_degrees() - sense * 80.0).abs() < 1e-7);
+    }
+    // where it begins at the stop there is no motion
+    let text = "\
+grashof: 1
+name: at a stop
+space: planar
+gravity: none
+bodies: { arm: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { J: { revolute: [ground, arm.start], limits: { to: 80 deg, restitution: 0 } } }
+drivers: { d: { joint: J, speed: 90 deg/s } }
+start: { J.angle: 80 deg }
+studies: { go: { kinematics: { over: 10 deg, samples: 7 }, columns: [J.angle] } }
+";
+    let told = tried(text, "go").expect_err("a refusal").reason();
+    assert!(told.starts_with("at J.angle = 80 deg") && told.contains("upper stop at 80 deg"), "{told}");
 }

@@ -2,7 +2,9 @@
 
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
+use crate::mechanism::Mechanism;
 use crate::numerics::root::root;
+use crate::results::six_digits;
 use std::convert::Infallible;
 
 /// Progress s ≥ 0 along the motion (negative backwards), and what it means.
@@ -20,6 +22,43 @@ pub struct Clock {
     speed: Option<f64>,
     /// Time at the end of the range.
     end: f64,
+}
+
+/// How values of the independent variable are told.
+#[derive(Clone, Copy, Debug)]
+pub struct Variable<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// How much of the unit that it is told in is one of SI, and the unit; empty if it is told as it is.
+    pub unit: (f64, &'static str),
+}
+
+impl Variable<'_> {
+    /// A place: `O.angle = 80 deg`.
+    #[must_use]
+    pub fn at(&self, value: f64) -> String {
+        format!("{} = {}", self.name, self.told(value))
+    }
+
+    /// A value: `80 deg`.
+    #[must_use]
+    pub fn told(&self, value: f64) -> String {
+        in_unit(value, self.unit)
+    }
+}
+
+/// An angle in degrees or a length in metres.
+pub(crate) fn told_coordinate(value: f64, angular: bool) -> String {
+    in_unit(value, coordinate_unit(angular))
+}
+
+fn coordinate_unit(angular: bool) -> (f64, &'static str) {
+    if angular { (180.0 / std::f64::consts::PI, "deg") } else { (1.0, "m") }
+}
+
+fn in_unit(value: f64, (size, unit): (f64, &str)) -> String {
+    let gap = if unit.is_empty() { "" } else { " " };
+    format!("{}{gap}{unit}", six_digits(value * size))
 }
 
 /// The driver never gets to the end of the range.
@@ -101,6 +140,11 @@ impl Clock {
     #[must_use]
     pub fn is_driver(&self) -> bool {
         self.driver.is_some()
+    }
+
+    /// In what the independent variable of a mechanism is told: how much of it a unit of SI is, and its name.
+    pub(crate) fn unit<G: Space>(&self, mechanism: &Mechanism<G>) -> (f64, &'static str) {
+        if self.is_driver() { coordinate_unit(mechanism.drives.first().is_some_and(|d| d.turns)) } else { (1.0, "s") }
     }
 
     /// The independent variable at s.

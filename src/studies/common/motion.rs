@@ -126,9 +126,13 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Poses of all bodies at progress `s`; none where it cannot be reached.
     pub(crate) fn poses(&mut self, s: f64) -> Option<Vec<Pose<G>>> {
-        let piece = self.breaks.partition_point(|b| *b <= s).clamp(1, self.breaks.len() - 1) - 1;
-        self.reach(s, Some(piece)).ok()?;
+        self.reach(s, Some(self.piece_at(s))).ok()?;
         Some(self.driven.dynamics.poses())
+    }
+
+    /// The piece at progress `s`, the one behind where a switch stands just there.
+    pub(crate) fn piece_at(&self, s: f64) -> usize {
+        self.breaks.partition_point(|b| *b <= s).clamp(1, self.breaks.len() - 1) - 1
     }
 
     /// Places the mechanism at progress `s` with the modes of a piece, or with modes from the state itself; whether rates are open.
@@ -209,6 +213,13 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             }
         }
         places
+    }
+
+    /// Lets the motion end at progress `s`.
+    pub(crate) fn end_at(&mut self, s: f64) {
+        let side = usize::from(s > 0.0);
+        self.ends[side] = s;
+        self.path.dead[if self.clock.end() < 0.0 { 1 - side } else { side }] = None;
     }
 
     /// Lets the motion end where all is defined last before a place (in the independent variable) where something is not; what is

@@ -2,10 +2,11 @@
 //! without a motion in time.
 
 use super::case::Case;
+use super::clock::{Variable, told_coordinate};
 use super::motion::Motion;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Stop};
 use crate::model::{Kind, Model, Study};
 use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::Extremes;
@@ -14,6 +15,9 @@ use crate::results::{Failure, Finding};
 
 /// Part of the size of the mechanism (rad for angles) by which a stop may be passed: rounding, and the blows of a motion in time.
 pub(crate) const PASSED: f64 = 1e-9;
+
+/// A part of the range so far from its start is no motion.
+const BEGUN: f64 = 1e-7;
 
 /// Refuses a start beyond a rigid stop.
 ///
@@ -33,10 +37,11 @@ pub(crate) fn begins<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
             return Err(Failure::Study {
                 code: "beyond-a-stop",
                 message: format!(
-                    "the start is beyond the {} of joint `{}`, at {x:.6} where {:.6} is the end",
+                    "the start is beyond the {} of joint `{}`, at {} where {} is the end",
                     stop.word(),
                     joint.name,
-                    stop.at
+                    told_coordinate(x, stop.angular),
+                    told_coordinate(stop.at, stop.angular)
                 ),
                 place: format!("{}.limits", joint.place),
                 help: "start between the stops, or move them".into(),
@@ -63,7 +68,12 @@ pub(crate) fn driven<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>,
 }
 
 /// Where a driven motion stands still and friction may hold by any force up to its largest: nothing tells which.
-pub(crate) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut Motion<'_, G>, resolved: &Resolved) -> Vec<Finding> {
+pub(crate) fn dwells<G: Space<S = f64>>(
+    study: &Study,
+    variable: Variable<'_>,
+    motion: &mut Motion<'_, G>,
+    resolved: &Resolved,
+) -> Vec<Finding> {
     let mechanism = motion.driven.dynamics.mechanism;
     let mut findings = Vec::new();
     if !matches!(study.kind, Kind::Inverse(_)) {
@@ -86,8 +96,11 @@ pub(crate) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut 
         findings.push(Finding {
             code: "friction-not-unique".into(),
             message: format!(
-                "from {name} = {from:.6} to {to:.6} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are given with 0 in its place",
-                contact.name, -most
+                "from {} to {} nothing slides and {} may be anything from {:.6} to {most:.6} {unit}: forces are given with 0 in its place",
+                variable.at(from),
+                variable.told(to),
+                contact.name,
+                -most
             ),
             path: contact.place.clone(),
         });
@@ -95,55 +108,99 @@ pub(crate) fn dwells<G: Space<S = f64>>(study: &Study, name: &str, motion: &mut 
     findings
 }
 
-/// Refuses a driven motion that passes a rigid stop or, where forces are asked for, jams by friction.
+/// What a driven motion cannot pass.
+pub(crate) struct Barrier {
+    /// The last place before it, in progress.
+    pub(crate) at: f64,
+    /// What it is, with its place.
+    pub(crate) message: String,
+}
+
+/// Where a driven motion first meets a rigid stop or, where forces are asked for, jams by friction, on its way from the start.
 ///
 /// `gaps` are the extremes of the gaps of the stops over the motion.
 ///
 /// # Errors
-/// With the joint and the place; `name` is the independent variable.
-pub(crate) fn passes<G: Space<S = f64>>(
+/// If that is at the start, so that there is no motion.
+pub(crate) fn barrier<G: Space<S = f64>>(
     case: Case<'_>,
-    name: &str,
+    variable: Variable<'_>,
     motion: &mut Motion<'_, G>,
     resolved: &Resolved,
     gaps: &[Option<Extremes>],
     size: f64,
-) -> Result<(), Failure> {
-    let Case { model, study, .. } = case;
+) -> Result<Option<Barrier>, Failure> {
     let mechanism = motion.driven.dynamics.mechanism;
-    let joint = |index: usize| model.joints[index].name.as_str();
+    let joint = |index: usize| case.model.joints[index].name.as_str();
+    let known = resolved.samples();
+    let mut first: Option<(Barrier, &str)> = None;
+    let mut offer = |at: f64, message: String, help: &'static str| {
+        if first.as_ref().is_none_or(|(first, _)| at.abs() < first.at.abs()) {
+            first = Some((Barrier { at, message }, help));
+        }
+    };
     for (k, (stop, gap)) in mechanism.stops.iter().zip(gaps).enumerate() {
-        let beyond = |gap: f64| gap < -PASSED * stop.size(size);
-        let Some(least) = gap.map(|e| e.min).filter(|least| stop.event.is_none() && beyond(least.value)) else { continue };
-        // the first place that is known to lie beyond says more than the farthest one
-        let known = resolved.samples();
-        let first = known.column(motion.columns() - mechanism.stops.len() + k).iter().position(|gap| beyond(*gap));
-        let (s, piece) = first.map_or((least.at, least.piece), |i| (known.places[i], known.pieces[i]));
-        let reached = motion.solve(s, Some(piece));
-        let x = reached.map_or(f64::NAN, |()| motion.driven.dynamics.work.readings[stop.gauge].x);
+        let passed = |gap: f64| gap < -PASSED * stop.size(size);
+        let Some(least) = gap.map(|e| e.min).filter(|least| stop.event.is_none() && passed(least.value)) else { continue };
+        let column = known.column(motion.columns() - mechanism.stops.len() + k);
+        let beyond = column.iter().zip(known.places).filter(|(gap, _)| passed(**gap)).map(|(_, s)| *s).chain([least.at]);
+        let Some([before, behind]) = nearest(beyond, known.places) else { continue };
+        // what only touches before it passes has no gap to close
+        let limit = if gap_at(motion, before, stop) > 0.0 { 0.0 } else { -PASSED * stop.size(size) };
+        let at = last(before, behind, |s| gap_at(motion, s, stop) >= limit);
         let message = format!(
-            "at {name} = {:.6} the drivers move joint `{}` to {x:.6}, beyond its {} at {:.6}: a rigid stop does not give way",
-            motion.clock.value(s),
+            "at {} the drivers move joint `{}` beyond its {} at {}: a rigid stop does not give way, as one with a `stiffness` does",
+            variable.at(motion.clock.value(at)),
             joint(stop.joint),
             stop.word(),
-            stop.at
+            told_coordinate(stop.at, stop.angular)
         );
-        return Err(Failure::numerical(message, "drive it less far, or give the stop a `stiffness`"));
+        offer(at, message, "drive it less far, or give the stop a `stiffness`");
     }
-    if !matches!(study.kind, Kind::Inverse(_)) || mechanism.pressings.is_empty() {
-        return Ok(());
-    }
-    for (&s, &piece) in resolved.places.iter().zip(&resolved.pieces) {
-        if motion.solve(s, Some(piece)).is_ok() && motion.driven.jams() {
-            let at = motion.clock.value(s);
+    if matches!(case.study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty() {
+        let places = resolved.places.iter().copied().zip(resolved.pieces.iter().copied());
+        let jammed: Vec<f64> = places.filter(|(s, piece)| jams(motion, *s, *piece)).map(|(s, _)| s).collect();
+        if let Some([before, behind]) = nearest(jammed.into_iter(), &resolved.places) {
+            let at = last(before, behind, |s| !jams(motion, s, motion.piece_at(s)));
             let names: Vec<String> = mechanism.pressings.iter().map(|p| format!("`{}`", joint(p.joint))).collect();
             let message = format!(
-                "at {name} = {at:.6} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox)",
+                "at {} no reactions obey the law of friction of {}: the joint jams (Painlevé's paradox)",
+                variable.at(motion.clock.value(at)),
                 names.join(", ")
             );
-            let help = "give a smaller `coulomb`, a longer guide, or drive the motion from the other side";
-            return Err(Failure::numerical(message, help));
+            offer(at, message, "give a smaller `coulomb`, a longer guide, or drive the motion from the other side");
         }
     }
-    Ok(())
+    match first {
+        Some((Barrier { at, message }, help)) if at.abs() <= BEGUN * motion.clock.length => Err(Failure::numerical(message, help)),
+        first => Ok(first.map(|(barrier, _)| barrier)),
+    }
+}
+
+/// The known place before the nearest of some on the way from the start, and that one: those ahead count first.
+fn nearest(places: impl Iterator<Item = f64>, known: &[f64]) -> Option<[f64; 2]> {
+    let order = |a: &f64, b: &f64| (*a < 0.0, a.abs()).partial_cmp(&(*b < 0.0, b.abs())).unwrap_or(std::cmp::Ordering::Equal);
+    let behind = places.min_by(order)?;
+    let nearer = known.iter().filter(|s| s.signum() == behind.signum() && s.abs() < behind.abs());
+    Some([nearer.copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0), behind])
+}
+
+/// The last place from one at which a condition holds towards another at which it does not.
+fn last(mut before: f64, mut behind: f64, mut holds: impl FnMut(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (before + behind);
+        if holds(middle) { before = middle } else { behind = middle }
+    }
+    before
+}
+
+/// How far a stop is; not a number where that is not known.
+fn gap_at<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64, stop: &Stop) -> f64 {
+    let piece = motion.piece_at(s);
+    let reached = motion.solve(s, Some(piece));
+    reached.map_or(f64::NAN, |()| stop.gap(motion.driven.dynamics.work.readings[stop.gauge].x))
+}
+
+fn jams<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64, piece: usize) -> bool {
+    motion.solve(s, Some(piece)).is_ok() && motion.driven.jams()
 }

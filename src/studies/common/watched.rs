@@ -1,6 +1,6 @@
 //! The expressions that a study watches: columns, what functionals are taken of, what only figures show.
 
-use super::clock::Clock;
+use super::clock::{Clock, Variable};
 use crate::expression::Id;
 use crate::model::{Functional, FunctionalKind, Model, Plot, Quantity, Shown, ShownWhat, Study};
 use crate::numerics::extremum::Extremes;
@@ -80,7 +80,7 @@ pub(crate) fn unresolved(
     watched: &Watched,
     resolved: &Resolved,
     switches: &[(usize, f64)],
-    name: &str,
+    variable: Variable<'_>,
     clock: Clock,
 ) -> Vec<Finding> {
     let finding = |message: String| Finding { code: "unresolved".into(), message, path: study.place.clone() };
@@ -93,17 +93,20 @@ pub(crate) fn unresolved(
     let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
         let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
         let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
-        let at = clock.value(open.at);
+        let at = variable.at(clock.value(open.at));
         finding(match open.singular {
             true => format!(
-                "{what} cannot be computed next to the singular position at {name} = {at:.6}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
+                "{what} cannot be computed next to the singular position at {at}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
             ),
-            false => format!("{what} varies too fast or without bound near {name} = {at:.6}: there its extremes, means and integrals may be wrong"),
+            false => format!("{what} varies too fast or without bound near {at}: there its extremes, means and integrals may be wrong"),
         })
     });
     let switches = switches.iter().map(|&(switch, at)| {
         let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());
-        finding(format!("the switch `{text}` changes too often near {name} = {at:.6} to be followed: some of its changes may be missing"))
+        finding(format!(
+            "the switch `{text}` changes too often near {} to be followed: some of its changes may be missing",
+            variable.at(at)
+        ))
     });
     columns.chain(switches).collect()
 }

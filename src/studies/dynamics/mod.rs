@@ -25,7 +25,7 @@ pub use setup::{is_available, method};
 pub use unrecorded::Unrecorded;
 
 use super::common::case::Case;
-use super::common::clock::Clock;
+use super::common::clock::{Clock, Variable};
 use super::common::functional::Functionals;
 use super::common::laws::first_jump;
 use super::common::numbers::Sources;
@@ -197,7 +197,7 @@ where
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let clock = Clock::of_time(plan.until);
     let recorder = rows.finish(trajectory)?;
-    let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], "time", clock);
+    let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], Variable { name: "time", unit: (1.0, "s") }, clock);
     let mut functionals =
         Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = functionals.all(case, &watched.functionals, &mut findings)?;

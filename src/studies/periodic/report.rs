@@ -14,7 +14,7 @@ use crate::numerics::quadrature::integrals;
 use crate::numerics::resolve;
 use crate::results::{Certificate, Failure, Finding, List, Resolution};
 use crate::studies::common::case::Case;
-use crate::studies::common::clock::Clock;
+use crate::studies::common::clock::{Clock, Variable};
 use crate::studies::common::functional::Functionals;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
@@ -171,7 +171,7 @@ impl<'a> Regime<'a> {
         turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
         let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
-        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], name, clock);
+        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], Variable { name, unit: (1.0, "") }, clock);
         let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
         let functionals = all.all(case, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
         Ok(Seen { clock, rows: recorder, times, extremes, functionals, findings, resolution: resolved.quality() })
