@@ -10,6 +10,7 @@ use grashof::studies::run::run_in;
 use std::fmt::Write;
 
 mod driven;
+mod passing;
 
 /// Integrators with what they need beside a tolerance, the tolerance, and how many tolerances they may be off where a motion does not
 /// magnify errors.

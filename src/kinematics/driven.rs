@@ -286,6 +286,22 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         }
     }
 
+    /// The logarithm of something that vanishes in a singular position alone, beside it in proportion to the distance.
+    ///
+    /// Square: |det G|. Redundant: the smallest singular value that moves, down to 1e-4, by three inverse iterations.
+    pub fn regularity(&mut self) -> f64 {
+        match &mut self.solver {
+            Solver::Square { lu, scale } => {
+                let step = scale.len() + 1;
+                lu.matrix_mut().iter().step_by(step).map(|pivot| pivot.abs().ln()).sum()
+            }
+            Solver::Redundant { kkt, .. } => {
+                self.rhs.fill(0.0);
+                (0..3).fold(0.0, |_, _| kkt.smallest_singular_value_that_moves(&mut self.rhs)).ln()
+            }
+        }
+    }
+
     /// Largest component of a displacement in units of angles and of the mechanism's size.
     #[must_use]
     pub fn measure(&self, delta: &[f64]) -> f64 {

@@ -13,6 +13,8 @@ pub struct PathPoint {
     pub a: Vec<f64>,
     /// Unwrapped angles of cut hinges, by winding number.
     pub turns: Vec<f64>,
+    /// How regular the constraints are: [`Driven::regularity`](super::driven::Driven::regularity).
+    pub regularity: f64,
 }
 
 /// Pivot ratio below which a position counts as singular: rates would keep fewer than half of their digits.

@@ -286,7 +286,8 @@ impl<G: Space<S = f64>> Driven<'_, G> {
                 }
             }
         }
-        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns }
+        let regularity = self.regularity();
+        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity }
     }
 
     /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.

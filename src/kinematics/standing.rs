@@ -56,8 +56,14 @@ impl Standing {
             Some(driven.node(t, modes))
         };
         let (ahead, behind) = (beside(to)?, beside(-to));
-        let rest =
-            || PathPoint { t: 0.0, q: self.q.clone(), v: vec![0.0; ahead.v.len()], a: vec![0.0; ahead.v.len()], turns: turns.clone() };
+        let rest = || PathPoint {
+            t: 0.0,
+            q: self.q.clone(),
+            v: vec![0.0; ahead.v.len()],
+            a: vec![0.0; ahead.v.len()],
+            turns: turns.clone(),
+            regularity: 0.0,
+        };
         Some([behind.unwrap_or_else(rest), ahead])
     }
 }

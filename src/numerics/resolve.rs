@@ -77,6 +77,8 @@ pub struct Open {
     pub size: f64,
     /// Whether it is next to a singular position, where a straight line was taken between what is known on either side.
     pub singular: bool,
+    /// It grows without bound there: so far from the place on either side a straight line was taken.
+    pub pole: Option<f64>,
 }
 
 /// A resolved curve.
@@ -112,6 +114,13 @@ impl Resolved {
         let n = self.places.len();
         let blank = move |i: &usize| self.values[*i..].iter().step_by(n).any(|y| !y.is_finite());
         (0..n).filter(blank).map(|i| (self.places[i], self.pieces[i]))
+    }
+
+    /// Notes that a column is a straight line at a place, between values of a size at most: within `pole` of it since it grows without
+    /// bound, else since it is not known.
+    pub(crate) fn note_line(&mut self, column: usize, at: f64, size: f64, pole: Option<f64>) {
+        self.open.retain(|open| open.column != column);
+        self.open.push(Open { column, at, left: size, size, singular: true, pole });
     }
 
     /// How well, for a certificate.
@@ -363,7 +372,7 @@ impl<'a, C: Curve> Work<'a, C> {
             let Some(left) = self.left(panel, column) else { continue };
             let harmless = narrow && (left <= STEEP * self.size[column] || jumps(&panel.column(column)));
             if !harmless && self.open[column].is_none_or(|open| left > open.left) {
-                self.open[column] = Some(Open { column, at: 0.5 * (panel.from + panel.to), left, size: 0.0, singular: false });
+                self.open[column] = Some(Open { column, at: 0.5 * (panel.from + panel.to), left, size: 0.0, singular: false, pole: None });
             }
         }
     }
@@ -390,7 +399,7 @@ impl<'a, C: Curve> Work<'a, C> {
                 let [least, most] = [f64::min, f64::max].map(|f| values.iter().copied().fold(values[0], f));
                 if most - least > MUCH * self.size[column] && !jumps(&values) {
                     let singular = self.curve.singular(at, piece);
-                    open.push(Open { column, at, left: most - least, size: 0.0, singular });
+                    open.push(Open { column, at, left: most - least, size: 0.0, singular, pole: None });
                     if singular {
                         straighten(panels, run.clone(), column);
                     }

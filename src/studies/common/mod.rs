@@ -10,6 +10,8 @@ pub mod named;
 pub(crate) mod numbers;
 pub mod observe;
 pub mod outcome;
+mod passage;
+mod passing;
 pub(crate) mod pieces;
 pub(crate) mod recorder;
 pub(crate) mod scene;

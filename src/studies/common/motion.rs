@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::observe::Observer;
+use super::passage::Passage;
 use super::switching::{Distance, Switching};
 use crate::geometry::{Pose, Space};
 use crate::kinematics::assemble::Assembled;
@@ -15,6 +16,9 @@ use crate::numerics::resolve::Resolved;
 
 /// Part of a velocity by which its values on two sides of a switch may differ by round-off.
 const JUMP: f64 = 1e-7;
+
+/// How far from a change point, in rad or sizes, positions are taken that tell those in it.
+const SMOOTH: f64 = 0.08;
 
 /// A place could not be reached: the message says where.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +40,9 @@ pub struct Motion<'m, G: Space<S = f64>> {
     /// The path.
     pub path: Path,
     /// How it begins, if that is at rest in a change point.
-    standing: Option<Standing>,
+    pub(super) standing: Option<Standing>,
+    /// Change points on the way.
+    pub(super) passages: Vec<Passage>,
     /// Progress at both ends.
     pub ends: [f64; 2],
     /// Progress at the ends and at every switch, rising.
@@ -74,6 +80,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             clock,
             path,
             standing,
+            passages: vec![],
             ends: [0.0, clock.length],
             breaks: vec![],
             lost_switches: vec![],
@@ -101,7 +108,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     }
 
     /// Progress at a time.
-    fn progress_at(&mut self, t: f64) -> f64 {
+    pub(super) fn progress_at(&mut self, t: f64) -> f64 {
         if !self.clock.is_driver() {
             return t * self.clock.direction;
         }
@@ -247,8 +254,18 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.read(s, &mut out)
     }
 
-    /// As [`Curve::eval`], but where a law or an expression has no value by its own fault that is an error.
+    /// As [`Curve::eval`], but where a law or an expression has no value by its own fault that is an error, and in a singular position
+    /// itself rates have none.
     pub(crate) fn row(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
+        self.direct(s, piece, out)?;
+        if self.driven.v.iter().all(|v| v.is_finite()) {
+            self.smooth_columns(s, piece, out, &mut []);
+        }
+        Ok(())
+    }
+
+    /// Columns by the constraints alone.
+    fn direct(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
         self.solve(s, Some(piece))?;
         let found = self.read(s, out);
         if found.is_ok() {
@@ -325,8 +342,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
 
     /// Coordinates at a change point, where Newton has no direction: the polynomial through eight regular neighbours.
     fn smooth(&mut self, t: f64) -> Option<Vec<f64>> {
-        let reach = 4e-3 * self.clock.end().abs();
         let m = self.driven.dynamics.mechanism;
+        let near = self.path.nodes.partition_point(|n| n.t < t).min(self.path.nodes.len() - 1);
+        let reach = f64::min(4e-3 * self.clock.end().abs(), SMOOTH / self.driven.measure(&self.path.nodes[near].v));
         let mut sum = vec![0.0; m.nq];
         for k in [-4_i32, -3, -2, -1, 1, 2, 3, 4] {
             let at = t + 0.25 * reach * f64::from(k);
@@ -366,6 +384,15 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     /// How far each switch is from the end of its mode on a piece.
     pub(crate) fn distances(&mut self, s: f64, piece: usize) -> Result<Vec<Distance>, Lost> {
         self.solve(s, Some(piece))?;
+        let mut found = self.own_distances();
+        if self.smooth_columns(s, piece, &mut [], &mut found) {
+            self.solve(s, Some(piece))?;
+        }
+        Ok(found)
+    }
+
+    /// The same for the state evaluated last, by the constraints alone.
+    pub(super) fn own_distances(&mut self) -> Vec<Distance> {
         let mut out = std::mem::take(&mut self.distances);
         self.switching.distances(&self.driven.dynamics, &mut self.observer, &self.modes, &mut out);
         // the side on which a joint with friction by reactions presses is a switch of its own
@@ -374,7 +401,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         }
         let found = out.clone();
         self.distances = out;
-        Ok(found)
+        found
     }
 }
 
@@ -386,12 +413,13 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
     }
 
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {
-        match self.row(s, piece, out) {
-            Err(Lost { gap: Some(_), .. }) => {
-                out.fill(f64::NAN);
-                Ok(())
+        match self.direct(s, piece, out) {
+            Err(Lost { gap: Some(_), .. }) => out.fill(f64::NAN),
+            found => {
+                found?;
+                self.smooth_columns(s, piece, out, &mut []);
             }
-            found => found,
         }
+        Ok(())
     }
 }

@@ -122,6 +122,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     /// If a place cannot be reached.
     pub fn resolve(&mut self) -> Result<Resolved, Lost> {
         let [low, high] = self.ends;
+        self.find_passages();
         self.solve(low + BEHIND * (high - low), None)?;
         let switches = self.driven.dynamics.mechanism.switches;
         self.breaks = vec![low];
@@ -151,6 +152,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let breaks = self.breaks.clone();
         let mut found = resolve(self, panels, &breaks, WIDTH)?;
         found.evaluations += looks;
+        self.note_lines(&mut found);
         Ok(found)
     }
 
@@ -361,8 +363,11 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
         let mut roots = Vec::with_capacity(NODES + 1);
         for j in 0..NODES {
             roots.push(self.distances(panel.place(j))?);
+            let (place, values) = (panel.place(j), &mut panel.values[j * columns..(j + 1) * columns]);
             // beyond the end of its modes there may be no values
-            let _ = self.motion.read(panel.place(j), &mut panel.values[j * columns..(j + 1) * columns]);
+            if self.motion.read(place, values).is_ok() {
+                self.motion.smooth_columns(place, piece, values, &mut []);
+            }
         }
         roots.push(end);
         Ok(Seen { panel, roots })

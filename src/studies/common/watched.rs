@@ -7,6 +7,9 @@ use crate::numerics::extremum::Extremes;
 use crate::numerics::resolve::Resolved;
 use crate::results::Finding;
 
+/// Part of the range to which the place of what is not resolved is told.
+const NEAR: f64 = 1e-6;
+
 /// The distinct expressions to watch: columns, what functionals are taken of, what only figures show.
 pub(crate) struct Watched {
     pub(crate) ids: Vec<Id>,
@@ -93,12 +96,18 @@ pub(crate) fn unresolved(
     let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
         let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
         let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
-        let at = variable.at(clock.value(open.at));
-        finding(match open.singular {
-            true => format!(
+        // a place is told as well as it is known
+        let told = NEAR * clock.length;
+        let at = variable.at((clock.value(open.at) / told).round() * told);
+        finding(match (open.pole, open.singular) {
+            (Some(reach), _) => format!(
+                "{what} grows without bound at the change point {at}: within {} of it a straight line was taken for extremes, means and integrals, which have no meaning there",
+                variable.told(reach)
+            ),
+            (None, true) => format!(
                 "{what} cannot be computed next to the singular position at {at}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
             ),
-            false => format!("{what} varies too fast or without bound near {at}: there its extremes, means and integrals may be wrong"),
+            (None, false) => format!("{what} varies too fast or without bound near {at}: there its extremes, means and integrals may be wrong"),
         })
     });
     let switches = switches.iter().map(|&(switch, at)| {
