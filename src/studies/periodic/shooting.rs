@@ -18,7 +18,7 @@
 use super::lap::{Broken, Lap, Search, tools};
 use super::monodromy::{Map, Rough, Surface};
 use super::saltation::rate;
-use super::states::{Scale, between, largest};
+use super::states::{ROUGHNESS, Scale, between, beyond, largest};
 use super::timed::timed;
 use crate::geometry::Space;
 use crate::numerics::eigenvalues::eigenvalues;
@@ -42,9 +42,6 @@ const HALVINGS: usize = 6;
 /// Singular values of DF − I below this part of the largest belong to neighbours that are periodic, too.
 const NEUTRAL: f64 = 1e-8;
 
-/// In tolerances of the integration, what a singular value that is zero may be wrong by: up to one of them was seen.
-const ROUGHNESS: f64 = 30.0;
-
 /// In tolerances, how far the ends of a periodic motion may be apart in directions that no step changes, in sizes of the motion.
 const OPEN: f64 = 1e3;
 
@@ -56,7 +53,8 @@ pub(super) struct Orbit<'e, G: Space<S = f64>> {
     pub(super) multipliers: Vec<Complex<f64>>,
     /// Directions in which neighbours are periodic, too.
     pub(super) neutral: usize,
-    /// Largest difference of the two ends, in sizes of the motion, of the independent coordinates alone and of all.
+    /// Largest difference of the two ends, in sizes of the motion: of the independent coordinates, and of all those in which an
+    /// integration can tell it from none.
     pub(super) closure: [f64; 2],
     /// Steps of Newton's method.
     pub(super) steps: usize,
@@ -94,26 +92,36 @@ pub(super) fn shoot<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e 
             return Err(Lost::Rests);
         }
         let map = lap.map(search, phases).map_err(Lost::Rough)?;
-        let sizes = scale.on(&map.independent);
+        let (sizes, reach) = (scale.on(&map.independent), scale.reach(&map.independent, tolerance));
         let missed = miss(phases, &map, &lap);
         let apart = largest(&missed, &sizes);
-        let Step { way, multipliers, neutral } = step(&map, &missed, &sizes, ROUGHNESS * tolerance).ok_or(Lost::Apart(apart))?;
+        let closed = beyond(&missed, &sizes, &reach) == 0.0;
+        let Step { way, multipliers, neutral } =
+            step(&map, &missed, [&sizes, &scale.of_neighbours(&map.independent)], ROUGHNESS * tolerance).ok_or(Lost::Apart(apart))?;
         let size = way.amax();
         let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
         let size = size.max(late.abs() / lap.period());
-        if size <= CLOSED || (size <= NEARLY && size > 0.25 * last) {
-            if neutral > 0 && apart > OPEN * tolerance {
+        if size <= CLOSED || ((size <= NEARLY || closed) && size > 0.25 * last) {
+            if neutral > 0 && apart > OPEN * tolerance && !closed {
                 return Err(Lost::Apart(apart));
             }
             let all: Vec<usize> = (0..phases.mechanism.nv).collect();
             let every = between(&phases.mechanism, &all, [&lap.start.state, &lap.end.state]);
-            let whole = largest(&every, &Scale::of(&mut lap).on(&all));
+            let whole = beyond(&every, &scale.on(&all), &scale.reach(&all, tolerance));
             return Ok(Orbit { lap, multipliers, neutral, closure: [apart, whole], steps });
         }
         last = size;
-        lap = advance(search, phases, lap, &map, &way, &sizes, apart)?;
+        lap = advance(search, phases, lap, &map, &way, &Ends { sizes, reach, apart })?;
     }
     Err(Lost::Apart(last))
+}
+
+/// How far the ends of a lap are apart, and what that is judged by.
+struct Ends {
+    sizes: Vec<f64>,
+    reach: Vec<f64>,
+    /// In sizes of the motion.
+    apart: f64,
 }
 
 /// Ends of a lap: F(x) − x.
@@ -128,13 +136,13 @@ fn advance<'e, G: Space<S = f64>>(
     mut lap: Lap<'e, G>,
     map: &Map,
     y: &DVector<f64>,
-    sizes: &[f64],
-    apart: f64,
+    ends: &Ends,
 ) -> Result<Lap<'e, G>, Lost> {
     let late = map.surface.as_ref().map_or(0.0, |s| (search.begin - s.value) / s.pace);
     let along = rate(&lap.start) * late;
     let mut part = 1.0;
-    let mut why = Lost::Apart(apart);
+    let Ends { sizes, reach, apart } = ends;
+    let mut why = Lost::Apart(*apart);
     for _ in 0..HALVINGS {
         let delta = DVector::from_iterator(y.len(), y.iter().zip(sizes).map(|(y, s)| part * y * s));
         let from = moved(&mut lap, &(&map.basis * delta + &along));
@@ -142,8 +150,9 @@ fn advance<'e, G: Space<S = f64>>(
             from.map_or(Err(Broken::Stopped("the loops cannot be closed".into())), |from| search.lap(phases, &from, search.tolerance));
         match next {
             Ok(next) => {
-                let left = largest(&miss(phases, map, &next), sizes);
-                if left <= (1.0 - 0.25 * part) * apart || y.amax() * part <= NEARLY {
+                let missed = miss(phases, map, &next);
+                let left = largest(&missed, sizes);
+                if left <= (1.0 - 0.25 * part) * apart || y.amax() * part <= NEARLY || beyond(&missed, sizes, reach) == 0.0 {
                     return Ok(next);
                 }
                 why = Lost::Apart(left);
@@ -168,8 +177,8 @@ fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Optio
     Some(node.state)
 }
 
-/// Newton's step; singular values below `zero` count as 0.
-fn step(map: &Map, missed: &[f64], sizes: &[f64], zero: f64) -> Option<Step> {
+/// Newton's step in sizes of the motion, found in `sizes` of its neighbours; singular values below `zero` count as 0.
+fn step(map: &Map, missed: &[f64], [of_motion, sizes]: [&[f64]; 2], zero: f64) -> Option<Step> {
     let m = sizes.len();
     let derivative = DMatrix::from_fn(m, m, |i, j| map.derivative[(i, j)] * sizes[j] / sizes[i]);
     if derivative.iter().any(|x| !x.is_finite()) {
@@ -191,7 +200,9 @@ fn step(map: &Map, missed: &[f64], sizes: &[f64], zero: f64) -> Option<Step> {
     let least = zero.max(NEUTRAL * svd.largest());
     let y = svd.solve(right.as_slice(), |s| if s > least { 1.0 / s } else { 0.0 });
     let neutral = svd.values.iter().filter(|s| **s <= least).count();
-    Some(Step { way: surface * DVector::from_vec(y), multipliers, neutral })
+    let mut way = surface * DVector::from_vec(y);
+    way.iter_mut().zip(sizes.iter().zip(of_motion)).for_each(|(way, (size, of_motion))| *way *= size / of_motion);
+    Some(Step { way, multipliers, neutral })
 }
 
 /// Orthonormal columns across a vector (m × m − 1), by Householder's reflection of it to its largest entry's axis.

@@ -15,6 +15,13 @@ const STILL: f64 = 1e-6;
 /// Part of it below which it is none.
 const AT_REST: f64 = 1e-9;
 
+/// Part of the largest motion as which any counts where neighbours are compared.
+const AT_LEAST: f64 = 0.1;
+
+/// In tolerances of the integration, what the end of a period, or a singular value of its map that is zero, may be wrong by: up to
+/// one of them was seen.
+pub(super) const ROUGHNESS: f64 = 30.0;
+
 /// δ (nv) with `to` = `from` ⊕ δ; angles about a fixed axis modulo a turn, rotations as vectors, rad, in the frame of v.
 pub(super) fn difference<G: Space>(mechanism: &Mechanism<G>, from: &[f64], to: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; mechanism.nv];
@@ -61,6 +68,10 @@ pub(super) struct Scale {
     q: Vec<f64>,
     v: Vec<f64>,
     z: Vec<f64>,
+    /// What the integrator counts errors of q, v and z in.
+    units: [Vec<f64>; 3],
+    /// q, v and z of a motion as large as the mechanism.
+    whole: [Vec<f64>; 3],
     /// The largest motion of all, in parts of the size of the mechanism.
     moves: f64,
 }
@@ -69,14 +80,18 @@ impl Scale {
     /// Of a lap.
     pub(super) fn of<G: Space<S = f64>>(lap: &mut Lap<'_, G>) -> Self {
         let (breaks, period) = (lap.trajectory.breaks(), lap.period());
-        let size = super::lap::tools(&mut lap.trajectory).engine.size_v.clone();
+        let engine = &super::lap::tools(&mut lap.trajectory).engine;
+        let (size, size_z) = (engine.size_v.clone(), engine.size_z.clone());
         let floor = |x: &f64| STILL * x;
         let mut scale = Self {
             q: size.iter().map(floor).collect(),
             v: size.iter().map(|x| floor(x) * TAU / period).collect(),
             z: lap.start.state.z.iter().map(|z| STILL * (1.0 + z.abs())).collect(),
+            units: [size.clone(), Vec::new(), Vec::new()],
+            whole: [Vec::new(), Vec::new(), Vec::new()],
             moves: 0.0,
         };
+        scale.whole = [&scale.q, &scale.v, &scale.z].map(|floor| floor.iter().map(|x| x / STILL).collect());
         let floors = [scale.q.clone(), scale.v.clone(), scale.z.clone()];
         for i in 0..=LOOKS {
             let t = lap.start.state.t + period * i as f64 / LOOKS as f64;
@@ -94,6 +109,8 @@ impl Scale {
                 scale.moves = scale.moves.max(STILL * largest(from, floor));
             }
         }
+        scale.units[1] = size.iter().zip(&scale.v).map(|(size, v)| size + v).collect();
+        scale.units[2] = size_z.iter().zip(&lap.start.state.z).zip(&scale.z).map(|((size, z), change)| size + z.abs() + change).collect();
         scale
     }
 
@@ -104,9 +121,30 @@ impl Scale {
 
     /// Sizes of (δq, δv, δz) with q and v of the velocities `independent`.
     pub(super) fn on(&self, independent: &[usize]) -> Vec<f64> {
-        let of = |x: &[f64]| independent.iter().map(|&i| x[i]).collect::<Vec<_>>();
-        [of(&self.q), of(&self.v), self.z.clone()].concat()
+        chosen(independent, [&self.q, &self.v, &self.z])
     }
+
+    /// The sizes in which neighbours of a motion are compared: a coordinate that stands still while others move has neighbours that
+    /// move as the others do, so that each counts as at least a part of the largest motion.
+    pub(super) fn of_neighbours(&self, independent: &[usize]) -> Vec<f64> {
+        let (sizes, [q, v, z]) = (self.on(independent), &self.whole);
+        let whole = chosen(independent, [q, v, z]);
+        let most = sizes.iter().zip(&whole).fold(0.0, |m, (size, whole)| f64::max(m, size / whole));
+        sizes.iter().zip(&whole).map(|(size, whole)| size.max(AT_LEAST * most * whole)).collect()
+    }
+
+    /// What an integration at a tolerance leaves undecided of (δq, δv, δz), q and v of the velocities `independent`: a coordinate
+    /// that stands still is known no better than by the integrator's own size of it.
+    pub(super) fn reach(&self, independent: &[usize], tolerance: f64) -> Vec<f64> {
+        let [q, v, z] = &self.units;
+        chosen(independent, [q, v, z]).iter().map(|unit| ROUGHNESS * tolerance * unit).collect()
+    }
+}
+
+/// Numbers of q and v of the velocities `independent`, and all of z.
+fn chosen(independent: &[usize], [q, v, z]: [&[f64]; 3]) -> Vec<f64> {
+    let of = |x: &[f64]| independent.iter().map(|&i| x[i]).collect::<Vec<_>>();
+    [of(q), of(v), z.to_vec()].concat()
 }
 
 /// (δq, δv, δz) from one state to another, q and v of the velocities `independent`.
@@ -120,4 +158,10 @@ pub(super) fn between<G: Space>(mechanism: &Mechanism<G>, independent: &[usize],
 /// The largest of some differences in parts of their sizes.
 pub(super) fn largest(differences: &[f64], sizes: &[f64]) -> f64 {
     differences.iter().zip(sizes).fold(0.0, |m, (d, s)| if d.is_nan() { f64::INFINITY } else { m.max(d.abs() / s) })
+}
+
+/// As [`largest`], of those differences alone that an integration can tell from none.
+pub(super) fn beyond(differences: &[f64], sizes: &[f64], reach: &[f64]) -> f64 {
+    let seen: Vec<f64> = differences.iter().zip(reach).map(|(d, r)| if d.abs() <= *r { 0.0 } else { *d }).collect();
+    largest(&seen, sizes)
 }
