@@ -51,6 +51,65 @@ fn a_driven_oscillator_has_its_amplitude_and_exponents() {
     }
 }
 
+/// A mass on a spring with an unbalanced rotor and an absorber that is tuned to it: the mass stands still.
+#[test]
+fn a_tuned_absorber_holds_its_mass_still() {
+    let text = |tuning: &str, periodic: &str| {
+        format!(
+            "grashof: 1
+name: tuned absorber
+space: planar
+gravity: none
+bodies: {{ house: {{ mass: 9 kg }}, rotor: {{ mass: 1 kg, com: [1 cm, 0], inertia: 0.02 kg m^2 }}, absorber: {{ mass: 1 kg }} }}
+joints:
+  Y: {{ slider: [ground, house.origin], axis: [0, 1], damping: 5 N s/m }}
+  R: {{ revolute: [house.origin, rotor.origin] }}
+  Z: {{ slider: [house.origin, absorber.origin], axis: [0, 1] }}
+springs: {{ mount: {{ joint: Y, stiffness: 2000 N/m }}, tuned: {{ joint: Z, stiffness: {tuning} }} }}
+drivers: {{ spin: {{ joint: R, speed: 10 rad/s }} }}
+start: {{ Y.position: 0 m, Y.velocity: 0 m/s, Z.position: 0 m, Z.velocity: 0 m/s, R.angle: 0 deg }}
+studies:
+  regime: {{ periodic: {{ {periodic} }} }}
+"
+        )
+    };
+    for settle in [", settle: 0 s", ""] {
+        let found = regime(&text("100 N/m", &format!("over: R.angle, by: 1 turn, of: Z.position{settle}")));
+        near("amplitude of the absorber", found.results[MAX], 0.01, 1e-9);
+        near("amplitude of the absorber", found.results[MIN], -0.01, 1e-9);
+        told(&found, "stable-regime");
+        let still = regime(&text("100 N/m", &format!("over: t, by: 2*pi/(10 rad/s), of: Y.position{settle}")));
+        near("the mass", still.results[MAX], 0.0, 1e-9);
+        told(&still, "stable-regime");
+    }
+    // beside the tuning: amplitudes by the complex stiffnesses of both
+    let found = regime(&text("101 N/m", "over: t, by: 2*pi/(10 rad/s), of: Z.position, settle: 0 s"));
+    let (k, square) = (101.0_f64, 100.0_f64);
+    let house = 0.01 * square / (2000.0 - 10.0 * square - square * k / (k - square)).hypot(5.0 * 10.0);
+    near("amplitude of the absorber", found.results[MAX], house * square / (k - square), 1e-9);
+}
+
+/// An oscillator of 10 kg, 1000 N/m and 0.05 N·s/m settles by 0.1 % a period.
+#[test]
+fn what_settles_slowly_is_found_without_waiting_for_it() {
+    let text = "grashof: 1
+name: slow
+space: planar
+gravity: none
+bodies: { mass: { mass: 10 kg } }
+joints: { S: { slider: [ground, mass.origin], axis: [1, 0], damping: 0.05 N s/m } }
+springs: { spring: { joint: S, stiffness: 1000 N/m } }
+loads: { push: { joint: S, force: 1 N*sin(12 rad/s*t) } }
+start: { S.position: 0 m, S.velocity: 0 m/s }
+studies: { regime: { periodic: { over: t, by: 2*pi/(12 rad/s), of: S.position } } }
+";
+    let found = regime(text);
+    near("amplitude", found.results[MAX], 1.0 / (1000.0 - 1440.0_f64).hypot(0.05 * 12.0), 1e-9);
+    near("floquet", found.results[FLOQUET], (-0.0025 * TAU / 12.0_f64).exp(), 1e-9);
+    told(&found, "stable-regime");
+    assert_eq!(list(&found, "periods_run"), [1000.0]);
+}
+
 #[test]
 fn a_rotor_under_constant_torque_settles_by_its_damping() {
     let text = "grashof: 1

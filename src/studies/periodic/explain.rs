@@ -2,7 +2,7 @@
 
 use super::lap::{Broken, Search, Section};
 use super::monodromy::Rough;
-use super::settle::Unsettled;
+use super::settle::{Restless, Settled};
 use super::shooting::Lost;
 use super::timed::timed;
 use crate::geometry::Space;
@@ -11,7 +11,11 @@ use crate::studies::dynamics::phases::Phases;
 
 /// A difference in percent.
 fn percent(x: f64) -> String {
-    if x.is_finite() { format!("{:.3} %", 100.0 * x) } else { "much".into() }
+    match 100.0 * x {
+        percent if !percent.is_finite() => "much".into(),
+        percent if percent < 0.01 => format!("{percent:.1e} %"),
+        percent => format!("{percent:.3} %"),
+    }
 }
 
 /// A period that was not completed.
@@ -47,14 +51,13 @@ fn never(search: &Search<'_>, gone: f64, t: Option<f64>) -> Failure {
     }
 }
 
-/// A run that has not settled.
-pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
-    match why {
-        Unsettled::Broken(broken_off) => broken(search, broken_off),
-        Unsettled::Restless { one, keeps_energy: true, .. } => Failure::numerical(
+/// A run that has not settled, and of which it is known that a search from its end would not give what is asked for.
+pub(super) fn unsettled(search: &Search<'_>, restless: Restless, keeps_energy: bool) -> Option<Failure> {
+    let apart = percent(restless.one);
+    if keeps_energy {
+        return Some(Failure::numerical(
             format!(
-                "no force takes or gives energy, so that the motion keeps that of its start and does not settle: the last two periods differ by {}. Periodic motions of such a mechanism are a family, one for every energy, and each has a period of its own",
-                percent(one)
+                "no force takes or gives energy, so that the motion keeps that of its start and does not settle: the last two periods differ by {apart}. Periodic motions of such a mechanism are a family, one for every energy, and each has a period of its own"
             ),
             match search.section {
                 Section::Time(_) => {
@@ -62,22 +65,28 @@ pub(super) fn unsettled(search: &Search<'_>, why: Unsettled) -> Failure {
                 }
                 _ => "search near the start with `settle: 0 s`, or look at the motion of the start in a study of the kind `dynamics`",
             },
-        ),
-        Unsettled::Restless { one, two, .. } if two < 0.01 => Failure::numerical(
-            format!(
-                "the motion does not repeat itself after one period of `{}` (it differs by {}) but after two",
-                search.over,
-                percent(one)
-            ),
+        ));
+    }
+    (restless.two < 0.01).then(|| {
+        Failure::numerical(
+            format!("the motion does not repeat itself after one period of `{}` (it differs by {apart}) but after two", search.over),
             "ask for `by` twice as large",
-        ),
-        Unsettled::Restless { one, periods: [before, last], keeps_energy: false, .. } => Failure::numerical(
+        )
+    })
+}
+
+/// A search without success from the end of a run that has not settled.
+pub(super) fn still_settling(settled: &Settled, why: Failure) -> Failure {
+    match (why, settled.restless) {
+        (Failure::Numerical { message, help }, Some(Restless { one, periods: [before, last], .. })) => Failure::numerical(
             format!(
-                "the run does not settle: the last two periods, of {before:.6} s and {last:.6} s, still differ by {}; the motion runs away, or has no regime of this period",
+                "the run has not settled after {} periods (it still changes by {} a period; the last two take {before:.6} s and {last:.6} s), and Newton's method finds no regime from there: {message}",
+                settled.periods,
                 percent(one)
             ),
-            format!("{LOOK}, or give `settle` and see where the search leads"),
+            help,
         ),
+        (other, _) => other,
     }
 }
 

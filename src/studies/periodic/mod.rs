@@ -28,6 +28,7 @@ use grashof_solvers::State;
 use lap::{Search, Section};
 use report::{Columns, Regime};
 use settle::Until;
+use shooting::Orbit;
 use timed::timed;
 
 /// Tolerance of the integration, unless the study gives one; and of the run before the search.
@@ -53,23 +54,26 @@ where
     let phases = Phases::<G>::new(model, &ways[0], search.coordinates)?;
     let until = asked.settle.map_or(Until::Alike, |id| Until::Time(case.value(id)));
     let start = search.start(&phases);
-    let rough = ROUGH.max(search.tolerance);
+    let (tolerance, rough) = (search.tolerance, ROUGH.max(search.tolerance));
+    let settle = |search: &mut Search<'_>, tolerance: f64| {
+        settle::settle(search, &phases, &start, until, tolerance).map_err(|why| explain::broken(search, why))
+    };
     search.section = section(case.at(&ways[0]), asked);
-    let mut settled = settle::settle(&mut search, &phases, &start, until, rough);
-    if settled.as_ref().is_ok_and(|settled| settled.keeps_energy) {
+    let mut settled = settle(&mut search, rough)?;
+    let exact = rough == tolerance;
+    if settled.keeps_energy && settled.restless.is_none() && !exact {
         // no later period makes good what the run loses
-        let exact = search.tolerance;
-        settled = settle::settle(&mut search, &phases, &start, until, exact);
+        settled = settle(&mut search, tolerance)?;
     }
-    let settled = settled.map_err(|why| explain::unsettled(&search, why))?;
-    let mut states: Vec<State> = vec![settled.state];
+    if let Some(why) = settled.restless.and_then(|restless| explain::unsettled(&search, restless, settled.keeps_energy)) {
+        return Err(why);
+    }
+    let mut states: Vec<State> = vec![settled.state.clone()];
     for (step, values) in ways.iter().enumerate() {
         let phases = Phases::<G>::new(model, values, search.coordinates)?;
-        let guess = predicted(&states);
         search.section = section(case.at(values), asked);
         search.begin = if matches!(search.section, Section::Return(_)) { 0.0 } else { search.value(&phases, &search.start(&phases)) };
-        let found = by_time(&mut search, &phases, &guess)
-            .and_then(|()| shooting::shoot(&mut search, &phases, &guess).map_err(|why| explain::lost(&search, &phases, why)));
+        let found = near(&mut search, &phases, &predicted(&states));
         let last = step + 1 == ways.len();
         match (found, asked.from) {
             (Ok(orbit), _) if last => {
@@ -81,6 +85,9 @@ where
             }
             (Ok(orbit), _) if step == 0 => states = vec![orbit.lap.start.state],
             (Ok(orbit), _) => states.push(orbit.lap.start.state),
+            (Err(why), _) if step == 0 && settled.restless.is_some() => {
+                return Err(explain::still_settling(&settled, why));
+            }
             (Err(why), Some(from)) if !last => {
                 return Err(explain::on_the_way(why, &model.parameters[from.parameter].name, values[from.parameter]));
             }
@@ -88,6 +95,12 @@ where
         }
     }
     Err(Failure::numerical("a continuation has no steps", "give `from` at least one step"))
+}
+
+/// The regime near a state.
+fn near<'e, G: Space<S = f64>>(search: &mut Search<'_>, phases: &'e Phases<G>, guess: &State) -> Result<Orbit<'e, G>, Failure> {
+    by_time(search, phases, guess)?;
+    shooting::shoot(search, phases, guess).map_err(|why| explain::lost(search, phases, why))
 }
 
 /// The parameters of each step of a continuation; those of the study are the last ones, and the only ones without.

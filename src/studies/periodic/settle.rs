@@ -29,36 +29,45 @@ pub(super) struct Settled {
     pub(super) periods: usize,
     /// Whether no force takes or gives energy in the last of them, so that the motion keeps what the start gives it.
     pub(super) keeps_energy: bool,
+    /// What the last periods differ by, where no two of them are alike.
+    pub(super) restless: Option<Restless>,
 }
 
-/// Why the run has led nowhere.
-pub(super) enum Unsettled {
-    /// A period did not come to its end.
-    Broken(Broken),
-    /// The periods go on to differ: how much the last two, how much the last from the one before the last, and their times.
-    /// Whether no force takes or gives energy in them.
-    Restless { one: f64, two: f64, periods: [f64; 2], keeps_energy: bool },
+/// Periods that go on to differ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Restless {
+    /// How much the last differs from the one before it.
+    pub(super) one: f64,
+    /// How much its end differs from the begin of the one before it.
+    pub(super) two: f64,
+    /// Times of the last two, s.
+    pub(super) periods: [f64; 2],
 }
 
 /// Runs from a state.
+///
+/// # Errors
+/// Where a period does not come to its end.
 pub(super) fn settle<G: Space<S = f64>>(
     search: &mut Search<'_>,
     phases: &Phases<G>,
     from: &State,
     until: Until,
     tolerance: f64,
-) -> Result<Settled, Unsettled> {
+) -> Result<Settled, Broken> {
     let mut state = from.clone();
     if matches!(search.section, Section::Return(_)) && search.value(phases, from) != 0.0 {
         // to the surface on which periods begin
-        state = search.lap(phases, &state, tolerance).map_err(Unsettled::Broken)?.end.state;
+        state = search.lap(phases, &state, tolerance)?.end.state;
     }
     let mut before: Option<Lap<'_, G>> = None;
     let mut differs = f64::INFINITY;
+    let mut restless = None;
+    let mut keeps_energy = false;
     let mut periods = 0;
     loop {
         let settled = match until {
-            Until::Alike => differs < ALIKE,
+            Until::Alike => differs < ALIKE || restless.is_some(),
             Until::Time(time) => state.t >= time,
         };
         if settled {
@@ -66,23 +75,22 @@ pub(super) fn settle<G: Space<S = f64>>(
                 unwind(&phases.mechanism, [&lap.start.state, &lap.end.state], periods, &mut state);
             }
             state.t = 0.0;
-            let keeps_energy = before.as_ref().is_some_and(Lap::keeps_energy);
-            return Ok(Settled { state, periods, keeps_energy });
+            return Ok(Settled { state, periods, keeps_energy, restless });
         }
-        let mut lap = search.lap(phases, &state, tolerance).map_err(Unsettled::Broken)?;
+        let mut lap = search.lap(phases, &state, tolerance)?;
         periods += 1;
         let all: Vec<usize> = (0..phases.mechanism.nv).collect();
         let sizes = Scale::of(&mut lap).on(&all);
         let apart = |from: &State| largest(&between(&phases.mechanism, &all, [from, &lap.end.state]), &sizes);
         let time = before.as_ref().map_or(f64::INFINITY, |b| (b.period() / lap.period() - 1.0).abs());
         differs = apart(&lap.start.state).max(time);
+        keeps_energy = lap.keeps_energy();
         if let (Some(b), MOST) = (&before, periods)
             && until == Until::Alike
             && differs >= ALIKE
         {
-            let keeps_energy = b.keeps_energy() && lap.keeps_energy();
-            let periods = [b.period(), lap.period()];
-            return Err(Unsettled::Restless { one: differs, two: apart(&b.start.state), periods, keeps_energy });
+            keeps_energy &= b.keeps_energy();
+            restless = Some(Restless { one: differs, two: apart(&b.start.state), periods: [b.period(), lap.period()] });
         }
         state.clone_from(&lap.end.state);
         before = Some(lap);
