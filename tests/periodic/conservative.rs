@@ -78,6 +78,28 @@ fn a_period_that_is_asked_for_has_its_amplitude() {
     told(&found, "family-of-motions");
 }
 
+/// A torque that depends on the angle gives nothing in a turn, whatever the speed.
+#[test]
+fn a_wheel_under_a_torque_of_its_angle_has_a_regime_for_every_speed() {
+    let text = "grashof: 1
+name: wheel
+space: planar
+gravity: none
+bodies: { wheel: { mass: 1 kg, inertia: 0.1 kg m^2 } }
+joints: { O: { revolute: [ground, wheel.origin] } }
+loads: { push: { joint: O, torque: 1 N m*sin(O.angle) } }
+start: { O.angle: 0 deg, O.omega: 20 rad/s }
+studies: { regime: { periodic: { over: O.angle, by: 1 turn, of: O.omega } } }
+";
+    let found = regime(text);
+    // J ω²/2 + cos φ is the same at all angles
+    near("slowest", found.results[MIN], 20.0, 1e-9);
+    near("fastest", found.results[MAX], (400.0 + 40.0_f64).sqrt(), 1e-9);
+    told(&found, "family-of-motions");
+    let finding = found.findings.iter().find(|f| f.code == "family-of-motions").unwrap();
+    assert!(finding.message.contains("every speed is a regime") && !finding.message.contains("fold"), "{}", finding.message);
+}
+
 #[test]
 fn a_pendulum_that_turns_over_keeps_its_energy() {
     let found = regime(&bar(20.0, "over: O.angle, by: 1 turn, of: O.omega"));

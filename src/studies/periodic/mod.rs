@@ -60,10 +60,11 @@ where
     };
     search.section = section(case.at(&ways[0]), asked);
     let mut settled = settle(&mut search, rough)?;
-    let exact = rough == tolerance;
+    let mut exact = rough == tolerance;
     if settled.keeps_energy && settled.restless.is_none() && !exact {
         // no later period makes good what the run loses
         settled = settle(&mut search, tolerance)?;
+        exact = true;
     }
     if let Some(why) = settled.restless.and_then(|restless| explain::unsettled(&search, restless, settled.keeps_energy)) {
         return Err(why);
@@ -73,7 +74,13 @@ where
         let phases = Phases::<G>::new(model, values, search.coordinates)?;
         search.section = section(case.at(values), asked);
         search.begin = if matches!(search.section, Section::Return(_)) { 0.0 } else { search.value(&phases, &search.start(&phases)) };
-        let found = near(&mut search, &phases, &predicted(&states));
+        let mut found = near(&mut search, &phases, &predicted(&states));
+        if step == 0 && !exact && found.as_ref().is_ok_and(|orbit| orbit.neutral > 0) {
+            // which of a family it is the start decides
+            search.section = section(case.at(values), asked);
+            settled = settle(&mut search, tolerance)?;
+            found = near(&mut search, &phases, &settled.state);
+        }
         let last = step + 1 == ways.len();
         match (found, asked.from) {
             (Ok(orbit), _) if last => {

@@ -1,7 +1,8 @@
 //! The regime as columns, scalars, extremes and a certificate.
 
-use super::lap::{Lap, Search, tools};
+use super::lap::{Lap, Search, Section, tools};
 use super::shooting::Orbit;
+use super::stability::Neighbours;
 use super::states::largest;
 use super::turn::{Advance, NoTurn, Single, Turn};
 use super::{explain, stability};
@@ -126,7 +127,12 @@ impl<'a> Regime<'a> {
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
         lap.findings.extend(numbers.findings);
-        lap.findings.push(stability::finding(&multipliers, neutral > 0 && lap.keeps_energy(), &study.place));
+        let neighbours = match neutral {
+            0 => Neighbours::Apart,
+            _ if lap.keeps_energy() => Neighbours::Energies,
+            _ => Neighbours::Balanced { advances: matches!(search.section, Section::Advance(..)) },
+        };
+        lap.findings.push(stability::finding(&multipliers, neighbours, &study.place));
         let some = of_rows.iter().copied().step_by((of_rows.len() / energy::SAMPLES).max(1));
         let Recorded { places, switches, rows, selected_from } = rows.recorded();
         Ok(Outcome {
