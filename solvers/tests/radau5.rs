@@ -51,6 +51,17 @@ fn worst<P: Problem, const N: usize>(system: &mut P, settings: Settings, end: f6
     worst
 }
 
+/// A spring of 1e9 N/m holds the mass as a rod would: the motion is smooth, whatever the tolerance leaves of the stretch.
+#[test]
+fn a_stiff_direction_that_turns_is_followed_at_loose_tolerances() {
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let mut pendulum = ElasticPendulum::new(1e9, 1e5);
+        let (node, counts) = run(&mut pendulum, precise(tolerance), 2.0, |_, _| {});
+        assert!(counts.steps < 1000, "{tolerance:e}: {counts:?}");
+        assert!((node.state.q[0].hypot(node.state.q[1]) - 1.0).abs() < tolerance, "{tolerance:e}: {node:?}");
+    }
+}
+
 #[test]
 fn positions_velocities_and_multipliers_reach_their_orders_at_each_level() {
     for level in LEVELS {

@@ -11,6 +11,7 @@ mod base;
 mod andrews;
 mod car_axis;
 mod chain;
+mod elastic;
 mod elliptic;
 mod explicit;
 mod linear;
@@ -26,6 +27,7 @@ pub(crate) use andrews::Andrews;
 pub(crate) use base::{Problem, noise};
 pub(crate) use car_axis::CarAxis;
 pub(crate) use chain::Chain;
+pub(crate) use elastic::ElasticPendulum;
 pub(crate) use explicit::Explicit;
 pub(crate) use linear::{InductanceMotor, StiffPair};
 pub(crate) use linkages::{FourBarTwin, NFourBar, RodChain, SliderCrank};
@@ -52,6 +54,7 @@ pub(crate) fn all() -> Vec<Box<dyn Problem>> {
         Box::new(HeavyTop::steady(false)),
         Box::new(HeavyTopCartesian::cusp()),
         Box::new(StiffPair::new(1e6, 2e3)),
+        Box::new(ElasticPendulum::new(1e4, 20.0)),
         Box::new(BouncingBall::new(1.0, 0.5)),
         Box::new(DryOscillator::new(1.0)),
         Box::new(KinkedSpring::new(1.0, 9.0)),

@@ -41,7 +41,7 @@ where
             root_name(model, system, root)
         ),
         Why::Error(_) | Why::StepSize => format!(
-            "at t = {t:.6} s the step has shrunk to {:.1e} s and the error is still too large: a force grows without bound there, or is rougher than the tolerance allows; look at the motion just before, or ask for a larger `tolerance`",
+            "at t = {t:.6} s the step has shrunk to {:.1e} s and the error is still too large: a force grows without bound there, or is rougher than the tolerance allows; look at the motion just before, or try another `tolerance`, smaller or larger",
             halt.h
         ),
         Why::Newton if fixed => {

@@ -241,7 +241,8 @@ impl Stages {
             let noise = 2.0 * engine.rounding(&from.state.q) / engine.tolerance();
             let rounded = iteration > 0 && rates[1] > 0.3 && norm < floor || iteration > 1 && rates[1] > 0.5 && norm < noise;
             if rounded || (rate < 1.0 && norm * rate / (1.0 - rate) < CLOSE) || norm == 0.0 {
-                if rounded {
+                if rounded || iteration == 0 {
+                    // one iteration has no rate: that of an earlier step would shorten this one and all that follow
                     self.rate = self.rate.min(FAST);
                 }
                 return Ok(());
