@@ -17,7 +17,7 @@ const CERTIFICATE: [(&str, bool, &str); 21] = [
     ("undeclared", true, "Functions from outside whose switches are not declared, so that none is located."),
     ("looks", true, "Evaluations of the motion for columns between rows."),
     ("velocity_residual", false, "Largest residual of velocities over the rows."),
-    ("energy_drift", false, "Largest |E - E(0) - work|, J."),
+    ("energy_drift", false, "Largest |E - E(0) - work| at the ends of steps, J."),
     ("energy_scale", false, "Largest energy or work, J."),
     ("widest_gap", false, "Widest gap between looks at conditions, s."),
     ("steps", true, "Steps."),

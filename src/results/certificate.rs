@@ -12,7 +12,7 @@ pub struct March {
     pub schemes: String,
     /// Tolerance; none with a fixed step.
     pub tolerance: Option<f64>,
-    /// Largest |E − E(0) − work|, J.
+    /// Largest |E − E(0) − work| at the ends of steps, J.
     pub energy_drift: f64,
     /// Largest of kinetic energy, change of potential energy and works, J.
     pub energy_scale: f64,

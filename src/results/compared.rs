@@ -15,7 +15,7 @@ pub struct ComparedRun {
     pub counts: [f64; 4],
     /// Error at the end.
     pub error: f64,
-    /// Largest |E − E(0) − work|, J.
+    /// Largest |E − E(0) − work| at the ends of steps, J.
     pub energy: f64,
     /// Largest residuals of positions and velocities.
     pub residuals: [f64; 2],
