@@ -92,9 +92,10 @@ impl Place {
         names
     }
 
-    /// Header and rows of `compare.csv`.
+    /// Header and rows of the comparison that has been written.
     fn rows(&self) -> (Vec<String>, Vec<Vec<String>>) {
-        let text = fs::read_to_string(self.0.join("out/compare.csv")).unwrap();
+        let name = self.files().into_iter().find(|name| name.ends_with("-compare.csv")).unwrap();
+        let text = fs::read_to_string(self.0.join("out").join(name)).unwrap();
         let mut lines = text.lines().map(|l| l.split(',').map(String::from).collect::<Vec<_>>());
         (lines.next().unwrap(), lines.collect())
     }
@@ -128,7 +129,7 @@ fn errors_follow_the_tolerance_for_every_scheme() {
     let place = Place::new("errors");
     let done = place.compare(&["--study", "swing", "--integrators", "dop853,radau5,bdf,rk4", "--tolerances", "1e-4..1e-8"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert_eq!(place.files(), ["compare.csv", "compare.png", "compare.svg"]);
+    assert_eq!(place.files(), ["swing-compare.csv", "swing-compare.png", "swing-compare.svg"]);
     let (head, rows) = place.rows();
     let wanted =
         "integrator,tolerance,time,evaluations,steps,rejected,factorisations,error,energy_drift,constraint_drift,velocity_drift,reason";
@@ -148,10 +149,25 @@ fn errors_follow_the_tolerance_for_every_scheme() {
     for word in ["dop853", "radau5", "bdf", "rk4", "tolerance", "agree to", "evaluations"] {
         assert!(done.stdout.contains(word), "{word}: {}", done.stdout);
     }
-    let svg = fs::read_to_string(place.0.join("out/compare.svg")).unwrap();
+    let svg = fs::read_to_string(place.0.join("out/swing-compare.svg")).unwrap();
     for word in [">error<", ">time in ", ">evaluations<", ">radau5<"] {
         assert!(svg.contains(word), "{word}");
     }
+}
+
+#[test]
+fn comparisons_of_two_studies_stand_side_by_side() {
+    let place = Place::new("beside");
+    for (study, size) in [("swing", "--tolerances"), ("fixed", "--steps")] {
+        let done = place.compare(&["--study", study, "--integrators", "rk4", size, "1e-3"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+    }
+    let ends = ["csv", "png", "svg"];
+    let names: Vec<String> = ["fixed", "swing"].iter().flat_map(|study| ends.map(|end| format!("{study}-compare.{end}"))).collect();
+    assert_eq!(place.files(), names);
+    // one curve has no legend: the title names it
+    let svg = fs::read_to_string(place.0.join("out/swing-compare.svg")).unwrap();
+    assert!(svg.contains("swing by rk4: work over error"), "{svg}");
 }
 
 #[test]
@@ -161,7 +177,7 @@ fn fixed_steps_show_the_order() {
     let done =
         place.compare(&["--study", "fixed", "--integrators", "rk4,newmark,central-difference", "--steps", list, "--json", "--no-plots"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert_eq!(place.files(), ["compare.csv"]);
+    assert_eq!(place.files(), ["fixed-compare.csv"]);
     let json: Value = serde_json::from_str(&done.stdout).unwrap();
     assert_eq!(json["study"], "fixed");
     assert!(json["references_agree"].as_f64().unwrap() < 1e-8);

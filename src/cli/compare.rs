@@ -66,8 +66,10 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
         None => only_motion(&document, common)?,
     };
     let selection = files::selection(common, Some(&name)).ok_or(code::INPUT)?;
-    if common.output.is_none() && document.study_names().iter().any(|study| study == "compare") {
-        return Err(refuse("the files of a comparison have the names of those of the study `compare`", "say where they go with `-o DIR`"));
+    let stem = stem(&name);
+    if common.output.is_none() && document.study_names().contains(&stem) {
+        let message = format!("the files of a comparison of study `{name}` have the names of those of the study `{stem}`");
+        return Err(refuse(&message, "say where they go with `-o DIR`"));
     }
     let report = document.check_all(&selection);
     if report.failed() {
@@ -84,7 +86,7 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let explain = |failure: &Failure| files::explain(&document, failure, &study.name, common);
     let directory = files::directory(&arguments.model, common).ok_or(code::INPUT)?;
     let ends: &[&str] = if arguments.no_plots { &["csv"] } else { &["csv", "svg", "png"] };
-    files::prepare(&directory, &ends.iter().map(|end| format!("compare.{end}")).collect::<Vec<_>>(), common)?;
+    files::prepare(&directory, &ends.iter().map(|end| format!("{stem}.{end}")).collect::<Vec<_>>(), common)?;
 
     let progress = Progress::new(&study.name, integrators.len() * sizes.len() + 2, common.quiet);
     let steps: Vec<Steps> = sizes.iter().map(|&size| if fixed { Steps::Fixed(size) } else { Steps::Tolerance(size) }).collect();
@@ -101,7 +103,7 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
 fn finish(compared: &Compared, directory: &Path, arguments: &Arguments, common: &Common) -> Result<u8, u8> {
     let staging = written(compared, !arguments.no_plots);
     stop_if_interrupted()?;
-    files::commit(&staging, directory, "compare", common)?;
+    files::commit(&staging, directory, &stem(&compared.study), common)?;
     print_out(&if arguments.json { comparison::json(compared) } else { comparison::table(compared) });
     if compared.rows.iter().all(|r| !r.reason.is_empty()) {
         print_error(&format!("no integrator finished study `{}`", compared.study), "see the last column for the reasons");
@@ -110,15 +112,20 @@ fn finish(compared: &Compared, directory: &Path, arguments: &Arguments, common: 
     Ok(code::DONE)
 }
 
-/// `compare.csv`, `compare.svg` and `compare.png`.
+/// What the files of a comparison of a study are called, without their ends.
+fn stem(study: &str) -> String {
+    format!("{study}-compare")
+}
+
+/// `STUDY-compare.csv`, `.svg` and `.png`.
 fn written(compared: &Compared, plots: bool) -> Staging {
-    let mut staging = Staging::new();
-    staging.add("compare.csv", comparison::csv(compared));
+    let (mut staging, stem) = (Staging::new(), stem(&compared.study));
+    staging.add(format!("{stem}.csv"), comparison::csv(compared));
     if plots {
         match render_figure(&comparison::figure(compared)) {
             Ok(picture) => {
-                staging.add("compare.svg", picture.svg);
-                staging.add("compare.png", picture.png);
+                staging.add(format!("{stem}.svg"), picture.svg);
+                staging.add(format!("{stem}.png"), picture.png);
             }
             Err(error) => print_note(&format!("warning: the figure cannot be drawn: {error}")),
         }

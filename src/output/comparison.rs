@@ -37,7 +37,12 @@ pub fn figure(compared: &Compared) -> Figure {
     }
     let axis = |label: &str| Axis { label: label.into(), scale: Scale::Log, ..Axis::default() };
     let quantities = vec![("s".into(), "time".into()), (String::new(), "evaluations".into())];
-    let title = format!("{}: work over error at the end", compared.study);
+    // one curve has no legend
+    let by = match compared.integrators()[..] {
+        [one] => format!(" by {one}"),
+        _ => String::new(),
+    };
+    let title = format!("{}{by}: work over error at the end", compared.study);
     Figure { title, x: axis("error"), y: axis(""), curves, quantities, ..Figure::default() }
 }
 

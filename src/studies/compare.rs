@@ -93,7 +93,7 @@ impl Bench<'_> {
         // how tight an implicit scheme can be depends on the motion: its Newton iterations end at rounding
         let mut implicit = (0.0, Err(NoReference::Interrupted));
         for looser in [1e-2, 1e-1, 1.0] {
-            let tolerance = (looser * tightest).clamp(TIGHT, 1e-10);
+            let tolerance = as_read(looser * tightest).clamp(TIGHT, 1e-10);
             if tolerance > implicit.0 {
                 implicit = (tolerance, self.end(Integrator::Radau5, tolerance));
             }
@@ -211,6 +211,11 @@ impl Bench<'_> {
     }
 }
 
+/// The number that is read where this one is written with twelve digits: a tenth of 1e-10 is 1e-11.
+fn as_read(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
 /// What a recorded run came to.
 struct Ended {
     columns: Vec<f64>,
@@ -234,6 +239,11 @@ fn error(columns: &[f64], reference: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_part_of_a_tolerance_is_the_number_that_is_read() {
+        assert_eq!([as_read(0.1 * 1e-10), as_read(0.01 * 1e-4), as_read(0.0)], [1e-11, 1e-6, 0.0]);
+    }
 
     #[test]
     fn errors_are_relative_for_large_columns_and_absolute_for_small_ones() {

@@ -279,7 +279,7 @@ pub(super) const ARGUMENTS: &[(&str, &[&str], i32)] = &[
     ("argument-solve", &["run", "solve.yaml", "-o", "OUT", "--study", "lengths"], 3),
     ("argument-solve-jump", &["run", "solve.yaml", "-o", "OUT", "--study", "jump"], 3),
     ("argument-solve-never", &["run", "solve.yaml", "-o", "OUT", "--study", "never"], 2),
-    ("argument-compare-named", &["compare", "compare.yaml"], 2),
+    ("argument-compare-named", &["compare", "compare.yaml", "--study", "swing"], 2),
     ("argument-shard-without-sweep", &["run", "compare.yaml", "-o", "OUT", "--shard", "1/2"], 2),
     ("argument-set-angle", &["check", "compare.yaml", "--set", "begin=45"], 0),
     ("argument-new-two-files", &["new", "four-bar", "OUT", "-o", "OUT"], 2),
