@@ -238,6 +238,20 @@ mod tests {
     }
 
     #[test]
+    fn a_curve_of_few_values_leaves_the_axis_towards_a_dead_point_by_an_arrow() {
+        let at = |k: i32| if k == 0 { (0.0, f64::NAN) } else { (0.4 + f64::from(k - 1), -1.0 / (0.4 + f64::from(k - 1)).powi(4)) };
+        let dead = Curve { poles: [true, false], ..curve("torque", Some("N m"), (0..17).map(at).collect()) };
+        let figure = Figure { x: axis("O.angle", "deg"), curves: vec![dead], ..Figure::default() };
+        let svg = svg(&figure);
+        let arrows = svg.lines().filter(|line| line.starts_with("<polygon") && line.contains("fill=\"#0072b2\""));
+        assert_eq!(arrows.count(), 1, "{svg}");
+        // of 16 values the two beyond the edge have no dots, but the line goes to there
+        assert_eq!(svg.lines().filter(|line| line.starts_with("<circle")).count(), 14, "{svg}");
+        assert_eq!(lines(&svg)[0].matches(',').count(), 15, "{svg}");
+        assert!(svg.contains(">arrows: without bound<") && svg.contains(">towards a dead point<"), "{svg}");
+    }
+
+    #[test]
     fn a_curve_that_runs_back_shows_its_direction() {
         let path = |turns: bool| {
             let at = |k: i32| (f64::from(k) * 0.05).sin_cos();

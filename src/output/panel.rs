@@ -219,6 +219,10 @@ impl Line {
     }
 }
 
+/// What arrows at an edge mean, and the size of these words.
+const LEAVES: [&str; 2] = ["arrows: without bound", "towards a dead point"];
+const NOTE: f64 = 0.8 * TICK;
+
 /// One panel of a figure.
 #[derive(Clone, Debug)]
 pub(super) struct Panel {
@@ -263,8 +267,15 @@ impl Panel {
         let pixels = pieces.map(|piece| piece.into_iter().map(|at| self.point(x, y, at)).collect::<Vec<Point>>());
         // an axis whose ends are given may end within its curves
         let area = self.rect.grown(0.5);
-        let inside = pixels.flat_map(|piece| if line.is_short() { clip::points(&piece, area) } else { clip::line(&piece, area) });
+        let inside = pixels.flat_map(|piece| if line.dots { clip::points(&piece, area) } else { clip::line(&piece, area) });
         inside.map(thinned).collect()
+    }
+
+    /// The values of a curve of few, in pixels; not where it is cut at an edge.
+    fn values(&self, line: &Line, x: &Ruler) -> Vec<Point> {
+        let y = self.right.as_ref().filter(|_| line.right).unwrap_or(&self.y);
+        let all: Vec<Point> = line.points.iter().map(|at| self.point(x, y, *at)).filter(|at| at.iter().all(|x| x.is_finite())).collect();
+        clip::points(&all, self.rect.grown(0.5)).concat()
     }
 
     /// All curves in pixels.
@@ -289,7 +300,7 @@ impl Panel {
             let directed = !line.is_short() && !pieces.iter().any(dense);
             let heads = if directed { heads(&pieces, self.lines.len()) } else { Vec::new() };
             for piece in pieces {
-                if line.is_short() || piece.len() == 1 {
+                if line.dots || (piece.len() == 1 && !line.is_short()) {
                     piece.iter().for_each(|at| scene.circle(*at, line.dot(), Some(line.color), None));
                 }
                 if piece.len() > 1 && !line.dots {
@@ -297,14 +308,18 @@ impl Panel {
                     scene.line(piece, stroke);
                 }
             }
+            if line.is_short() && !line.dots {
+                self.values(line, x).iter().for_each(|at| scene.circle(*at, line.dot(), Some(line.color), None));
+            }
             heads.into_iter().for_each(|head| scene.shape(head.to_vec(), Some(line.color), None));
             if self.clipped[usize::from(line.right)] {
                 self.leaving(scene, line, x, breaks);
             }
         }
         if self.clipped.contains(&true) {
-            let at = [right, bottom + if lowest { 66.0 } else { 22.0 }];
-            scene.text(at, "arrows: without bound towards a dead point", 0.8 * TICK, Anchor::End);
+            // beside the name of the axis there is room for half of it
+            let lines: &[(&str, f64)] = if lowest { &[(LEAVES[0], 47.0), (LEAVES[1], 66.0)] } else { &[(&LEAVES.join(" "), 22.0)] };
+            lines.iter().for_each(|(text, below)| scene.text([right, bottom + below], *text, NOTE, Anchor::End));
         }
         if empty {
             let [x, y] = self.rect.center();
@@ -360,7 +375,9 @@ impl Panel {
             }
         }
         if lowest {
-            scene.text([(left + right) / 2.0, bottom + 66.0], x.label(self.rect.width()), LABEL, Anchor::Middle);
+            let note = LEAVES.iter().map(|text| font::width(text, NOTE) + 16.0).fold(0.0, f64::max);
+            let room = self.rect.width() - if self.clipped.contains(&true) { 2.0 * note } else { 0.0 };
+            scene.text([(left + right) / 2.0, bottom + 66.0], x.label(room), LABEL, Anchor::Middle);
         }
         let upright = |at: Point, text: String| {
             Item::Text(Text { at, text, size: LABEL, color: INK, anchor: Anchor::Middle, upright: true, halo: false })
