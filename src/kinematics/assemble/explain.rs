@@ -7,7 +7,7 @@ use crate::geometry::Space;
 use crate::mechanism::{Asked, Joint, Mechanism, Row, RowKind, RowOwner, Start, describe_loop};
 
 /// A start value below this, rad or m, is told as 0.
-const ROUND_OFF: f64 = 1e-12;
+pub(super) const ROUND_OFF: f64 = 1e-12;
 
 impl<G: Space<S = f64>> System<'_, G> {
     pub(super) fn explain_facing(&self) -> AssemblyFault {

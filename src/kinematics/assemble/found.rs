@@ -1,7 +1,7 @@
 //! What a start has come to, read from the assembled pose.
 
 use super::begun::Begun;
-use super::explain::{short, unit};
+use super::explain::{ROUND_OFF, short, unit};
 use super::fault::AssemblyFault;
 use super::rotation::orientation;
 use crate::dynamics::Dynamics;
@@ -82,7 +82,10 @@ pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Resul
                 help: "put `~` before it, or remove it".into(),
             });
         }
-        let mut add = |name: String, asked, found| out.push(Found { name, asked, found, guess: start.guess, unit });
+        // round-off of what is zero
+        let least = ROUND_OFF * if unit.starts_with('m') { m.size() } else { 1.0 };
+        let clean = |asked: f64, found: f64| if found.abs() < least && found != asked { 0.0 } else { found };
+        let mut add = |name: String, asked, found| out.push(Found { name, asked, found: clean(asked, found), guess: start.guess, unit });
         add(start.name.clone(), start.value, found);
         if let Some(tilt) = tilt {
             add(format!("{}, axis off by", start.name), 0.0, tilt);

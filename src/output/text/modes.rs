@@ -68,10 +68,15 @@ fn parts(shape: &[(String, f64)]) -> String {
     let told = shown.into_iter().enumerate().map(|(i, (name, x, ahead))| match real {
         true => format!("{name} {}", digits(x * ahead.cos().signum(), 3)),
         false if i == 0 => format!("{name} {}", digits(x, 3)),
-        // from −180° (not itself) to 180°
-        false => format!("{name} {} at {} deg", digits(x, 3), digits((PI - (PI - ahead).rem_euclid(TAU)).to_degrees(), 3)),
+        false => format!("{name} {} at {} deg", digits(x, 3), digits(degrees(ahead), 3)),
     });
     told.collect::<Vec<_>>().join(", ")
+}
+
+/// An angle from −180° (not itself) to 180°; round-off of zero is zero.
+fn degrees(angle: f64) -> f64 {
+    let degrees = (PI - (PI - angle).rem_euclid(TAU)).to_degrees();
+    if degrees.abs() < REAL.to_degrees() { 0.0 } else { degrees }
 }
 
 /// Significant digits, without trailing zeros; `-` for what is no number.
@@ -104,5 +109,7 @@ mod tests {
         assert_eq!(parts(&shape(&damped)), "b 1, a 0.5 at 90 deg, c 0.25 at -172 deg, d 0.2 at 180 deg");
         let beyond = [("a", 0.5, Some(3.0)), ("b", 1.0, Some(-3.0))];
         assert_eq!(parts(&shape(&beyond)), "b 1, a 0.5 at -16.2 deg");
+        let rounded = [("a", 0.5, Some(-4.4e-16)), ("b", 1.0, Some(0.0)), ("c", 0.3, Some(1.0))];
+        assert_eq!(parts(&shape(&rounded)), "b 1, a 0.5 at 0 deg, c 0.3 at 57.3 deg");
     }
 }
