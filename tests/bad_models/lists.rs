@@ -243,6 +243,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "limits-beyond-at-the-start",
             "restitution-at-a-stop",
             "start-against-a-driver",
+            "coupling-against-the-start",
             "no-studies",
             "take-out-of-range",
             "linearize-without-mass",

@@ -64,9 +64,16 @@ impl<G: Space<S = f64>> System<'_, G> {
         found
     }
 
-    /// The exact values that keep the mechanism open; evaluated at the nearest position without them. `open` are the loops that they leave
-    /// open.
-    pub(super) fn explain_start(&self, open: &[OpenLoop]) -> AssemblyFault {
+    /// Names of the couplings that do not hold at the position evaluated last.
+    pub(super) fn open_couplings(&self) -> Vec<String> {
+        let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
+        let off = m.rows.iter().zip(&w.phi).filter(|(row, phi)| row.owner == RowOwner::Coupling && phi.abs() > 1e-9);
+        off.map(|(row, _)| format!("`{}`", row.label)).collect()
+    }
+
+    /// The exact values that keep the mechanism open; evaluated at the nearest position without them. `open` are the loops and the
+    /// couplings that they leave open.
+    pub(super) fn explain_start(&self, (loops, couplings): (&[OpenLoop], &[String])) -> AssemblyFault {
         let w = &self.dynamics.work;
         let of_position = |asked| matches!(asked, Asked::Gauge { order: 0, .. } | Asked::Orientation(_));
         let exact = |start: &&Start| !start.guess && of_position(start.asked);
@@ -85,17 +92,26 @@ impl<G: Space<S = f64>> System<'_, G> {
             if x.abs() < ROUND_OFF { 0.0 } else { x }
         };
         let one = starts.len() == 1;
+        let all = couplings.join(" and ");
+        let (coupling, holds) = if couplings.len() == 1 { ("coupling", "holds") } else { ("couplings", "hold") };
+        let open = match (loops.first(), couplings.is_empty()) {
+            (Some(open), true) => format!(", with which the loop {} does not close", open.path),
+            (Some(open), false) => format!(", with which the loop {} does not close where the {coupling} {all} {holds}", open.path),
+            (None, true) => String::new(),
+            (None, false) => format!(", with which the {coupling} {all} cannot hold"),
+        };
+        let checked = if couplings.is_empty() { "check the lengths".to_owned() } else { format!("check the {coupling} {all}") };
         AssemblyFault {
             code: "start-cannot-hold",
             message: format!(
                 "no assembly has the exact start value{} {}{}; one nearby has {}",
                 if one { "" } else { "s" },
                 list(&|s| s.value),
-                open.first().map_or_else(String::new, |open| format!(", with which the loop {} does not close", open.path)),
+                open,
                 list(&found)
             ),
             place: starts.last().map_or_else(|| "start".into(), |s| s.place.clone()),
-            help: format!("put `~` before {}, so that it may give way, or check the lengths", if one { "it" } else { "one of them" }),
+            help: format!("put `~` before {}, so that it may give way, or {checked}", if one { "it" } else { "one of them" }),
         }
     }
 }

@@ -57,13 +57,13 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
         // whom to blame: would it close if the exact values gave way? From where it is open least
         q = open.1;
         system.evaluate(&q);
-        let loops = system.open_loops();
+        let (loops, couplings) = (system.open_loops(), system.open_couplings());
         system.held = Held::Nothing;
         // links in a line may stand where the gap is largest, and have no direction to go
         mechanism.retract(&mut q, &system.shaken(&mut shake, 0.2));
         if system.close(&mut q) {
             system.near_asked(&mut q);
-            return Err(system.explain_start(&loops));
+            return Err(system.explain_start((&loops, &couplings)));
         }
         system.evaluate(&q);
         return Err(system.explain());

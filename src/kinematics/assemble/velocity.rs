@@ -5,7 +5,7 @@ use super::close::System;
 use super::explain::{short, unit, unit_of_rate};
 use super::fault::AssemblyFault;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Mechanism, Start};
+use crate::mechanism::{Asked, Mechanism, RowOwner, Start};
 use crate::numerics::least_squares::{Level, in_turn};
 
 /// Velocities (nv) at an assembled position, and what it is if branches cross there.
@@ -115,6 +115,13 @@ impl<G: Space<S = f64>> System<'_, G> {
         let (freedom, drivers) = (self.freedom(q), m.drives.len());
         let moved = m.rows.iter().filter(|row| m.is_moved(row)).count();
         if held.is_none() && freedom < drivers {
+            let mut coupled: Vec<String> = Vec::new();
+            for row in m.rows.iter().filter(|row| row.owner == RowOwner::Coupling) {
+                let name = format!("`{}`", row.label);
+                if !coupled.contains(&name) {
+                    coupled.push(name);
+                }
+            }
             return Some(AssemblyFault {
                 code: "over-constrained",
                 message: format!(
@@ -123,7 +130,14 @@ impl<G: Space<S = f64>> System<'_, G> {
                     if freedom == 1 { "" } else { "s" }
                 ),
                 place: "drivers".into(),
-                help: "remove drivers until there are as many as degrees of freedom".into(),
+                help: match coupled.len() {
+                    0 => "remove drivers until there are as many as degrees of freedom".into(),
+                    n => format!(
+                        "remove drivers, or the coupling{} {}, until there are as many drivers as degrees of freedom",
+                        if n == 1 { "" } else { "s" },
+                        coupled.join(", ")
+                    ),
+                },
             });
         }
         if exact.is_empty() && (moved == 1 || moved == drivers) {
