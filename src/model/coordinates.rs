@@ -43,6 +43,17 @@ pub(crate) fn coordinates(kind: &JointKind) -> &'static [Coordinate] {
     }
 }
 
+/// Degrees of freedom that a joint leaves of as many as two bodies have against each other.
+pub(crate) fn freedom(kind: &JointKind, whole: usize) -> usize {
+    match kind {
+        JointKind::Free | JointKind::Particle => whole,
+        JointKind::Distance { .. } => whole - 1,
+        JointKind::Spherical => 3,
+        JointKind::PinInSlot => 2,
+        _ => coordinates(kind).len(),
+    }
+}
+
 impl Coordinate {
     /// Dimension of its rate of this order.
     pub(crate) fn dimension(&self, order: usize) -> Dimension {

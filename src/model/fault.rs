@@ -60,6 +60,8 @@ pub(crate) struct Fault {
     pub(crate) message: String,
     pub(crate) expected: String,
     pub(crate) help: Option<String>,
+    /// The remedy where nothing closer to the case is found.
+    pub(crate) otherwise: Option<String>,
     /// Bytes of the file that belong to it, and a word about them.
     pub(crate) other: Option<(Range<usize>, String)>,
 }
@@ -67,7 +69,17 @@ pub(crate) struct Fault {
 impl Fault {
     /// An error at the value of a place.
     pub(crate) fn new(code: &'static str, place: String, message: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { code, warning: false, place, spot: Spot::Value, message: message.into(), expected: expected.into(), help: None, other: None }
+        Self {
+            code,
+            warning: false,
+            place,
+            spot: Spot::Value,
+            message: message.into(),
+            expected: expected.into(),
+            help: None,
+            otherwise: None,
+            other: None,
+        }
     }
 
     /// The same with a remedy.
@@ -122,7 +134,7 @@ impl Fault {
             severity: if self.warning { Severity::Warning } else { Severity::Error },
             message: self.message.clone(),
             expected: self.expected.clone(),
-            help: self.help.clone(),
+            help: self.help.clone().or_else(|| self.otherwise.clone()),
             place: self.place.clone(),
             file: file.to_owned(),
             at,

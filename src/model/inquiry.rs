@@ -97,10 +97,10 @@ impl<'d, 's> Inquiry<'d, 's> {
             Some(_) => None,
             None => {
                 let known = self.document.variant_names();
-                let help = suggest::help(name, known.iter().map(String::as_str));
+                let help = suggest::help(name, known.iter().map(String::as_str)).unwrap_or_else(|| suggest::take_or_add(name, "variants"));
                 let message = format!("unknown variant `{}`", suggest::clip(name));
                 let place = at.map(|at| merge::path(&at.steps())).unwrap_or_default();
-                let mut fault = Fault::new("unknown-variant", place, message, "a variant of this file").maybe_help(help);
+                let mut fault = Fault::new("unknown-variant", place, message, "a variant of this file").help(help);
                 if at.is_none() {
                     fault.spot = self.selection.caller.given(Asked::Variant, name).end(name.len());
                 }

@@ -214,7 +214,10 @@ impl<'a> NameSpace<'a> {
             format!("did you mean `{near}{rest}`?")
         });
         let found = if head == path { format!("unknown name `{head}`") } else { format!("unknown name `{head}` in `{path}`") };
-        unknown(found, "a name of this model", help)
+        let help = help.unwrap_or_else(|| {
+            format!("take a name that is there, or define `{}`, as a parameter, a measure, a driver", suggest::clip(head))
+        });
+        unknown(found, "a name of this model", Some(help))
     }
 
     pub(super) fn wrong(&self, owner: &str, rest: &str, known: &[String]) -> Unknown {

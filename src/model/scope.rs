@@ -25,6 +25,21 @@ pub(crate) struct Allow {
 }
 
 impl Allow {
+    /// What stands for a quantity that is not known yet.
+    pub(crate) fn instead(&self) -> String {
+        match self.level {
+            Known::Constant => "write a number or a quantity, or a parameter from `parameters`",
+            Known::Time if self.what == Self::DRIVER.what => {
+                "write it as a function of `t`; one joint follows another by a coupling (`couplings`)"
+            }
+            Known::Time => "write it as a function of `t`; forces that depend on the motion are `loads`",
+            Known::Position => "write it by positions alone: angles, places, stretches",
+            Known::Velocity => "write it by positions and velocities",
+            Known::Acceleration | Known::Study => "take it in `scalars`, or from another study by `take`",
+        }
+        .to_owned()
+    }
+
     /// Parameters only.
     pub(crate) const PARAMETER: Self =
         Self { level: Known::Constant, tables: false, reactions: false, springs: false, states: true, what: "a parameter" };
@@ -126,8 +141,9 @@ impl View<'_, '_, '_> {
                 _ => "quantities of the mechanism, `t` and parameters",
             };
             let what = allow.what;
-            let help = (reach.reactions).then(|| "reactions enter forces through joint `friction` alone".to_owned());
-            return Err(self.refuse("wrong-level", unknown(is, format!("{what} may use only {may}"), help)));
+            let by_friction = reach.reactions && allow.level == Known::Velocity;
+            let help = if by_friction { "reactions enter forces through joint `friction` alone".to_owned() } else { allow.instead() };
+            return Err(self.refuse("wrong-level", unknown(is, format!("{what} may use only {may}"), Some(help))));
         }
         if reach.reactions && !allow.reactions {
             let help = Some("use `inverse`, which finds forces too".to_owned());
@@ -145,7 +161,7 @@ impl View<'_, '_, '_> {
         }
         if reach.springs && !allow.springs {
             let expected = format!("{} may not use springs or their energy, which depend on it", allow.what);
-            return Err(self.refuse("wrong-level", unknown(format!("`{path}` needs the springs"), expected, None)));
+            return Err(self.refuse("wrong-level", unknown(format!("`{path}` needs the springs"), expected, Some(allow.instead()))));
         }
         self.reach = self.reach.join(reach);
         Ok(symbol)
@@ -174,7 +190,7 @@ impl Scope for View<'_, '_, '_> {
                     None if self.allow.level <= Known::Time => {
                         let may = if self.allow.level == Known::Time { "`t` and parameters" } else { "parameters" };
                         let expected = format!("{} may use only {may}", self.allow.what);
-                        Err(self.refuse("wrong-level", unknown(format!("`{path}` is a measure"), expected, None)))
+                        Err(self.refuse("wrong-level", unknown(format!("`{path}` is a measure"), expected, Some(self.allow.instead()))))
                     }
                     None => Err(silent()),
                 };
@@ -188,12 +204,13 @@ impl Scope for View<'_, '_, '_> {
         // inside of a parameter nothing of the mechanism is known yet
         if self.allow.level == Known::Constant && self.local.functionals.is_none() && self.name_space.known_head(path) {
             let expected = format!("{} may use only parameters", self.allow.what);
-            return Err(self.refuse("wrong-level", unknown(format!("`{path}` is no parameter"), expected, None)));
+            return Err(self.refuse("wrong-level", unknown(format!("`{path}` is no parameter"), expected, Some(self.allow.instead()))));
         }
         // what is decoded after the drivers is no function of time
         if self.allow.level <= Known::Time && self.undecoded(path) {
             let expected = format!("{} may use only `t` and parameters", self.allow.what);
-            return Err(self.refuse("wrong-level", unknown(format!("`{path}` is known only with the motion"), expected, None)));
+            return Err(self
+                .refuse("wrong-level", unknown(format!("`{path}` is known only with the motion"), expected, Some(self.allow.instead()))));
         }
         match self.name_space.quantity(pool, path) {
             Ok(found) => {
@@ -252,7 +269,10 @@ impl Scope for View<'_, '_, '_> {
 
     fn enter_functional(&mut self, name: &str) -> Result<(), Unknown> {
         let Some(functionals) = &self.local.functionals else {
-            let help = (name == "max" || name == "min").then(|| format!("`{name}(a, b)` of two values needs two"));
+            let help = Some(match name {
+                "max" | "min" => format!("`{name}(a, b)` of two values needs two"),
+                _ => format!("write `{name}(..)` in `scalars` of a study; another study has it by `take`"),
+            });
             let why = unknown(format!("`{name}(..)` is taken of a whole study"), "it can be used only in `scalars` and `expect`", help);
             return Err(self.refuse("wrong-level", why));
         };

@@ -2,10 +2,11 @@
 //! right keys and the right kinds of values; their meaning is checked where they are decoded.
 
 use super::fault::{At, Fault, Spot};
-use super::fields::{Field, Keys, Record, Shape, Size};
+use super::fields::{Field, Keys, Record, Shape, Size, Want};
 use super::merge::{Layers, Node};
 use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
+use crate::expression::Dimension;
 use serde_yaml::Value;
 
 /// A walk along the tables.
@@ -36,14 +37,36 @@ impl Shapes<'_> {
 
     fn wrong_type(&mut self, node: Node<'_>, at: &At<'_, '_>, expected: &Shape) {
         let found = describe(node);
-        let fault = self.fault("wrong-type", at, format!("found {found}"), expected.expected());
-        fault.help = match (expected, node) {
+        let help = match (expected, node) {
             (Shape::Text, Node::Plain(Value::Number(n))) => Some(format!("write it in quotes: \"{n}\"")),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "yes" | "on") => Some("write `true`".to_owned()),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "no" | "off") => Some("write `false`".to_owned()),
             (Shape::Value(_), node) if node.is_list() => Some("write one value, without brackets".to_owned()),
+            (shape, Node::Plain(Value::Number(n))) => self.as_vector(&n.to_string(), shape),
+            (shape, Node::Plain(Value::String(text))) => self.as_vector(text, shape),
             _ => None,
         };
+        self.fault("wrong-type", at, format!("found {found}"), expected.expected()).help = help;
+    }
+
+    /// What to write for one value in the place of a vector: along the first axis, an acceleration (of gravity) down.
+    fn as_vector(&self, value: &str, expected: &Shape) -> Option<String> {
+        let of = |shape: &Shape| match shape {
+            Shape::List(Shape::Value(want), Size::Space) => Some(*want),
+            _ => None,
+        };
+        let want = match expected {
+            Shape::Either(shapes) => shapes.iter().find_map(of),
+            shape => of(shape),
+        }?;
+        let size = value.trim().trim_start_matches(['-', '+']).trim_start();
+        let number = size.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        let zeros = if self.components == Some(3) { "0, 0" } else { "0" };
+        let vector = match want {
+            Want::Of(dimension) if dimension == Dimension::ACCELERATION => format!("[{zeros}, -{}]", clip(size)),
+            _ => format!("[{}, {zeros}]", clip(value.trim())),
+        };
+        number.then(|| format!("give its components, such as `{vector}`"))
     }
 
     /// Checks `node` against `shape`; `outer` says what is expected where the shape is one of several.
@@ -90,6 +113,7 @@ impl Shapes<'_> {
             (Shape::Word(words), Node::Plain(Value::String(word))) => {
                 if !words.contains(&word.as_str()) {
                     let help = suggest::nearest(word, words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                    let help = help.or_else(|| self.as_vector(word, outer));
                     self.fault("unknown-word", at, format!("`{}` is not known here", clip(word)), outer.expected()).help = help;
                 }
             }

@@ -183,6 +183,12 @@ fn syntax(text: &str, info: &str, at: usize) -> Fault {
     if let Some(fault) = glued(text, line_start) {
         return fault;
     }
+    if let Some(at) = line.find("~[").or_else(|| line.find("~{")).map(|i| line_start + i) {
+        let mut fault = fault("`~` in front of a value; a list has it in front of each of them");
+        fault.message = "`~` in front of a list or a map".to_owned();
+        fault.spot = Spot::Bytes(at..at + 1);
+        return fault.help("write `[~0 deg, ~0 deg, ~0 deg]`, or for a rotation `{ axis: [0, 0, 1], angle: ~30 deg }`");
+    }
     if info.contains("mapping values are not allowed") {
         return fault("one `key: value` in a line, or a map in braces `{ key: value, key: value }`")
             .help("a colon followed by a space begins a value; put text with a colon in quotes");

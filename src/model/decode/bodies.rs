@@ -376,7 +376,8 @@ impl<'n> Decoder<'n> {
                         _ => None,
                     };
                     let message = is.unwrap_or_else(|| format!("unknown body `{}`", clip(body)));
-                    self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help = owner.or(near);
+                    self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help =
+                        Some(owner.or(near).unwrap_or_else(|| suggest::take_or_add(body, "bodies")));
                     return None;
                 }
             }

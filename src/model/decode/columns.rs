@@ -13,7 +13,7 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::scope::{Allow, Local};
 use crate::model::study::Column;
-use crate::model::suggest::clip;
+use crate::model::suggest::{self, clip};
 use crate::model::vocabulary::Quantity;
 
 keys! {
@@ -286,7 +286,8 @@ impl<'n> Decoder<'n> {
         let (factor, dimension) = self.unit(text, &here)?;
         if axis.is_some_and(|axis| axis != dimension) {
             let expected = axis.map(|axis| axis.name()).unwrap_or_default();
-            self.fault("wrong-dimension", &here, format!("`{}` is a unit of {}", clip(text), dimension.name()), expected);
+            let fault = self.fault("wrong-dimension", &here, format!("`{}` is a unit of {}", clip(text), dimension.name()), expected);
+            fault.help = axis.map(suggest::unit_of);
             return None;
         }
         Some((text.to_owned(), factor))

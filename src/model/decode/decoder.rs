@@ -12,7 +12,7 @@ use crate::model::quantities::{NameSpace, Renumbered};
 use crate::model::rules::{self, Rule};
 use crate::model::scope::{Allow, Local, View};
 use crate::model::spans::Step;
-use crate::model::suggest::clip;
+use crate::model::suggest::{self, clip};
 use crate::model::whole::Model;
 use serde_yaml::Value;
 use std::collections::HashMap;
@@ -219,7 +219,8 @@ impl<'n> Decoder<'n> {
                 if forbidden && reach.level < crate::model::vocabulary::Known::Study {
                     let words = if reach.level == crate::model::vocabulary::Known::Acceleration { "an acceleration" } else { "a velocity" };
                     let place = self.place(at);
-                    let fault = Fault::new("wrong-level", place, format!("this rate is {words}"), format!("{} may not use it", allow.what));
+                    let fault = Fault::new("wrong-level", place, format!("this rate is {words}"), format!("{} may not use it", allow.what))
+                        .help(allow.instead());
                     self.faults.push(fault.at(origin.spot(0..text.len())));
                     return None;
                 }
@@ -248,7 +249,9 @@ impl<'n> Decoder<'n> {
                             let wanted = fault.wanted?;
                             self.unit_missing(slice, wanted).or_else(|| self.parameters_in(slice))
                         });
-                        Fault::new(code, place.clone(), message, fault.expected).maybe_help(help)
+                        let mut made = Fault::new(code, place.clone(), message, fault.expected).maybe_help(help);
+                        made.otherwise = fault.wanted.map(|wanted| suggest::in_unit(slice, Want::Of(wanted)));
+                        made
                     };
                     self.faults.push(made.at(origin.spot(fault.at)));
                 }
@@ -288,6 +291,7 @@ impl<'n> Decoder<'n> {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
             } else {
                 fault.help = self.unit_or_name(text).or_else(|| self.parameters_in(text));
+                fault.otherwise = Some(suggest::in_unit(text, want));
             }
             if let Some(origin) = origin {
                 fault.spot = origin.spot(0..text.len());

@@ -372,7 +372,7 @@ impl<'n> Decoder<'n> {
                 let list = suggest::known(names.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown parameter `{}`", clip(name)));
                 let fault = self.fault("unknown-parameter", at, message, format!("one of the parameters {list}"));
-                fault.help = near;
+                fault.help = Some(near.unwrap_or_else(|| suggest::take_or_add(name, "parameters")));
                 if key {
                     fault.spot = Spot::Key;
                 }

@@ -111,7 +111,9 @@ impl<'n> Decoder<'n> {
         let coefficient = lowered.dimension == Dimension::NONE;
         if !coefficient && lowered.dimension != coordinate.effort() {
             let expected = format!("{}, or a coefficient of friction (a plain number)", Want::Of(coordinate.effort()).name());
-            self.fault("wrong-dimension", &here, format!("found {}", lowered.dimension.name()), expected);
+            let written = coordinate.effort().written("1");
+            self.fault("wrong-dimension", &here, format!("found {}", lowered.dimension.name()), expected).help =
+                Some(format!("give it as `{written}`, or as a number such as `0.2`"));
             return None;
         }
         let what = if coefficient { "the coefficient of friction" } else { "the friction" };

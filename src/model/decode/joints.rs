@@ -230,7 +230,10 @@ impl<'n> Decoder<'n> {
         let (a, b) = (a?, b?);
         if a.body == b.body {
             let name = self.name_space.model.bodies[a.body].name.clone();
-            self.fault("same-body", here, format!("both points belong to `{name}`"), "points of two bodies");
+            let others = self.name_space.known(|entity| matches!(entity, Entity::Body(_)));
+            let other = others.iter().find(|other| **other != name).copied().unwrap_or("ground");
+            self.fault("same-body", here, format!("both points belong to `{name}`"), "points of two bodies").help =
+                Some(format!("put a point of another body, as of `{other}`, in the place of one of them"));
             return None;
         }
         Some((a, b))
@@ -288,7 +291,8 @@ impl<'n> Decoder<'n> {
                 let near = suggest::nearest(text, joints.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 let list = suggest::known(joints.iter().copied()).unwrap_or_else(|| "(there are none)".to_owned());
                 let message = is.unwrap_or_else(|| format!("unknown joint `{}`", clip(text)));
-                self.fault("unknown-joint", at, message, format!("one of the joints {list}")).help = near;
+                self.fault("unknown-joint", at, message, format!("one of the joints {list}")).help =
+                    Some(near.unwrap_or_else(|| suggest::take_or_add(text, "joints")));
                 None
             }
         }

@@ -74,7 +74,7 @@ impl<'n> Decoder<'n> {
             let (size, of) = self.unit(text, &here.key(unit))?;
             if !dimensions.is_empty() && !dimensions.contains(&of) {
                 let message = format!("`{}` is a unit of {}", clip(text), of.name());
-                self.fault("wrong-dimension", &here.key(unit), message, dimensions[0].name());
+                self.fault("wrong-dimension", &here.key(unit), message, dimensions[0].name()).help = Some(suggest::unit_of(dimensions[0]));
                 return None;
             }
             (dimension, named) = (Some(of), Some((text.to_owned(), size)));
@@ -204,7 +204,7 @@ impl<'n> Decoder<'n> {
             let (size, found) = self.unit(text, &units_at.index(i))?;
             if found != dimension {
                 let message = format!("`{}` is a unit of {}", clip(text), found.name());
-                self.fault("wrong-dimension", &units_at.index(i), message, dimension.name());
+                self.fault("wrong-dimension", &units_at.index(i), message, dimension.name()).help = Some(suggest::unit_of(dimension));
                 return None;
             }
             sizes[i] = size;

@@ -34,6 +34,17 @@ impl Form {
             Self::Angles => "`[roll, pitch, yaw]`",
         }
     }
+
+    /// What to write.
+    fn example(self) -> String {
+        let of = |value: &str| format!("write one value, such as `{value}`; `~{value}` for a guess");
+        match self {
+            Self::Number(Want::Of(dimension)) if !dimension.is_angle() => of(&dimension.written("1")),
+            Self::Number(_) => of("30 deg"),
+            Self::Rotation => "write it as `{ axis: [0, 0, 1], angle: 30 deg }`; `angle: ~30 deg` for a guess".to_owned(),
+            Self::Angles => "write it as `[0 deg, 0 deg, 30 deg]`; `[~0 deg, ~0 deg, ~30 deg]` for a guess".to_owned(),
+        }
+    }
 }
 
 keys! {
@@ -81,7 +92,8 @@ impl<'n> Decoder<'n> {
                     } else {
                         "one value"
                     };
-                    self.fault("wrong-type", &at, found, form.words());
+                    let help = form.example();
+                    self.fault("wrong-type", &at, found, form.words()).help = Some(help);
                     None
                 }
             };

@@ -143,17 +143,15 @@ impl<'n> Decoder<'n> {
                     match sides[side] {
                         Some(first) if !first.any && !first.bare => {
                             if let Err(found) = lowered.expect(first.dimension) {
-                                self.fault(
-                                    "wrong-dimension",
-                                    &here,
-                                    format!("found {found}"),
-                                    format!("{}, as above", first.dimension.name()),
-                                );
+                                let expected = format!("{}, as above", first.dimension.name());
+                                self.fault("wrong-dimension", &here, format!("found {found}"), expected).help =
+                                    Some(format!("give all points of a side one unit, here {}", first.dimension.si()));
                             }
                         }
                         Some(first) if !lowered.any && !lowered.bare && !first.any && lowered.dimension != first.dimension => {
                             let message = format!("found {}", lowered.dimension.name());
-                            self.fault("wrong-dimension", &here, message, "a number, as above: give all points of a side their unit");
+                            self.fault("wrong-dimension", &here, message, "a number, as above").help =
+                                Some("give all points of a side their unit".to_owned());
                         }
                         Some(first) if !first.any && (lowered.any || lowered.bare) => {}
                         _ => sides[side] = Some(lowered),

@@ -2,7 +2,7 @@
 
 use super::contract::{Declared, Features};
 use crate::expression::{Dimension, Id};
-use crate::model::coordinates::Coordinate;
+use crate::model::coordinates::{self, Coordinate};
 use crate::model::decode::decoder::Decoder;
 use crate::model::entities::LoadOn;
 use crate::model::fault::{At, Spot};
@@ -66,12 +66,21 @@ impl<'n> Decoder<'n> {
         }
         let [driver] = &self.name_space.model.drivers[..] else {
             let n = self.name_space.model.drivers.len();
-            let drivers = self.section("drivers").len();
-            // a faulty driver was reported already
-            if drivers == n {
-                let message = format!("the range of one driver, but the mechanism has {n} drivers");
-                let help = if n == 0 { "add a driver, or give a time such as `2 s`" } else { "give a time such as `2 s`" };
-                self.fault("no-driver", &over_at, message, "one driver, or a time").help = Some(help.to_owned());
+            let all = &self.name_space.model.drivers;
+            let twice = all.iter().enumerate().any(|(i, driver)| all[..i].iter().any(|other| other.joint == driver.joint));
+            // a faulty driver was reported already, and so were two of one joint
+            if self.section("drivers").len() == n && !twice {
+                let message = format!("the range of one driver, but the mechanism has {n} driver{}", if n == 1 { "" } else { "s" });
+                let freedom = self.freedom_by_count();
+                let help = match n {
+                    0 => "add a driver, or give a time such as `2 s`".to_owned(),
+                    _ if freedom < n => format!(
+                        "remove drivers: by Grübler's count the joints leave {freedom} degree{} of freedom",
+                        if freedom == 1 { "" } else { "s" }
+                    ),
+                    _ => "give a time such as `2 s`".to_owned(),
+                };
+                self.fault("no-driver", &over_at, message, "one driver, or a time").help = Some(help);
             }
             return None;
         };
@@ -81,13 +90,23 @@ impl<'n> Decoder<'n> {
         let want = if coordinate.angle { Want::Angle } else { Want::Of(dimension) };
         if lowered.expect(dimension).is_err() {
             let message = format!("found {}", lowered.dimension.name());
-            self.fault("wrong-dimension", &over_at, message, format!("{} of the driver, or a time (s)", want.name()));
+            let of = if coordinate.angle { "such as `1 turn`" } else { "such as `10 cm`" };
+            self.fault("wrong-dimension", &over_at, message, format!("{} of the driver, or a time (s)", want.name())).help =
+                Some(format!("say how far the driver goes, {of}, or for how long, such as `2 s`"));
             return None;
         }
         self.fits(&lowered, want, over, None, &over_at);
         self.check(Rule::NotZero("the range"), &[lowered.id], &over_at);
         let path = format!("{}.{}", self.name_space.model.joints[joint].name, coordinate.names[0]);
         Some((Range { over: Over::Driver(lowered.id), samples }, offers(dimension, Some(path))))
+    }
+
+    /// Freedoms of the bodies less what joints and couplings take; less than the true number where some of those are redundant.
+    fn freedom_by_count(&self) -> usize {
+        let model = &self.name_space.model;
+        let whole = if self.name_space.components() == 2 { 3 } else { 6 };
+        let taken: usize = model.joints.iter().map(|joint| whole - coordinates::freedom(&joint.kind, whole)).sum();
+        (whole * (model.bodies.len() - 1)).saturating_sub(taken + model.couplings.len())
     }
 
     /// Loads by first-order states are known in motion in time alone.
