@@ -79,7 +79,10 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     let m = &survey.mobility;
     let mut out = Vec::new();
     if !m.redundant.is_empty() {
-        out.push(format!("redundant constraints (harmless; single reactions are those of least size): {}", m.redundant.join("; ")));
+        out.push(format!(
+            "redundant constraints (harmless but for friction by a coefficient; single reactions are those of least size): {}",
+            m.redundant.join("; ")
+        ));
     }
     out.extend(survey.findings.iter().map(|finding| finding.message.clone()));
     if m.freedom < drivers {

@@ -327,9 +327,14 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>,
         out.push(Finding {
             code: "redundant-constraints".into(),
             message: format!(
-                "{} constraint rows for {} unknowns: motions and driver efforts are unique, single reactions may be those of least size",
+                "{} constraint rows for {} unknowns: {}, single reactions may be those of least size",
                 mechanism.rows.len(),
-                mechanism.nv
+                mechanism.nv,
+                if mechanism.pressings.is_empty() {
+                    "motions and driver efforts are unique"
+                } else {
+                    "motions are unique, but not what follows from reactions: friction by a coefficient, and with it driver efforts"
+                }
             ),
             path: "joints".into(),
         });

@@ -325,3 +325,50 @@ studies: {{ run: {{ dynamics: {{ until: 1 s, every: 0.5 s, {of} }}, columns: [ti
         close(&format!("when it stops, {of}"), last, stops, 20.0 * tolerance);
     }
 }
+
+/// A block between two guides in a line, one of which rubs: how the guides share its weight is left open by a redundant row.
+#[test]
+fn a_motion_under_friction_by_reactions_that_are_not_unique_says_so() {
+    let text = |second: &str, joint: &str| {
+        format!(
+            "grashof: 1
+name: two guides
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: {{ c: {{ mass: 1 kg, inertia: 0.01 kg m^2, points: {{ L: [-1 m, 0], R: [1 m, 0] }} }} }}
+ground: {{ L: [-1 m, 0], R: [1 m, 0] }}
+joints:
+  L: {{ {second}: [ground.L, c.L], axis: [1, 0] }}
+  R: {{ {joint}: [ground.R, c.R], axis: [1, 0]{} }}
+start: {{ c.vx: 1 m/s }}
+studies: {{ run: {{ dynamics: {{ until: 0.2 s }}, columns: [time, c.vx] }} }}
+",
+            if joint == "slider" { ", friction: { coulomb: 0.2 }" } else { "" }
+        )
+    };
+    let told = |text: &str| done(text, "run").findings.iter().any(|f| f.code == "friction-not-unique");
+    assert!(told(&text("slider", "slider")));
+    assert!(!told(&text("slider", "pin-in-slot")));
+}
+
+/// Two motors that a pair of gears joins: only what they do together is determined.
+#[test]
+fn drivers_that_hold_the_same_motion_say_so() {
+    let text = |gear: &str| {
+        format!(
+            "grashof: 1
+name: two motors
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg, inertia: 1 kg m^2 }}, b: {{ mass: 1 kg, inertia: 1 kg m^2 }} }}
+ground: {{ A: [0, 0], B: [1 m, 0] }}
+joints: {{ A: {{ revolute: [ground.A, a.origin] }}, B: {{ revolute: [ground.B, b.origin] }} }}
+{gear}drivers: {{ first: {{ joint: A, speed: 1 rad/s }}, second: {{ joint: B, speed: -1 rad/s }} }}
+studies: {{ run: {{ dynamics: {{ until: 0.2 s }}, columns: [time, first.torque] }} }}
+"
+        )
+    };
+    let told = |text: &str| done(text, "run").findings.iter().any(|f| f.code == "efforts-not-unique");
+    assert!(told(&text("couplings: { pair: { gear: [A, B], ratio: -1 } }\n")));
+    assert!(!told(&text("")));
+}

@@ -6,6 +6,7 @@ use super::system::{Mechanical, Met, Root};
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
+use crate::kinematics::mobility::mobility;
 use crate::kinematics::undefined::{Gap, meeting};
 use crate::mechanism::{BuildFault, Contact, Mechanism, Stop};
 use crate::model::{Model, Parameter, Study};
@@ -154,6 +155,39 @@ pub(super) fn not_unique<G: Space<S = f64>>(phases: &Phases<G>, open: &[usize]) 
         path: contact.place.clone(),
     };
     contacts.map(finding).collect()
+}
+
+/// What redundant rows leave open in a motion in time: friction that follows from reactions, and with it the motion; efforts of drivers
+/// that hold the same motion.
+pub(super) fn shared<G: Space<S = f64>>(phases: &Phases<G>) -> Vec<Finding> {
+    let first = phases.first();
+    let m: &Mechanism<G> = &first.mechanism;
+    let mut findings = Vec::new();
+    if m.pressings.is_empty() && m.drives.len() < 2 {
+        return findings;
+    }
+    let mobility = mobility(m, &first.start);
+    if !m.pressings.is_empty() && !mobility.redundant.is_empty() {
+        findings.push(Finding {
+            code: "friction-not-unique".into(),
+            message: format!(
+                "the friction of {} follows from reactions, and {} redundant constraint row{} may leave open how joints share them: then it, and the motion, is one of several; give a loop a joint that leaves it free (`pin-in-slot`, `spherical`, `universal`), or the friction as a force",
+                friction_by_reactions(m),
+                mobility.redundant.len(),
+                if mobility.redundant.len() == 1 { "" } else { "s" }
+            ),
+            path: "joints".into(),
+        });
+    }
+    if m.drives.len() > mobility.freedom - mobility.left.min(mobility.freedom) {
+        findings.push(Finding {
+            code: "efforts-not-unique".into(),
+            message: "drivers hold the same motion: only what their efforts do together is determined, single ones are those of least size"
+                .into(),
+            path: "drivers".into(),
+        });
+    }
+    findings
 }
 
 /// Contacts in words.

@@ -86,6 +86,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
         }
     };
     flow.findings.extend(explain::not_unique(phases, &flow.course.open));
+    flow.findings.extend(explain::shared(phases));
     let Flow { course: Course { events, ended, .. }, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan, &study.place);
     unresolved.dedup_by(|a, b| a.path == b.path);
