@@ -150,9 +150,9 @@ impl Dense {
     /// The interpolant by the steps before, without an evaluation: q by the polynomial of degree 11 through q, q̇ and q̈ at four nodes, v
     /// by its rate; for systems without z in which q̇ = v. The errors are O(h¹²) and O(h¹¹).
     ///
-    /// `nodes` are y = (q, v) and ẏ at the begins of the last three steps and at the end of the last, which goes between `ends`; `before` are the lengths of the
-    /// others, s.
-    /// Gives an estimate of its error, 1 at the tolerance: each node before takes a part of what was left, as the last two show.
+    /// `nodes` are y = (q, v) and ẏ at the begins of the last three steps and at the end of the last, which goes between `ends`; `before`
+    /// are the lengths of the others, s. Gives an estimate of its error, 1 at the tolerance: each node before takes a part of what was
+    /// left, as the last two show.
     pub(crate) fn through_nodes(&mut self, engine: &Engine, ends: [&State; 2], before: [f64; 2], nodes: [(&[f64], &[f64]); 4]) -> f64 {
         let nq = self.dims.q;
         let ([from, to], [far, near]) = (ends, before);

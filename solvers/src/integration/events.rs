@@ -334,8 +334,7 @@ impl Integration {
     fn come_to_rest(&mut self, system: &mut dyn System) -> Result<bool, Why> {
         let mut restart = false;
         for _ in 0..MOST_AT_REST {
-            let Node { state, a, lambda, .. } = &self.node;
-            system.roots(state.at(), a, lambda, &mut self.probe);
+            // those of the node were looked at last
             if self.probe.iter().all(|g| *g != 0.0) {
                 break;
             }
@@ -354,6 +353,8 @@ impl Integration {
                 restart = true;
                 self.engine.settle(system, &mut self.node)?;
             }
+            let Node { state, a, lambda, .. } = &self.node;
+            system.roots(state.at(), a, lambda, &mut self.probe);
         }
         Ok(restart)
     }
