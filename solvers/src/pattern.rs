@@ -59,6 +59,9 @@ pub struct Pattern {
     /// Roots that are located even where switches are marched across (see [`Settings::locate`](crate::Settings::locate)): those of
     /// events, and of contacts whose crossing gives a blow.
     pub acting: Vec<usize>,
+    /// Roots whose crossing can give a blow, and to what way each is known, in units of what it strikes along: blows that less than the time
+    /// of this way lies between come at one instant.
+    pub striking: Vec<(usize, f64)>,
     /// Roots behind which forces follow other laws: a step that reaches far beyond one is made again.
     pub forceful: Vec<usize>,
     /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
@@ -90,6 +93,7 @@ impl Pattern {
             power: Power::Reactions,
             roots_by_reactions: false,
             acting: Vec::new(),
+            striking: Vec::new(),
             forceful: Vec::new(),
             timed: Vec::new(),
             rough: Vec::new(),

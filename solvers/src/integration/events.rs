@@ -264,7 +264,7 @@ impl Integration {
             }
             if !self.blows.is_empty() {
                 // what else is hit at this instant is so with the velocities before
-                next = self.also_crossed(system);
+                next = self.also_crossed(system).or_else(|| self.also_hit(system, LOCATED * h));
                 if next.is_some() {
                     continue;
                 }
@@ -327,6 +327,24 @@ impl Integration {
         system.roots(state.at(), a, lambda, &mut self.probe);
         let near = |root: &usize| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root);
         self.looked.iter().copied().find(near)
+    }
+
+    /// A stop that is hit at the same instant as that of the last blow, so that round-off does not decide on an order: before that could
+    /// move on by the way to which it is known, or within the time to which roots are located, `least` (s).
+    fn also_hit(&mut self, system: &mut dyn System, least: f64) -> Option<usize> {
+        let blow = self.blows.last()?;
+        let (_, way) = *system.pattern().striking.iter().find(|(root, _)| *root == blow.root)?;
+        if system.pattern().striking.len() < 2 {
+            return None;
+        }
+        let speed: f64 = blow.row.iter().zip(&self.node.state.v).map(|(r, v)| r * v).sum();
+        let within = (way / speed.abs()).min(MOMENT * self.moment()).max(least);
+        self.trial.copy_from(&self.node);
+        self.drift(system, within);
+        system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[0]);
+        // one that was left at the begin of the step may be behind its zero by round-off since then: what counts is that it closes
+        let hit = |root: &usize| self.samples[0][*root] < self.probe[*root].min(0.0) && !self.crossed.contains(root);
+        system.pattern().striking.iter().map(|(root, _)| *root).filter(|root| self.looked.contains(root)).find(hit)
     }
 
     /// Gives switches whose roots have become zero at the event and stay so the modes of equal operands, as where a clamp or a segment of a

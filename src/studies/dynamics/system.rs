@@ -162,6 +162,7 @@ where
                 size_q[*q] = size[*v];
             }
         }
+        let near: Vec<f64> = mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect();
         let pattern = Pattern {
             mass: dynamics.work.mass.pattern().clone(),
             g: dynamics.work.g.pattern().clone(),
@@ -185,6 +186,7 @@ where
                 || !held.is_empty()
                 || !contacts.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
+            striking: contact::striking(mechanism, &roots, &near),
             forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
@@ -204,7 +206,7 @@ where
             lambda: vec![0.0; rows],
             size: start.size,
             modes: mechanism.modes(),
-            near: mechanism.stops.iter().map(|s| PASSED * s.size(start.size)).collect(),
+            near,
             rests: Vec::with_capacity(2 * mechanism.stops.len()),
             struck: Vec::with_capacity(mechanism.stops.len()),
             restless: None,

@@ -168,7 +168,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         let sizes = self.engine.size_v.iter().zip(&before.state.v).map(|(s, v)| s + v.abs());
         let mut changes = before.state.v.iter().zip(&after.state.v).zip(sizes);
         if changes.any(|((a, b), size)| (a - b).abs() > STRUCK * size) {
-            let stops: Vec<usize> = (0..self.system.roots.len()).filter(|i| self.system.strikes(*i)).collect();
+            let stops: Vec<usize> = self.system.pattern().striking.iter().map(|(root, _)| *root).collect();
             let gap = |i: usize, side: &mut Self, node: &mut Node| side.root(i, node).map_or(f64::INFINITY, |g| g[0].abs());
             let gaps: Vec<f64> = stops.iter().map(|&i| gap(i, self, before)).collect();
             let nearest = stops.iter().zip(&gaps).min_by(|a, b| a.1.total_cmp(b.1));

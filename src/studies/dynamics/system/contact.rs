@@ -4,7 +4,7 @@ use super::Mechanical;
 use super::root::Root;
 use crate::dynamics::slack;
 use crate::geometry::Space;
-use crate::mechanism::{Stop, StretchOf};
+use crate::mechanism::{Mechanism, Stop, StretchOf};
 use grashof_solvers::{At, Effect, Kkt, Stage, State, System};
 
 impl Root {
@@ -17,6 +17,17 @@ impl Root {
     pub(super) fn is_forceful(self) -> bool {
         !matches!(self, Self::Column { .. } | Self::Winding { .. } | Self::Event(_))
     }
+}
+
+/// Roots that can give a blow, each with the way to which its stop is known.
+pub(super) fn striking<G: Space>(mechanism: &Mechanism<G>, roots: &[Root], near: &[f64]) -> Vec<(usize, f64)> {
+    let stop = |root: &Root| match *root {
+        Root::Stop(stop) => Some(stop),
+        // a blow where its function is zero
+        Root::Event(event) => mechanism.stops.iter().position(|s| s.event == Some(event)),
+        _ => None,
+    };
+    roots.iter().enumerate().filter_map(|(i, root)| Some((i, near[stop(root)?]))).collect()
 }
 
 impl<G> Mechanical<'_, G>

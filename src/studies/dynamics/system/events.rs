@@ -37,11 +37,7 @@ where
 
     /// Whether the crossing of a root can give a blow.
     pub(crate) fn strikes(&self, root: usize) -> bool {
-        match self.roots[root] {
-            Root::Stop(_) => true,
-            Root::Event(event) => self.events[event].impact.is_some(),
-            _ => false,
-        }
+        self.pattern.striking.iter().any(|(striking, _)| *striking == root)
     }
 
     /// Events whose side differs between two lists of modes, and which count in that direction: they have happened between them.
