@@ -186,7 +186,7 @@ where
                 || !held.is_empty()
                 || !contacts.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
-            striking: contact::striking(mechanism, &roots, &near),
+            striking: Self::striking(mechanism, &roots, &near),
             forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),

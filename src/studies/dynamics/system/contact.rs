@@ -19,21 +19,21 @@ impl Root {
     }
 }
 
-/// Roots that can give a blow, each with the way to which its stop is known.
-pub(super) fn striking<G: Space>(mechanism: &Mechanism<G>, roots: &[Root], near: &[f64]) -> Vec<(usize, f64)> {
-    let stop = |root: &Root| match *root {
-        Root::Stop(stop) => Some(stop),
-        // a blow where its function is zero
-        Root::Event(event) => mechanism.stops.iter().position(|s| s.event == Some(event)),
-        _ => None,
-    };
-    roots.iter().enumerate().filter_map(|(i, root)| Some((i, near[stop(root)?]))).collect()
-}
-
 impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
 {
+    /// Roots that can give a blow, each with the way to which its stop is known.
+    pub(super) fn striking(mechanism: &Mechanism<G>, roots: &[Root], near: &[f64]) -> Vec<(usize, f64)> {
+        let stop = |root: &Root| match *root {
+            Root::Stop(stop) => Some(stop),
+            // a blow where its function is zero
+            Root::Event(event) => mechanism.stops.iter().position(|s| s.event == Some(event)),
+            _ => None,
+        };
+        roots.iter().enumerate().filter_map(|(i, root)| Some((i, near[stop(root)?]))).collect()
+    }
+
     /// Accelerations and multipliers of a state by an own solution; those of before where there is none.
     pub(super) fn accelerate(&mut self, at: &At<'_>) {
         if let Some((mut friction, mut terms)) = self.friction.take() {
