@@ -157,7 +157,7 @@ fn observe<G: Space<S = f64>>(
     let name = independent(case, mechanism, clock);
     let unit = clock.unit(mechanism);
     let variable = Variable { name: &name, unit };
-    let explain = |gap: &Gap, at: f64| gap.explain(model, study, &format!("{name} = {}", (at * 1e6).round() / 1e6 + 0.0));
+    let explain = |gap: &Gap, at: f64| gap.explain(model, study, &variable.at(at));
     let mut undefined = motion.path.gap.take().map(|gap| explain(&gap, clock.value(motion.ends[1])));
     let mut barrier: Option<String> = None;
     let seen = loop {
@@ -260,7 +260,7 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
     let extremes = extrema(motion, resolved.samples(), &breaks);
-    let mut rows = Recorder::new(case, watched, clock, [variable.name, variable.name]);
+    let mut rows = Recorder::new(case, watched, clock, variable.name, variable);
     motion.rows(samples, &mut rows)?;
     let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, variable, clock);
     let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };

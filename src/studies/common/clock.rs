@@ -1,6 +1,7 @@
 //! The independent variable of a range: the driver's coordinate or time, and the time that belongs to it.
 
 use crate::dynamics::Dynamics;
+use crate::expression::Dimension;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use crate::numerics::root::root;
@@ -33,7 +34,17 @@ pub struct Variable<'a> {
     pub unit: (f64, &'static str),
 }
 
-impl Variable<'_> {
+impl<'a> Variable<'a> {
+    /// Of a dimension: an angle in degrees, a length in metres, a time in seconds, anything else as it is.
+    pub(crate) fn of(name: &'a str, dimension: Dimension) -> Self {
+        let unit = match dimension {
+            d if d == Dimension::TIME => (1.0, "s"),
+            d if d == Dimension::ANGLE || d == Dimension::LENGTH => coordinate_unit(d == Dimension::ANGLE),
+            _ => (1.0, ""),
+        };
+        Self { name, unit }
+    }
+
     /// A place: `O.angle = 80 deg`.
     #[must_use]
     pub fn at(&self, value: f64) -> String {

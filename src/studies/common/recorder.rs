@@ -1,7 +1,7 @@
 //! The rows of a run: kept, or passed on as they are computed.
 
 use super::case::{Case, Streamed};
-use super::clock::Clock;
+use super::clock::{Clock, Variable};
 use super::named::{column, column_of};
 use super::selection::Selection;
 use super::watched::Watched;
@@ -13,7 +13,7 @@ pub(crate) struct Recorder<'a> {
     case: Case<'a>,
     clock: Clock,
     /// What findings call the independent variable.
-    symbol: &'a str,
+    variable: Variable<'a>,
     /// Which of the watched expressions are shown: the columns, then the curves of figures.
     shown: Vec<usize>,
     /// What is shown in each row, of rows that are passed on as far as it is to be kept.
@@ -34,8 +34,8 @@ pub(crate) struct Recorded {
 }
 
 impl<'a> Recorder<'a> {
-    /// Before the rows over the independent variable `name`, which findings call by its `symbol`.
-    pub(crate) fn new(case: Case<'a>, watched: &Watched, clock: Clock, [name, symbol]: [&'a str; 2]) -> Self {
+    /// Before the rows over an independent variable, whose column has a `name`.
+    pub(crate) fn new(case: Case<'a>, watched: &Watched, clock: Clock, name: &str, variable: Variable<'a>) -> Self {
         let study = case.study;
         if let Some(Streamed { sink, .. }) = case.rows {
             let columns: Vec<Column> =
@@ -52,7 +52,7 @@ impl<'a> Recorder<'a> {
             Some(Streamed { keep: 0, .. }) => Selection::new(0, PLACES),
             Some(Streamed { keep, .. }) => Selection::new(shown.len(), keep),
         };
-        Self { case, clock, symbol, shown, kept, blank: vec![(0, 0.0); study.columns.len()] }
+        Self { case, clock, variable, shown, kept, blank: vec![(0, 0.0); study.columns.len()] }
     }
 
     /// A row at some progress in a piece, with the values of all that is watched.
@@ -89,11 +89,10 @@ impl<'a> Recorder<'a> {
         let finding = |(column, (count, first)): (&crate::model::Column, &(usize, f64))| Finding {
             code: "blank-cells".into(),
             message: format!(
-                "`{}` is not defined in {count} of {} rows, first at {} = {}: its cells are blank there",
+                "`{}` is not defined in {count} of {} rows, first at {}: its cells are blank there",
                 column.name,
                 self.count(),
-                self.symbol,
-                (first * 1e6).round() / 1e6 + 0.0
+                self.variable.at(*first)
             ),
             path: format!("{}.columns", study.place),
         };

@@ -32,6 +32,7 @@ use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
+use crate::expression::Dimension;
 use crate::geometry::{Planar, Pose, Space, Spatial};
 use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
@@ -62,7 +63,7 @@ where
     let phases = Phases::<G>::new(model, parameters, plan.coordinates)?;
     check_rows(study, &plan, watched.ids.len().max(1))?;
     let clock = Clock::of_time(plan.until);
-    let rows = || Rows::new(Recorder::new(case, &watched, clock, ["time", "t"]), plan.every);
+    let rows = || Rows::new(Recorder::new(case, &watched, clock, "time", Variable::of("t", Dimension::TIME)), plan.every);
     let mut taken = rows();
     let Recorded { mut trajectory, mut stopped, mut undefined, mut events, certificate, mut findings } =
         march::march(case, &plan, &watched.ids, &phases, None, (stop, Some(&mut taken)))?;
@@ -197,7 +198,7 @@ where
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let clock = Clock::of_time(plan.until);
     let recorder = rows.finish(trajectory)?;
-    let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], Variable { name: "time", unit: (1.0, "s") }, clock);
+    let mut findings = unresolved(case.model, case.study, watched, &resolved, &[], Variable::of("time", Dimension::TIME), clock);
     let mut functionals =
         Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = functionals.all(case, &watched.functionals, &mut findings)?;

@@ -6,7 +6,7 @@ use super::stability::Neighbours;
 use super::states::largest;
 use super::turn::{Advance, NoTurn, Single, Turn};
 use super::{explain, stability};
-use crate::expression::Id;
+use crate::expression::{Dimension, Id};
 use crate::geometry::Space;
 use crate::model::{PeriodEnd, Periodic};
 use crate::numerics::continuous::Curve;
@@ -169,7 +169,8 @@ impl<'a> Regime<'a> {
             NoTurn::Back(t) => explain::turns_back(search, t),
         })?;
         let name = if asked.over.is_some() { &search.over } else { "time" };
-        let mut recorder = Recorder::new(case, watched, clock, [name, name]);
+        let variable = Variable::of(name, search.study.independent.unwrap_or(Dimension::NONE));
+        let mut recorder = Recorder::new(case, watched, clock, name, variable);
         let times = rows(&mut turn, asked.samples, &mut recorder).map_err(|off| lost(search, off))?;
         let breaks = turn.breaks.clone();
         let width = resolution(Control::Tolerance(search.tolerance));
@@ -177,7 +178,7 @@ impl<'a> Regime<'a> {
         turn.all_defined(&resolved).map_err(|off| lost(search, off))?;
         let extremes = extrema(&mut turn, resolved.samples(), &breaks);
         let ends = [0.0, clock.length];
-        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], Variable { name, unit: (1.0, "") }, clock);
+        let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], variable, clock);
         let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
         let functionals = all.all(case, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
         Ok(Seen { clock, rows: recorder, times, extremes, functionals, findings, resolution: resolved.quality() })
