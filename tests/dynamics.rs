@@ -1,6 +1,7 @@
 //! Motion in time by the program: reference values, reduced equations, agreement of coordinates, energies, events, faults.
 
 mod agreement;
+mod beyond;
 mod crank_rocker;
 mod events;
 mod faults;

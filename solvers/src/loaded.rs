@@ -150,6 +150,14 @@ impl System for Loaded<'_> {
         self.system.ahead(at, to, roots)
     }
 
+    fn beyond(&self) -> bool {
+        self.system.beyond()
+    }
+
+    fn equal(&mut self, root: usize, state: &mut State) -> Option<Effect> {
+        self.system.equal(root, state)
+    }
+
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
         // the last work is not the system's own
         let last = state.work.pop();

@@ -426,6 +426,22 @@ impl<S: System> System for Minimal<S> {
         self.loops.get_mut().inner.ahead(At { modes: &at.modes[..self.inner.modes], ..at }, to, roots)
     }
 
+    fn beyond(&self) -> bool {
+        self.loops.borrow().inner.beyond()
+    }
+
+    fn equal(&mut self, root: usize, state: &mut State) -> Option<Effect> {
+        if root >= self.inner.roots {
+            return None;
+        }
+        let loops = self.loops.get_mut();
+        loops.reach(state.at());
+        let Loops { inner, state: whole, .. } = loops;
+        let effect = inner.equal(root, whole)?;
+        state.modes[..self.inner.modes].copy_from_slice(&whole.modes);
+        Some(effect)
+    }
+
     fn cross(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
         let loops = self.loops.get_mut();
         loops.reach(state.at());

@@ -229,6 +229,12 @@ pub trait System {
     fn equal(&mut self, _root: usize, _state: &mut State) -> Option<Effect> {
         None
     }
+
+    /// Whether the terms evaluated last have a value that their modes do not define, and that is another branch's: there is no smooth
+    /// continuation. A system whose branches are defined everywhere has none, which is the default.
+    fn beyond(&self) -> bool {
+        false
+    }
 }
 
 #[cfg(test)]

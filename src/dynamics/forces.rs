@@ -15,7 +15,7 @@ impl<G: Space> Dynamics<'_, G> {
         if m.force_program.outputs > 0 {
             self.fill(&m.force_program);
             let w = &mut self.work;
-            m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
+            w.beyond |= !m.force_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
         }
         self.sides(modes);
         self.inertias();
@@ -29,7 +29,7 @@ impl<G: Space> Dynamics<'_, G> {
         if program.outputs > 0 {
             self.fill(program);
             let w = &mut self.work;
-            program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.zdot);
+            w.beyond |= !program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.zdot);
         }
     }
 

@@ -15,11 +15,12 @@ impl<G: Space> Dynamics<'_, G> {
         let m = self.mechanism;
         let w = &mut self.work;
         self.t = t;
+        w.beyond = false;
         if m.drives.iter().any(|d| d.speed.is_none()) || m.stretches.iter().any(|s| s.moving.is_some()) {
             for &(input, _) in &m.time_program.fills {
                 w.inputs[input] = t;
             }
-            m.time_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.motions);
+            w.beyond = !m.time_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.motions);
         }
         for drive in &m.drives {
             if let Some(speed) = drive.speed {
@@ -166,7 +167,7 @@ impl<G: Space> Dynamics<'_, G> {
         if program.outputs > 0 {
             self.fill(program);
             let w = &mut self.work;
-            program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.functions);
+            w.beyond |= !program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.functions);
         }
     }
 
@@ -238,7 +239,7 @@ impl<G: Space> Dynamics<'_, G> {
         if m.velocity_program.outputs > 0 {
             self.fill(&m.velocity_program);
             let w = &mut self.work;
-            m.velocity_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.drifts);
+            w.beyond |= !m.velocity_program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.drifts);
         }
         let w = &mut self.work;
         for (row, gamma) in m.rows.iter().zip(&mut w.gamma) {

@@ -68,6 +68,8 @@ pub struct Workspace<G: Space> {
     pub z: Vec<G::S>,
     /// ż (nz).
     pub zdot: Vec<G::S>,
+    /// Whether a program had an output that the branch of its modes does not define, so that it is that of another one.
+    pub beyond: bool,
     /// Right-hand side f (nv).
     pub force: Vec<G::S>,
     /// Mass matrix M (nv × nv).
@@ -142,6 +144,7 @@ impl<G: Space> Workspace<G> {
             force_outputs: zeros(mechanism.force_program.outputs),
             z: mechanism.state_starts.iter().map(|z| G::S::constant(*z)).collect(),
             zdot: zeros(mechanism.state_starts.len()),
+            beyond: false,
             force: zeros(nv),
             mass_places,
             mass_roads,

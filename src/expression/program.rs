@@ -254,10 +254,30 @@ impl Program {
         &self.switches
     }
 
-    /// The outputs at `inputs` in the branch that `modes` select.
-    pub fn eval<S: Scalar>(&self, inputs: &[S], modes: &[i32], registers: &mut [S], outputs: &mut [S]) {
+    /// The outputs at `inputs` in the branch that `modes` select. One that this branch does not define, beyond the switch where it ends,
+    /// is that of the branch which the values themselves ask for: √max(0, x) is 0 behind x = 0, whatever the mode; false if there is one.
+    pub fn eval<S: Scalar>(&self, inputs: &[S], modes: &[i32], registers: &mut [S], outputs: &mut [S]) -> bool {
         self.run(inputs, modes, registers);
+        let mut defined = true;
         for (output, register) in outputs.iter_mut().zip(&self.outputs) {
+            *output = registers[*register as usize];
+            defined &= output.value().is_finite();
+        }
+        if !defined && !self.decisions.is_empty() {
+            self.define(inputs, modes, registers, outputs);
+        }
+        defined
+    }
+
+    /// The outputs that are not defined, in the modes that the values ask for.
+    #[cold]
+    fn define<S: Scalar>(&self, inputs: &[S], modes: &[i32], registers: &mut [S], outputs: &mut [S]) {
+        let mut own = modes.to_vec();
+        let mut k = self.decide(inputs, registers, &mut own);
+        for op in &self.ops[self.decisions.last().map_or(0, |last| last.before as usize)..] {
+            k = step(self, *op, k, inputs, &own, registers);
+        }
+        for (output, register) in outputs.iter_mut().zip(&self.outputs).filter(|(output, _)| !output.value().is_finite()) {
             *output = registers[*register as usize];
         }
     }
@@ -273,9 +293,13 @@ impl Program {
     /// Sets the mode of every switch in the program from the values, evaluating as it goes. A value that lies exactly on a
     /// comparison takes the literal truth.
     pub fn set_modes(&self, inputs: &[f64], registers: &mut [f64], modes: &mut [i32]) {
-        if self.decisions.is_empty() {
-            return;
+        if !self.decisions.is_empty() {
+            self.decide(inputs, registers, modes);
         }
+    }
+
+    /// Runs as far as the last switch is decided; the next free register.
+    fn decide<S: Scalar>(&self, inputs: &[S], registers: &mut [S], modes: &mut [i32]) -> usize {
         let registers = &mut registers[..self.registers];
         let (mut k, mut done) = (0, 0);
         for (decision, switch) in self.decisions.iter().zip(&self.switches) {
@@ -283,8 +307,9 @@ impl Program {
                 k = step(self, self.ops[done], k, inputs, modes, registers);
                 done += 1;
             }
-            modes[*switch as usize] = decision.test.mode(|i| registers[i as usize], &self.tables);
+            modes[*switch as usize] = decision.test.mode(|i| registers[i as usize].value(), &self.tables);
         }
+        k
     }
 
     /// Distance of each switch of [`Self::switches`] from the end of its present mode: positive inside, 0 on the switch,

@@ -173,6 +173,25 @@ fn switches_hold_their_branch_until_modes_are_set() {
 }
 
 #[test]
+fn what_a_branch_does_not_define_is_that_of_its_values() {
+    let mut p = Pool::new();
+    let (x, zero, power) = (p.input(0), p.constant(0.0), p.constant(1.5));
+    let positive = p.max(x, zero, "max(x, 0)");
+    let size = p.abs(x, "abs(x)");
+    let outputs = [p.sqrt(positive), p.pow(size, power), p.sqrt(x), size];
+    let program = p.program(&outputs, &[], &tables());
+    let (mut registers, mut modes, mut values) = (vec![0.0; program.registers()], vec![0; p.switches().len()], [0.0; 4]);
+    program.set_modes(&[1.0], &mut registers, &mut modes);
+    program.eval(&[-4.0], &modes, &mut registers, &mut values);
+    // what is defined stays in its branch, and what is undefined by itself is so
+    assert_eq!([values[0], values[1], values[3]], [0.0, 8.0, -4.0]);
+    assert!(values[2].is_nan());
+    let mut dual = [Dual::<1>::default(); 4];
+    program.eval(&[Dual::variable(-4.0, 0)], &modes, &mut vec![Dual::default(); program.registers()], &mut dual);
+    assert_eq!((dual[0].x, dual[1].x, dual[1].d[0]), (0.0, 8.0, -3.0));
+}
+
+#[test]
 fn an_undefined_value_that_is_not_taken_does_no_harm() {
     let mut p = Pool::new();
     let (x, zero) = (p.input(0), p.constant(0.0));

@@ -41,7 +41,7 @@ pub fn new(method: Method, settings: Settings, system: &dyn System) -> Box<dyn S
         Method::Ida => Box::new(ida::Ida::new(system, !settings.locate)),
         #[cfg(not(feature = "sundials"))]
         Method::Ida => Box::new(absent::Absent),
-        Method::Rk4 => Box::new(rk4::Rk4::new(system)),
+        Method::Rk4 => Box::new(rk4::Rk4::new(system, !settings.locate)),
     }
 }
 

@@ -11,6 +11,8 @@ use crate::scheme::Scheme;
 
 /// The classical Runge-Kutta method.
 pub(super) struct Rk4 {
+    /// Whether the modes of every stage are taken from its values.
+    follow: bool,
     stage: Node,
     /// q̇ of a stage (nq) and sums of the rates of q, v, z.
     rate: Vec<f64>,
@@ -23,12 +25,13 @@ pub(super) struct Rk4 {
 }
 
 impl Rk4 {
-    /// Room for a system.
-    pub(super) fn new(system: &dyn System) -> Self {
+    /// Room for a system; `follow` takes the modes of every stage from its values.
+    pub(super) fn new(system: &dyn System, follow: bool) -> Self {
         let dims = system.dims();
         let vectors = || [vec![0.0; dims.q], vec![0.0; dims.v], vec![0.0; dims.z]];
         let node = Node::new(dims);
         Self {
+            follow: follow && dims.modes > 0,
             stage: node.clone(),
             rate: vec![0.0; dims.q],
             sums: vectors(),
@@ -41,14 +44,14 @@ impl Rk4 {
     }
 }
 
-/// Scratch of one step: the stage, q̇, and the sums of rates.
-type Scratch<'a> = (&'a mut Node, &'a mut Vec<f64>, &'a mut [Vec<f64>; 3]);
+/// Scratch of one step: the stage, q̇, and the sums of rates; and whether stages take their own modes.
+type Scratch<'a> = (&'a mut Node, &'a mut Vec<f64>, &'a mut [Vec<f64>; 3], bool);
 
 /// One step of size h, projected; `to` is complete.
 fn step(
     system: &mut dyn System,
     engine: &mut Engine,
-    (stage, rate, sums): Scratch<'_>,
+    (stage, rate, sums, follow): Scratch<'_>,
     from: &Node,
     h: f64,
     to: &mut Node,
@@ -72,6 +75,9 @@ fn step(
             move_by(&mut s.v, &from.state.v, &stage.a);
             move_by(&mut s.z, &from.state.z, &stage.zdot);
             s.t = from.state.t + place * h;
+            if follow {
+                engine.follow_modes(system, s);
+            }
             engine.accelerate(system, stage)?;
         }
     }
@@ -90,15 +96,15 @@ impl Scheme for Rk4 {
     }
 
     fn attempt(&mut self, system: &mut dyn System, engine: &mut Engine, from: &Node, h: f64, to: &mut Node) -> Result<(), Rejected> {
-        let Self { stage, rate, sums, middle, whole, errors, factor, .. } = self;
+        let Self { follow, stage, rate, sums, middle, whole, errors, factor, .. } = self;
         let fails = |why| Rejected { why, retry: 0.25 * h };
         self.h = h;
         if engine.is_fixed() {
-            return step(system, engine, (stage, rate, sums), from, h, to).map_err(fails);
+            return step(system, engine, (stage, rate, sums, *follow), from, h, to).map_err(fails);
         }
-        step(system, engine, (stage, rate, sums), from, h, whole).map_err(fails)?;
-        step(system, engine, (stage, rate, sums), from, 0.5 * h, middle).map_err(fails)?;
-        step(system, engine, (stage, rate, sums), middle, 0.5 * h, to).map_err(fails)?;
+        step(system, engine, (stage, rate, sums, *follow), from, h, whole).map_err(fails)?;
+        step(system, engine, (stage, rate, sums, *follow), from, 0.5 * h, middle).map_err(fails)?;
+        step(system, engine, (stage, rate, sums, *follow), middle, 0.5 * h, to).map_err(fails)?;
         let (x, y) = (&to.state, &whole.state);
         for (e, (x, y)) in errors.iter_mut().zip([(&x.q, &y.q), (&x.v, &y.v), (&x.z, &y.z)]) {
             e.iter_mut().zip(x.iter().zip(y)).for_each(|(e, (x, y))| *e = (x - y) / 15.0);

@@ -467,6 +467,10 @@ where
         }
     }
 
+    fn beyond(&self) -> bool {
+        self.dynamics.work.beyond
+    }
+
     fn equal(&mut self, root: usize, state: &mut State) -> Option<Effect> {
         self.look(&state.at(), None);
         let (switch, mode, effect) = match self.roots[root] {

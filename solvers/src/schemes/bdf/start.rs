@@ -183,7 +183,7 @@ impl Start {
                         *x = x0 + place * h * r;
                     }
                 }
-                engine.accelerate(system, stage)?;
+                accelerate(system, engine, stage)?;
             }
         }
         let s = &mut node.state;
@@ -191,6 +191,12 @@ impl Start {
         for (x, sum) in [&mut s.q, &mut s.v, &mut s.z].into_iter().zip(&*sums) {
             x.iter_mut().zip(sum).for_each(|(x, s)| *x += h * s);
         }
-        engine.accelerate(system, node)
+        accelerate(system, engine, node)
     }
+}
+
+/// Accelerations on the smooth continuation, if there is one.
+fn accelerate(system: &mut dyn System, engine: &mut Engine, node: &mut Node) -> Result<(), Why> {
+    engine.accelerate(system, node)?;
+    if system.beyond() { Err(Why::NotFinite(0)) } else { Ok(()) }
 }
