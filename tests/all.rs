@@ -44,6 +44,7 @@ mod regimes;
 mod report;
 mod resolution;
 mod rheonomic;
+mod rises;
 mod scenes;
 mod singular;
 mod solve;

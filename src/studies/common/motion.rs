@@ -17,6 +17,9 @@ use crate::numerics::resolve::Resolved;
 /// Part of a velocity by which its values on two sides of a switch may differ by round-off.
 const JUMP: f64 = 1e-7;
 
+/// Part of the mean speed below which a mechanism counts as standing: there what velocities differ by is round-off of the whole motion.
+const STANDING: f64 = 1e-2;
+
 /// How far from a change point, in rad or sizes, positions are taken that tell those in it.
 const SMOOTH: f64 = 0.08;
 
@@ -206,13 +209,15 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     /// Places (in the independent variable) at which velocities jump, as where the law of a driver has a kink.
     pub(crate) fn jumps(&mut self) -> Vec<f64> {
         let mut places = Vec::new();
+        let nodes = &self.path.nodes;
+        let speed = nodes.iter().flat_map(|node| &node.v).fold(0.0, |sum, v| sum + v.abs()) / nodes.len().max(1) as f64;
         for piece in 1..self.pieces.len() {
             let s = self.breaks[piece];
             let sides = [piece - 1, piece].map(|piece| {
                 let solved = self.solve(s, Some(piece)).is_ok();
                 if solved { self.driven.v.clone() } else { Vec::new() }
             });
-            let largest = sides.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let largest = sides.iter().flatten().fold(STANDING * speed, |m: f64, v| m.max(v.abs()));
             let [before, after] = &sides;
             let differs = |(a, b): (&f64, &f64)| (a - b).abs() > JUMP * (a.abs() + b.abs()) && (a - b).abs() > JUMP * largest;
             if before.iter().zip(after).any(differs) {

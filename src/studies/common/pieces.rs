@@ -30,6 +30,11 @@ const NARROWEST: f64 = 1e-10;
 /// A distance is zero if it is within so many times its round-off.
 const ROUND_OFF: f64 = 100.0;
 
+/// Where on a stretch its round-off is taken, and how often and how much nearer to its begin where the modes there do not hold so far.
+const HEARD: f64 = 0.4337;
+const NEARER: usize = 12;
+const NEARER_BY: f64 = 0.25;
+
 /// Nodes of the path to a first stretch.
 const NODES_TO_A_STRETCH: usize = 4;
 
@@ -204,7 +209,7 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
     /// Looks at all stretches, the last of the list first.
     fn sweep(&mut self, mut waiting: Vec<Stretch>) -> Result<Vec<Panel>, Lost> {
         let [low, high] = self.motion.ends;
-        self.hear(low, high)?;
+        self.hear(low, high);
         let mut panels: Vec<Panel> = Vec::new();
         while let Some(mut stretch) = waiting.pop() {
             if let Some(next) = stretch.enter.take() {
@@ -290,16 +295,21 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
         Ok(())
     }
 
-    /// Takes the round-off of distances between two places into what counts as zero.
-    fn hear(&mut self, from: f64, to: f64) -> Result<(), Lost> {
+    /// Takes the round-off of distances between two places into what counts as zero: where the present modes hold, or where the motion
+    /// is not lost beyond their end, ever nearer to the begin.
+    fn hear(&mut self, from: f64, to: f64) {
         let (piece, count) = (self.piece(), self.floor.len());
-        let (at, step) = (from + 0.4337 * (to - from), 1e-11 * self.range());
-        let found = noise(&mut Distances(self.motion, count), at, step, piece)?;
-        self.looks += 7;
-        for (floor, found) in self.floor.iter_mut().zip(found).filter(|(_, f)| f.is_finite()) {
-            *floor = floor.max(ROUND_OFF * found);
+        let mut width = to - from;
+        for last in (0..NEARER).rev() {
+            let at = from + HEARD * width;
+            width *= NEARER_BY;
+            let holds = self.distances(at).is_ok_and(|all| last == 0 || all.iter().all(|d| d.root >= 0.0 || d.root.is_nan()));
+            let step = 1e-11 * self.range();
+            let Some(Ok(found)) = holds.then(|| noise(&mut Distances(self.motion, count), at, step, piece)) else { continue };
+            self.looks += 7;
+            self.floor.iter_mut().zip(found).filter(|(_, f)| f.is_finite()).for_each(|(floor, f)| *floor = floor.max(ROUND_OFF * f));
+            return;
         }
-        Ok(())
     }
 
     /// Looks for the earliest end of a mode on a stretch.
@@ -327,7 +337,7 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
         for k in 0..self.floor.len() {
             let signs = seen.roots.windows(2).filter(|w| (w[0][k].root < 0.0) != (w[1][k].root < 0.0)).count();
             if signs > 3 && seen.size(k) > self.floor[k] {
-                self.hear(from, to)?;
+                self.hear(from, to);
             }
         }
         for j in 0..=NODES {
