@@ -31,6 +31,37 @@ studies:
     columns: [O.angle, P.position]
     expect: { max(P.position): { is: 50 cm, within: 1 mm } }
 `,
+  // they travel far: in the plane on wheels, in space in the air
+  car: `grashof: 1
+name: car
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies:
+  chassis: { mass: 200 kg, drawn: [[-1 m, 0], [1 m, 0], [0.8 m, 0.4 m], [-0.8 m, 0.4 m]], points: { F: [0.7 m, 0], R: [-0.7 m, 0] } }
+  front: { disc: { radius: 0.3 m, mass: 10 kg } }
+  rear: { disc: { radius: 0.3 m, mass: 10 kg } }
+joints:
+  S: { slider: [ground, chassis.origin], axis: [1, 0] }
+  F: { revolute: [chassis.F, front.origin] }
+  R: { revolute: [chassis.R, rear.origin] }
+couplings:
+  rollF: { zero: front.angle + S.position/(0.3 m)*1 rad }
+  rollR: { zero: rear.angle + S.position/(0.3 m)*1 rad }
+loads: { push: { joint: S, force: 500 N } }
+start: { S.position: 0 m, S.velocity: 2 m/s }
+studies: { drive: { dynamics: { until: 4 s, every: 50 ms }, columns: [time, S.position], trace: [front.origin] } }
+`,
+  thrown: `grashof: 1
+name: two bars thrown
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+bodies:
+  a: { bar: { length: 20 cm, mass: 1 kg } }
+  b: { bar: { length: 20 cm, mass: 1 kg } }
+joints: { J: { revolute: [a.end, b.start], axis: [0, 0, 1] } }
+start: { a.x: 0, a.y: 0, a.z: 1 m, a.vx: 8 m/s, a.vy: 3 m/s, a.vz: 6 m/s, J.angle: 60 deg, J.omega: 300 deg/s }
+studies: { fly: { dynamics: { until: 1.5 s, every: 20 ms }, columns: [time, a.com.x] } }
+`,
   // its variable falls on the way
   clamp: `grashof: 1
 name: clamp

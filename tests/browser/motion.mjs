@@ -175,6 +175,39 @@ export async function space_is_turned_moved_and_enlarged(open) {
   }
 }
 
+export async function what_travels_far_is_followed(open) {
+  for (const [model, study, end, leader, joint] of [['car', 'drive', 4, 'chassis', 'R'], ['thrown', 'fly', 1.5, 'b', 'J']]) {
+    const { tab } = await open(model, { study });
+    const select = tab.getByLabel('followed body');
+    assert.equal(await select.evaluate((one) => one.selectedOptions[0].textContent), `follow ${leader}`);
+    // the joint on the body that is followed stays where it is; without that it crosses the picture
+    const path = async () => {
+      const seen = [];
+      for (let k = 0; k <= 8; k++) {
+        await seek(tab, (end * k) / 8);
+        await picture(tab);
+        const name = (await tab.evaluate(() => grashof.names())).find(({ text }) => text.split(', ').includes(joint));
+        if (name) seen.push(name.at);
+      }
+      assert.ok(seen.length > 5, `${joint} has its name at ${seen.length} places`);
+      return Math.max(...seen.map(([x, y]) => Math.hypot(x - seen[0][0], y - seen[0][1])));
+    };
+    near(await path(), 0, 0.5, `${model}, followed`);
+    await select.selectOption('follow nothing');
+    assert.ok((await path()) > 200, model);
+    await select.selectOption(`follow ${leader}`);
+    near(await path(), 0, 0.5, `${model}, followed again`);
+  }
+  // what stays in its place is not followed, and a point alone is seen with something around it
+  for (const [model, study, body] of [['crank_rocker', 'one-turn', 'coupler'], ['truss', 'path', 'node']]) {
+    const { tab } = await open(model, { study });
+    const select = tab.getByLabel('followed body');
+    assert.equal(await select.evaluate((one) => one.selectedIndex), 0);
+    await select.selectOption(`follow ${body}`);
+    await picture(tab);
+  }
+}
+
 export async function arrows_are_drawn_on_demand(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   await seek(tab, 2);

@@ -22,6 +22,9 @@ interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; col
 /** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
 interface Spot { at(place: number): Vector; places: Vector[]; wide: boolean }
 
+/** Where a point is seen at a place of the motion. */
+type Seen = (at: Vector, place: number) => Point;
+
 /** Places of the motion that are looked at, and comparisons of a name with a joint, at most. */
 const LOOKS = 24;
 const MOST = 3e6;
@@ -96,12 +99,15 @@ export class Names {
   /** The names that were left out last. */
   private hidden = new Set<string>();
   private view = '';
+  /** The places of the motion that are looked at. */
+  private readonly looks: number[];
 
   constructor(motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
     const { bodies, links, traces } = motion.scene;
     const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length + bodies.length, 1) ** 2))));
     const at = motion.sampled(looks);
+    this.looks = at;
     const spot = (of: (place: number) => Vector, wide = false): Spot => ({ at: of, places: at.map(of), wide });
     this.joints = joints.map(({ name, b }) => ({ name, ...spot((place) => motion.world(b, place)) }));
     this.others = bodies.flatMap(({ name, shapes: [shape], color }, body): Other[] => {
@@ -133,7 +139,7 @@ export class Names {
   }
 
   /** Draws the names at a place of the motion, where `pixel` sees points; `view` is another one when it sees them elsewhere; with those of paths if these are drawn. */
-  draw(pen: Pen, place: number, pixel: (at: Vector) => Point, view: number[], size: Point, inks: Inks, paths: boolean): void {
+  draw(pen: Pen, place: number, pixel: Seen, view: number[], size: Point, inks: Inks, paths: boolean): void {
     const seen = [...view, ...size, paths].join();
     if (seen !== this.view) this.arrange(pen, pixel, size, paths);
     this.view = seen;
@@ -141,7 +147,7 @@ export class Names {
     const hidden = new Set<string>();
     const colors: string[] = [];
     for (const { text, at: where, width, side, other } of this.groups) {
-      const at = pixel(where(place));
+      const at = pixel(where(place), place);
       const box = within(boxOn(side, at, width), size);
       const room = this.hidden.has(text) ? BACK : 0;
       if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => overlap(box, one.box, room))) {
@@ -159,7 +165,7 @@ export class Names {
   }
 
   /** Finds the side of each name in a view. */
-  private arrange(pen: Pen, pixel: (at: Vector) => Point, size: Point, paths: boolean): void {
+  private arrange(pen: Pen, pixel: Seen, size: Point, paths: boolean): void {
     const before = new Map(this.groups.map(({ text, side }) => [text, side]));
     this.groups = this.together(pen, pixel);
     const taken: Box[][] = [];
@@ -176,7 +182,7 @@ export class Names {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
       const groups = all.map(({ at, places, wide }, k) => {
-        const group: Group = { text, at, width, points: places.map(pixel), side: 0, other };
+        const group: Group = { text, at, width, points: this.seen(places, pixel), side: 0, other };
         return { group, cost: this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k };
       });
       const best = groups.reduce((a, b) => (b.cost < a.cost ? b : a));
@@ -184,6 +190,11 @@ export class Names {
       take(best.group);
       this.groups = [...this.groups, best.group];
     }
+  }
+
+  /** Where a point is seen over the motion. */
+  private seen(places: Vector[], pixel: Seen): Point[] {
+    return places.map((at, k) => pixel(at, this.looks[k]!));
   }
 
   /** Gives a name the best of its sides; how bad that is. */
@@ -219,10 +230,10 @@ export class Names {
   }
 
   /** The joints in groups that are at one place all the time. */
-  private together(pen: Pen, pixel: (at: Vector) => Point): Group[] {
+  private together(pen: Pen, pixel: Seen): Group[] {
     const groups: { names: string[]; at: Group['at']; points: Point[] }[] = [];
     for (const { name, at, places } of this.joints) {
-      const points = places.map(pixel);
+      const points = this.seen(places, pixel);
       const near = (p: Point, k: number) => Math.hypot(p[0] - points[k]![0], p[1] - points[k]![1]) < ONE;
       const known = groups.find((group) => group.points.every(near));
       if (known) known.names.push(name);

@@ -15,9 +15,13 @@ export interface Options {
   arrows: Set<Kind>;
   /** Length of the largest arrow as a part of the picture; beside FIRST that of arrows with a scale beside their own. */
   scale: number;
+  /** The body that stays in the middle, by its name. */
+  follow: string | null;
 }
 
 export interface Renderer {
+  /** Goes with a body, or stays. */
+  follow(name: string | null): void;
   /** Draws a place of the motion, in pixels of the page. */
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
   /** The names that are drawn. */

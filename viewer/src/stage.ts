@@ -4,6 +4,7 @@ import { Arrows, COLOR, type Kind } from './arrows';
 import type { Clock } from './clock';
 import { scene as decoded } from './data';
 import { button, h, icon } from './dom';
+import { leading } from './follow';
 import { Motion, falling } from './motion';
 import type { Named } from './names';
 import { digits, heading, pretty, shownIn } from './numbers';
@@ -74,7 +75,7 @@ export class Stage {
   private renderer: Renderer | null = null;
   private pace: Pace | null = null;
   private results: Results;
-  private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: FIRST };
+  private options: Options = { paths: 'growing', names: true, arrows: new Set(), scale: FIRST, follow: null };
   /** Whether a reader may have chosen what is shown. */
   private begun = false;
   private size: [number, number] = [0, 0];
@@ -254,6 +255,8 @@ export class Stage {
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);
+    if (!this.begun) this.options.follow = leading(motion);
+    this.renderer?.follow(this.options.follow);
     if (this.kept?.dimensions === motion.scene.dimensions) this.renderer?.outlook(this.kept.look);
     this.kept = undefined;
     this.shape();
@@ -327,6 +330,14 @@ export class Stage {
       this.redraw();
     } }, ...['paths grow', 'whole paths', 'no paths'].map((name) => h('option', {}, name)));
     paths.selectedIndex = ['growing', 'whole', 'none'].indexOf(options.paths);
+    const bodies = this.motion!.scene.bodies.slice(1).map(({ name }) => name);
+    const follow = h('select', { 'aria-label': 'followed body', change: () => {
+      options.follow = bodies[follow.selectedIndex - 1] ?? null;
+      this.renderer?.follow(options.follow);
+      this.shape();
+      this.redraw();
+    } }, h('option', {}, 'follow nothing'), ...bodies.map((name) => h('option', {}, `follow ${name}`)));
+    follow.selectedIndex = bodies.indexOf(options.follow ?? '') + 1;
     // what the arrows mean, where the model says it
     const told = h('output', { class: 'told' });
     const tell = () => {
@@ -343,6 +354,7 @@ export class Stage {
     } });
     this.shown.replaceChildren(
       ...(this.motion!.scene.traces.length > 0 ? [paths] : []),
+      ...(this.motion!.to > this.motion!.from ? [follow] : []),
       check('names', options.names, (on) => (options.names = on)),
       ...kinds.map((kind) => check(NAMES[kind], options.arrows.has(kind), (on) => (on ? options.arrows.add(kind) : options.arrows.delete(kind)), COLOR[kind])),
       ...(kinds.length > 0 ? [h('label', {}, heading('length', ''), scale), told] : []));

@@ -1,6 +1,7 @@
 // A mechanism in the plane on a canvas.
 
 import { type Arrows, COLOR, type Kind } from '../arrows';
+import { Followed, LEAST } from '../follow';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
 import type { Options, Renderer } from '../renderer';
@@ -40,7 +41,10 @@ function depth(shape: Shape): number {
 
 export class Plane implements Renderer {
   private readonly pen: Pen;
-  private readonly bounds: { low: Point; high: Point };
+  private readonly followed: Followed;
+  private bounds: { low: Point; high: Point };
+  /** The least size of what is seen, m. */
+  private least = 1e-9;
   private readonly paths: { trace: Trace; at: number[]; points: Point[] }[];
   private scale = 0;
   private zoomed = 1;
@@ -55,10 +59,19 @@ export class Plane implements Renderer {
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
     this.names = new Names(motion);
+    this.followed = new Followed(motion);
     this.bounds = this.measure();
+    const { low, high } = this.bounds;
+    this.least = LEAST * Math.max(high[0] - low[0], high[1] - low[1]);
     this.gears = toothed(motion);
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
+  }
+
+  follow(name: string | null): void {
+    if (!this.followed.take(name)) return;
+    this.bounds = this.measure();
+    this.fit();
   }
 
   aspect(): number {
@@ -141,7 +154,7 @@ export class Plane implements Renderer {
     // over the pins of other joints
     scene.joints.forEach((joint) => this.dashpot(joint));
     for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) signs.pin(pen, 'revolute', this.point(end), false, inks);
-    if (options.names) this.names.draw(pen, place, ([x, y]) => this.pixel(x, y), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
+    if (options.names) this.names.draw(pen, place, ([x, y], at) => this.pixel(x, y, at), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
   }
@@ -185,11 +198,13 @@ export class Plane implements Renderer {
     signs.link(this.pen, kind, from, to, this.inks);
   }
 
-  private pixel(x: number, y: number): Point {
+  /** Where a point is seen at a place of the motion, the present one. */
+  private pixel(x: number, y: number, place = this.place): Point {
     const { low, high } = this.bounds;
+    const [baseX, baseY] = this.followed.base(place);
     return [
-      this.middle[0] + this.shift[0] + (x - (low[0] + high[0]) / 2) * this.scale,
-      this.middle[1] + this.shift[1] - (y - (low[1] + high[1]) / 2) * this.scale,
+      this.middle[0] + this.shift[0] + (x - baseX - (low[0] + high[0]) / 2) * this.scale,
+      this.middle[1] + this.shift[1] - (y - baseY - (low[1] + high[1]) / 2) * this.scale,
     ];
   }
 
@@ -206,10 +221,8 @@ export class Plane implements Renderer {
   /** Bounds of all that is drawn over the whole motion; of the ground the joints alone. */
   private measure(): { low: Point; high: Point } {
     const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    const places = [...this.motion.places()];
     for (const place of this.motion.sampled(LOOKS)) {
-      for (const point of places) {
-        const at = this.motion.world(point, place);
+      for (const at of this.followed.seen(place)) {
         for (const i of [0, 1] as const) {
           if (!Number.isFinite(at[i])) continue;
           low[i] = Math.min(low[i], at[i]);
@@ -218,9 +231,9 @@ export class Plane implements Renderer {
       }
     }
     if (low[0] > high[0]) return { low: [-1, -1], high: [1, 1] };
-    const size = Math.max(high[0] - low[0], high[1] - low[1], 1e-9);
+    const size = Math.max(high[0] - low[0], high[1] - low[1], this.least);
     for (const i of [0, 1] as const) {
-      const lacking = 0.3 * size - (high[i] - low[i]);
+      const lacking = (size > this.least ? 0.3 : 1) * size - (high[i] - low[i]);
       if (lacking > 0) [low[i], high[i]] = [low[i] - lacking / 2, high[i] + lacking / 2];
     }
     return { low, high };

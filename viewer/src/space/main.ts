@@ -1,6 +1,7 @@
 // A mechanism in space on a canvas: faces from the back to the front, seen from any side.
 
 import { type Arrows, COLOR, type Kind } from '../arrows';
+import { Followed, LEAST } from '../follow';
 import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
 import { Pen, type Point, toward } from '../plane/pen';
@@ -30,14 +31,19 @@ interface Item { depth: number; draw(): void }
 class Space implements Renderer {
   private readonly pen: Pen;
   private readonly names: Names;
-  private middle: Vector;
-  private readonly size: number;
+  private readonly followed: Followed;
+  /** The middle of all that is seen, beside the body that is followed; with it, at the present place. */
+  private middle: Vector = [0, 0, 0];
+  private now: Vector = [0, 0, 0];
+  private size = 1;
+  /** The least that size may be, m. */
+  private least = 1e-9;
   private readonly floor: number;
   private readonly up: Vector;
   private readonly level: [Vector, Vector];
   private readonly paths: { at: number[]; points: Vector[] }[];
   /** Places over the motion, and the width and height that they take in the first view. */
-  private readonly seen: Vector[] = [];
+  private seen: Vector[] = [];
   private extent: Point = [1, 1];
   private faces: { of: Inks | null; all: Face[][]; pins: Face[][] } = { of: null, all: [], pins: [] };
   private turn: number;
@@ -61,8 +67,17 @@ class Space implements Renderer {
     [this.turn, this.tilt] = [azimuth, elevation];
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ at, points: at.map((place) => motion.world(trace, place)) }));
-    ({ middle: this.middle, size: this.size, floor: this.floor } = this.measure());
-    this.centre();
+    this.followed = new Followed(motion);
+    this.measure();
+    this.least = LEAST * this.size;
+    this.floor = this.seen.reduce((least, at) => Math.min(least, dot(at, this.up)), this.seen.length > 0 ? Infinity : -0.5);
+  }
+
+  follow(name: string | null): void {
+    if (!this.followed.take(name)) return;
+    this.faces.of = null;
+    this.fit();
+    this.measure();
   }
 
   aspect(): number {
@@ -110,6 +125,7 @@ class Space implements Renderer {
 
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
+    this.now = add(this.middle, this.followed.base(place));
     const { pen, motion } = this;
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
     this.look(width, height, 0);
@@ -136,7 +152,7 @@ class Space implements Renderer {
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) this.dashpot(joint, inks);
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
-    if (options.names) this.names.draw(pen, place, (at) => this.pixel(at), this.outlook(), [width, height], inks, options.paths !== 'none');
+    if (options.names) this.names.draw(pen, place, (at, then) => this.pixel(at, add(this.middle, this.followed.base(then))), [...this.outlook(), this.scale], [width, height], inks, options.paths !== 'none');
     this.axes(height, inks);
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, AXES, [width, height], inks);
   }
@@ -167,8 +183,9 @@ class Space implements Renderer {
     this.center = [width / 2, (height - Math.max(0, foot - 45)) / 2];
   }
 
-  private pixel(at: Vector): Point {
-    const from = add(at, this.middle, -1);
+  /** Where a point is seen, with its middle as it is at the present place of the motion. */
+  private pixel(at: Vector, middle = this.now): Point {
+    const from = add(at, middle, -1);
     return [
       this.center[0] + this.shift[0] + dot(from, this.right) * this.scale,
       this.center[1] + this.shift[1] - dot(from, this.above) * this.scale,
@@ -176,25 +193,18 @@ class Space implements Renderer {
   }
 
   private depth(at: Vector): number {
-    return dot(add(at, this.middle, -1), this.toEye);
+    return dot(add(at, this.now, -1), this.toEye);
   }
 
-  /** The middle of all that is drawn over the motion, how large that is, and where it ends below. */
-  private measure(): { middle: Vector; size: number; floor: number } {
+  /** The middle of all that is drawn over the motion, and how large that is. */
+  private measure(): void {
     const [low, high]: [Vector, Vector] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-    let floor = Infinity;
-    const places = [...this.motion.places()];
-    for (const place of this.motion.sampled(LOOKS)) {
-      for (const point of places) {
-        const at = this.motion.world(point, place);
-        if (!at.every(Number.isFinite)) continue;
-        this.seen.push(at);
-        for (const i of [0, 1, 2] as const) [low[i], high[i]] = [Math.min(low[i], at[i]), Math.max(high[i], at[i])];
-        floor = Math.min(floor, dot(at, this.up));
-      }
-    }
-    if (low[0] > high[0]) return { middle: [0, 0, 0], size: 1, floor: -0.5 };
-    return { middle: scaled(add(low, high), 0.5), size: Math.max(Math.hypot(...add(high, low, -1)), 1e-9), floor };
+    this.seen = this.motion.sampled(LOOKS).flatMap((place) => [...this.followed.seen(place)]).filter((at) => at.every(Number.isFinite));
+    for (const at of this.seen) for (const i of [0, 1, 2] as const) [low[i], high[i]] = [Math.min(low[i], at[i]), Math.max(high[i], at[i])];
+    if (this.seen.length === 0) return;
+    this.middle = scaled(add(low, high), 0.5);
+    this.size = Math.max(Math.hypot(...add(high, low, -1)), this.least);
+    this.centre();
   }
 
   /** The middle and the size of the first view. */
@@ -202,7 +212,6 @@ class Space implements Renderer {
     this.look(100, 100, 0);
     const range = (along: Vector): Point => this.seen.reduce<Point>(([low, high], at) => [Math.min(low, dot(at, along)), Math.max(high, dot(at, along))], [Infinity, -Infinity]);
     const [across, upwards] = [range(this.right), range(this.above)];
-    if (this.seen.length === 0) return;
     const least = 0.05 * this.size;
     this.extent = [Math.max(across[1] - across[0], least), Math.max(upwards[1] - upwards[0], least)];
     const from = (along: Vector, [low, high]: Point) => (low + high) / 2 - dot(this.middle, along);
@@ -298,7 +307,7 @@ class Space implements Renderer {
     const reach = 0.75 * this.size;
     const power = 10 ** Math.floor(Math.log10(reach / 3));
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= reach / 6) ?? power;
-    const [cx, cy] = [dot(this.middle, x), dot(this.middle, y)];
+    const [cx, cy] = [dot(this.now, x), dot(this.now, y)];
     const at = (u: number, v: number) => this.pixel(add(add(scaled(x, u), y, v), this.up, this.floor - 0.02 * this.size));
     for (let k = Math.ceil((cx - reach) / step); k * step <= cx + reach; k++) this.pen.path([at(k * step, cy - reach), at(k * step, cy + reach)]).stroke(inks.grid, 1);
     for (let k = Math.ceil((cy - reach) / step); k * step <= cy + reach; k++) this.pen.path([at(cx - reach, k * step), at(cx + reach, k * step)]).stroke(inks.grid, 1);
