@@ -4,6 +4,7 @@ mod allocations;
 mod auto;
 mod bdf;
 mod central_difference;
+mod continuous;
 mod dop853;
 mod events;
 mod ida;

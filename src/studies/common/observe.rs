@@ -4,7 +4,7 @@ use crate::dynamics::{Dynamics, Reactions};
 use crate::expression::{Cause, Id, Program};
 use crate::geometry::{Motion, Space};
 use crate::kinematics::undefined::Gap;
-use crate::mechanism::{EffortLaw, Measured, Mechanism, RowOwner};
+use crate::mechanism::{EffortLaw, Leaf, Measured, Mechanism, RowOwner};
 use crate::model::{Model, Quantity, Study};
 
 /// A program of columns with the sources of its inputs; its scratch is sized once.
@@ -128,6 +128,24 @@ impl<G: Space<S = f64>> Observer<G> {
         for (input, source) in &self.fills {
             self.inputs[*input] = source.read(dynamics, a, reactions, &mut self.modes);
         }
+    }
+
+    /// Takes the quantities from elsewhere: inputs of the program with their values.
+    pub fn take(&mut self, values: impl Iterator<Item = (usize, f64)>, modes: &[i32]) {
+        self.modes.copy_from_slice(modes);
+        values.for_each(|(input, value)| self.inputs[input] = value);
+    }
+
+    /// The inputs of the program with what the programs of forces read as well; none if it reads anything else.
+    #[must_use]
+    pub fn leaves(&self) -> Option<Vec<(usize, Leaf)>> {
+        let leaf = |source: &Source<G>| match *source {
+            Source::Time => Some(Leaf::Time),
+            Source::State(state) => Some(Leaf::State(state)),
+            Source::Gauge { gauge, order: order @ (0 | 1) } => Some(Leaf::Gauge { gauge, order }),
+            _ => None,
+        };
+        self.fills.iter().map(|(input, source)| Some((*input, leaf(source)?))).collect()
     }
 
     /// How far a state must be evaluated for all quantities.

@@ -162,7 +162,7 @@ pub fn unrecorded(case: Case<'_>, forward: &Forward, timer: &mut dyn FnMut(bool)
 }
 
 /// Part of what columns are resolved to by which a state between rows may be off the constraints: nearer ones need not be moved there.
-const NEAR: f64 = 0.01;
+const NEAR: f64 = 0.03;
 
 /// Part of the size by which a pose of a picture may be off the constraints: a hundredth of what frames leave out.
 const PLACED: f64 = 1e-8;

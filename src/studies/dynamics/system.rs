@@ -57,6 +57,8 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>> {
     timed: Vec<Timed>,
     /// The inputs of the programs of the mechanism, where all roots are decided by the numbers of a state alone.
     direct: Option<Vec<Vec<(usize, Source)>>>,
+    /// The inputs of the columns, where the numbers of a state tell them all.
+    watched: Option<Vec<(usize, Source)>>,
     /// The own solution, from when it is asked for first.
     kkt: Option<Kkt>,
     /// That where friction depends on reactions, with its terms.
@@ -154,6 +156,7 @@ where
         let outputs: Vec<usize> = events.iter().map(|event| event.output).collect();
         let timed = ahead::timed(mechanism, &observer, &roots, &outputs, mechanism.switches + mechanism.windings);
         let direct = direct::sources(&dynamics, &start.q, &roots);
+        let watched = direct::watched(&dynamics, &start.q, &observer);
         let block = tangent_pattern(mechanism);
         let size: Vec<f64> = crate::kinematics::assemble::units(mechanism).iter().map(|u| if *u == 0 { 1.0 } else { start.size }).collect();
         let mut size_q = vec![1.0; mechanism.nq];
@@ -221,6 +224,7 @@ where
             events,
             timed,
             direct,
+            watched,
             kkt: None,
         };
         if nz > 0 {
@@ -244,22 +248,6 @@ where
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
         &modes[..m.switches + m.windings]
-    }
-
-    /// Roots that the numbers of a state decide alone.
-    fn direct_roots(&mut self, at: &At<'_>, g: &mut [f64]) {
-        let Self { direct: Some(direct), dynamics, roots, inputs, registers, scratch, .. } = self else { return };
-        let mut filled = usize::MAX;
-        for (root, g) in roots.iter().zip(g) {
-            let Root::Force { program, k } = *root else { continue };
-            if filled != program {
-                direct[program].iter().for_each(|(input, source)| inputs[*input] = source.of(at));
-                let program = &dynamics.mechanism.programs()[program].program;
-                program.roots(inputs, at.modes, registers, &mut scratch[..program.switches().len()]);
-            }
-            filled = program;
-            *g = scratch[k];
-        }
     }
 
     /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.

@@ -1,5 +1,7 @@
 //! A motion in time as a curve: the continuous solution of every step, evaluated anywhere.
 
+mod at;
+
 use super::system::Mechanical;
 use crate::geometry::Space;
 use crate::kinematics::undefined::Gap;
@@ -30,6 +32,8 @@ struct Step {
     whole: bool,
     /// Number of its modes.
     modes: usize,
+    /// Whether all of it is as near to the constraints as columns need it, once that was asked for.
+    near: Option<bool>,
 }
 
 /// A stretch of the motion without switches: its parameters. Windings may change on it.
@@ -156,6 +160,7 @@ where
             form,
             whole,
             modes: self.modes.len() - 1,
+            near: None,
         });
         if let Some(piece) = self.pieces.last_mut() {
             (piece.to, piece.steps.1) = (end, self.steps.len());
@@ -279,58 +284,6 @@ where
     pub(crate) fn system(&mut self, piece: usize) -> &mut Mechanical<'m, G> {
         let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
         &mut self.phases[phase].system
-    }
-
-    /// Evaluates the state at `t` on a piece, with its accelerations, multipliers and reactions; inside of steps it is moved to
-    /// the constraints.
-    pub(crate) fn go(&mut self, t: f64, piece: usize) -> Result<(), Off> {
-        let own = self.take(t, piece)?;
-        self.accelerate(t, piece, own)
-    }
-
-    /// Evaluates the state that was taken at `t` with its accelerations, where it is or moved to the constraints.
-    fn accelerate(&mut self, t: f64, piece: usize, stays: bool) -> Result<(), Off> {
-        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
-        // next to a singular position a state may not be moved to the constraints: there it counts as it is
-        if stays || engine.settle(system, &mut self.node).is_err() {
-            self.dense.evaluate(t, &mut self.node.state);
-            engine.accelerate(system, &mut self.node).map_err(|_| Off { at: t, gap: None })?;
-        }
-        let Node { state, a, lambda, .. } = &self.node;
-        system.observe(&state.at(), a, lambda);
-        Ok(())
-    }
-
-    /// Places the bodies as they are at `t` on a piece, on the constraints to a `part` of the size, and nothing else.
-    pub(crate) fn place(&mut self, t: f64, piece: usize, part: f64) -> Result<(), Off> {
-        let own = self.take(t, piece)?;
-        let PhaseSystem { system, engine, .. } = &mut self.phases[self.pieces[piece].phase];
-        if !own && engine.project_coordinates(system, &mut self.node.state, part).is_err() {
-            self.dense.evaluate(t, &mut self.node.state);
-        }
-        system.stand(&self.node.state.at(), false);
-        Ok(())
-    }
-
-    /// As [`Trajectory::go`], but without accelerations where no column needs them. A state that is on the constraints to a `part` of its
-    /// size stays where it is.
-    fn glance(&mut self, t: f64, piece: usize, part: f64) -> Result<(), Off> {
-        let phase = self.pieces.get(piece).map_or(0, |p| p.phase);
-        let forces = self.phases[phase].system.observer.needs_forces();
-        if forces && part == 0.0 {
-            return self.go(t, piece);
-        }
-        let own = self.take(t, piece)?;
-        let PhaseSystem { system, engine, .. } = &mut self.phases[phase];
-        let near = own || part > 0.0 && engine.is_near(system, &self.node.state, part);
-        if forces {
-            return self.accelerate(t, piece, near);
-        }
-        if !near && engine.project(system, &mut self.node.state).is_err() {
-            self.dense.evaluate(t, &mut self.node.state);
-        }
-        system.glance(&self.node.state.at());
-        Ok(())
     }
 
     /// The state at `t` on a piece as the integrator's continuous solution has it; whether it is the begin or the end of a step,

@@ -1,9 +1,10 @@
-//! Switches that the numbers of a state decide alone: their roots need no places of bodies.
+//! What the numbers of a state tell alone, switches and columns: they need no places of bodies.
 
 use super::Root;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Gauge, Leaf, Measured, Step};
+use crate::studies::common::observe::Observer;
 use grashof_solvers::At;
 
 /// Where an input of a program stands in a state.
@@ -53,11 +54,24 @@ pub(super) fn sources<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], 
     for root in roots {
         let Root::Force { program, .. } = *root else { return None };
         if sources[program].is_empty() {
-            let fills = programs[program].fills.iter().map(|&(input, leaf)| Some((input, source(dynamics, q, leaf)?)));
-            sources[program] = fills.collect::<Option<_>>()?;
+            sources[program] = all(dynamics, q, programs[program].fills.iter().copied())?;
         }
     }
     Some(sources)
+}
+
+/// The quantities of an observer with their sources; none unless such numbers tell them all. The mechanism stands at the coordinates `q`.
+pub(super) fn watched<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], observer: &Observer<G>) -> Option<Vec<(usize, Source)>> {
+    // what a stop or friction holds is read as exactly as it is held
+    let free = dynamics.mechanism.stops.is_empty() && dynamics.mechanism.contacts.is_empty();
+    if free { all(dynamics, q, observer.leaves()?) } else { None }
+}
+
+fn all<G>(dynamics: &Dynamics<'_, G>, q: &[f64], leaves: impl IntoIterator<Item = (usize, Leaf)>) -> Option<Vec<(usize, Source)>>
+where
+    G: Space<S = f64>,
+{
+    leaves.into_iter().map(|(input, leaf)| Some((input, source(dynamics, q, leaf)?))).collect()
 }
 
 fn source<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], leaf: Leaf) -> Option<Source> {
@@ -128,6 +142,39 @@ mod tests {
                 let direct = system.direct.take();
                 system.roots(state.at(), &[], &[], &mut right);
                 system.direct = direct;
+                for (found, right) in found.iter().zip(&right) {
+                    assert!((found - right).abs() < 1e-13 * (1.0 + right.abs()), "{coordinates:?}: {found} and {right}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn columns_are_those_by_the_places_of_bodies() {
+        let text = include_str!("../../../../models/crank_rocker.yaml");
+        let source = text.replacen(
+            "studies:",
+            "studies:\n  told: { variant: motor, dynamics: { until: 1 s }, columns: [time, O.angle, O.omega, C.angle, B.omega] }",
+            1,
+        );
+        let selection = Selection { study: Some("told"), ..Selection::default() };
+        let model = Document::read(&source, "crank_rocker.yaml").unwrap().model(&selection).unwrap();
+        let columns: Vec<_> = model.study.as_ref().unwrap().columns.iter().map(|column| column.value).collect();
+        for coordinates in [Coordinates::Joint, Coordinates::Bounded(1), Coordinates::Cartesian] {
+            let phases = Phases::<Planar<f64>>::new(&model, &parameters(&model), coordinates).unwrap();
+            let observer = Observer::new(&model, &phases.mechanism, &phases.parameters, &columns);
+            let mut system = Mechanical::new(&phases.mechanism, &phases.start, observer, Vec::new());
+            let mut state = State::new(system.dims());
+            let [mut found, mut right] = [vec![0.0; columns.len()], vec![0.0; columns.len()]];
+            for k in 0..5 {
+                let noise = |i: usize| (2.39 * (i + 1) as f64 * f64::from(k + 1)).sin();
+                state.t = f64::from(k);
+                state.q.iter_mut().zip(&phases.start.q).enumerate().for_each(|(i, (q, start))| *q = start + noise(i));
+                state.v.iter_mut().enumerate().for_each(|(i, v)| *v = 20.0 * noise(i + 7));
+                assert!(system.reads(&state.at()), "{coordinates:?}");
+                system.columns(&state.modes, &mut found);
+                system.glance(&state.at());
+                system.columns(&state.modes, &mut right);
                 for (found, right) in found.iter().zip(&right) {
                     assert!((found - right).abs() < 1e-13 * (1.0 + right.abs()), "{coordinates:?}: {found} and {right}");
                 }

@@ -1,6 +1,6 @@
 //! A mechanism in a state: what its evaluator is asked for, and nothing that stands in it already.
 
-use super::Mechanical;
+use super::{Mechanical, Root};
 use crate::geometry::Space;
 use crate::studies::common::observe::Needs;
 use grashof_solvers::At;
@@ -73,6 +73,13 @@ where
         observer.read(dynamics, [at.q, at.v, a], reactions, own);
     }
 
+    /// [`Mechanical::glance`], which leaves the evaluator where it is if the numbers of the state tell all.
+    pub(crate) fn read(&mut self, at: &At<'_>) {
+        if !self.reads(at) {
+            self.glance(at);
+        }
+    }
+
     /// The observer's inputs at a state; accelerations only if they are needed, by an own solution where none are given.
     pub(super) fn look(&mut self, at: &At<'_>, given: Option<(&[f64], &[f64])>) {
         if !self.pattern.roots_by_reactions {
@@ -85,5 +92,29 @@ where
         let (a, lambda) = (std::mem::take(&mut self.a), std::mem::take(&mut self.lambda));
         self.observe(at, &a, &lambda);
         (self.a, self.lambda) = (a, lambda);
+    }
+
+    /// Roots that the numbers of a state decide alone.
+    pub(super) fn direct_roots(&mut self, at: &At<'_>, g: &mut [f64]) {
+        let Self { direct: Some(direct), dynamics, roots, inputs, registers, scratch, .. } = self else { return };
+        let mut filled = usize::MAX;
+        for (root, g) in roots.iter().zip(g) {
+            let Root::Force { program, k } = *root else { continue };
+            if filled != program {
+                direct[program].iter().for_each(|(input, source)| inputs[*input] = source.of(at));
+                let program = &dynamics.mechanism.programs()[program].program;
+                program.roots(inputs, at.modes, registers, &mut scratch[..program.switches().len()]);
+            }
+            filled = program;
+            *g = scratch[k];
+        }
+    }
+
+    /// Reads the columns' quantities from the numbers of a state, if these tell them all; the evaluator stays where it is.
+    pub(super) fn reads(&mut self, at: &At<'_>) -> bool {
+        let own = self.own(at.modes);
+        let Self { watched: Some(watched), observer, .. } = self else { return false };
+        observer.take(watched.iter().map(|(input, source)| (*input, source.of(at))), own);
+        true
     }
 }

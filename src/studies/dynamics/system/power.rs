@@ -21,7 +21,8 @@ where
         let work = &self.dynamics.work;
         w[0] = by_springs - work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
         w[1..].fill(0.0);
-        for node in &m.nodes {
+        // what is applied to bodies is gravity and loads at points
+        for node in m.nodes.iter().filter(|_| !m.point_loads.is_empty()) {
             let gravity = G::dot(m.gravity, work.twists[node.body].v) * work.inertias[node.body].m
                 + G::dot(m.gravity, G::turn(work.twists[node.body].w, work.inertias[node.body].h));
             w[1] += work.applied[node.body].power(work.twists[node.body]) - gravity;
