@@ -296,6 +296,52 @@ studies:
     }
 }
 
+/// A block on a carriage that a load accelerates comes to rest on a stop of the slider that its weight makes rub: the stop carries what both
+/// share, the friction holds where the load turns, and the block slides off where it is too strong.
+#[test]
+fn a_block_rests_on_a_stop_of_the_joint_that_rubs() {
+    let text = |inertia: &str, settings: &str| {
+        format!(
+            "grashof: 1
+name: block on a carriage
+space: planar
+gravity: [0, -10 m/s^2]
+bodies: {{ c: {{ mass: 2 kg{inertia} }}, b: {{ mass: 1 kg{inertia} }} }}
+joints:
+  S: {{ slider: [ground, c.origin], axis: [1, 0] }}
+  T: {{ slider: [c.origin, b.origin], axis: [1, 0], friction: {{ coulomb: 0.1 }}, limits: {{ to: 5 cm, restitution: 0.3 }} }}
+loads: {{ f: {{ joint: S, force: \"if(t < 0.3 s, -30 N, if(t < 0.4 s, 1.5 N, 6 N))\" }} }}
+start: {{ S.position: 0 m, T.position: 4 cm }}
+studies:
+  d:
+    dynamics: {{ until: 0.5 s, every: 10 ms, {settings} }}
+    columns: [time, S.velocity, T.position, T.velocity, T.friction, T.stop]
+"
+        )
+    };
+    // bodies that do not turn need no inertia
+    let settings = ["tolerance: 1e-10", "coordinates: cartesian, tolerance: 1e-10", "integrator: radau5, tolerance: 1e-10"];
+    for (inertia, settings) in ["", ", inertia: 1 kg m^2"].into_iter().flat_map(|inertia| settings.map(|settings| (inertia, settings))) {
+        let outcome = done(&text(inertia, settings), "d");
+        for row in &outcome.rows {
+            let &[t, vs, x, v, friction, stop] = row else { panic!("six columns") };
+            let what = format!("{row:?}{inertia}, {settings}");
+            // at rest beside each other they have 10 m/s² back, then 0.5 m/s²; sliding, the block has what friction gives, 1 m/s²
+            let right = match t {
+                t if t > 0.1 && t < 0.3 - 1e-9 => [-10.0 * t, 0.05, 0.0, -10.0],
+                t if t > 0.3 + 1e-9 && t < 0.4 - 1e-9 => [-3.0 + 0.5 * (t - 0.3), 0.05, 0.0, 0.5],
+                t if t > 0.4 + 1e-3 => [-2.95 + 2.5 * (t - 0.4), 0.05 - 0.75 * (t - 0.4).powi(2), -1.5 * (t - 0.4), 1.0],
+                _ => continue,
+            };
+            for (found, right) in [vs, x, v, friction + stop].into_iter().zip(right) {
+                close(&what, found, right, 1e-7);
+            }
+            assert!(stop == 0.0 || t < 0.3 + 1e-9, "{what}");
+        }
+        assert!(drift(&outcome) < 1e-8, "{inertia}, {settings}: {}", drift(&outcome));
+    }
+}
+
 /// A driver that reaches a stop ends the study there, with its rows up to it.
 #[test]
 fn a_driven_motion_ends_where_it_meets_a_stop() {

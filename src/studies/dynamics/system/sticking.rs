@@ -229,8 +229,9 @@ where
         let n = resting.len();
         let a = DMatrix::from_fn(n, n, |i, j| dot(&gradients[i], &responses[j].a));
         let alone: Vec<f64> = resting.iter().map(|&c| self.dynamics.extent_acceleration(m.contacts[c].along, &free.a)).collect();
-        let mass = &self.dynamics.work.mass;
-        let freely = |i: usize| gradients[i].iter().enumerate().map(|(k, g)| g * g / mass.at(k, k)).sum::<f64>();
+        // coordinates without mass have a metric too
+        let metric = &self.pattern.metric;
+        let freely = |i: usize| gradients[i].iter().zip(metric).map(|(g, d)| g * g / d).sum::<f64>();
         let fixed: Vec<bool> = (0..n).map(|i| a[(i, i)] <= DETERMINED * freely(i)).collect();
 
         let mut lambda = free.lambda.clone();
