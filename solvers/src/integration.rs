@@ -18,6 +18,7 @@ use resolve::{NODES, Resolver};
 pub use zeno::Zeno;
 
 mod begin;
+mod blow;
 mod bridge;
 mod events;
 mod foresee;

@@ -62,6 +62,8 @@ pub struct Pattern {
     /// Roots whose crossing can give a blow, and to what way each is known, in units of what it strikes along: blows that less than the time
     /// of this way lies between come at one instant.
     pub striking: Vec<(usize, f64)>,
+    /// Roots of rates that do not become negative, as of a one-way clutch: those that a blow would make so take part in it.
+    pub closing: Vec<usize>,
     /// Roots behind which forces follow other laws: a step that reaches far beyond one is made again.
     pub forceful: Vec<usize>,
     /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
@@ -94,6 +96,7 @@ impl Pattern {
             roots_by_reactions: false,
             acting: Vec::new(),
             striking: Vec::new(),
+            closing: Vec::new(),
             forceful: Vec::new(),
             timed: Vec::new(),
             rough: Vec::new(),

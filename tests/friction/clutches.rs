@@ -1,7 +1,7 @@
 //! Clutches, brakes and one-way clutches against motions that are known in closed form, in all schemes and coordinates.
 
 use super::closed_forms::SCHEMES;
-use super::{close, done, forms, last, tried};
+use super::{close, done, drift, forms, last, march, tried};
 
 #[test]
 fn a_clutch_brings_two_wheels_to_one_speed_and_slips_again() {
@@ -90,6 +90,96 @@ start: { A.omega: -2 rad/s }
 studies: { run: { dynamics: { until: 1 s, every: 0.1 s }, columns: [time, A.omega] } }
 ";
     assert_eq!(last(&done(text, "run"))[1], 0.0);
+}
+
+/// A of 1 kg m² and B of 2 kg m² with a one-way clutch, a stop of B at 0.1 rad.
+fn driven_into_a_stop(settings: &str, e: f64, [a, b]: [f64; 2], loads: &str, until: f64) -> String {
+    format!(
+        "grashof: 1
+name: one-way clutch before a stop
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg, inertia: 1 kg m^2 }}, b: {{ mass: 1 kg, inertia: 2 kg m^2 }} }}
+joints: {{ A: {{ revolute: [ground, a.origin] }}, B: {{ revolute: [ground, b.origin], limits: {{ to: 0.1 rad, restitution: {e} }} }} }}
+clutches: {{ w: {{ between: [A, B], one_way: true }} }}
+{loads}start: {{ A.omega: {a} rad/s, B.omega: {b} rad/s }}
+studies:
+  d:
+    dynamics: {{ until: {until} s, every: 10 ms, {settings} }}
+    columns: [time, A.omega, B.omega, w.slip, w.torque, B.stop, energy.kinetic]
+"
+    )
+}
+
+const FORMS: [&str; 4] = [
+    "tolerance: 1e-10",
+    "coordinates: cartesian, tolerance: 1e-10",
+    "coordinates: minimal, tolerance: 1e-10",
+    "integrator: radau5, tolerance: 1e-10",
+];
+
+/// A closed clutch is a rigid link at a blow that it has to pass on; one that is open closes while the stop is compressed or gives back.
+#[test]
+fn a_one_way_clutch_passes_on_the_blow_of_a_stop() {
+    for settings in FORMS {
+        for e in [0.0, 0.4, 1.0] {
+            // closed: both are thrown back with e
+            let closed = done(&driven_into_a_stop(settings, e, [1.0, 1.0], "", 0.3), "d");
+            let what = format!("e = {e}, {settings}");
+            for (speed, right) in last(&closed)[1..4].iter().zip([-e, -e, 0.0]) {
+                close(&format!("closed, {what}"), *speed, right, 1e-12);
+            }
+            close(&format!("taken, {what}"), march(&closed).stops, -1.5 * (1.0 - e * e), 1e-12);
+            assert!(drift(&closed) < 1e-12, "{what}: {}", drift(&closed));
+            // open, at 0.5 rad/s: compressed until both stand, by 2 + 0.5 N m s, of which e comes back on both
+            let open = done(&driven_into_a_stop(settings, e, [0.5, 1.0], "", 0.3), "d");
+            for (speed, right) in last(&open)[1..4].iter().zip([-2.5 * e / 3.0, -2.5 * e / 3.0, 0.0]) {
+                close(&format!("open, {what}"), *speed, right, 1e-12);
+            }
+            // at −2 rad/s: nothing is passed on
+            let idle = done(&driven_into_a_stop(settings, e, [-2.0, 1.0], "", 0.3), "d");
+            for (speed, right) in last(&idle)[1..4].iter().zip([-2.0, -e, 2.0 - e]) {
+                close(&format!("idle, {what}"), *speed, right, 1e-12);
+            }
+        }
+    }
+}
+
+/// What closes at a speed takes that of a plastic blow, which is in the balance.
+#[test]
+fn the_blow_of_a_one_way_clutch_is_in_the_balance() {
+    for settings in FORMS {
+        let outcome = done(&driven_into_a_stop(settings, 0.4, [3.0, 0.0], "", 0.3), "d");
+        // 3 N m s turn both with 1 rad/s, which the stop throws back
+        close(&format!("clutch, {settings}"), march(&outcome).dampers, 0.5 * 3.0 - 0.5 * 9.0, 1e-12);
+        close(&format!("stop, {settings}"), march(&outcome).stops, -1.5 * (1.0 - 0.16), 1e-12);
+        close(&format!("speed, {settings}"), last(&outcome)[2], -0.4, 1e-12);
+        assert!(drift(&outcome) < 1e-12, "{settings}: {}", drift(&outcome));
+    }
+}
+
+/// A torque on A presses B on its stop through the clutch: blows that die away like those of a ball, rest, and where the torque turns A leaves.
+#[test]
+fn what_a_one_way_clutch_presses_on_a_stop_comes_to_rest_there() {
+    for settings in FORMS {
+        let loads = "loads: { p: { joint: A, torque: \"if(t < 1 s, 20 N m, -20 N m)\" } }\n";
+        let outcome = done(&driven_into_a_stop(settings, 0.4, [1.0, 1.0], loads, 1.3), "d");
+        // together 20/3 rad/s²: hits at v with v² = 1 + 2·0.1·20/3, then flights of 2 e v/(20/3) s, of which each is e times the last
+        let v = (1.0_f64 + 4.0 / 3.0).sqrt();
+        let rests = (v - 1.0) * 0.15 + 0.3 * v * 0.4 / 0.6;
+        for row in outcome.rows.iter() {
+            let &[t, a, b, slip, torque, stop, _] = row else { panic!("seven columns") };
+            if t > rests + 0.01 && t < 1.0 - 1e-9 {
+                for (found, right) in [a, b, slip, torque, stop].into_iter().zip([0.0, 0.0, 0.0, 20.0, -20.0]) {
+                    close(&format!("{row:?}, {settings}"), found, right, 1e-9);
+                }
+            } else if t > 1.0 + 1e-9 {
+                close(&format!("A at {t}, {settings}"), a, -20.0 * (t - 1.0), 1e-8);
+                close(&format!("B at {t}, {settings}"), b, 0.0, 1e-8);
+            }
+        }
+        assert!(rests < 0.5 && drift(&outcome) < 1e-9, "{settings}: {}", drift(&outcome));
+    }
 }
 
 #[test]

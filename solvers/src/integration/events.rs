@@ -4,7 +4,6 @@ use super::begin::MOMENT;
 use super::resolve::{BESIDE, BETWEEN, COARSE, COARSE_GAP, GAP, NODES, Resolver, Verdict, is_far};
 use super::zeno::PILE;
 use super::{GROWTH, Integration, Progress};
-use crate::engine::blows::Blow;
 use crate::engine::{Node, Why};
 use crate::{Effect, System};
 
@@ -259,7 +258,7 @@ impl Integration {
                 Effect::Restart => restart = true,
                 Effect::Impulse { restitution, stops: ends } | Effect::Bounce { restitution, stops: ends } => {
                     stop |= ends;
-                    self.blows.push(Blow { root, row: self.row.clone(), restitution });
+                    self.add_blow(system, root, restitution);
                 }
             }
             if !self.blows.is_empty() {
@@ -269,7 +268,7 @@ impl Integration {
                     continue;
                 }
                 restart = true;
-                if let Some(held) = self.engine.impulses(system, &mut self.node.state, &self.blows)? {
+                if let Some(held) = self.blow(system, &mut stop)? {
                     // the motion up to the blow stands; there is none behind it
                     self.halted = Some(Why::Blocked(held));
                     return Ok(Progress::Event);

@@ -8,7 +8,7 @@ use super::system::{Mechanical, Root, WORKS};
 use super::trajectory::Trajectory;
 use crate::geometry::Space;
 use crate::results::{Certificate, Finding, March};
-use grashof_solvers::{Control, Counts, Integration, Node};
+use grashof_solvers::{Control, Counts, Integration, Node, System};
 
 /// What a phase begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +43,8 @@ pub(super) struct Balance {
     blows: f64,
     /// What drivers did by impulses: at blows, and where their law has a kink.
     kinks: f64,
+    /// What one-way clutches took that blows have closed.
+    closings: f64,
     drift: f64,
     scale: f64,
     /// Largest |E|: what round-off is a part of.
@@ -84,7 +86,7 @@ impl Balance {
                 (self.start, self.kinetic, self.scale) = (e, kinetic, kinetic);
             }
             // the drift so far is not known apart from it, and begins anew
-            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows - self.kinks,
+            Begins::Parameters => self.impacts = e - self.start - self.done() - self.blows - self.kinks - self.closings,
             Begins::Rests => {}
         }
         self.before = self.work;
@@ -120,7 +122,7 @@ impl Balance {
             *work = before + now;
         }
         let [kinetic, e] = energy(system, node);
-        let off = e - self.start - self.done() - self.impacts - self.blows - self.kinks;
+        let off = e - self.start - self.done() - self.impacts - self.blows - self.kinks - self.closings;
         self.largest = self.largest.max(e.abs());
         self.drift = self.drift.max(off.abs());
         let largest = self.work.iter().fold(kinetic.max((e - kinetic - self.start + self.kinetic).abs()), |m, w| m.max(w.abs()));
@@ -139,10 +141,13 @@ impl Balance {
             let own = || crossed.iter().filter(|root| **root < system.roots.len());
             let impacts = own().any(|&root| matches!(system.roots[root], Root::Event(_)) && system.strikes(root));
             let stops = own().any(|&root| matches!(system.roots[root], Root::Stop(_)));
+            let closes = own().any(|root| system.pattern().closing.contains(root));
             self.kinks += driven;
             match (impacts, stops) {
                 (true, _) => self.impacts += e1 - e0 - driven,
+                // a clutch that takes part has no slip while it carries
                 (false, true) => self.blows += e1 - e0 - driven,
+                (false, false) if closes => self.closings += e1 - e0 - driven,
                 // the law of a driver or coupling has a kink; else it is the drift of a correction
                 (false, false) => {}
             }
@@ -190,7 +195,7 @@ impl Balance {
             energy_scale: self.scale,
             drivers: self.work[0] + self.kinks,
             loads: self.work[1],
-            dampers: self.work[2],
+            dampers: self.work[2] + self.closings,
             stops: self.work[3] + self.blows,
             impacts: self.impacts,
             widest_gap: self.widest_gap,

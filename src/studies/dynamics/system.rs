@@ -190,6 +190,7 @@ where
                 || !contacts.is_empty(),
             acting: (0..roots.len()).filter(|&i| roots[i].acts()).collect(),
             striking: Self::striking(mechanism, &roots, &near),
+            closing: Self::closing(mechanism, &roots),
             forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             rough: Vec::new(),
@@ -449,8 +450,8 @@ where
                 Effect::Record
             }
             root @ (Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. }) => self.part(root, state, row),
-            Root::Slides(contact) => self.meet(contact, 0, row),
-            Root::Holds { contact, sense, .. } => self.meet(contact, sense, row),
+            Root::Slides(contact) => self.meet(contact, 0, state, row),
+            Root::Holds { contact, sense, .. } => self.meet(contact, sense, state, row),
             Root::Event(event) => self.cross_event(event, state, row),
         }
     }

@@ -21,8 +21,8 @@ where
     /// M Δv = Σ p W + Gᵀκ,   work = ½ κ·(ν before + ν after)
     /// ```
     ///
-    /// with the unit forces W of the stops that were met. They are told from the rows by y, which the rows leave: M y + Gᵀμ = W, G y = 0,
-    /// so that yᵀM Δv = Σ p yᵀW.
+    /// with the unit forces W of the stops and one-way clutches that were met. They are told from the rows by y, which the rows leave:
+    /// M y + Gᵀμ = W, G y = 0, so that yᵀM Δv = Σ p yᵀW.
     pub(crate) fn driven_work(&mut self, [before, after]: [&State; 2], crossed: &[usize]) -> f64 {
         // powers depend on reactions where rows move with time
         if self.pattern.power != Power::Reactions {
@@ -41,7 +41,7 @@ where
         }
         let jump: Vec<f64> = after.v.iter().zip(&before.v).map(|(after, before)| after - before).collect();
         let mut rest: Vec<f64> = terms.mass.lines().map(|line| line.dot(&jump)).collect();
-        let unit_forces: Vec<Vec<f64>> = self.met(crossed).into_iter().map(|gauge| self.unit_force(gauge)).collect();
+        let unit_forces: Vec<Vec<f64>> = self.met(crossed).into_iter().map(|along| self.gradient(along)).collect();
         let free: Vec<Vec<f64>> = unit_forces.iter().map(|w| self.resolved(w).0).collect();
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let n = free.len();
@@ -79,26 +79,20 @@ where
         rests.into_iter().filter(|&(row, stop)| stops[stop].sense * kappa[row] > PULLED * most).map(|(_, stop)| stop).collect()
     }
 
-    /// Gauges of the stops that were met, each once.
-    fn met(&self, crossed: &[usize]) -> Vec<usize> {
-        let stops = &self.dynamics.mechanism.stops;
-        let mut gauges = Vec::new();
+    /// What the stops and one-way clutches that were met act along, each once.
+    fn met(&self, crossed: &[usize]) -> Vec<StretchOf> {
+        let m = self.dynamics.mechanism;
+        let mut all = Vec::new();
         for root in crossed.iter().filter_map(|root| self.roots.get(*root)) {
-            let gauge = match *root {
-                Root::Stop(stop) => Some(stops[stop].gauge),
-                Root::Event(event) => stops.iter().find(|stop| stop.event == Some(event)).map(|stop| stop.gauge),
+            let along = match *root {
+                Root::Stop(stop) => Some(StretchOf::Gauge(m.stops[stop].gauge)),
+                Root::Event(event) => m.stops.iter().find(|stop| stop.event == Some(event)).map(|stop| StretchOf::Gauge(stop.gauge)),
+                Root::Slides(contact) if m.contacts[contact].is_one_way() => Some(m.contacts[contact].along),
                 _ => None,
             };
-            gauges.extend(gauge.filter(|gauge| !gauges.contains(gauge)));
+            all.extend(along.filter(|along| !all.contains(along)));
         }
-        gauges
-    }
-
-    /// The generalised force (nv) of a unit force along a gauge, at the state evaluated last.
-    fn unit_force(&self, gauge: usize) -> Vec<f64> {
-        let mut force = vec![0.0; self.dims.v];
-        self.dynamics.extent_gradient(StretchOf::Gauge(gauge), |k, x| force[k] += x);
-        force
+        all
     }
 
     /// A force (nv) as M x + Gᵀκ with G x = 0: x (nv) and κ (rows); by the factors at hand.

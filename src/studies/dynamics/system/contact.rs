@@ -34,6 +34,12 @@ where
         roots.iter().enumerate().filter_map(|(i, root)| Some((i, near[stop(root)?]))).collect()
     }
 
+    /// Roots of one-way clutches that no row holds closed.
+    pub(super) fn closing(mechanism: &Mechanism<G>, roots: &[Root]) -> Vec<usize> {
+        let one_way = |root: &Root| matches!(*root, Root::Slides(contact) if mechanism.contacts[contact].is_one_way());
+        (0..roots.len()).filter(|i| one_way(&roots[*i])).collect()
+    }
+
     /// Accelerations and multipliers of a state by an own solution; those of before where there is none.
     pub(super) fn accelerate(&mut self, at: &At<'_>) {
         if let Some((mut friction, mut terms)) = self.friction.take() {
@@ -104,7 +110,12 @@ where
             return false;
         }
         let impulse: Vec<f64> = row.iter().map(|x| sense * x).collect();
-        let pulled = self.pulled(&state.at(), &impulse);
+        self.lifts(state, &impulse)
+    }
+
+    /// Lets go what rests where a stop would have to pull at an impulse (nv) in a state; whether anything does.
+    pub(super) fn lifts(&mut self, state: &mut State, impulse: &[f64]) -> bool {
+        let pulled = self.pulled(&state.at(), impulse);
         for &stop in &pulled {
             state.modes[self.mode_of_stop(stop)] = 1;
             self.rests.push((stop, false));

@@ -96,13 +96,14 @@ where
     }
 
     /// A contact comes to rest or gives way; at the state looked at last.
-    pub(super) fn meet(&mut self, contact: usize, sense: i32, row: &mut [f64]) -> Effect {
+    pub(super) fn meet(&mut self, contact: usize, sense: i32, state: &mut State, row: &mut [f64]) -> Effect {
         self.met.push(Met { contact, sense });
         let contact = &self.dynamics.mechanism.contacts[contact];
         if sense == 0 && contact.is_one_way() && self.dynamics.extent_rate(contact.along) < -BLOW * self.rest(contact) {
             row.fill(0.0);
             self.dynamics.extent_gradient(contact.along, |k, x| row[k] += x);
-            return Effect::Bounce { restitution: 0.0, stops: true };
+            let waits = self.lifts(state, row);
+            return if waits { Effect::Stop } else { Effect::Bounce { restitution: 0.0, stops: true } };
         }
         Effect::Stop
     }
@@ -113,9 +114,11 @@ where
         self.loosened
     }
 
-    /// Whether a contact that a blow has let go has to be decided anew.
+    /// Whether a contact that a blow has let go has to be decided anew; after the look at the state.
     pub(super) fn undecided(&self, modes: &[i32]) -> bool {
-        self.dynamics.mechanism.contacts.iter().any(|c| !c.is_one_way() && modes[c.mode] == 0)
+        let closed = |c: &Contact| self.dynamics.extent_rate(c.along).abs() <= 2.0 * self.rest(c);
+        let at_rest = |c: &Contact| if c.is_one_way() { closed(c) } else { modes[c.mode] == 0 };
+        self.dynamics.mechanism.contacts.iter().any(at_rest)
     }
 
     /// Contacts that stopped or gave way since this was asked last, and whether a blow waits.
@@ -321,7 +324,7 @@ where
     }
 
     /// ∂ẋ/∂v (nv) at the state evaluated last.
-    fn gradient(&self, along: StretchOf) -> Vec<f64> {
+    pub(super) fn gradient(&self, along: StretchOf) -> Vec<f64> {
         let mut gradient = vec![0.0; self.dynamics.mechanism.nv];
         self.dynamics.extent_gradient(along, |k, x| gradient[k] += x);
         gradient
