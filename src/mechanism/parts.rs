@@ -231,6 +231,28 @@ impl<G: Space> Mechanism<G> {
         self.rows.iter().enumerate().filter_map(move |(i, row)| Some((contact(row)?, i)))
     }
 
+    /// The row that holds a gauge by itself, on a rigid stop or sticking.
+    #[must_use]
+    pub fn holding(&self, gauge: usize) -> Option<&Row<G>> {
+        self.rows.iter().rev().take_while(|row| row.holds()).find(|row| row.kind == RowKind::Gauge(gauge))
+    }
+
+    /// The first of the gauges that rows of clutches hold to one rate with `gauge`, and whether a row holds one of them at rest; but for the
+    /// row `from`, from which it is looked at. Rows that hold contacts are independent, so that none leads back.
+    #[must_use]
+    pub fn moving_as_one(&self, gauge: usize, from: Option<usize>) -> (usize, bool) {
+        let mut found = (gauge, self.holding(gauge).is_some());
+        for (i, row) in self.rows.iter().enumerate().rev().take_while(|(_, row)| row.holds()) {
+            let (RowOwner::Contact(_), RowKind::Function(function)) = (row.owner, row.kind) else { continue };
+            let &[one, other] = &self.functions[function].gauges[..] else { continue };
+            if Some(i) != from && (one == gauge || other == gauge) {
+                let (first, rests) = self.moving_as_one(if one == gauge { other } else { one }, Some(i));
+                found = (found.0.min(first), found.1 || rests);
+            }
+        }
+        found
+    }
+
     /// Whether a row holds something at a place that time moves: that of a driver, or of a coupling with time in it.
     #[must_use]
     pub fn is_moved(&self, row: &Row<G>) -> bool {

@@ -182,6 +182,42 @@ fn what_a_one_way_clutch_presses_on_a_stop_comes_to_rest_there() {
     }
 }
 
+/// The slip of a clutch that sticks is 0, in columns and in what is compared with it.
+#[test]
+fn the_slip_of_a_closed_clutch_is_zero() {
+    for (of, tolerance) in forms() {
+        let text = format!(
+            "grashof: 1
+name: load by the slip of a closed clutch
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg, inertia: 1 kg m^2 }}, b: {{ mass: 1 kg, inertia: 2 kg m^2 }}, c: {{ mass: 1 kg, inertia: 3 kg m^2 }}, d: {{ mass: 1 kg }} }}
+joints:
+  A: {{ revolute: [ground, a.origin] }}
+  B: {{ revolute: [ground, b.origin] }}
+  C: {{ revolute: [ground, c.origin] }}
+  X: {{ slider: [ground, d.origin], axis: [1, 0] }}
+clutches: {{ k: {{ between: [A, B], torque: 10 N m }}, l: {{ between: [C, B], torque: 1 kN m }} }}
+loads: {{ p: {{ joint: A, torque: 2 N m }}, w: {{ joint: X, force: \"if(k.slip < 0, 5 N, 1 N) + if(l.slip == 0, 0 N, 100 N)\" }} }}
+measures: {{ both: A.omega - C.omega }}
+start: {{ A.omega: 10 rad/s, B.omega: 0 rad/s, C.omega: 0 rad/s }}
+studies:
+  d: {{ dynamics: {{ until: 4 s, every: 0.1 s, {of} }}, columns: [time, k.slip, l.slip, both, X.velocity], scalars: {{ neg: integral(k.slip < 0) }} }}
+"
+        );
+        // −10 rad/s that rise by 10/5 + 8 rad/s²: closed from 1 s on
+        let outcome = done(&text, "d");
+        close(&format!("slips, {of}"), outcome.scalars[0], 1.0, 100.0 * tolerance);
+        close(&format!("load, {of}"), last(&outcome)[4], 5.0 + 3.0, 100.0 * tolerance);
+        for row in outcome.rows.iter().filter(|row| row[0] > 1.01) {
+            assert_eq!(row[1..4], [0.0; 3], "at {} s, {of}", row[0]);
+        }
+        assert!(outcome.rows.iter().all(|row| row[2] == 0.0), "{of}");
+        let march = march(&outcome);
+        assert_eq!(march.counts.unresolved, 0, "{of}");
+    }
+}
+
 #[test]
 fn two_brakes_on_one_shaft_hold_together() {
     let text = "grashof: 1
