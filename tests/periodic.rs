@@ -7,6 +7,7 @@ mod faults;
 mod linear;
 mod nonlinear;
 mod switches;
+mod together;
 
 use crate::common::study;
 use grashof::mechanism::Coordinates;

@@ -12,7 +12,7 @@ use crate::kkt::{Kkt, ROUND_OFF};
 pub use crate::why::{Rejected, Why};
 use crate::{At, Common, Dims, Line, Span, Stage, State, System, Terms};
 
-pub(crate) mod blows;
+pub mod blows;
 mod norm;
 mod projection;
 #[cfg(test)]

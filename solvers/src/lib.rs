@@ -45,6 +45,7 @@ pub use block::{Block, Line};
 pub use coloring::Coloring;
 pub use dense_output::Dense;
 pub use elimination::Elimination;
+pub use engine::blows::Blow;
 pub use engine::{Control, Counts, Engine, Node};
 pub use friction::Friction;
 pub use halt::Halt;

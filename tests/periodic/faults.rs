@@ -16,7 +16,7 @@ fn failure(text: &str) -> Failure {
 }
 
 /// The failure is numerical (exit code 3), or one of what was asked (2), and has all the words.
-fn told(text: &str, numerical: bool, words: &[&str]) {
+pub(super) fn told(text: &str, numerical: bool, words: &[&str]) {
     let failure = failure(text);
     assert_eq!(matches!(failure, Failure::Numerical { .. }), numerical, "{failure:?}");
     let mut all = failure.reason();

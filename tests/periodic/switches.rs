@@ -94,6 +94,14 @@ fn dry_friction_that_is_steep_at_rest() {
 }
 
 #[test]
+fn a_stop_on_a_joint_with_friction() {
+    // a blow turns the friction round, which the motion itself does elsewhere
+    let joint = "    damping: 0.4 N s/m\n    friction: { coulomb: 1 N }\n    limits: { to: 20 cm, restitution: 0.7 }";
+    let rubs = Driven { load: NONE, joint, events: "" };
+    rubs.check(1e-7);
+}
+
+#[test]
 fn friction_by_a_coefficient_under_a_load_that_varies() {
     let friction_by_reactions = Driven {
         load: "at: mass.origin, force: [0, -6 N - 20 N/m*x - 2 N s/m*v]",

@@ -44,15 +44,15 @@ const ROUNDED: f64 = 1e-12;
 
 /// A blow that is to come.
 #[derive(Clone, Debug)]
-pub(crate) struct Blow {
+pub struct Blow {
     /// The root that was crossed.
-    pub(crate) root: usize,
+    pub root: usize,
     /// The direction along which velocities jump (nv).
-    pub(crate) row: Vec<f64>,
+    pub row: Vec<f64>,
     /// Coefficient of restitution.
-    pub(crate) restitution: f64,
+    pub restitution: f64,
     /// The part of the rate that time prescribes, if it is one that does not become negative; else the blow is that of a stop.
-    pub(crate) closing: Option<f64>,
+    pub closing: Option<f64>,
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -87,7 +87,7 @@ impl Engine {
     ///
     /// # Errors
     /// If the KKT matrix is singular.
-    pub(crate) fn impulses(&mut self, system: &mut dyn System, state: &mut State, blows: &[Blow]) -> Result<Option<usize>, Why> {
+    pub fn impulses(&mut self, system: &mut dyn System, state: &mut State, blows: &[Blow]) -> Result<Option<usize>, Why> {
         if blows.len() > 1 && self.together(system, state, blows)? {
             return Ok(None);
         }

@@ -210,7 +210,7 @@ fn name_of_velocity<G: Space>(mechanism: &Mechanism<G>, v: usize) -> String {
 }
 
 /// A root in words.
-fn root_name<G>(model: &Model, system: &Mechanical<'_, G>, root: usize) -> String
+pub(crate) fn root_name<G>(model: &Model, system: &Mechanical<'_, G>, root: usize) -> String
 where
     G: Space<S = f64>,
 {

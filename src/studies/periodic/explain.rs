@@ -1,7 +1,7 @@
 //! Why there is no periodic regime, in words: what happened to what at what time, and what to try.
 
 use super::lap::{Broken, Search, Section};
-use super::monodromy::Rough;
+use super::rough::Rough;
 use super::settle::{Restless, Settled};
 use super::shooting::Lost;
 use super::timed::timed;
@@ -98,6 +98,17 @@ pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
                 "at t = {t:.6} s of the period the motion only touches a switch or a stop, so that its neighbours differ from each other by more than they are apart: the map of a period has no derivative there"
             ),
             "change a parameter a little, or smooth the switch",
+        ),
+        Rough::Together { t, met, blows } => Failure::numerical(
+            format!(
+                "at t = {t:.6} s of the period {} are met at one instant, and neighbours of the motion that meet them one after the other go on in another way: the map of a period has no derivative there",
+                met.join(" and ")
+            ),
+            if blows {
+                "change a parameter a little, so that they are met one after the other, or give the stops a `stiffness` instead of a `restitution`"
+            } else {
+                "change a parameter a little, so that they are met one after the other, or smooth the switches"
+            },
         ),
         Rough::Rests => Failure::numerical(
             "a joint rests on a rigid stop, or is held by friction, in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",

@@ -5,9 +5,11 @@
 
 mod collocation;
 mod explain;
+mod instant;
 mod lap;
 mod monodromy;
 mod report;
+mod rough;
 mod saltation;
 mod settle;
 mod shooting;

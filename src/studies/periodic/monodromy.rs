@@ -6,8 +6,10 @@
 //! coordinates at the end: the monodromy matrix, chart-free between. Where forces depend on the reactions A is found by differences.
 
 use super::collocation::{Gauss, STAGES};
+use super::instant::pass;
 use super::lap::{Lap, Search, Section, tools};
-use super::saltation::{Side, pass, rate};
+use super::rough::Rough;
+use super::saltation::{Side, rate};
 use crate::dynamics::{Linearizer, Point};
 use crate::geometry::Space;
 use crate::kinematics::linear::{Linear, Singular};
@@ -38,17 +40,6 @@ pub(super) struct Surface {
     pub(super) pace: f64,
 }
 
-/// Why there is no derivative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Rough {
-    /// The mass matrix is singular, or a state cannot be evaluated, at this time, s.
-    Singular(f64),
-    /// A switch is only touched at this time, s.
-    Touched(f64),
-    /// A joint rests on a rigid stop, or a contact sticks, in a part of the period.
-    Rests,
-}
-
 impl<G: Space<S = f64>> Lap<'_, G> {
     /// The derivative of its map.
     pub(super) fn map(&mut self, search: &Search<'_>, phases: &Phases<G>) -> Result<Map, Rough> {
@@ -66,7 +57,7 @@ impl<G: Space<S = f64>> Lap<'_, G> {
         basis.view_mut((nv, 0), (nv, n)).copy_from(&w);
         basis.view_mut((nv, n), (nv, n)).copy_from(&p);
         basis.view_mut((2 * nv, 2 * n), (nz, nz)).fill_with_identity();
-        let mut psi = self.transport(&mut flow, basis.clone())?;
+        let mut psi = self.transport(search, &mut flow, basis.clone())?;
         let mut surface = None;
         if !matches!(search.section, Section::Time(_)) {
             let (start, end) = (self.start.clone(), self.end.clone());
@@ -86,7 +77,7 @@ impl<G: Space<S = f64>> Lap<'_, G> {
     }
 
     /// Neighbours at the end of the lap.
-    fn transport(&mut self, flow: &mut Flow<'_, G>, mut psi: DMatrix<f64>) -> Result<DMatrix<f64>, Rough> {
+    fn transport(&mut self, search: &Search<'_>, flow: &mut Flow<'_, G>, mut psi: DMatrix<f64>) -> Result<DMatrix<f64>, Rough> {
         let breaks = self.trajectory.breaks();
         for piece in 0..breaks.len() - 1 {
             for ends in self.trajectory.ends_of(piece).windows(2) {
@@ -99,8 +90,7 @@ impl<G: Space<S = f64>> Lap<'_, G> {
                 }
             }
             if piece + 2 < breaks.len() {
-                let at = breaks[piece + 1];
-                psi = pass(self, piece, at, &psi).ok_or(Rough::Touched(at))?;
+                psi = pass(self, search, piece, &psi)?;
             }
         }
         Ok(psi)

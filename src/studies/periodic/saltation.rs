@@ -14,12 +14,11 @@
 //! ∇g·δ and DJ δ are differences of fourth order along δ, the modes held: their step of 1e-3 of a size leaves errors of about 1e-12
 //! for expressions of every kind.
 
-use super::lap::Lap;
 use crate::geometry::Space;
 use crate::kinematics::linear::spin;
-use crate::studies::dynamics::system::{Mechanical, Root};
+use crate::studies::dynamics::system::Mechanical;
 use crate::studies::dynamics::trajectory::PhaseSystem;
-use grashof_solvers::{Effect, Engine, Node, Span, State, System};
+use grashof_solvers::{Blow, Effect, Engine, Node, Span, State, System};
 use nalgebra::{DMatrix, DVector};
 
 /// Step of the differences, in sizes of the coordinates.
@@ -28,11 +27,8 @@ const STEP: f64 = 1e-3;
 /// Part of the largest rate below which two rates are one.
 const SAME: f64 = 1e-13;
 
-/// Part of a velocity by which a blow changes it at least.
-const STRUCK: f64 = 1e-9;
-
 /// Part of ∇g's largest change in a typical time below which a surface is only touched.
-const GRAZING: f64 = 1e-9;
+pub(super) const GRAZING: f64 = 1e-9;
 
 /// A neighbouring state: δt, then (δq, δv, δz) with δq along velocities.
 struct Neighbour<'a> {
@@ -58,6 +54,21 @@ pub(super) fn rate(node: &Node) -> DVector<f64> {
 }
 
 impl<G: Space<S = f64>> Side<'_, '_, G> {
+    /// The size of coordinate `i` of (δq, δv, δz) at a node.
+    pub(super) fn unit(&self, node: &Node, i: usize) -> f64 {
+        let (nv, sizes) = (node.state.v.len(), &self.engine.size_v);
+        match i {
+            _ if i < nv => sizes[i],
+            _ if i < 2 * nv => sizes[i - nv] + node.state.v[i - nv].abs(),
+            _ => 1.0,
+        }
+    }
+
+    /// The largest of (δq, δv, δz) at a node, in sizes of the coordinates.
+    pub(super) fn size(&self, node: &Node, x: &[f64]) -> f64 {
+        x.iter().enumerate().fold(0.0, |m, (i, x)| f64::max(m, x.abs() / self.unit(node, i)))
+    }
+
     /// The derivative at a node along a neighbour of what `read` finds in a state, by differences of fourth order.
     fn along(
         &mut self,
@@ -65,17 +76,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         neighbour: &Neighbour<'_>,
         mut read: impl FnMut(&mut Self, &mut Node) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
-        let (nv, e) = (node.state.v.len(), &self.engine);
-        let moments = |i: usize| {
-            if i < nv {
-                e.size_v[i]
-            } else if i < 2 * nv {
-                e.size_v[i - nv] + node.state.v[i - nv].abs()
-            } else {
-                1.0
-            }
-        };
-        let size = neighbour.x.iter().enumerate().fold(0.0, |m, (i, x)| f64::max(m, x.abs() / moments(i)));
+        let size = self.size(node, neighbour.x);
         if size == 0.0 {
             return read(self, &mut node.clone()).map(|x| vec![0.0; x.len()]);
         }
@@ -123,7 +124,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
     }
 
     /// A root of the system in a state whose modes stand.
-    fn root(&mut self, root: usize, node: &mut Node) -> Option<Vec<f64>> {
+    pub(super) fn root(&mut self, root: usize, node: &mut Node) -> Option<Vec<f64>> {
         if self.system.pattern().roots_by_reactions {
             self.engine.accelerate(self.system, node).ok()?;
         }
@@ -141,40 +142,19 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         Some(vec![out[column]])
     }
 
-    /// The state behind a root, and whether its velocities jump.
-    fn crossed(&mut self, root: usize, state: &mut State) -> Option<bool> {
-        let mut row = vec![0.0; state.v.len()];
-        match self.system.cross(root, state, &mut row) {
-            Effect::Impulse { restitution, .. } | Effect::Bounce { restitution, .. } => {
-                self.engine.impulse(self.system, state, &row, restitution).ok()?;
-                Some(true)
+    /// The state behind roots that are crossed together, and whether its velocities jump.
+    pub(super) fn crossed(&mut self, roots: &[usize], state: &mut State) -> Option<bool> {
+        let mut blows = Vec::new();
+        for &root in roots {
+            let mut row = vec![0.0; state.v.len()];
+            if let Effect::Impulse { restitution, .. } | Effect::Bounce { restitution, .. } = self.system.cross(root, state, &mut row) {
+                blows.push(Blow { root, row, restitution, closing: None });
             }
-            _ => Some(false),
         }
-    }
-
-    /// Roots that were crossed between two nodes at one time, as the modes tell, and the rigid stop or event that was struck: a rebound
-    /// leaves its mode. What is only counted or recorded leaves the motion as it is, and reactions change their side without a jump.
-    fn between(&mut self, before: &mut Node, after: &Node) -> Vec<usize> {
-        let m = self.system.dynamics.mechanism;
-        let differs = |mode: usize| before.state.modes[mode] != after.state.modes[mode];
-        let crossed = |root: &Root| match *root {
-            Root::Force { program, k } => differs(m.programs()[program].program.switches()[k] as usize),
-            Root::Slides(contact) => differs(m.contacts[contact].mode),
-            Root::Event(event) => differs(m.switches + m.windings + event),
-            _ => false,
-        };
-        let mut roots: Vec<usize> = (0..self.system.roots.len()).filter(|i| crossed(&self.system.roots[*i])).collect();
-        let sizes = self.engine.size_v.iter().zip(&before.state.v).map(|(s, v)| s + v.abs());
-        let mut changes = before.state.v.iter().zip(&after.state.v).zip(sizes);
-        if changes.any(|((a, b), size)| (a - b).abs() > STRUCK * size) {
-            let stops: Vec<usize> = self.system.pattern().striking.iter().map(|(root, _)| *root).collect();
-            let gap = |i: usize, side: &mut Self, node: &mut Node| side.root(i, node).map_or(f64::INFINITY, |g| g[0].abs());
-            let gaps: Vec<f64> = stops.iter().map(|&i| gap(i, self, before)).collect();
-            let nearest = stops.iter().zip(&gaps).min_by(|a, b| a.1.total_cmp(b.1));
-            roots.extend(nearest.map(|(i, _)| *i));
+        if !blows.is_empty() {
+            self.engine.impulses(self.system, state, &blows).ok()?;
         }
-        roots
+        Some(!blows.is_empty())
     }
 
     /// The slope of a column at a node along neighbours (columns of `psi`).
@@ -200,16 +180,29 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         Some(self.column(column, &mut node.clone())?[0])
     }
 
+    /// The slope of a root at a node along neighbours (columns of `psi`), and its rate along the motion.
+    pub(super) fn approach(&mut self, root: usize, node: &Node, psi: &DMatrix<f64>) -> Option<(DVector<f64>, f64)> {
+        let along = self.slopes(node, psi, &mut |side, node| side.root(root, node))?;
+        Some((along, self.pace_of_root(root, node)?))
+    }
+
+    /// The rate of a root along the motion at a node.
+    pub(super) fn pace_of_root(&mut self, root: usize, node: &Node) -> Option<f64> {
+        let flow = rate(node);
+        Some(self.along(node, &Neighbour { time: 1.0, x: flow.as_slice() }, |side, node| side.root(root, node))?[0])
+    }
+
     /// The rate of a column along the motion at a node.
     pub(super) fn pace(&mut self, column: usize, node: &Node) -> Option<f64> {
         let flow = rate(node);
         Some(self.along(node, &Neighbour { time: 1.0, x: flow.as_slice() }, |side, node| side.column(column, node))?[0])
     }
 
-    /// Neighbours behind a root: S Ψ, from the nodes before and after it.
-    fn cross(&mut self, root: usize, [before, after]: [&Node; 2], psi: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    /// Neighbours behind a surface on which `roots` are crossed together: S Ψ, from the nodes before and after it; none where the motion only
+    /// touches it.
+    pub(super) fn cross(&mut self, roots: &[usize], [before, after]: [&Node; 2], psi: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         let (flow, next) = (rate(before), rate(after));
-        let jumps = self.crossed(root, &mut before.state.clone())?;
+        let jumps = self.crossed(roots, &mut before.state.clone())?;
         let size = flow.amax().max(next.amax());
         if !jumps && (&next - &flow).amax() <= SAME * size {
             return Some(psi.clone());
@@ -218,7 +211,7 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         if jumps {
             let nv = before.state.v.len();
             let mut read = |side: &mut Self, node: &mut Node| {
-                side.crossed(root, &mut node.state)?;
+                side.crossed(roots, &mut node.state)?;
                 Some(node.state.v.clone())
             };
             for j in 0..psi.ncols() {
@@ -229,37 +222,10 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
             let v = self.along(before, &Neighbour { time: 1.0, x: flow.as_slice() }, &mut read)?;
             carried.rows_mut(nv, nv).copy_from_slice(&v);
         }
-        let along = self.slopes(before, psi, &mut |side, node| side.root(root, node))?;
-        let flowing = Neighbour { time: 1.0, x: flow.as_slice() };
-        let pace = self.along(before, &flowing, |side, node| side.root(root, node))?[0];
+        let (along, pace) = self.approach(*roots.first()?, before, psi)?;
         if pace.abs() <= GRAZING * along.amax() || !pace.is_finite() {
             return None;
         }
         Some(behind + (next - carried) * (along / pace).transpose())
     }
-}
-
-/// Neighbours behind the switches at the end of a piece of a lap; an error names none: the motion only touches a switch.
-pub(super) fn pass<G: Space<S = f64>>(lap: &mut Lap<'_, G>, piece: usize, at: f64, psi: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let trajectory = &mut lap.trajectory;
-    trajectory.go(at, piece + 1).ok()?;
-    let after = trajectory.node.clone();
-    trajectory.go(at, piece).ok()?;
-    let mut node = trajectory.node.clone();
-    let mut side = Side::from(&mut trajectory.phases[0]);
-    let roots = side.between(&mut node.clone(), &after);
-    let mut psi = psi.clone();
-    for (i, &root) in roots.iter().enumerate() {
-        let behind = if i + 1 == roots.len() {
-            after.clone()
-        } else {
-            let mut next = node.clone();
-            side.crossed(root, &mut next.state)?;
-            side.engine.accelerate(side.system, &mut next).ok()?;
-            next
-        };
-        psi = side.cross(root, [&node, &behind], &psi)?;
-        node = behind;
-    }
-    Some(psi)
 }

@@ -16,7 +16,8 @@
 //! them (Parker & Chua, Practical Numerical Algorithms for Chaotic Systems, 1989, chapter 5).
 
 use super::lap::{Broken, Lap, Search, tools};
-use super::monodromy::{Map, Rough, Surface};
+use super::monodromy::{Map, Surface};
+use super::rough::Rough;
 use super::saltation::rate;
 use super::states::{ROUGHNESS, Scale, between, beyond, largest};
 use super::timed::timed;
