@@ -3,6 +3,7 @@
 mod alike;
 mod change;
 mod open;
+mod turned;
 mod universal;
 
 use crate::common;

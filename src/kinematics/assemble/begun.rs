@@ -11,6 +11,8 @@ pub(super) struct Begun {
     pub(super) v: Vec<f64>,
     pub(super) modes: Vec<i32>,
     pub(super) change: Option<ChangePoint>,
+    /// Bodies that nobody has turned and that stand far from how they are drawn, with the angle, rad.
+    pub(super) turned: Vec<(usize, f64)>,
 }
 
 /// Anchors of drivers, gears, racks and distances without a length, from the found position.

@@ -22,7 +22,7 @@ pub(super) fn carry<G: Space<S = f64>>(from: &Mechanism<G>, begun: &Begun, to: &
         )
     });
     anchor(to, &q, &modes);
-    Begun { q, v, modes, change }
+    Begun { q, v, modes, change, turned: begun.turned.clone() }
 }
 
 /// Coordinates, velocities and modes of a state [q, v] of `from` in the coordinates of `to`.

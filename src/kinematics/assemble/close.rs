@@ -24,6 +24,8 @@ pub(super) struct System<'a, G: Space<S = f64>> {
     pub(super) ahead: Vec<f64>,
     /// Which start values must hold.
     pub(super) held: Held,
+    /// Bodies that are held as they are drawn, in a search for a nearer assembly.
+    pub(super) upright: Vec<Drawn>,
     /// What the start values are held at.
     pub(super) targets: Vec<Target>,
     pub(super) size: f64,
@@ -50,6 +52,9 @@ pub(super) enum Named {
     ByGuess,
 }
 
+/// A body, and how it is drawn in the world.
+pub(super) type Drawn = (usize, Matrix3<f64>);
+
 /// Where a start value is to be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Target {
@@ -73,7 +78,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         let targets = mechanism.starts.iter().map(|s| target(s.asked, s.value)).collect();
         let (size, metric) = (mechanism.size(), joint_metric(mechanism));
         let named = vec![None; mechanism.nv];
-        Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, targets, size, metric, named }
+        Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, upright: Vec::new(), targets, size, metric, named }
     }
 
     pub(super) fn evaluate(&mut self, q: &[f64]) {
@@ -114,6 +119,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
         if self.held != Held::Nothing {
             self.asked(self.held == Held::Exact, r, Some(jacobian));
         }
+        self.upright(r, jacobian);
     }
 
     /// Residual of start values at position level, exact ones alone or all, and its Jacobian, if that is wanted: along a chain of n

@@ -7,8 +7,8 @@
 //! Guesses (`~`) and exact values first pull the drawn position towards themselves, all alike, in the sense of least squares.
 //! Then constraints and exact values are closed by Gauss-Newton steps that are the shortest, 1 rad counting as much as the size of
 //! the mechanism (Levenberg's damping where a step does not help): once from there, once from where they close best with guesses
-//! held as well, lest coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts. What
-//! is left open after that is as near to the drawn pose as can be, in least squares over the coordinates of all joints
+//! held as well, lest coordinates that nobody named push a guess to another branch. What comes nearest to the guesses counts; bodies in
+//! space whose orientation nobody named are not turned farther than they need (`turned.rs`). What is left open after that is as near to the drawn pose as can be, in least squares over the coordinates of all joints
 //! (`nearest.rs`). Next to a change point positions are moved into it (`sharpen.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
 //! on one of these (`cone.rs`, `branch.rs`).
 
@@ -28,6 +28,7 @@ mod position;
 mod rotation;
 mod shake;
 mod sharpen;
+mod turned;
 mod velocity;
 
 use crate::dynamics::Dynamics;
@@ -60,6 +61,8 @@ pub struct Assembled {
     pub found: Vec<Found>,
     /// What the position is if branches of the motion cross there.
     pub change: Option<ChangePoint>,
+    /// Bodies that nobody has turned and that stand far from how they are drawn, with the angle, rad.
+    pub turned: Vec<(String, f64)>,
     /// Sizes of the first-order states (nz) in which their errors count, once a motion in time has asked for them.
     pub(crate) state_sizes: OnceLock<Vec<f64>>,
 }
@@ -70,7 +73,8 @@ impl Assembled {
         let finding = |code: &'static str, message: String| Finding { code: code.into(), message, path: "start".into() };
         let change = self.change.iter().map(move |change| finding("change-point", change.message()));
         let missed = self.found.iter().filter(|found| found.guess && found.is_far(self.size));
-        change.chain(missed.map(move |found| finding("guess-missed", found.missed())))
+        let turned = self.turned.iter().map(move |(body, angle)| finding("turned-start", turned::message(body, *angle)));
+        change.chain(missed.map(move |found| finding("guess-missed", found.missed()))).chain(turned)
     }
 }
 
@@ -94,16 +98,18 @@ pub fn assemble<G: Space<S = f64>>(
     };
     let size = mechanism.size();
     let found = found::found(&mechanism, &begun)?;
-    let Begun { q, v, modes, change } = begun;
-    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change, state_sizes: OnceLock::new() }))
+    let Begun { q, v, modes, change, turned } = begun;
+    let turned = turned.into_iter().map(|(body, angle)| (mechanism.bodies[body].name.clone(), angle)).collect();
+    Ok((mechanism, Assembled { q, v, modes, size, metric, found, change, turned, state_sizes: OnceLock::new() }))
 }
 
 /// Position and velocity on the tree at hand.
 fn begin<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Begun, AssemblyFault> {
     let (q, modes) = position::position(mechanism)?;
+    let turned = turned::far(mechanism, &q, &modes);
     anchor(mechanism, &q, &modes);
     let (v, change) = velocity::velocity(mechanism, &q, &modes)?;
-    Ok(Begun { q, v, modes, change })
+    Ok(Begun { q, v, modes, change, turned })
 }
 
 /// Diagonal of the mass metric as drawn, free bodies at the orientation that is asked for.

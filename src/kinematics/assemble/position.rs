@@ -72,7 +72,9 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
         return Err(system.explain_facing());
     }
     system.look_around(&guessed, &mut q);
+    let targets = system.targets.clone();
     system.settle(&mut q);
+    system.unturn(&guessed, &targets, &mut q);
     system.sharpen(&mut q);
     snap(mechanism, &mut q);
     system.evaluate(&q);
@@ -228,7 +230,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// By how much the position evaluated last misses each asked value.
-    fn missed(&self) -> Vec<f64> {
+    pub(super) fn missed(&self) -> Vec<f64> {
         let mut r = Vec::new();
         self.asked(false, &mut r, None);
         r
@@ -243,7 +245,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// A displacement of at most this size, in rad and sizes.
-    fn shaken(&self, shake: &mut Shake, size: f64) -> Vec<f64> {
+    pub(super) fn shaken(&self, shake: &mut Shake, size: f64) -> Vec<f64> {
         self.metric.iter().map(|metric| shake.next() * size / metric.sqrt()).collect()
     }
 }
