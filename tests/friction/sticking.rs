@@ -372,3 +372,54 @@ studies: {{ run: {{ dynamics: {{ until: 0.2 s }}, columns: [time, first.torque] 
     assert!(told(&text("couplings: { pair: { gear: [A, B], ratio: -1 } }\n")));
     assert!(!told(&text("")));
 }
+
+/// A block pressed against its stop, or against that of another one geared to it: how friction and the stop share the load is open, in
+/// whichever coordinates, with and without an inertia of what does not turn.
+#[test]
+fn friction_beside_a_rigid_stop_says_so() {
+    let text = |joints: [&str; 2], rest: &str, inertia: &str, study: &str| {
+        format!(
+            "grashof: 1
+name: block on a stop
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 2 kg{inertia} }}, b: {{ mass: 1 kg{inertia} }} }}
+joints:
+  A: {{ slider: [ground, a.origin], axis: [1, 0]{} }}
+  B: {{ slider: [ground, b.origin], axis: [1, 0]{} }}
+couplings: {{ pair: {{ zero: A.position - B.position }} }}
+loads: {{ f: {{ joint: A, force: 10 N }} }}
+start: {{ {rest} }}
+studies: {{ run: {{ {study} }} }}
+",
+            joints[0], joints[1]
+        )
+    };
+    let (rubs, stops) = (", friction: { coulomb: 3 N }", ", limits: { to: 5 cm, restitution: 0.3 }");
+    let both = format!("{rubs}{stops}");
+    let told = |text: &str| {
+        let outcome = done(text, "run");
+        let told = outcome.findings.iter().any(|f| f.code == "friction-not-unique" && f.message.contains("stop"));
+        (told, last(&outcome).to_vec())
+    };
+    for inertia in ["", ", inertia: 1 kg m^2"] {
+        for coordinates in ["joint", "cartesian", "minimal"] {
+            let study = |columns: &str| format!("dynamics: {{ until: 1 s, coordinates: {coordinates} }}, columns: [{columns}]");
+            for (joints, columns) in [([both.as_str(), ""], "A.friction, A.stop"), ([rubs, stops], "A.friction, B.stop")] {
+                let (told, row) = told(&text(joints, "A.position: 4 cm", inertia, &study(columns)));
+                assert!(told, "{coordinates}, {joints:?}, {inertia}");
+                close("together", row.iter().sum::<f64>(), -10.0, 1e-6);
+            }
+            assert!(!told(&text([stops, ""], "A.position: 4 cm", inertia, &study("A.stop"))).0);
+            // friction alone brings it to rest before the stop
+            let weak = text([both.as_str(), ""], "A.position: 1 cm, A.velocity: 0.1 m/s", inertia, &study("A.friction"));
+            assert!(!told(&weak.replace("force: 10 N", "force: 1 N")).0, "{coordinates}");
+        }
+        let study = "statics: { from: start }, columns: [A.friction]";
+        for joints in [[both.as_str(), ""], [rubs, stops]] {
+            let at = |place: &str| text(joints, &format!("A.position: {place}"), inertia, study).replace("force: 10 N", "force: 2 N");
+            assert!(told(&at("5 cm")).0, "{joints:?}");
+            assert!(!told(&at("4 cm")).0, "{joints:?}");
+        }
+    }
+}

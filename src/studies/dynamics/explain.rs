@@ -149,7 +149,7 @@ pub(super) fn not_unique<G: Space<S = f64>>(phases: &Phases<G>, open: &[usize]) 
     let finding = |(_, contact): (usize, &Contact)| Finding {
         code: "friction-not-unique".into(),
         message: format!(
-            "while it sticks {} is not unique: drivers, stops or other friction hold the same motion; what is printed is 0 or one of the values",
+            "while it sticks {} is not unique: drivers, a rigid stop or other friction hold the same motion; what is printed is 0 or one of the values, of a stop and of drivers the rest",
             contact.name
         ),
         path: contact.place.clone(),

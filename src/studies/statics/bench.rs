@@ -196,6 +196,31 @@ where
         out
     }
 
+    /// Stops that joints touch where friction holds them, as it does not in `free`: nothing tells how they share what presses on both.
+    pub(super) fn shared(&mut self, free: &mut Self, pose: &Pose) -> Vec<Finding> {
+        let [held, else_held] = [&mut *self, free].map(|bench| {
+            let state = bench.rest.state(&pose.position);
+            bench.rest.system.held_on_stops(&state)
+        });
+        let model = self.case.model;
+        let mechanism = self.rest.system.dynamics.mechanism;
+        let shared = held.into_iter().filter(|stop| !else_held.contains(stop));
+        let finding = |stop: usize| {
+            let stop = &mechanism.stops[stop];
+            let joint = &model.joints[stop.joint];
+            Finding {
+                code: "friction-not-unique".into(),
+                message: format!(
+                    "joint `{}` touches its {} where friction holds it: how they share what presses on both is not determined; what is printed is that the friction alone holds it",
+                    joint.name,
+                    stop.word()
+                ),
+                path: joint.place.clone(),
+            }
+        };
+        shared.map(finding).collect()
+    }
+
     /// Values of the independent coordinates; parts of a quaternion as the turn from the begin, rad.
     fn values(&self, independent: &[usize], begin: &Pose, pose: &Pose) -> Vec<f64> {
         let turned = self.rest.turned(&begin.position, &pose.position);

@@ -68,7 +68,8 @@ where
         let mut held = Bench::new(case, &mechanism, start, &[]);
         held.rest.hold(&live);
         let found = held.settle(start, stop)?.found;
-        let findings = held.findings(&found).into_iter().chain(bench.region(&pose)).collect();
+        let shared = held.shared(&mut bench, &found.pose);
+        let findings = held.findings(&found).into_iter().chain(bench.region(&pose)).chain(shared).collect();
         let Position { q, z, mut modes, .. } = found.pose.position;
         modes.truncate(start.modes.len());
         return Ok(Still { q, z, modes, findings });
@@ -102,8 +103,10 @@ where
         held.rest.hold(&live);
         held.held = Some(bench.partition(&pose).independent);
         let Settled { begin, found, .. } = held.settle(&start, stop)?;
+        let shared = held.shared(&mut bench, &found.pose);
         let mut outcome = held.outcome(&watched, &begin, &[found])?;
         outcome.findings.extend(bench.region(&pose));
+        outcome.findings.extend(shared);
         return Ok(outcome);
     }
     let Settled { begin, found, passed } = bench.settle(&start, stop)?;

@@ -189,7 +189,7 @@ where
     }
 
     /// Way that is left to a stop at the state looked at last, rad or m, or in the unit of its event's function.
-    fn gap(&self, stop: usize) -> f64 {
+    pub(super) fn gap(&self, stop: usize) -> f64 {
         let s = self.dynamics.mechanism.stops[stop];
         s.along.map_or(1.0, |along| s.gap(self.dynamics.extent(along)))
     }

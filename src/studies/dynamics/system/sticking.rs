@@ -232,10 +232,8 @@ where
         let n = resting.len();
         let a = DMatrix::from_fn(n, n, |i, j| dot(&gradients[i], &responses[j].a));
         let alone: Vec<f64> = resting.iter().map(|&c| self.dynamics.extent_acceleration(m.contacts[c].along, &free.a)).collect();
-        // coordinates without mass have a metric too
-        let metric = &self.pattern.metric;
-        let freely = |i: usize| gradients[i].iter().zip(metric).map(|(g, d)| g * g / d).sum::<f64>();
-        let fixed: Vec<bool> = (0..n).map(|i| a[(i, i)] <= DETERMINED * freely(i)).collect();
+        let freely: Vec<f64> = gradients.iter().map(|gradient| self.freely(gradient)).collect();
+        let fixed: Vec<bool> = (0..n).map(|i| a[(i, i)] <= DETERMINED * freely[i]).collect();
 
         let mut lambda = free.lambda.clone();
         let mut forces = DVector::zeros(n);
@@ -294,7 +292,7 @@ where
                 || friction_by_reactions.is_empty()
                     && resting.iter().all(|&c| m.contacts[c].friction().is_none_or(|(_, pressing)| pressing.is_none()))
             {
-                let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely(i) * largest);
+                let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely[i] * largest);
                 let determined = (0..n).map(|i| fixed[i].then(|| if still(i) { 0 } else { b[i].signum() as i32 })).collect();
                 let mut accelerations = free.a;
                 let all = friction_by_reactions
@@ -321,6 +319,32 @@ where
         let Some((holds, pressing)) = contact.friction() else { return f64::INFINITY };
         let normal = pressing.map_or(1.0, |pressing| self.dynamics.pressing_force(pressing, lambda));
         (self.dynamics.work.force_outputs[holds] * normal).max(0.0)
+    }
+
+    /// Rigid stops that joints touch in a state without velocity in which rows hold them to their place.
+    pub(crate) fn held_on_stops(&mut self, state: &State) -> Vec<usize> {
+        self.kinematics(&state.at());
+        self.dynamics.inertias();
+        self.dynamics.mass();
+        let w = &self.dynamics.work;
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        if kkt.factor(w.mass.values(), w.g.values()).is_err() {
+            return Vec::new();
+        }
+        let stops = &self.dynamics.mechanism.stops;
+        let is_touched = |stop: &usize| stops[*stop].event.is_none() && self.gap(*stop).abs() <= 2.0 * self.near[*stop];
+        let touched: Vec<usize> = (0..stops.len()).filter(is_touched).collect();
+        let mut is_held = |stop: &usize| {
+            let gradient = self.gradient(StretchOf::Gauge(self.dynamics.mechanism.stops[*stop].gauge));
+            let given = self.response(&gradient).a.iter().zip(&gradient).map(|(a, g)| a * g).sum::<f64>();
+            given <= DETERMINED * self.freely(&gradient)
+        };
+        touched.into_iter().filter(|stop| is_held(stop)).collect()
+    }
+
+    /// What a unit force along a gradient would give without rows, by the metric D, which coordinates without mass have, too.
+    fn freely(&self, gradient: &[f64]) -> f64 {
+        gradient.iter().zip(&self.pattern.metric).map(|(g, d)| g * g / d).sum()
     }
 
     /// ∂ẋ/∂v (nv) at the state evaluated last.
