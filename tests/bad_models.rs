@@ -239,6 +239,24 @@ fn warnings_are_told() {
     verdict.give();
 }
 
+/// Every message about a model says what to do.
+#[test]
+fn every_diagnostic_has_a_remedy() {
+    let mut verdict = Verdict::default();
+    for entry in fs::read_dir(bad("")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "txt") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let begins = |block: &&str| block.starts_with("error[") || block.starts_with("warning[");
+        for block in text.split("\n\n").filter(begins) {
+            verdict.demand(block.contains("= help: "), &path.display().to_string(), &format!("no remedy in\n{block}"));
+        }
+    }
+    verdict.give();
+}
+
 /// Each file of the directory belongs to a test, so that no snapshot is forgotten.
 #[test]
 fn no_file_is_left_over() {

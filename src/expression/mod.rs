@@ -45,7 +45,7 @@ pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
 pub use syntax::SyntaxError;
 pub use table::{Between, Beyond, LookupTable, TableError};
-pub use unit_text::parse_unit;
+pub use unit_text::{meant_unit, parse_unit};
 pub use units::Dimension;
 
 #[cfg(test)]

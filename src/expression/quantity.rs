@@ -150,7 +150,7 @@ fn shifted(number: f64, power: i32) -> f64 {
 }
 
 /// The units that a word probably means: `Nm` is `N m`, `KG` is `kg`, `mm2` is `mm^2`.
-fn meant(word: &str) -> Option<String> {
+pub(super) fn meant(word: &str) -> Option<String> {
     const LONG: [(&str, &str); 27] = [
         ("rps", "turn/s"),
         ("RPS", "turn/s"),

@@ -341,9 +341,14 @@ pub(super) fn unit(word: &str) -> Option<(f64, Dimension)> {
     UNITS.into_iter().find(|(known, ..)| *known == word).map(|(_, size, dimension)| (size, dimension))
 }
 
+/// All unit words of the format.
+pub(super) fn unit_words() -> impl Iterator<Item = &'static str> {
+    UNITS.into_iter().map(|(word, ..)| word)
+}
+
 /// The unit that a word of at least three letters probably means: `cms` is `cm`.
 pub(super) fn nearest_unit(word: &str) -> Option<&'static str> {
-    (word.len() > 2).then(|| nearest(word, UNITS.into_iter().map(|(known, ..)| known))).flatten()
+    (word.len() > 2).then(|| nearest(word, unit_words())).flatten()
 }
 
 #[cfg(test)]

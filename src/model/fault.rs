@@ -1,6 +1,7 @@
 //! A finding before its place is looked up: reading is fast because positions are sought only for what is wrong.
 
 use super::diagnostics::{Diagnostic, Excerpt, Severity};
+use super::remedy::remedy;
 use super::spans::{Spans, Step};
 use std::ops::Range;
 
@@ -134,7 +135,7 @@ impl Fault {
             severity: if self.warning { Severity::Warning } else { Severity::Error },
             message: self.message.clone(),
             expected: self.expected.clone(),
-            help: self.help.clone().or_else(|| self.otherwise.clone()),
+            help: self.help.clone().or_else(|| self.otherwise.clone()).or_else(|| remedy(self.code).map(str::to_owned)),
             place: self.place.clone(),
             file: file.to_owned(),
             at,

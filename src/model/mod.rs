@@ -34,6 +34,7 @@ mod newmark;
 mod place;
 mod quantities;
 mod reading;
+mod remedy;
 mod rules;
 mod schema;
 mod scope;

@@ -65,7 +65,7 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
     }
     if let Some(at) = text.find('\0') {
         let message = "the file holds a zero byte".to_owned();
-        return refuse("yaml-syntax", text[..at].chars().count(), 1, message, "a text file", "");
+        return refuse("yaml-syntax", text[..at].chars().count(), 1, message, "a text file", "save it as UTF-8, without zero bytes");
     }
     let directive = first_word(text);
     if text[directive.clone()].starts_with('%') {

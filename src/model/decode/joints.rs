@@ -176,6 +176,8 @@ impl<'n> Decoder<'n> {
             let fault =
                 self.fault(code, &at.key(word), format!("`{word}` does not exist in a {here} model"), format!("a joint of a {here} model"));
             fault.spot = Spot::Key;
+            let others: Vec<String> = KINDS.iter().filter(|kind| kind.spaces[space]).map(|kind| format!("`{}`", kind.field.key)).collect();
+            fault.help = Some(format!("take one of {}, or write `space: {}`", others.join(", "), ["spatial", "planar"][space]));
             return None;
         }
         let declared = kind;

@@ -1,7 +1,7 @@
 //! `units`: in which units results are shown.
 
 use super::decoder::Decoder;
-use crate::expression::{Dimension, parse_unit};
+use crate::expression::{Dimension, meant_unit, parse_unit};
 use crate::model::entities::DisplayUnit;
 use crate::model::fault::At;
 use crate::model::merge::Node;
@@ -29,7 +29,8 @@ impl<'n> Decoder<'n> {
     pub(super) fn unit(&mut self, text: &str, at: &At<'_, 'n>) -> Option<(f64, Dimension)> {
         let found = parse_unit(text);
         if found.is_none() {
-            self.fault("unknown-unit", at, format!("`{}` is no unit", clip(text)), "a unit such as `rpm`, `deg`, `mm`, `N m`");
+            self.fault("unknown-unit", at, format!("`{}` is no unit", clip(text)), "a unit such as `rpm`, `deg`, `mm`, `N m`").help =
+                Some(meant_unit(&clip(text)));
         }
         found
     }

@@ -47,6 +47,7 @@ fn findings(from: &str, to: &str) -> Vec<String> {
     for diagnostic in &report.diagnostics {
         let said = format!("{} {}", diagnostic.message, diagnostic.expected);
         assert!(!said.contains('\n') && !said.contains("Some("), "{said}");
+        assert!(diagnostic.help.is_some(), "no remedy: {said}");
     }
     report.diagnostics.iter().map(|d| format!("{} {}:{}", d.code, d.line(), d.column())).collect()
 }
