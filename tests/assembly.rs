@@ -3,6 +3,7 @@
 mod alike;
 mod change;
 mod open;
+mod sizes;
 mod turned;
 mod universal;
 

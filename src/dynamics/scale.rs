@@ -46,7 +46,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         if motions.is_empty() {
             return scale;
         }
-        let unit = m.units();
+        let unit = m.units(m.size());
         let mut entries = here.clone();
         entries.values_mut().iter_mut().for_each(|g| *g = g.abs());
         let mut around = self.clone();
@@ -77,7 +77,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         }
         let scale: Vec<f64> = passive.iter().map(|&row| scale[row]).collect();
         let rank = Rank::new(&self.work.g.select_rows(&passive), metric, &scale, RANK_TOLERANCE);
-        let (n, unit) = (rank.mobility, m.units());
+        let (n, unit) = (rank.mobility, m.units(m.size()));
         let along = |phase: f64| {
             // in no special direction
             let y: Vec<f64> = (0..n).map(|k| (GOLDEN * k as f64 + phase).cos()).collect();

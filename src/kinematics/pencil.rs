@@ -189,7 +189,7 @@ impl HeldSparse {
         let mut stiffness = tangent.k;
         geodesic(mechanism, &r, |i, j, x| stiffness.set(i, j, stiffness.at(i, j) + x));
 
-        let units = mechanism.units();
+        let units = mechanism.units(mechanism.size());
         let mut grain: Vec<f64> = held.force.iter().map(|f| f.abs()).collect();
         held.block.lines().zip(&lambda).for_each(|(line, l)| line.entries().for_each(|(j, g)| grain[j] += (g * l).abs()));
         grain.iter_mut().zip(&units).for_each(|(grain, unit)| *grain /= unit);

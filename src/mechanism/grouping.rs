@@ -8,7 +8,7 @@
 
 use super::group::Group;
 use super::sets::Sets;
-use super::{Measured, Mechanism, Step};
+use super::{Mechanism, Step};
 use crate::geometry::Space;
 
 impl<G: Space> Mechanism<G> {
@@ -43,20 +43,6 @@ impl<G: Space> Mechanism<G> {
     #[must_use]
     pub fn group_between(&self, a: usize, b: usize) -> usize {
         self.group_of[a.max(b)]
-    }
-
-    /// Places on the ground where bodies of a group are held or pulled, with the group.
-    pub(super) fn footings(&self) -> Vec<(usize, G::Vector)> {
-        let joints = self.joints.iter().flat_map(|j| [(j.a, j.b.0), (j.b, j.a.0)]);
-        let gauges = self.gauges.iter().flat_map(|g| match g.measured {
-            Measured::Slide { pa, pb, .. } | Measured::Distance { pa, pb } => vec![((g.a, pa), g.b), ((g.b, pb), g.a)],
-            _ => Vec::new(),
-        });
-        joints
-            .chain(gauges)
-            .filter(|((body, _), other)| *body == 0 && *other != 0)
-            .map(|((_, p), other)| (self.group_of[other], p))
-            .collect()
     }
 }
 

@@ -16,6 +16,7 @@ mod outline;
 mod parts;
 mod row;
 mod sets;
+mod size;
 mod start;
 mod step;
 mod translation;

@@ -274,37 +274,6 @@ impl<G: Space> Mechanism<G> {
         vec![0; self.switches + self.windings]
     }
 
-    /// Characteristic length, m: the farthest named point of any body from its own origin, or of two places on the ground where bodies
-    /// of one group are held; 1 without any.
-    #[must_use]
-    pub fn size(&self) -> f64
-    where
-        G: Space<S = f64>,
-    {
-        let length = |p: G::Vector| G::dot(p, p).sqrt();
-        let points = self.bodies[1..].iter().flat_map(|b| &b.points).map(|(_, p)| length(*p));
-        let mut held = self.footings();
-        held.sort_by_key(|(group, _)| *group);
-        let apart = held.chunk_by(|a, b| a.0 == b.0).map(|held| farthest::<G>(&held.iter().map(|(_, p)| *p).collect::<Vec<_>>()));
-        let reach = points.chain(apart).fold(0.0, f64::max);
-        if reach > 0.0 { reach } else { 1.0 }
-    }
-
-    /// What counts as a whole way of each velocity (nv): 1 rad, or the size, m.
-    #[must_use]
-    pub fn units(&self) -> Vec<f64>
-    where
-        G: Space<S = f64>,
-    {
-        let (mut units, size) = (vec![1.0; self.nv], self.size());
-        for step in &self.steps {
-            if let Step::Axis { turns: false, v, .. } = step {
-                units[*v] = size;
-            }
-        }
-        units
-    }
-
     /// q ⊕ δ: moves the coordinates by a velocity times time, δ in the frame of v (shape nv).
     pub fn retract(&self, q: &mut [f64], delta: &[f64]) {
         for step in &self.steps {
@@ -452,21 +421,4 @@ fn retract_quaternion(q: &mut [f64], w: [f64; 3]) {
     let k = 0.5 * if half < 1e-6 { 1.0 - half * half / 6.0 } else { half.sin() / half };
     let product = multiply_quaternion([q[0], q[1], q[2], q[3]], [half.cos(), k * w[0], k * w[1], k * w[2]]);
     q.copy_from_slice(&product);
-}
-
-/// The largest distance between two of some places, m.
-///
-/// With R the largest distance from any place and D one between two of them, both of the farthest two are at least D − R from that place: of
-/// a long row only few are compared.
-fn farthest<G: Space<S = f64>>(places: &[G::Vector]) -> f64 {
-    let Some(&from) = places.first() else { return 0.0 };
-    let length = |p: G::Vector| G::dot(p, p).sqrt();
-    let count = places.len() as f64;
-    let middle = places.iter().fold(from, |sum, p| sum + (*p - from) * count.recip());
-    let end = |from: G::Vector| places.iter().copied().max_by(|p, q| length(*p - from).total_cmp(&length(*q - from))).unwrap_or(from);
-    let first = end(middle);
-    let (reach, found) = (length(first - middle), length(end(first) - first));
-    let outer: Vec<G::Vector> = places.iter().copied().filter(|p| length(*p - middle) >= (found - reach) * (1.0 - 1e-12)).collect();
-    let apart = outer.iter().enumerate().flat_map(|(i, p)| outer[i + 1..].iter().map(|q| length(*q - *p)));
-    apart.fold(found, f64::max)
 }

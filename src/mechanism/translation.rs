@@ -5,7 +5,7 @@
 //! group and the ground sees them but what a driver moves: a driver that moves by f(t) + u t is one in a frame that moves.
 
 use super::grouping::slides;
-use super::{EffortLaw, Leaf, Measured, Mechanism, RowKind, StretchOf};
+use super::{EffortLaw, Gauge, Leaf, Measured, Mechanism, RowKind, StretchOf};
 use crate::geometry::Space;
 
 /// Parts of a unit direction below which it counts as a combination of others.
@@ -16,14 +16,19 @@ impl<G: Space<S = f64>> Mechanism<G> {
     /// orthogonal directions, of unit length each over all columns.
     #[must_use]
     pub fn translations(&self) -> Vec<Vec<(usize, [f64; 3])>> {
-        self.translations_past(&self.acting())
+        self.translations_past(&self.acting(), &self.group_of)
     }
 
     /// What is left of a displacement (nv) without a common one of each group, as if nothing but its joints on the ground held it.
     #[must_use]
     pub fn without_shift(&self, delta: &[f64]) -> Vec<f64> {
         let mut left = delta.to_vec();
-        for common in self.translations_past(&[]) {
+        let branches = self.nodes.iter().map(|n| (n.parent, n.body));
+        let rows = self.constrained().map(|i| (self.gauges[i].a, self.gauges[i].b));
+        let mut sets = self.connected(branches.chain(rows));
+        // what only springs connect is no group here, since they have no part in a start
+        let group_of: Vec<usize> = (0..self.bodies.len()).map(|body| sets.of(body)).collect();
+        for common in self.translations_past(&[], &group_of) {
             for axis in 0..3 {
                 let sum: f64 = common.iter().map(|(k, along)| along[axis] * delta[*k]).sum();
                 common.iter().for_each(|(k, along)| left[*k] -= along[axis] * sum);
@@ -32,32 +37,40 @@ impl<G: Space<S = f64>> Mechanism<G> {
         left
     }
 
-    fn translations_past(&self, acting: &[usize]) -> Vec<Vec<(usize, [f64; 3])>> {
+    /// By groups with a number for each body.
+    fn translations_past(&self, acting: &[usize], group_of: &[usize]) -> Vec<Vec<(usize, [f64; 3])>> {
         let of_group = |group: usize| {
-            let free = self.free_directions(group, acting)?;
-            let roots = self.roots(group);
+            let roots = self.roots(group, group_of);
+            let free = self.free_directions(&roots, |gauge| group_of[gauge.a.max(gauge.b)] == group, acting)?;
             let length = (roots.len() as f64).sqrt();
             let columns = roots.iter().flatten();
             Some(columns.map(|(v, along)| (*v, std::array::from_fn(|i| free.get(i).map_or(0.0, |u| dot(*u, *along) / length)))).collect())
         };
-        (0..self.groups.len()).filter_map(of_group).collect()
+        let mut groups: Vec<usize> = self.nodes.iter().filter(|n| n.parent == 0).map(|n| group_of[n.body]).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        groups.into_iter().filter_map(of_group).collect()
     }
 
     /// For each joint of a group on the ground: the columns of its plain slides with their directions in the world.
-    fn roots(&self, group: usize) -> Vec<Vec<(usize, [f64; 3])>> {
-        let roots = self.nodes.iter().filter(|n| n.parent == 0 && self.group_of[n.body] == group);
+    fn roots(&self, group: usize, group_of: &[usize]) -> Vec<Vec<(usize, [f64; 3])>> {
+        let roots = self.nodes.iter().filter(|n| n.parent == 0 && group_of[n.body] == group);
         let plain = roots.map(|n| slides(&self.steps[n.steps.clone()], n.before.r).into_iter().filter(|s| !s.turns));
         plain.map(|slides| slides.map(|s| (s.v, components::<G>(s.along))).collect()).collect()
     }
 
-    /// Orthogonal unit directions in which nothing holds a group; none if there are none.
-    fn free_directions(&self, group: usize, acting: &[usize]) -> Option<Vec<[f64; 3]>> {
-        let roots = self.roots(group);
+    /// Orthogonal unit directions in which nothing holds a group with its joints on the ground; none if there are none.
+    fn free_directions(
+        &self,
+        roots: &[Vec<(usize, [f64; 3])>],
+        of_group: impl Fn(&Gauge<G>) -> bool,
+        acting: &[usize],
+    ) -> Option<Vec<[f64; 3]>> {
         let mut held: Vec<[f64; 3]> =
             roots.iter().flat_map(|slides| complement::<G>(&slides.iter().map(|(_, d)| *d).collect::<Vec<_>>())).collect();
         for &i in acting {
             let gauge = &self.gauges[i];
-            if gauge.a != 0 && gauge.b != 0 || self.group_between(gauge.a, gauge.b) != group {
+            if gauge.a != 0 && gauge.b != 0 || !of_group(gauge) {
                 continue;
             }
             match gauge.measured {

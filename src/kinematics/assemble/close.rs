@@ -76,7 +76,7 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             _ => Target::Value(value),
         };
         let targets = mechanism.starts.iter().map(|s| target(s.asked, s.value)).collect();
-        let (size, metric) = (mechanism.size(), joint_metric(mechanism));
+        let (size, metric) = (mechanism.start_size(), joint_metric(mechanism));
         let named = vec![None; mechanism.nv];
         Self { dynamics, modes, rows, ahead: Vec::new(), held: Held::Exact, upright: Vec::new(), targets, size, metric, named }
     }

@@ -74,7 +74,7 @@ pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Resul
         };
         let unit = unit(m, start.asked);
         let off = f64::max((found - start.value).abs(), tilt.unwrap_or(0.0));
-        if !start.guess && off > EXACT * (1.0 + start.value.abs() + if unit.starts_with('m') { m.size() } else { 0.0 }) {
+        if !start.guess && off > EXACT * (1.0 + start.value.abs() + if unit.starts_with('m') { m.start_size() } else { 0.0 }) {
             return Err(AssemblyFault {
                 code: "start-cannot-hold",
                 message: format!("the exact start value {} = {} {unit} is missed by {} {unit}", start.name, short(start.value), short(off)),
@@ -83,7 +83,7 @@ pub(super) fn found<G: Space<S = f64>>(m: &Mechanism<G>, begun: &Begun) -> Resul
             });
         }
         // round-off of what is zero
-        let least = ROUND_OFF * if unit.starts_with('m') { m.size() } else { 1.0 };
+        let least = ROUND_OFF * if unit.starts_with('m') { m.start_size() } else { 1.0 };
         let clean = |asked: f64, found: f64| if found.abs() < least && found != asked { 0.0 } else { found };
         let mut add = |name: String, asked, found| out.push(Found { name, asked, found: clean(asked, found), guess: start.guess, unit });
         add(start.name.clone(), start.value, found);

@@ -14,9 +14,9 @@ pub(crate) fn units<G: Space>(mechanism: &Mechanism<G>) -> Vec<u8> {
     unit
 }
 
-/// Diagonal of the metric of the search (nv): 1 rad counts as much as the size of the mechanism.
+/// Diagonal of the metric of the search (nv): 1 rad counts as much as the size of the mechanism, by bodies and joints.
 pub(super) fn joint_metric<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<f64> {
-    mechanism.units().iter().map(|unit| 1.0 / (unit * unit)).collect()
+    mechanism.units(mechanism.start_size()).iter().map(|unit| 1.0 / (unit * unit)).collect()
 }
 
 /// |x|.

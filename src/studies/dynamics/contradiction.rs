@@ -30,7 +30,7 @@ where
     }
     let mut g = w.g.to_dense();
     g.chunks_exact_mut(m.nv.max(1)).zip(&scale).for_each(|(row, scale)| row.iter_mut().for_each(|g| *g *= scale));
-    let metric: Vec<f64> = m.units().iter().map(|unit| 1.0 / (unit * unit)).collect();
+    let metric: Vec<f64> = m.units(m.size()).iter().map(|unit| 1.0 / (unit * unit)).collect();
     let delta = shortest(&g, &phi, &metric, 0.0);
     let left = phi.iter().zip(g.chunks_exact(m.nv.max(1))).map(|(phi, row)| phi - row.iter().zip(&delta).map(|(g, d)| g * d).sum::<f64>());
     let (row, left) = left.enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
