@@ -26,6 +26,7 @@ mod functions;
 mod hand_written;
 mod impulses;
 mod joints;
+mod jumps;
 mod kills;
 mod labels;
 mod large;

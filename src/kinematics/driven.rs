@@ -302,6 +302,11 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         }
     }
 
+    /// What a residual of each row counts by: rad, and sizes.
+    pub(super) fn row_unit(&self) -> &[f64] {
+        &self.row_unit
+    }
+
     /// Largest component of a displacement in units of angles and of the mechanism's size.
     #[must_use]
     pub fn measure(&self, delta: &[f64]) -> f64 {

@@ -7,6 +7,7 @@
 
 use super::driven::{Driven, NotReached};
 use super::fold::fold;
+use super::laws::{Jump, first_jump, jump_beside};
 pub use super::node::{PathPoint, SINGULAR};
 use super::standing::Standing;
 use super::undefined::Gap;
@@ -25,6 +26,10 @@ pub struct Path {
     pub open: Option<usize>,
     /// What is undefined behind the end of the path, if that is why it ends.
     pub gap: Option<Gap>,
+    /// The law that jumps there, if that is why it ends.
+    pub jump: Option<Jump>,
+    /// Time at which the way back from the start ends other than at a dead point, if that way was asked for and does.
+    pub back: Option<f64>,
 }
 
 /// Time and coordinates of a dead point.
@@ -39,6 +44,8 @@ pub enum NoPath {
     TooLong,
     /// Something has no value at the start.
     Undefined(Gap),
+    /// A law jumps just behind the start.
+    Jump(Jump),
 }
 
 /// Steps of a path at most: some 50 000 turns of a crank.
@@ -83,16 +90,21 @@ impl Path {
             .ok_or(NoPath::SingularStart)?
         };
         let [behind, ahead] = ends;
-        let (mut nodes, end) = march(driven, modes, &ahead, to)?;
+        let (mut nodes, end) = match march(driven, modes, &ahead, to)? {
+            (nodes, End::Jump(law)) => (nodes, End::Jump(law)),
+            (nodes, end) => leapt(driven, modes, nodes, end),
+        };
         if behind.t != ahead.t {
             nodes.insert(0, behind.clone());
         }
-        let (mut dead, mut open, mut gap) = ([None, None], None, None);
+        let (mut dead, mut open, mut gap, mut jump, mut way_back) = ([None, None], None, None, None, None);
         match end {
             End::Reached => {}
             End::Dead(point) => dead[1] = Some(point),
             End::Open(row, point) => (dead[1], open) = (Some(point), Some(row)),
             End::Undefined(what) => gap = Some(what),
+            End::Jump(law) if nodes.len() < 2 => return Err(NoPath::Jump(law)),
+            End::Jump(law) => jump = Some(law),
         }
         if dead[1].is_some() {
             let (back, end) = march(driven, modes, &behind, -to)?;
@@ -100,7 +112,7 @@ impl Path {
                 End::Reached => {}
                 End::Dead(point) | End::Open(_, point) => dead[0] = Some(point),
                 // what lies behind the start is of no interest
-                End::Undefined(_) => {}
+                End::Undefined(_) | End::Jump(_) => way_back = back.last().map(|node| node.t),
             }
             nodes = back.into_iter().skip(1).rev().chain(nodes).collect();
             if to < 0.0 {
@@ -110,7 +122,7 @@ impl Path {
         } else if to < 0.0 {
             nodes.reverse();
         }
-        Ok(Self { nodes, dead, open, gap })
+        Ok(Self { nodes, dead, open, gap, jump, back: way_back })
     }
 
     /// Time of the node that is farthest from 0.
@@ -182,6 +194,7 @@ enum End {
     Dead(DeadPoint),
     Open(usize, DeadPoint),
     Undefined(Gap),
+    Jump(Jump),
 }
 
 /// Nodes from `start` to time `to`, and what ends them.
@@ -225,7 +238,11 @@ fn march<G: Space<S = f64>>(
                     if let Some(law) = driven.dynamics.undefined(modes) {
                         return Ok((nodes, End::Undefined(Gap::Law(law))));
                     }
-                    if let Some(row) = driven.open {
+                    let row = driven.open;
+                    if let Some(law) = jump_beside(driven, modes, last, to) {
+                        return Ok((nodes, End::Jump(law)));
+                    }
+                    if let Some(row) = row {
                         let end = End::Open(row, (last.t, last.q.clone()));
                         return Ok((nodes, end));
                     }
@@ -236,6 +253,19 @@ fn march<G: Space<S = f64>>(
         }
     }
     Ok((nodes, End::Reached))
+}
+
+/// The path up to the first law that jumps by so little that a step has leapt over it, if one does; else as it is.
+fn leapt<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], mut nodes: Vec<PathPoint>, end: End) -> (Vec<PathPoint>, End) {
+    let times: Vec<f64> = nodes.iter().map(|node| node.t).collect();
+    let Some((before, law)) = first_jump(&mut driven.dynamics, modes, &times) else { return (nodes, end) };
+    nodes.retain(|node| node.t.abs() <= before.abs());
+    if let Some(last) = nodes.last().filter(|last| last.t != before).cloned()
+        && let Ok(node) = step(driven, modes, &last, before, &mut vec![0.0; last.v.len()])
+    {
+        nodes.push(node);
+    }
+    (nodes, End::Jump(law))
 }
 
 /// One trusted step to time `t`.

@@ -5,7 +5,6 @@ use super::balance::Unbalanced;
 use super::common::case::Case;
 use super::common::clock::{Clock, Variable};
 use super::common::functional::Functionals;
-use super::common::laws::{Jump, jump};
 use super::common::motion::{Lost, Motion};
 use super::common::numbers::Sources;
 use super::common::observe::Observer;
@@ -93,6 +92,7 @@ pub(crate) fn trace<'m, G: Space<S = f64>>(
                 "start elsewhere, or change the lengths",
             ),
             NoPath::TooLong => Failure::numerical(format!("the range asks for more than {MOST_NODES} steps"), "give a shorter range"),
+            NoPath::Jump(jump) => Failure::numerical(jump.told("the start"), "begin with the value that the law has just behind the start"),
             NoPath::Undefined(gap) => Failure::Undefined(gap.explain(case.model, case.study, "the start")),
         }
     })
@@ -188,10 +188,10 @@ fn observe<G: Space<S = f64>>(
     findings.extend(backwards(case, &motion, &name, unit));
     findings.extend(stops::dwells(study, variable, &mut motion, &resolved));
 
-    let complete = motion.path.dead == [None, None];
+    let complete = motion.path.dead == [None, None] && motion.path.jump.is_none();
     let stopped = (!complete && undefined.is_none()).then(|| {
         let at = clock.value(motion.ends[1]);
-        if let Some(jump) = law_that_jumps(&mut motion) {
+        if let Some(jump) = &motion.path.jump {
             return jump.told(&variable.at(at));
         }
         if let Some(row) = motion.path.open {
@@ -209,7 +209,9 @@ fn observe<G: Space<S = f64>>(
         )
     });
     if results.is_empty() && study.results.iter().any(|r| r.name == "turns_fully") {
-        results.push(turns_fully(case, mechanism, start, clock, complete && undefined.is_none() && barrier.is_none()));
+        let covered = complete && undefined.is_none() && barrier.is_none();
+        // a law that jumps does not lead around
+        results.push(if motion.path.jump.is_some() { f64::NAN } else { turns_fully(case, mechanism, start, clock, covered) });
     }
     let sources = Sources { case, tables: &mechanism.tables, functionals: &functionals, results: &results, works: &[] };
     let numbers = sources.numbers(undefined.is_none());
@@ -354,13 +356,6 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>,
         }));
     }
     out
-}
-
-/// The law of a driver that jumps where the motion ends.
-fn law_that_jumps<G: Space<S = f64>>(motion: &mut Motion<'_, G>) -> Option<Jump> {
-    let ends: Vec<f64> = motion.path.dead.iter().flatten().map(|(t, _)| *t).collect();
-    let (mut modes, range) = (motion.modes.clone(), motion.clock.end());
-    ends.into_iter().find_map(|t| jump(&mut motion.driven.dynamics, &mut modes, t, range))
 }
 
 /// That no place of the masses holds the centre of mass still; `residual` is how far it moves, m.

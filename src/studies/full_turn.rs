@@ -42,7 +42,7 @@ pub(super) fn turns_fully<G: Space<S = f64>>(
     let Ok(whole) = Clock::of_driver(&mut dynamics, &mut modes, drive.output, 0.0, turn) else { return f64::NAN };
     let observer = Observer::new(case.model, mechanism, case.parameters, &[]);
     match Motion::trace(mechanism, start, whole, observer, 0) {
-        Ok(motion) if motion.path.gap.is_some() => f64::NAN,
+        Ok(motion) if motion.path.gap.is_some() || motion.path.jump.is_some() => f64::NAN,
         Ok(motion) => f64::from(motion.path.dead == [None, None]),
         Err(_) => f64::NAN,
     }

@@ -4,7 +4,6 @@ pub mod case;
 pub mod clock;
 mod energies;
 pub(crate) mod functional;
-pub(crate) mod laws;
 pub mod motion;
 pub mod named;
 pub(crate) mod numbers;

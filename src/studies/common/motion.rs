@@ -94,7 +94,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             columns,
         };
         motion.find_ends();
-        if let Some(t) = motion.path.gap.as_ref().and_then(|_| motion.path.last()) {
+        let cut = motion.path.gap.is_some() || motion.path.jump.is_some();
+        if let Some(t) = motion.path.last().filter(|_| cut) {
             motion.ends[1] = motion.progress_at(t);
         }
         Ok(motion)
@@ -105,7 +106,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let backwards = self.clock.end() < 0.0;
         let [ahead, behind] = if backwards { [0, 1] } else { [1, 0] }.map(|side| self.path.dead[side].as_ref().map(|d| d.0));
         if let Some(t) = ahead {
-            let back = behind.map(|t| self.progress_at(t));
+            let back = behind.or(self.path.back).map(|t| self.progress_at(t));
             self.ends = [back.unwrap_or(-self.clock.length), self.progress_at(t)];
         }
     }
@@ -232,6 +233,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let side = usize::from(s > 0.0);
         self.ends[side] = s;
         self.path.dead[if self.clock.end() < 0.0 { 1 - side } else { side }] = None;
+        self.path.jump = self.path.jump.take().filter(|_| side == 0);
     }
 
     /// Lets the motion end where all is defined last before a place (in the independent variable) where something is not; what is

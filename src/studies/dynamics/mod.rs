@@ -27,13 +27,13 @@ pub use unrecorded::Unrecorded;
 use super::common::case::Case;
 use super::common::clock::{Clock, Variable};
 use super::common::functional::Functionals;
-use super::common::laws::first_jump;
 use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::expression::Dimension;
 use crate::geometry::{Planar, Pose, Space, Spatial};
+use crate::kinematics::laws::first_jump;
 use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
 use crate::numerics::extremum::{Extremes, extrema};
@@ -65,7 +65,7 @@ where
     let clock = Clock::of_time(plan.until);
     let rows = || Rows::new(Recorder::new(case, &watched, clock, "time", Variable::of("t", Dimension::TIME)), plan.every);
     let mut taken = rows();
-    let Recorded { mut trajectory, mut stopped, mut undefined, mut events, certificate, mut findings } =
+    let Recorded { mut trajectory, mut stopped, mut undefined, mut events, mut certificate, mut findings } =
         march::march(case, &plan, &watched.ids, &phases, None, (stop, Some(&mut taken)))?;
 
     if let (Some(reason), true) = (&stopped, trajectory.is_empty()) {
@@ -78,10 +78,18 @@ where
     let modes = trajectory.node.state.modes.clone();
     if let Some((before, jump)) = first_jump(&mut trajectory.system(0).dynamics, &modes, &times) {
         let reason = jump.told(&format!("time = {before:.6}"));
-        if !trajectory.end_at(before) {
+        if before <= times[0] {
             return Err(Failure::numerical(reason, "begin with the value that the law has just behind the start"));
         }
-        (stopped, undefined, taken) = (Some(reason), None, rows());
+        // once more up to there: works, energies and findings of what lies behind it are none of this motion
+        taken = rows();
+        let plan = setup::Plan { until: before, ..plan.clone() };
+        let again = march::march(case, &plan, &watched.ids, &phases, None, (stop, Some(&mut taken)))?;
+        let interrupted = again.stopped.is_some();
+        Recorded { trajectory, events, certificate, findings, stopped, undefined } = again;
+        if !interrupted {
+            stopped = Some(reason);
+        }
     }
     let seen = loop {
         match see(&mut trajectory, case, &watched, &plan, taken) {

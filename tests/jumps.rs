@@ -1,0 +1,88 @@
+//! Laws that jump: a motion ends on their near side, whatever the kind of its study.
+
+use crate::common::{close, model};
+use grashof::results::Failure;
+use grashof::studies::common::case::{Case, parameters};
+use grashof::studies::common::outcome::Outcome;
+use grashof::studies::run::run;
+
+fn study(text: &str, name: &str) -> Result<Outcome, Failure> {
+    let model = model(text, Some(name));
+    let study = model.study.clone().expect("the study");
+    run(Case::new(&model, &study, &parameters(&model)), &|| false)
+}
+
+/// A bar of 1 m and 1 kg on a hinge, turned by a law of `t`.
+fn crank(law: &str) -> String {
+    format!(
+        "grashof: 1
+name: crank
+space: planar
+gravity: [0, -10 m/s^2]
+bodies: {{ a: {{ bar: {{ length: 1 m, mass: 1 kg }} }} }}
+joints: {{ O: {{ revolute: [ground, a.start] }} }}
+drivers: {{ d: {{ joint: O, angle: \"{law}\" }} }}
+studies:
+  k: {{ kinematics: {{ over: 1 s, samples: 4 }}, columns: [time, O.angle], scalars: {{ most: max(O.angle), end: last(O.angle) }} }}
+  i: {{ inverse: {{ over: 1 s, samples: 4 }}, columns: [time, O.angle, d], scalars: {{ most: max(O.angle), end: last(O.angle) }} }}
+  d: {{ dynamics: {{ until: 1 s, every: 0.25 s }}, columns: [time, O.angle, d], scalars: {{ most: max(O.angle), end: last(O.angle) }} }}
+"
+    )
+}
+
+#[test]
+fn a_motion_ends_on_the_near_side_of_a_jump() {
+    for (behind, word) in
+        [("2 rad", "from 0.5 to 2 (SI)"), ("0.3 rad", "from 0.5 to 0.3 (SI)"), ("1 rad/s*t + 1e-3 rad", "from 0.5 to 0.501 (SI)")]
+    {
+        for name in ["k", "i", "d"] {
+            let outcome = study(&crank(&format!("if(t < 0.5 s, 1 rad/s*t, {behind})")), name).unwrap();
+            let stopped = outcome.stopped.as_deref().unwrap_or_default();
+            assert!(stopped.contains("the law of the driver `d` jumps") && stopped.contains(word), "{name}: {stopped}");
+            let places = outcome.rows.iter().map(|row| [row[0], row[1]]).collect::<Vec<_>>();
+            close(name, places.as_flattened(), &[0.0, 0.0, 0.25, 0.25, 0.5, 0.5], 1e-12);
+            close(name, &outcome.scalars, &[0.5, 0.5], 1e-12);
+            let codes: Vec<&str> = outcome.findings.iter().map(|f| &*f.code).collect();
+            assert!(codes.is_empty(), "{name}: {codes:?}");
+            if let Some(march) = outcome.certificate.march {
+                // ½ m g sin 0.5 and the turning with 1 rad/s that it begins with
+                close("work", &[march.drivers], &[5.0 * 0.5_f64.sin()], 1e-8);
+                assert!(march.energy_drift < 1e-8, "{}", march.energy_drift);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_coupling_that_jumps_is_no_dead_point() {
+    for (law, jump) in [("if(t < 0.5 s, 0 m, 0.3 m)", "0.3"), ("if(A.position < 0.5 m, 0 m, -0.2 m)", "0.2")] {
+        let text = format!(
+            "grashof: 1
+name: two slides
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg }}, b: {{ mass: 1 kg }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }}, B: {{ slider: [ground, b.origin], axis: [1, 0] }} }}
+drivers: {{ d: {{ joint: A, speed: 1 m/s }} }}
+couplings: {{ c: {{ zero: \"B.position - 2*A.position - {law}\" }} }}
+studies:
+  k: {{ kinematics: {{ over: 1 s, samples: 2 }}, columns: [time, A.position, B.position], scalars: {{ most: max(B.position) }} }}
+"
+        );
+        let outcome = study(&text, "k").unwrap();
+        let stopped = outcome.stopped.as_deref().unwrap_or_default();
+        assert!(stopped.contains("what the coupling `c` holds jumps") && stopped.contains(jump), "{law}: {stopped}");
+        let rows: Vec<f64> = outcome.rows.iter().flat_map(<[f64]>::to_vec).collect();
+        close(law, &rows, &[0.0, 0.0, 0.0, 0.5, 0.5, 1.0], 1e-12);
+        close(law, &outcome.scalars, &[1.0], 1e-12);
+        assert!(outcome.findings.iter().all(|f| f.code != "dead-point"), "{law}: {:?}", outcome.findings);
+    }
+}
+
+#[test]
+fn a_jump_just_behind_the_start_leaves_no_motion() {
+    for name in ["k", "i", "d"] {
+        let Err(failure) = study(&crank("if(t <= 0 s, 0 rad, 1 rad)"), name) else { panic!("{name} has rows") };
+        assert!(failure.reason().contains("the law of the driver `d` jumps"), "{name}: {}", failure.reason());
+    }
+}
