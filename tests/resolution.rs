@@ -153,6 +153,29 @@ fn what_is_too_fast_to_be_followed_is_said() {
     assert!(o.findings.iter().any(|f| f.code == "unresolved" && f.message.contains("the switch")), "{:?}", o.findings);
 }
 
+/// As many columns count as unresolved as are named, those of equal expressions each, in a motion in time and a driven one.
+#[test]
+fn every_column_that_is_not_resolved_counts_and_is_named() {
+    let text = "grashof: 1
+name: fast
+space: planar
+gravity: none
+bodies: { a: { mass: 1 kg } }
+joints: { S: { slider: [ground, a.origin], axis: [1, 0] } }
+drivers: { d: { joint: S, speed: 1 m/s } }
+measures: { p: sin(1e10 rad/s*t), q: sin(1e10 rad/s*t), r: cos(1e10 rad/s*t) }
+studies:
+  i: { inverse: { over: 1 s, samples: 4 }, columns: [time, p, q, r, S.position] }
+  d: { dynamics: { until: 1 s, every: 0.25 s }, columns: [time, p, q, r, S.position] }
+";
+    for name in ["i", "d"] {
+        let outcome = crate::common::study(text, name, Coordinates::Joint);
+        let named = |column: &str| outcome.findings.iter().filter(|f| f.code == "unresolved" && f.message.contains(column)).count();
+        assert_eq!(["`p`", "`q`", "`r`", "`S.position`"].map(named), [1, 1, 1, 0], "{name}: {:?}", outcome.findings);
+        assert_eq!(outcome.certificate.resolved.map(|r| r.open), Some(3), "{name}");
+    }
+}
+
 #[test]
 fn a_motion_in_time_is_the_same_for_any_rows_and_long_steps() {
     let run = |every: &str| {

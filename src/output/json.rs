@@ -166,7 +166,7 @@ fn motion(march: &March, events: &[Happened]) -> Entries {
         count("events", counts.events),
         count("bridges", counts.bridges),
         count("stepped_over", counts.stepped_over),
-        count("unresolved", counts.unresolved),
+        count("unresolved_conditions", counts.unresolved),
     ]);
     all
 }
@@ -193,6 +193,21 @@ fn findings(results: &Results) -> Value {
 mod tests {
     use super::*;
     use crate::results::{By, List};
+
+    #[test]
+    fn no_two_numbers_of_a_certificate_have_one_name() {
+        let mut results = Results::default();
+        results.certificate.resolved = Some(crate::results::Resolution { width: 1e-7, open: 2, evaluations: 9 });
+        let mut march = March::default();
+        march.counts.unresolved = 3;
+        results.certificate.march = Some(march);
+        let entries = certificate(&results);
+        for (i, (name, _)) in entries.iter().enumerate() {
+            assert!(entries[..i].iter().all(|(other, _)| other != name), "{name}");
+        }
+        let value: Value = serde_json::from_str(&write_json(&results)).unwrap();
+        assert_eq!([&value["certificate"]["unresolved"], &value["certificate"]["unresolved_conditions"]], [&json!(2), &json!(3)]);
+    }
 
     #[test]
     fn the_report_reads_back_in_its_order_with_null_for_no_number() {

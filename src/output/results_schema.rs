@@ -3,17 +3,13 @@
 use serde_json::{Map, Value, json};
 
 /// What certifies results: name, whether it is a count, and what it is.
-const CERTIFICATE: [(&str, bool, &str); 21] = [
+const CERTIFICATE: [(&str, bool, &str); 22] = [
     ("rows", true, "Positions solved for the rows."),
     ("switches", true, "Switches that were located."),
     ("constraint_residual", false, "Largest residual of positions over the rows, m or rad."),
     ("power_balance", false, "Largest imbalance of power over the rows, relative to its largest term."),
     ("resolved_to", false, "Part of a column's largest magnitude that may be left out between known values."),
-    (
-        "unresolved",
-        true,
-        "Columns that are not resolved so far somewhere; of a motion in time parts of steps in which a condition was not.",
-    ),
+    ("unresolved", true, "Columns that are not resolved so far somewhere."),
     ("undeclared", true, "Functions from outside whose switches are not declared, so that none is located."),
     ("looks", true, "Evaluations of the motion for columns between rows."),
     ("velocity_residual", false, "Largest residual of velocities over the rows."),
@@ -28,6 +24,7 @@ const CERTIFICATE: [(&str, bool, &str); 21] = [
     ("events", true, "Events at which the integration was restarted, or which were recorded."),
     ("bridges", true, "Singular positions that were crossed."),
     ("stepped_over", true, "Switches that were marched across."),
+    ("unresolved_conditions", true, "Parts of steps in which a condition was not resolved."),
     ("runs", true, "Runs of a sweep."),
 ];
 

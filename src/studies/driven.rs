@@ -218,7 +218,7 @@ fn observe<G: Space<S = f64>>(
     let undefined = undefined.or(numbers.undefined);
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
-    let certificate = Certificate { resolved: Some(resolved.quality()), ..certificate(&mut motion, &rows) };
+    let certificate = Certificate { resolved: Some(watched.quality(study, &resolved)), ..certificate(&mut motion, &rows) };
     let Recorded { places, switches, rows, selected_from } = rows.recorded();
     Ok(Outcome {
         stopped: undefined.as_ref().map(|u| u.message.clone()).or(barrier).or(stopped),

@@ -4,7 +4,7 @@ use super::clock::{Clock, Variable};
 use crate::expression::Id;
 use crate::model::{Functional, FunctionalKind, Model, Plot, Quantity, Shown, ShownWhat, Study};
 use crate::numerics::extremum::Extremes;
-use crate::numerics::resolve::Resolved;
+use crate::numerics::resolve::{Open, Resolution, Resolved};
 use crate::results::Finding;
 
 /// Part of the range to which the place of what is not resolved is told.
@@ -32,6 +32,28 @@ impl Watched {
         let scalars = study.scalars.iter().filter(|s| takes(s.value)).map(|s| format!("`{}`", s.name));
         let names: Vec<String> = scalars.chain(study.expect.iter().filter(|e| takes(e.value)).map(|e| format!("`{}`", e.text))).collect();
         if names.is_empty() { "a figure".into() } else { names.join(", ") }
+    }
+
+    /// What is not resolved and counts, with the name of each column that shows it: equal expressions are watched once.
+    fn open<'a>(&'a self, study: &'a Study, resolved: &'a Resolved) -> impl Iterator<Item = (&'a Open, Option<&'a str>)> {
+        // a value at a place does not depend on what is between
+        let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
+        let taken = move |column: usize| {
+            self.shown.contains(&column) || self.functionals.iter().zip(&study.functionals).any(|(&c, f)| c == column && !single(f))
+        };
+        resolved.open.iter().flat_map(move |open| {
+            let columns = study.columns.iter().zip(&self.columns).filter(|(_, c)| **c == open.column);
+            let mut names: Vec<_> = columns.map(|(column, _)| (open, Some(column.name.as_str()))).collect();
+            if names.is_empty() && taken(open.column) {
+                names.push((open, None));
+            }
+            names
+        })
+    }
+
+    /// How well a motion is resolved: as many columns are not as are told.
+    pub(crate) fn quality(&self, study: &Study, resolved: &Resolved) -> Resolution {
+        Resolution { open: self.open(study, resolved).count(), ..resolved.quality() }
     }
 
     pub(crate) fn of(study: &Study) -> Self {
@@ -87,15 +109,11 @@ pub(crate) fn unresolved(
     clock: Clock,
 ) -> Vec<Finding> {
     let finding = |message: String| Finding { code: "unresolved".into(), message, path: study.place.clone() };
-    // a value at a place does not depend on what is between
-    let single = |f: &Functional| matches!(f.kind, FunctionalKind::Value | FunctionalKind::Last);
-    let counts = |column: usize| {
-        watched.columns.iter().chain(&watched.shown).any(|&c| c == column)
-            || watched.functionals.iter().zip(&study.functionals).any(|(&c, f)| c == column && !single(f))
-    };
-    let columns = resolved.open.iter().filter(|open| counts(open.column)).map(|open| {
-        let column = study.columns.iter().find(|c| c.value == watched.ids[open.column]).map(|c| format!("column `{}`", c.name));
-        let what = column.unwrap_or_else(|| format!("what {} is taken of", watched.asked(model, study, open.column)));
+    let columns = watched.open(study, resolved).map(|(open, column)| {
+        let what = match column {
+            Some(name) => format!("column `{name}`"),
+            None => format!("what {} is taken of", watched.asked(model, study, open.column)),
+        };
         // a place is told as well as it is known
         let told = NEAR * clock.length;
         let at = variable.at((clock.value(open.at) / told).round() * told);

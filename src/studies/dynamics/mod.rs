@@ -210,7 +210,7 @@ where
     let mut functionals =
         Functionals { clock, ends: [from, to], curve: trajectory, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = functionals.all(case, &watched.functionals, &mut findings)?;
-    Ok(Seen { breaks, rows: recorder, extremes, functionals, findings, resolution: resolved.quality() })
+    Ok(Seen { breaks, rows: recorder, extremes, functionals, findings, resolution: watched.quality(case.study, &resolved) })
 }
 
 /// Poses of the bodies at a time, for pictures.

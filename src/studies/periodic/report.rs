@@ -181,7 +181,7 @@ impl<'a> Regime<'a> {
         let mut findings = unresolved(&search.model, search.study, watched, &resolved, &[], variable, clock);
         let mut all = Functionals { clock, ends, curve: &mut turn, resolved: &resolved, extremes: &extremes, breaks: &breaks };
         let functionals = all.all(case, &watched.functionals, &mut findings).map_err(|off| lost(search, off))?;
-        Ok(Seen { clock, rows: recorder, times, extremes, functionals, findings, resolution: resolved.quality() })
+        Ok(Seen { clock, rows: recorder, times, extremes, functionals, findings, resolution: watched.quality(search.study, &resolved) })
     }
 }
 
