@@ -100,3 +100,51 @@ studies: {{ k: {{ kinematics: {{ over: 1 turn, samples: 4 }}, columns: [W.positi
         assert!((row[0] - guess).abs() < 1e-12 && apart(row[1], rod).abs() < 1e-6, "{row:?}");
     }
 }
+
+/// A driver in a loop without freedom is no dead point; one at a dead point is.
+#[test]
+fn a_driver_that_nothing_lets_move_is_told_from_a_dead_point() {
+    let start = |drivers: &str, rest: &str| {
+        let text = format!(
+            "grashof: 1
+name: two bars and a pendulum
+space: planar
+gravity: none
+ground: {{ O: [0, 0], C: [30 cm, 0], P: [1 m, 0] }}
+bodies:
+  a: {{ bar: {{ length: 20 cm }} }}
+  b: {{ bar: {{ length: 25 cm }} }}
+  p: {{ bar: {{ length: 10 cm }} }}
+{rest}
+  P: {{ revolute: [ground.P, p.start] }}
+drivers: {{ {drivers} }}
+studies: {{ k: {{ kinematics: {{ over: 1 ms, samples: 1 }} }} }}
+"
+        );
+        let model = common::model(&text, None);
+        let values = grashof::studies::common::case::parameters(&model);
+        let found = grashof::kinematics::assemble::assemble::<grashof::geometry::Planar<f64>>(&model, &values, Coordinates::Joint);
+        found.err().map(|failure| failure.reason()).unwrap_or_default()
+    };
+    let triangle = "joints:
+  O: { revolute: [ground.O, a.start] }
+  A: { revolute: [a.end, b.start] }
+  C: { revolute: [b.end, ground.C] }";
+    let held = start("d: { joint: O, speed: 1 rad/s }", triangle);
+    assert!(held.contains("the driver `d` cannot move") && !held.contains("dead point"), "{held}");
+    assert_eq!(start("d: { joint: P, speed: 1 rad/s }", triangle), "");
+    let crank = "  c: { mass: 1 kg }
+start: { O.angle: 0 deg }
+joints:
+  O: { revolute: [ground.O, a.start] }
+  A: { revolute: [a.end, b.start] }
+  B: { revolute: [b.end, c.origin] }
+  S: { slider: [ground.O, c.origin], axis: [1, 0] }";
+    let dead = start(
+        "d: { joint: S, speed: 1 m/s }",
+        &crank.replace("start: { O.angle: 0 deg }", "start: { O.angle: ~0 deg, S.position: 45 cm }"),
+    );
+    assert!(dead.contains("dead point"), "{dead}");
+    let dead = start("d: { joint: S, speed: 1 m/s }, e: { joint: P, speed: 1 rad/s }", crank);
+    assert!(dead.contains("dead point"), "{dead}");
+}

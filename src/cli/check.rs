@@ -104,6 +104,9 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     out
 }
 
+/// Part of the size of a body that is round-off of its places and inertias.
+const ROUND_OFF: f64 = 1e-14;
+
 /// A number of a unit of SI, and a list of such, in the unit in which the model asks for results.
 struct In<'m> {
     unit: &'m str,
@@ -122,12 +125,19 @@ impl<'m> In<'m> {
         }
     }
 
+    /// Where 1e-14 of the unit is round-off of zero.
     fn number(&self, x: f64) -> String {
-        short(x / self.size)
+        short(x / self.size, 1e-14)
     }
 
-    fn list(&self, values: &[f64]) -> String {
-        values.iter().map(|x| self.number(*x)).collect::<Vec<_>>().join(", ")
+    /// As the file has it, however small.
+    fn whole(&self, x: f64) -> String {
+        short(x / self.size, 0.0)
+    }
+
+    /// Values that are round-off of zero beside a size.
+    fn list(&self, values: &[f64], size: f64) -> String {
+        values.iter().map(|x| short(x / self.size, ROUND_OFF * size / self.size)).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -142,11 +152,11 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
     for (name, mass, com, inertia) in &survey.bodies {
         print_out(&format!(
             "  {name:<14} {:>12} {}   com ({}) {}   inertia {} {}",
-            mass_in.number(*mass),
+            mass_in.whole(*mass),
             mass_in.unit,
-            length_in.list(com),
+            length_in.list(com, reach(*mass, com, inertia)),
             length_in.unit,
-            inertia_in.list(inertia),
+            inertia_in.list(inertia, largest(inertia)),
             inertia_in.unit
         ));
     }
@@ -163,7 +173,7 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
     print_out(&format!("  coordinates, velocities   {nq}, {nv}"));
     print_out(&format!("  constraint rows, rank     {rows}, {}", m.rank));
     if let Some(g) = &survey.grashof {
-        let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", length_in.number(*l))).collect();
+        let lengths: Vec<String> = g.links.iter().map(|(n, l)| format!("{n} {}", length_in.whole(*l))).collect();
         print_out("\nfour-bar");
         print_out(&format!("  Grashof class             {}", g.class));
         print_out(&format!("  {:<25} {}", format!("links [{}]", length_in.unit), lengths.join(", ")));
@@ -180,7 +190,7 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
     if !survey.lengths.is_empty() {
         print_out("\ndistances as at the start");
         for (name, length) in &survey.lengths {
-            print_out(&format!("  {name:<22} {:>14} {}", length_in.number(*length), length_in.unit));
+            print_out(&format!("  {name:<22} {:>14} {}", length_in.whole(*length), length_in.unit));
         }
     }
     if !findings.is_empty() {
@@ -273,9 +283,19 @@ fn as_json(model: &Model, survey: &Survey, findings: &[String]) -> Value {
     })
 }
 
-/// Eight significant digits, without trailing zeros.
-fn short(x: f64) -> String {
+/// The largest magnitude.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, x| f64::max(m, x.abs()))
+}
+
+/// A length of a body, m: how far its centre of mass is, or its radius of gyration.
+fn reach(mass: f64, com: &[f64], inertia: &[f64]) -> f64 {
+    let gyration = (largest(inertia) / mass).sqrt();
+    largest(com).max(if gyration.is_finite() { gyration } else { 0.0 })
+}
+
+/// Eight significant digits, without trailing zeros; 0 for what is round-off of a value that is zero.
+fn short(x: f64, round_off: f64) -> String {
     let rounded: f64 = format!("{x:.7e}").parse().unwrap_or(x);
-    // round-off of a value that is zero
-    grashof::output::number(if rounded.abs() < 1e-14 { 0.0 } else { rounded })
+    grashof::output::number(if rounded.abs() < round_off { 0.0 } else { rounded })
 }

@@ -1,5 +1,6 @@
 //! The coordinates of joints: their names, and what they are measured in.
 
+use super::Model;
 use super::entities::JointKind;
 use super::fields::Want;
 use crate::expression::Dimension;
@@ -64,6 +65,15 @@ impl Coordinate {
     /// Dimension of the generalised force that works on it.
     pub(crate) fn effort(&self) -> Dimension {
         if self.angle { Dimension::TORQUE } else { Dimension::FORCE }
+    }
+}
+
+impl Model {
+    /// Whether one driver moves the mechanism, and turns a joint.
+    #[must_use]
+    pub fn is_turned(&self) -> bool {
+        let [driver] = &self.drivers[..] else { return false };
+        coordinates(&self.joints[driver.joint].kind).iter().any(|c| c.slot == 0 && c.angle)
     }
 }
 

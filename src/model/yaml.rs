@@ -3,7 +3,7 @@
 
 use super::fault::{Fault, Spot};
 use super::spans::{Spans, byte_of};
-use saphyr_parser::{Event, Parser};
+use saphyr_parser::{Event, Parser, ScalarStyle};
 use serde_yaml::{Mapping, Value};
 
 /// Largest file, bytes.
@@ -94,6 +94,11 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
             Event::Alias(_) => {
                 return Err(Box::new(marked(text, byte_of(text, start))));
             }
+            Event::Scalar(word, ScalarStyle::Plain, ..) if vanishes(word) => {
+                let spot = Spot::Bytes(byte_of(text, start)..byte_of(text, start + width));
+                let fault = Fault::new("expression", String::new(), format!("found `{word}`"), "a number such as `0.5`, `12` or `1e-3`");
+                return Err(Box::new(fault.at(spot).help("the size of a number lies between 1e-308 and 1e308")));
+            }
             Event::Scalar(_, _, anchor, tag) => (*anchor, tag.is_some()),
             Event::SequenceStart(anchor, tag) | Event::MappingStart(anchor, tag) => {
                 depth += 1;
@@ -118,6 +123,12 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
             return Err(Box::new(marked(text, at)));
         }
     }
+}
+
+/// Whether a number is so small that it would be read as 0.
+fn vanishes(word: &str) -> bool {
+    let mantissa = word.split(['e', 'E']).next().unwrap_or(word);
+    word.contains(['e', 'E']) && mantissa.bytes().any(|c| matches!(c, b'1'..=b'9')) && word.parse::<f64>() == Ok(0.0)
 }
 
 /// A value that begins with a sign that YAML keeps for itself.

@@ -22,12 +22,12 @@ pub(super) fn turns_fully<G: Space<S = f64>>(
     clock: Clock,
     covered: bool,
 ) -> f64 {
-    if !covered {
-        return 0.0;
-    }
     let [drive] = &mechanism.drives[..] else { return f64::NAN };
     if !drive.turns {
         return f64::NAN;
+    }
+    if !covered {
+        return 0.0;
     }
     let mut dynamics = Dynamics::new(mechanism);
     let mut modes = start.modes.clone();

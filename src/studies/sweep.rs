@@ -306,7 +306,13 @@ pub fn columns(model: &Model, study: &Study) -> Vec<Column> {
 fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
     let outcomes: Vec<Option<&Outcome>> = runs.iter().map(|run| run.result.as_deref().ok()).collect();
     let of = |values: &dyn Fn(&Outcome) -> Option<f64>, none: f64| -> Vec<f64> {
-        outcomes.iter().map(|o| o.map_or(none, |o| values(o).unwrap_or(f64::NAN))).collect()
+        let value = |run: &Run| match &run.result {
+            Ok(outcome) => values(outcome).unwrap_or(f64::NAN),
+            // no value of a parameter is none of a mechanism
+            Err(Failure::Unsolved(_)) => f64::NAN,
+            Err(_) => none,
+        };
+        runs.iter().map(value).collect()
     };
     let parameter = |index: usize, values: Vec<f64>| {
         let p = &model.parameters[index];
@@ -320,7 +326,8 @@ fn table(model: &Model, study: &Study, runs: &[Run]) -> Table {
     let lists = outcomes.iter().flatten().any(|o| !o.lists.is_empty());
     let has = |i: usize| outcomes.iter().flatten().any(|o| o.results.get(i).is_some_and(|x| !x.is_nan()));
     // nor is a turn told where nothing turns
-    let turns = |i: usize| study.results[i].name != "turns_fully" || has(i) || outcomes.is_empty() || outcomes.iter().any(Option::is_none);
+    let any = outcomes.is_empty() || outcomes.iter().any(Option::is_none);
+    let turns = |i: usize| study.results[i].name != "turns_fully" || model.is_turned() && (has(i) || any);
     for (i, result) in study.results.iter().enumerate().filter(|(i, _)| (!lists || has(*i)) && turns(*i)) {
         // a range that could not be begun is not a full turn
         let none = if result.name == "turns_fully" { 0.0 } else { f64::NAN };

@@ -74,6 +74,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "nan",
             "infinity",
             "number-too-large",
+            "number-too-small",
             "zero-by-zero",
             "division-by-zero",
             "sexagesimal",

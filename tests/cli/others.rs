@@ -221,6 +221,58 @@ fn check_tells_what_a_model_is() {
     assert!(place.run(&["check", "model.yaml", "--set", "l3=5"]).ends(2).stderr.contains("cannot be assembled"));
 }
 
+/// Masses, lengths and poles keep their digits in machines of a micrometre, and what is round-off beside them is 0.
+#[test]
+fn small_machines_have_masses_and_poles() {
+    let place = Place::new("small");
+    let text = "grashof: 1
+name: small
+space: planar
+gravity: none
+bodies:
+  w: { bar: { length: 1 um, mass: 1e-15 kg } }
+joints: { O: { revolute: [ground, w.start] } }
+";
+    place.put("model.yaml", text);
+    let shown = place.run(&["check", "model.yaml"]).ends(0).stdout;
+    let bar = shown.lines().find(|line| line.starts_with("  w ")).unwrap();
+    assert!(bar.contains(" 1e-15 kg ") && bar.contains("com (5e-7, 0) m") && bar.contains("8.3333333e-29 kg m^2"), "{bar}");
+    // √(k/m) of two masses
+    let text = "grashof: 1
+name: slow and fast
+space: planar
+gravity: none
+bodies: { a: { mass: 1 kg }, b: { mass: 1 kg } }
+joints: { A: { slider: [ground, a.origin], axis: [1, 0] }, B: { slider: [ground, b.origin], axis: [1, 0] } }
+springs: { s: { joint: A, stiffness: 1e-10 N/m }, u: { joint: B, stiffness: 1e6 N/m } }
+studies: { l: { linearize: {} } }
+";
+    place.put("model.yaml", text);
+    let poles = place.run(&["run", "model.yaml", "-o", "out", "--no-plots", "--no-report"]).ends(0).stdout;
+    assert!(poles.contains("poles [1/s]: 0 ± 1000 i, 0 ± 0.00001 i"), "{poles}");
+}
+
+/// A row of a sweep without a solution says nothing of turns where nothing turns.
+#[test]
+fn what_slides_has_no_turns() {
+    let place = Place::new("slides");
+    let text = "grashof: 1
+name: slide
+space: planar
+gravity: none
+parameters: { a: 1, b: 2 }
+bodies: { m: { mass: 1 kg } }
+joints: { S: { slider: [ground, m.origin], axis: [1, 0] } }
+drivers: { d: { joint: S, position: 1 m/s*t } }
+studies:
+  s: { kinematics: { over: 1 s, samples: 2 }, sweep: { b: [1, 30] }, scalars: { y: a^2*last(S.position)/1 m }, solve: { vary: a, between: [0, 3], target: { y: 2*a + b } } }
+";
+    place.put("model.yaml", text);
+    place.run(&["run", "model.yaml", "-o", "out", "--no-plots", "--no-report"]);
+    let table = place.text("out/s.csv");
+    assert!(table.starts_with("b,a,y,reason\n") && table.lines().count() == 3, "{table}");
+}
+
 #[test]
 fn check_tells_angles_as_the_user_measures_them() {
     let place = Place::new("check-angles");

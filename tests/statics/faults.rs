@@ -21,6 +21,14 @@ start: {{ S.position: {start} }}"
     ))
 }
 
+/// What stays unbalanced is told however small it is.
+#[test]
+fn a_small_force_is_no_zero() {
+    for (force, shown) in [("2e-14 N", "2e-14 N"), ("3e-9 N", "3e-9 N")] {
+        told(&car(force, "0 m"), &[&format!("{shown} on `S.position` stays unbalanced")]);
+    }
+}
+
 /// The message has all the words, the exit code is right, and nothing was written.
 fn told(run: &Run, words: &[&str]) {
     assert_eq!(run.code, 3, "{}{}", run.stdout, run.stderr);

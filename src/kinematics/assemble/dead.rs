@@ -6,9 +6,14 @@ use super::fault::AssemblyFault;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Mechanism, RowKind};
 use crate::numerics::least_squares::left_open;
+use nalgebra::DMatrix;
 
 /// How far beside a dead point a start is proposed, rad or sizes.
 const BESIDE: f64 = 0.05;
+
+/// What stays in its place moves less than this on such a way, rad or sizes: beside a dead point it moves with the square.
+const STAYS: f64 = 1e-9;
+const GOLDEN: f64 = 2.4;
 
 impl<G: Space<S = f64>> System<'_, G> {
     /// A start whose rows have their common rank but leave drivers no way.
@@ -22,6 +27,16 @@ impl<G: Space<S = f64>> System<'_, G> {
             .collect();
         let (a, round_off) = self.scaled(&self.undriven());
         let open = left_open(round_off, &a.to_dense(m.nv), &self.metric);
+        if let Some(driver) = self.stuck(q, &open) {
+            return AssemblyFault {
+                code: "over-constrained",
+                message: format!(
+                    "{driver} cannot move: the other constraints leave its joint no motion, at the start or beside it: {missed}"
+                ),
+                place: "drivers".into(),
+                help: "drive a joint that can move, or remove constraints of the loop that holds this one".into(),
+            };
+        }
         let mut sides = Vec::new();
         if open.ncols() == 1 {
             let largest = open.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
@@ -59,6 +74,32 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
+    /// A driver that is to move what stays where it is along all motions that its rows leave `open` (nv each).
+    fn stuck(&mut self, q: &[f64], open: &DMatrix<f64>) -> Option<String> {
+        let m = self.dynamics.mechanism;
+        let driven: Vec<(usize, usize)> = (0..m.rows.len())
+            .filter(|&row| self.dynamics.work.nu[row] != 0.0)
+            .filter_map(|row| if let RowKind::Driver { gauge, .. } = m.rows[row].kind { Some((row, gauge)) } else { None })
+            .collect();
+        self.place(q);
+        let here: Vec<f64> = driven.iter().map(|&(_, gauge)| self.dynamics.work.readings[gauge].x).collect();
+        let mut moved = vec![false; driven.len()];
+        // along each of them, and all at once
+        let ways = open.column_iter().map(|u| u.iter().copied().collect::<Vec<f64>>());
+        let all = (0..m.nv).map(|k| open.row(k).iter().enumerate().map(|(i, u)| (GOLDEN * i as f64).cos() * u).sum()).collect();
+        for way in ways.chain([all]) {
+            let largest = way.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
+            for s in [BESIDE / largest, -BESIDE / largest] {
+                self.close_along(q, &way.iter().map(|u| u * s).collect::<Vec<_>>())?;
+                for ((moved, here), &(_, gauge)) in moved.iter_mut().zip(&here).zip(&driven) {
+                    *moved |= (self.dynamics.work.readings[gauge].x - here).abs() * self.gauge_scale(gauge) > STAYS;
+                }
+            }
+        }
+        let stuck = driven.iter().zip(moved).find(|(_, moved)| !moved);
+        stuck.map(|((row, _), _)| format!("the {}", m.name_of_row(*row)))
+    }
+
     /// A change point on none of whose branches drivers and exact rates can be met.
     pub(super) fn blocked(&self, branches: &str) -> AssemblyFault {
         AssemblyFault {
@@ -71,15 +112,21 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
-    /// The closed position a little way along a motion that drivers are not asked about.
-    fn beside(&mut self, q: &[f64], way: &[f64]) -> Option<Beside> {
-        let m = self.dynamics.mechanism;
+    /// Closes a position a little way along a motion that drivers are not asked about.
+    fn close_along(&mut self, q: &[f64], way: &[f64]) -> Option<()> {
         let undriven = self.undriven();
         let (rows, held) = (std::mem::replace(&mut self.rows, undriven), std::mem::replace(&mut self.held, Held::Nothing));
         let mut at = q.to_vec();
-        m.retract(&mut at, way);
+        self.dynamics.mechanism.retract(&mut at, way);
         let closed = self.close(&mut at);
         (self.rows, self.held) = (rows, held);
+        closed.then_some(())
+    }
+
+    /// A start there, and where it leads the first driver.
+    fn beside(&mut self, q: &[f64], way: &[f64]) -> Option<Beside> {
+        let m = self.dynamics.mechanism;
+        let closed = self.close_along(q, way).is_some();
         let readings = &self.dynamics.work.readings;
         let gauge = m.rows.iter().find_map(|row| if let RowKind::Driver { gauge, .. } = row.kind { Some(gauge) } else { None })?;
         let exact = m.starts.iter().filter(|s| !s.guess).filter_map(|s| match s.asked {

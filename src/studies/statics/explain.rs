@@ -13,7 +13,7 @@ use crate::kinematics::partition::{Partition, preferred};
 use crate::kinematics::undefined::{in_state, without_direction};
 use crate::mechanism::{Mechanism, Step};
 use crate::model::Model;
-use crate::results::{Failure, Unsolved};
+use crate::results::{Failure, Unsolved, six_digits};
 use crate::studies::common::case::Case;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
@@ -75,7 +75,7 @@ impl Names {
         let most = (0..of.len()).fold(0, |best, i| if work(i) > work(best) { i } else { best });
         let what = match of.get(most) {
             Some(c) => {
-                format!("{} {} on `{}` stays unbalanced at best", six(forces[most].abs()), if c.turns { "N m" } else { "N" }, c.name)
+                format!("{} {} on `{}` stays unbalanced at best", six_digits(forces[most].abs()), if c.turns { "N m" } else { "N" }, c.name)
             }
             None => "nothing can move".into(),
         };
