@@ -25,6 +25,7 @@ mod full_turn;
 mod functions;
 mod hand_written;
 mod impulses;
+mod indeterminate;
 mod joints;
 mod jumps;
 mod kills;

@@ -80,7 +80,7 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
     let mut out = Vec::new();
     if !m.redundant.is_empty() {
         out.push(format!(
-            "redundant constraints (harmless but for friction by a coefficient; single reactions are those of least size): {}",
+            "redundant constraints (harmless but for friction by a coefficient; rigid bodies do not determine how the joints share forces there: such reactions are one way of many, another one in other `coordinates`): {}",
             m.redundant.join("; ")
         ));
     }

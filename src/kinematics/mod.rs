@@ -7,6 +7,7 @@ pub mod driven;
 mod fold;
 mod freedom;
 pub mod held;
+pub(crate) mod indeterminate;
 pub mod laws;
 pub mod linear;
 pub mod lowest;

@@ -10,7 +10,7 @@ use super::common::numbers::Sources;
 use super::common::observe::Observer;
 use super::common::recorder::{Recorded, Recorder};
 use super::common::watched::{Watched, in_variable, unresolved};
-use super::common::{scene, stops};
+use super::common::{indeterminate, scene, stops};
 use super::full_turn::turns_fully;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -184,6 +184,9 @@ fn observe<G: Space<S = f64>>(
     let Seen { resolved, extremes, rows, functionals, findings: open } = seen;
     let mut findings: Vec<Finding> = start.findings().chain(findings(mechanism, &motion, &name, unit)).collect();
     findings.extend(open);
+    if mechanism.rows.len() > mechanism.nv {
+        findings.extend(indeterminate::open(case, &watched, mechanism, start));
+    }
     findings.extend(jumps(case, &mut motion, &name, unit));
     findings.extend(backwards(case, &motion, &name, unit));
     findings.extend(stops::dwells(study, variable, &mut motion, &resolved));
@@ -329,7 +332,7 @@ fn findings<G: Space<S = f64>>(mechanism: &Mechanism<G>, motion: &Motion<'_, G>,
         out.push(Finding {
             code: "redundant-constraints".into(),
             message: format!(
-                "{} constraint rows for {} unknowns: {}, single reactions may be those of least size",
+                "{} constraint rows for {} unknowns: {}; reactions of joints need not be, which a finding `reactions-not-unique` tells of those that a study shows",
                 mechanism.rows.len(),
                 mechanism.nv,
                 if mechanism.pressings.is_empty() {

@@ -27,6 +27,7 @@ pub use unrecorded::Unrecorded;
 use super::common::case::Case;
 use super::common::clock::{Clock, Variable};
 use super::common::functional::Functionals;
+use super::common::indeterminate;
 use super::common::numbers::Sources;
 use super::common::recorder::{Recorded as Kept, Recorder};
 use super::common::scene::{self, Span, Subject};
@@ -124,6 +125,7 @@ where
     };
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
+    findings.extend(indeterminate::open(case, &watched, &phases.first().mechanism, &phases.first().start));
     let Kept { places, switches, rows, selected_from } = rows.recorded();
     let span = Span { ends: [from, to], ..Span::default() };
     let subject = Subject { case, mechanism: &phases.first().mechanism };

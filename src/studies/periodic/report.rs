@@ -17,6 +17,7 @@ use crate::results::{Certificate, Failure, Finding, List, Resolution};
 use crate::studies::common::case::Case;
 use crate::studies::common::clock::{Clock, Variable};
 use crate::studies::common::functional::Functionals;
+use crate::studies::common::indeterminate;
 use crate::studies::common::numbers::Sources;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::recorder::{Recorded, Recorder};
@@ -105,6 +106,7 @@ impl<'a> Regime<'a> {
         integrals(&mut single, &resolved.panels, &resolved.noise, &mut mean).map_err(|off| lost(search, off))?;
         let Seen { clock, rows, times: of_rows, extremes, functionals, findings, resolution } = self.see(&mut lap)?;
         lap.findings.extend(findings);
+        lap.findings.extend(indeterminate::open(Case { model, study, ..case }, watched, &phases.mechanism, &phases.start));
         let floquet = multipliers.first().map_or(0.0, |m| m.norm());
         let (max, min) = extremes[columns.of].map_or((f64::NAN, f64::NAN), |e| (e.max.value, e.min.value));
         let results = vec![period, mean[0] / period, max, min, floquet];

@@ -22,6 +22,7 @@ use crate::kinematics::undefined::not_finite;
 use crate::mechanism::Mechanism;
 use crate::results::{Failure, Finding};
 use crate::studies::common::case::Case;
+use crate::studies::common::indeterminate::open;
 use crate::studies::common::observe::Observer;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::watched::Watched;
@@ -59,7 +60,9 @@ where
     let watched = Watched::of(case.study);
     let mut many = Many::new(case, &mechanism, &start, &watched.ids);
     let Some(settled) = many.settle(&start, stop)? else { return Ok(None) };
-    many.outcome(&watched, &settled).map(Some)
+    let mut outcome = many.outcome(&watched, &settled)?;
+    outcome.findings.extend(open(case, &watched, &mechanism, &start));
+    Ok(Some(outcome))
 }
 
 /// The equilibrium of a mechanism from its start, for a study of another kind; none as of [`run`].

@@ -37,6 +37,7 @@ use crate::kinematics::assemble::Assembled;
 use crate::kinematics::undefined::assembled;
 use crate::mechanism::Coordinates;
 use crate::results::Failure;
+use crate::studies::common::indeterminate::open;
 use crate::studies::common::outcome::Outcome;
 use bench::{Bench, Settled};
 use grip::Gripped;
@@ -107,6 +108,7 @@ where
         let mut outcome = held.outcome(&watched, &begin, &[found])?;
         outcome.findings.extend(bench.region(&pose));
         outcome.findings.extend(shared);
+        outcome.findings.extend(open(case, &watched, &mechanism, &start));
         return Ok(outcome);
     }
     let Settled { begin, found, passed } = bench.settle(&start, stop)?;
@@ -122,5 +124,7 @@ where
         all.extend(resting.into_iter().filter(|f| bench.rest.beyond(case, &f.pose.position).is_none()));
     }
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
-    bench.outcome(&watched, &begin, &all)
+    let mut outcome = bench.outcome(&watched, &begin, &all)?;
+    outcome.findings.extend(open(case, &watched, &mechanism, &start));
+    Ok(outcome)
 }
