@@ -322,3 +322,89 @@ studies:
     let behind = |row: &[f64]| (row[0] / std::f64::consts::PI - 0.75).rem_euclid(1.0);
     assert!(steps.rows.iter().all(|row| behind(row) > 1e-6 && behind(row) < 1.0 - 1e-6), "a row where a half turn was counted");
 }
+
+/// Light bodies that only pass forces on: a thin bar, which has no inertia about itself, that guides a body along a long way in space, and
+/// the crank and the rocker of a four-bar whose coupler is up to 1e9 times as heavy.
+#[test]
+fn rows_of_light_bodies_feel_the_heavy_ones_behind_them() {
+    let studies = |columns: &str| {
+        let of = |coordinates: &str| {
+            format!(
+                "  {coordinates}: {{ dynamics: {{ until: 0.5 s, every: 0.1 s, tolerance: 1e-10, coordinates: {coordinates} }}, columns: [{columns}] }}\n"
+            )
+        };
+        format!("studies:\n{}{}", of("joint"), of("cartesian"))
+    };
+    let guided = format!(
+        "grashof: 1
+name: sleeve on a thin bar
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+bodies:
+  a: {{ bar: {{ length: 0.5 m, mass: 1 kg }} }}
+  b: {{ box: {{ size: [0.4 m, 0.2 m, 0.1 m], mass: 1 kg }}, points: {{ start: [-0.2 m, 0, 0] }} }}
+joints:
+  P: {{ revolute: [ground, a.start], axis: [0, 1, 0.2] }}
+  Q: {{ cylindrical: [a.end, b.start], axis: [1, 0.3, 0] }}
+start: {{ P.angle: 130 deg, P.omega: 14 rad/s, Q.angle: 20 deg, Q.omega: 19 rad/s, Q.position: 0.05 m, Q.velocity: 0 m/s }}
+{}",
+        studies("P.angle, P.omega, P.alpha, Q.angle, Q.omega, Q.position, Q.velocity, Q.acceleration")
+    );
+    let four_bar = |mass: &str| {
+        format!(
+            "grashof: 1
+name: light crank and rocker
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: {{ O: [0, 0], C: [1 m, 0] }}
+bodies:
+  c: {{ bar: {{ length: 0.3 m, mass: {mass} }} }}
+  l: {{ bar: {{ length: 1 m, mass: 1000 kg }} }}
+  r: {{ bar: {{ length: 0.7 m, mass: {mass} }} }}
+joints:
+  O: {{ revolute: [ground.O, c.start] }}
+  A: {{ revolute: [c.end, l.start] }}
+  B: {{ revolute: [l.end, r.end] }}
+  C: {{ revolute: [ground.C, r.start] }}
+start: {{ O.angle: 60 deg, O.omega: 5 rad/s, l.angle: ~20 deg, r.angle: ~90 deg }}
+{}",
+            studies("O.angle, O.omega, O.alpha, A.fx, A.fy, B.fx, B.fy")
+        )
+    };
+    let texts = [guided, four_bar("100 kg"), four_bar("1 kg"), four_bar("1 g"), four_bar("1e-6 kg"), four_bar("0 kg")];
+    for (i, text) in texts.iter().enumerate() {
+        let [joint, cartesian] = ["joint", "cartesian"].map(|name| study(text, name, Coordinates::Joint));
+        same(&format!("model {i}"), &columns(text, "joint"), &cartesian, &joint, |_| true, 1e-8);
+    }
+}
+
+/// A light parallelogram through its flat positions keeps its energy beside a mechanism that is 1e8 times as heavy.
+#[test]
+fn light_mechanisms_know_no_heavy_ones_beside_them() {
+    let text = "grashof: 1
+name: side by side
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0], C: [0.2 m, 0], Z: [5 m, 0] }
+bodies:
+  c: { bar: { length: 0.1 m, mass: 1 g } }
+  l: { bar: { length: 0.2 m, mass: 1 g } }
+  r: { bar: { length: 0.1 m, mass: 1 g } }
+  z: { bar: { length: 1 m, mass: 1e5 kg } }
+joints:
+  O: { revolute: [ground.O, c.start] }
+  A: { revolute: [c.end, l.start] }
+  B: { revolute: [l.end, r.end] }
+  C: { revolute: [ground.C, r.start] }
+  Z: { revolute: [ground.Z, z.start] }
+start: { O.angle: 90 deg, O.omega: 20 rad/s, l.angle: ~0 deg, r.angle: ~90 deg, Z.angle: -90 deg }
+studies:
+  run: { dynamics: { until: 5 s, every: 0.1 s, tolerance: 1e-12, coordinates: cartesian }, columns: [O.angle, O.omega] }
+";
+    // two bars about their ends and one that is only shifted, of 1 g
+    let energy = |row: &[f64]| 1e-3 * (0.5 * 0.01 * (1.0 + 2.0 / 3.0) * row[1] * row[1] + 9.81 * 0.1 * 2.0 * row[0].sin());
+    let found = study(text, "run", Coordinates::Joint);
+    let start = energy(&found.rows[0]);
+    let off = found.rows.iter().map(|row| (energy(row) - start).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-8 * start, "{off:e} J of {start:e} J");
+}

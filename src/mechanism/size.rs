@@ -4,7 +4,7 @@
 //! origin of the world is, what coordinates a run has and what is asked of its start change neither.
 
 use super::sets::Sets;
-use super::{Measured, Mechanism, RowKind, Step, StretchOf};
+use super::{Measured, Mechanism, Row, RowKind, Step, StretchOf};
 use crate::geometry::Space;
 
 impl<G: Space<S = f64>> Mechanism<G> {
@@ -32,6 +32,30 @@ impl<G: Space<S = f64>> Mechanism<G> {
             }
         }
         units
+    }
+
+    /// For each velocity a number that it shares with those of the same unit of bodies that joints and rows connect, other than by the
+    /// ground (nv).
+    #[must_use]
+    pub fn kinds(&self) -> Vec<usize> {
+        let mut sets = self.connected(self.nodes.iter().map(|n| (n.parent, n.body)));
+        for row in &self.rows {
+            let mut bodies = self.gauges_of(row).into_iter().flat_map(|i| [self.gauges[i].a, self.gauges[i].b]).filter(|body| *body != 0);
+            if let Some(first) = bodies.next() {
+                bodies.for_each(|body| sets.join(first, body));
+            }
+        }
+        let mut kinds = vec![0; self.nv];
+        for node in &self.nodes {
+            let set = 2 * sets.of(node.body);
+            for step in &self.steps[node.steps.clone()] {
+                match *step {
+                    Step::Axis { turns, v, .. } => kinds[v] = set + usize::from(!turns),
+                    Step::Ball { v, .. } => kinds[v..v + G::SPIN].fill(set),
+                }
+            }
+        }
+        kinds
     }
 
     /// The largest length of bodies, and of the ground between places that joints and the distances `lines` hold.
@@ -64,13 +88,18 @@ impl<G: Space<S = f64>> Mechanism<G> {
         sets
     }
 
-    /// Gauges that rows hold or move.
-    pub(super) fn constrained(&self) -> impl Iterator<Item = usize> {
-        self.rows.iter().flat_map(|row| match row.kind {
+    /// Gauges that a row holds or moves.
+    fn gauges_of(&self, row: &Row<G>) -> Vec<usize> {
+        match row.kind {
             RowKind::Gauge(i) | RowKind::Driver { gauge: i, .. } => vec![i],
             RowKind::Ratio { first, second, .. } => vec![first, second],
             RowKind::Function(f) => self.functions[f].gauges.clone(),
-        })
+        }
+    }
+
+    /// Gauges that rows hold or move.
+    pub(super) fn constrained(&self) -> impl Iterator<Item = usize> {
+        self.rows.iter().flat_map(|row| self.gauges_of(row))
     }
 
     /// Gauges that something works on: rows, efforts, springs and stops.

@@ -156,8 +156,8 @@ impl Kkt {
     }
 
     /// Takes the scales from the matrices at assembly; see [`metric`] and [`row_scale`]. Allocates.
-    pub fn scale(&mut self, mass: &[f64], g: &[f64], unit: &[u8]) {
-        let metric = metric(self.diagonal.iter().map(|k| mass[*k]), unit);
+    pub fn scale(&mut self, mass: &[f64], g: &[f64], kind: &[usize]) {
+        let metric = metric(self.diagonal.iter().map(|k| mass[*k]), kind);
         let g_scale = row_scale(&self.blocks.0[1], g, &metric);
         self.set_scale(&metric, &g_scale);
     }

@@ -32,13 +32,13 @@ impl Base {
     }
 }
 
-/// Gives a problem the scales of its start; `unit` names the unit of each velocity (0 an angle, 1 a length).
-pub(crate) fn scaled<P: Problem>(mut problem: P, base: impl Fn(&mut P) -> &mut Base, unit: &[u8]) -> P {
+/// Gives a problem the scales of its start; `kind` numbers the unit of each velocity (0 an angle, 1 a length).
+pub(crate) fn scaled<P: Problem>(mut problem: P, base: impl Fn(&mut P) -> &mut Base, kind: &[usize]) -> P {
     let start = problem.start();
     let mut terms = Terms::new(problem.dims(), problem.pattern());
     problem.terms(start.at(), Stage::Position, &mut terms);
     let pattern = &mut base(&mut problem).pattern;
-    pattern.metric = metric((0..unit.len()).map(|i| terms.mass.at(i, i)), unit);
+    pattern.metric = metric((0..kind.len()).map(|i| terms.mass.at(i, i)), kind);
     pattern.g_scale = row_scale(&pattern.g, terms.g.values(), &pattern.metric);
     let pattern = pattern.clone();
     let base = base(&mut problem);

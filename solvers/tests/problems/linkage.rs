@@ -48,7 +48,7 @@ impl Linkage {
         base.pattern.k = Sparsity::new(n, n, (2..n).step_by(3).map(|i| (i, i)));
         base.pattern.c = Sparsity::empty(n, n);
         base.pattern.r_lambda = Sparsity::empty(n, dims.holonomic);
-        let unit: Vec<u8> = (0..n).map(|i| if i % 3 == 2 { 0 } else { 1 }).collect();
+        let unit: Vec<usize> = (0..n).map(|i| if i % 3 == 2 { 0 } else { 1 }).collect();
         let start = State { q, v, ..State::new(dims) };
         scaled(Self { base, bodies, joints, gravity, noise, start }, |p| &mut p.base, &unit)
     }

@@ -119,5 +119,5 @@ fn drawn_metric<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<f64> {
     position::orient(mechanism, &mut q);
     dynamics.follow_time(0.0, &mut modes);
     dynamics.terms(0.0, &q, &vec![0.0; mechanism.nv], &modes);
-    kkt::metric((0..mechanism.nv).map(|k| dynamics.work.mass.at(k, k)), &units(mechanism))
+    kkt::metric((0..mechanism.nv).map(|k| dynamics.work.mass.at(k, k)), &mechanism.kinds())
 }
