@@ -119,6 +119,7 @@ impl<S: System> Minimal<S> {
         p.common = inner.common.iter().map(|common| restricted(common, place)).collect();
         p.power = inner.power;
         p.roots_by_reactions = inner.roots_by_reactions;
+        p.striking.clone_from(&inner.striking);
         p.closing = inner.closing.clone();
         p.forceful = inner.forceful.clone();
         p.timed = inner.timed.clone();
