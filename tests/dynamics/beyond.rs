@@ -61,6 +61,38 @@ studies: {{ run: {{ dynamics: {{ until: 1 s, {scheme} }}, columns: [time, S.velo
     verdict.give("beyond");
 }
 
+/// A mass that falls on a stiff floor: with switches stepped over `rk4` is the classical scheme, each stage on its own branch.
+#[test]
+fn stages_that_step_over_a_switch_take_their_own_branch() {
+    let (h, steps) = (2e-3, 1000);
+    let rate = |[x, v]: [f64; 2]| [v, (-1e4 * x).max(0.0) - 9.81];
+    let after = |[x, v]: [f64; 2], [dx, dv]: [f64; 2], h: f64| [x + h * dx, v + h * dv];
+    let mut y = [0.1, 0.0];
+    for _ in 0..steps {
+        let k1 = rate(y);
+        let k2 = rate(after(y, k1, 0.5 * h));
+        let k3 = rate(after(y, k2, 0.5 * h));
+        let k4 = rate(after(y, k3, h));
+        y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+    }
+    let mut verdict = Verdict::default();
+    for law in ["max(0 N, -1e4 N/m*S.position)", "if(S.position > 0 m, 0 N, -1e4 N/m*S.position)"] {
+        let rest = format!(
+            "loads: {{ floor: {{ joint: S, force: \"{law}\" }}, weight: {{ joint: S, force: -9.81 N }} }}
+start: {{ S.position: 0.1 m }}
+studies:
+  run:
+    dynamics: {{ until: 2 s, integrator: rk4, step: 2 ms, switches: step-over }}
+    columns: [time, S.position, S.velocity]
+    scalars: {{ x: last(S.position), v: last(S.velocity) }}"
+        );
+        let run = run_text(&block(&rest), &["--no-plots"]).succeeded();
+        verdict.close("x", law, scalar(&run, "run", "x"), y[0], 1e-9);
+        verdict.close("v", law, scalar(&run, "run", "v"), y[1], 1e-7);
+    }
+    verdict.give("step over");
+}
+
 #[test]
 fn a_ball_leaves_a_floor_that_gives_way_as_hertz_says() {
     let (k, h, g): (f64, f64, f64) = (1e6, 0.1, 9.81);

@@ -185,7 +185,8 @@ fn both_phases(a: &DMatrix<f64>, u: &DVector<f64>, restitutions: &DVector<f64>) 
 }
 
 /// p ≥ 0 with u = A p + b ≥ 0 and uᵀp = 0 for a symmetric, positive semidefinite A, by active sets (Lawson & Hanson 1974, chapter 23);
-/// none where there is none.
+/// none where there is none. What pushes stays independent, so that dependent rates need nothing added to A. [Rejected: boxes, as friction
+/// needs them, with principal pivoting, which leaves dependent impulses to a diagonal that is larger by 1e-7.]
 fn complementary(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
     let n = b.len();
     // rates of the same kinetic energy are comparable
