@@ -43,6 +43,9 @@ pub struct Pattern {
     /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::natural_row_scale`](crate::kkt::natural_row_scale), and
     /// [`kkt::row_scale`](crate::kkt::row_scale) where nothing is known of rows but their entries; E = 1e-8 of it.
     pub g_scale: Vec<f64>,
+    /// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ at the start that is not of redundant rows, see
+    /// [`kkt::weakest`](crate::kkt::weakest).
+    pub weakest: f64,
     /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
     pub size_q: Vec<f64>,
     /// The same for displacements and velocities (nv): errors of v count relative to size + |v|, where |v| is what is left without
@@ -88,6 +91,7 @@ impl Pattern {
             z_z: Sparsity::dense(z, z),
             metric: vec![1.0; v],
             g_scale: vec![1.0; m],
+            weakest: 1.0,
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],
             size_z: vec![1.0; z],

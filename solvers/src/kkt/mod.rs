@@ -18,6 +18,7 @@
 
 mod blocks;
 pub(crate) mod columns;
+mod conjugate;
 mod definite;
 pub mod dense;
 pub mod factor;
@@ -36,8 +37,9 @@ pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
 use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
-use crate::{Pattern, Sparsity};
+use crate::{Block, Pattern, Sparsity};
 use blocks::Blocks;
+use conjugate::{Conjugate, largest};
 use definite::Definite;
 use dense::Singular;
 use pivoted::Pivoted;
@@ -67,6 +69,8 @@ pub struct Kkt {
     pivoted: Option<Pivoted>,
     /// Scaled right-hand side, then solution (nv + m).
     x: Vec<f64>,
+    /// Made when it is needed.
+    conjugate: Conjugate,
 }
 
 /// How L D Lᵀ is computed.
@@ -85,8 +89,28 @@ fn definite_cost(n: usize) -> usize {
 const REFINEMENTS: usize = 2;
 const REFINEMENTS_WITHOUT_MASS: usize = 8;
 
+/// A residual of so many roundings of the largest unknown is none.
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
+
 /// Part of D below which a diagonal entry of M counts as none.
 const LIGHT: f64 = 1e-2;
+
+/// Inverse iterations for [`weakest`].
+const ITERATIONS: usize = 4;
+
+/// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ that is not of redundant rows, for the scales of a pattern and the rows `g` at
+/// the start; 1 without rows. Values below 1e-6 are not told from 0. Allocates.
+#[must_use]
+pub fn weakest(pattern: &Pattern, g: &[f64]) -> f64 {
+    let mut mass = Block::new(&pattern.mass);
+    pattern.metric.iter().enumerate().for_each(|(i, d)| mass.set(i, i, *d));
+    let mut kkt = Kkt::of_pattern(pattern);
+    let mut vector = vec![0.0; kkt.rows];
+    if vector.is_empty() || kkt.factor(mass.values(), g).is_err() {
+        return 1.0;
+    }
+    (0..ITERATIONS).fold(1.0, |_, _| kkt.smallest_singular_value_that_moves(&mut vector))
+}
 
 impl Kkt {
     /// One for full matrices of `nv` velocities and `rows` constraint rows, with scales of one.
@@ -147,6 +171,7 @@ impl Kkt {
             definite: false,
             pivoted: None,
             x: vec![0.0; n],
+            conjugate: Conjugate::default(),
         }
     }
 
@@ -238,6 +263,34 @@ impl Kkt {
         for ((out, x), s) in lambda.iter_mut().zip(&self.x[nv..]).zip(s) {
             *out = x * s;
         }
+    }
+
+    /// Goes on from accelerations `a` (nv) and multipliers `lambda` (m) that [`Kkt::solve`] has found, by the factors at hand, until
+    /// G a = `gamma` (m) holds to round-off.
+    ///
+    /// Nothing changes where it does already, or where a singular value other than those of redundant rows is below `regular`.
+    pub fn converge(&mut self, g: &Block, gamma: &[f64], regular: f64, a: &mut [f64], lambda: &mut [f64]) {
+        let nv = self.nv;
+        let mut conjugate = std::mem::take(&mut self.conjugate);
+        let rows = g.lines().zip(gamma).zip(&self.scale[nv..]);
+        conjugate.r.clear();
+        conjugate.r.extend(rows.map(|((row, gamma), s)| (row.dot(a) - gamma) * s));
+        let unknowns = a.iter().chain(&*lambda).zip(&self.scale);
+        let round_off = ROUNDED * unknowns.fold(0.0, |size: f64, (x, s)| size.max((x / s).abs()));
+        if largest(&conjugate.r) > round_off {
+            conjugate.e.clone_from(&self.e);
+            let reached = conjugate.reduce(nv, [round_off, regular * regular], |r, x| {
+                self.x[..nv].fill(0.0);
+                self.x[nv..].iter_mut().zip(r).for_each(|(x, r)| *x = -r);
+                self.apply(0);
+                x.copy_from_slice(&self.x);
+            });
+            if reached {
+                let unknowns = a.iter_mut().chain(lambda);
+                unknowns.zip(conjugate.sum.iter().zip(&self.scale)).for_each(|(unknown, (x, s))| *unknown += x * s);
+            }
+        }
+        self.conjugate = conjugate;
     }
 
     /// Estimates of the smallest singular values σ of diag(G D⁻¹ Gᵀ)^−½ G D^−½, the smallest first, by one inverse iteration on the

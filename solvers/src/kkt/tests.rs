@@ -267,3 +267,46 @@ fn no_order_of_a_tree_costs_less_than_its_roads() {
         }
     }
 }
+
+/// Two rows that are nearly parallel, with and without a redundant one: the force across them is not lost, unless the position counts as
+/// singular.
+#[test]
+fn nearly_dependent_rows_hold_to_round_off() {
+    let mut noise = Noise(41);
+    let (nv, angle) = (6, 1e-4);
+    for trial in 0..20 {
+        let mass = mass(&mut noise, nv);
+        let [first, across, other] = std::array::from_fn(|_| DVector::from_vec(noise.vector(nv)));
+        let mut rows = vec![first.clone(), &first + angle * across, other.clone()];
+        if trial % 2 == 1 {
+            rows.push(first - other);
+        }
+        let m = rows.len();
+        let g: Vec<f64> = rows.iter().flat_map(|row| row.iter().copied()).collect();
+        let (g_matrix, m_matrix) = (DMatrix::from_row_slice(m, nv, &g), DMatrix::from_row_slice(nv, nv, &mass));
+        let mut lambda = DVector::from_vec(noise.vector(m));
+        lambda[0] += 1e4;
+        lambda[1] -= 1e4;
+        let a = DVector::from_vec(noise.vector(nv));
+        let held = g_matrix.transpose() * lambda;
+        let (f, gamma) = (&m_matrix * &a + &held, &g_matrix * &a);
+
+        let mut kkt = Kkt::new(nv, m);
+        kkt.scale(&mass, &g, &vec![0; nv]);
+        kkt.factor(&mass, &g).unwrap();
+        let mut block = crate::Block::new(&Sparsity::dense(m, nv));
+        block.values_mut().copy_from_slice(&g);
+        let off = |a_found: &[f64], lambda: &[f64]| {
+            let force = g_matrix.transpose() * DVector::from_column_slice(lambda);
+            distance(a_found, a.as_slice()).max(distance(force.as_slice(), held.as_slice()))
+        };
+        let (mut found, mut by) = (vec![0.0; nv], vec![0.0; m]);
+        kkt.solve(f.as_slice(), gamma.as_slice(), &mut found, &mut by);
+        let before = off(&found, &by);
+        assert!(before > 1e-4, "trial {trial}: {before:e}");
+        kkt.converge(&block, gamma.as_slice(), 0.1, &mut found, &mut by);
+        assert_eq!(off(&found, &by), before, "trial {trial}");
+        kkt.converge(&block, gamma.as_slice(), 1e-6, &mut found, &mut by);
+        assert!(off(&found, &by) < 1e-6, "trial {trial}: {:e} after {before:e}", off(&found, &by));
+    }
+}
