@@ -45,6 +45,26 @@ fn what_falls_for_ever_has_no_equilibrium() {
     told(&falls, &["there is no equilibrium", "moves on and on", "19.62 N on `ball.y`", "hold it"]);
 }
 
+/// A bead slides off a swinging rod for ever; the rod upright with the bead above it is in balance, but nothing falls there.
+#[test]
+fn an_equilibrium_into_which_nothing_falls_is_told() {
+    let bead = |end: &str| {
+        run(&format!(
+            "gravity: [0, -9.81 m/s^2]
+bodies: {{ rod: {{ bar: {{ length: 1 m, mass: 1 kg }} }}, bead: {{ plate: {{ size: [5 cm, 5 cm], mass: 0.2 kg }} }} }}
+joints:
+  P: {{ revolute: [ground, rod.start] }}
+  S: {{ slider: [rod.end, bead.origin], axis: [1, 0]{end} }}
+start: {{ P.angle: -30 deg }}"
+        ))
+    };
+    let found = bead("").succeeded();
+    assert!(found.stdout.contains("does not come to rest from its start"), "{}", found.stdout);
+    let held = bead(", limits: { to: 20 cm, stiffness: 1e4 N/m }").succeeded();
+    assert!(!held.stdout.contains("does not come to rest from its start"), "{}", held.stdout);
+    assert!(held.stdout.contains("P.angle = -90 deg"), "{}", held.stdout);
+}
+
 #[test]
 fn a_motor_that_nothing_holds_has_no_equilibrium() {
     let spins = |mass: &str| {

@@ -28,6 +28,8 @@ pub(super) struct Bench<'a, 'm, G: Space<S = f64>> {
     pub(super) names: Names,
     /// Coordinates that would be independent if friction held nothing.
     pub(super) held: Option<Vec<usize>>,
+    /// Whether it moves away from the start without end, so that what is found elsewhere is not what it settles in.
+    away: bool,
 }
 
 /// What a search from the start has come to.
@@ -46,7 +48,7 @@ where
     pub(super) fn new(case: Case<'a>, mechanism: &'m Differentiable<G>, start: &Assembled, ids: &[Id]) -> Self {
         let observer = Observer::new(case.model, mechanism, case.parameters, ids);
         let system = Mechanical::new(mechanism, start, observer, Vec::new());
-        Self { case, rest: Rest::new(system, start.size), names: Names::new(case.model, mechanism, &start.metric), held: None }
+        Self { case, rest: Rest::new(system, start.size), names: Names::new(case.model, mechanism, &start.metric), held: None, away: false }
     }
 
     /// Why the start, or what is next to it, cannot be evaluated.
@@ -134,6 +136,7 @@ where
             Err(Ended::Stopped) => return Err(at_begin(Ended::Stopped)),
             Err(why) => why,
         };
+        self.away = why == Ended::Away;
         match self.rest.newton(begin, stop).map_err(at_begin)? {
             Ok(found) => Ok((found, None)),
             Err(best) => match self.rest.anywhere(begin, stop).map_err(at_begin)? {
@@ -181,6 +184,12 @@ where
                 false => "stability is that of slow motion, and a flutter is seen by `modes` with `damped: true` alone",
             };
             add("no-energy", format!("the forces have no energy (the tangent stiffness is not symmetric): {of}"), place);
+        }
+        if self.away {
+            let message = "the mechanism does not come to rest from its start, it moves away without end: what is given is an equilibrium that \
+                           Newton's method finds elsewhere, into which it does not fall; start nearer to the one that is meant, or give what \
+                           moves away a stop (`limits`)";
+            add("does-not-settle", message.into(), place);
         }
         let rests = self.rest.rests(&found.pose.position);
         for ((state, rate), _) in model.states.iter().zip(&found.pose.position.drift).zip(rests).filter(|(_, rests)| !rests) {
