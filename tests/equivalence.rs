@@ -442,3 +442,47 @@ studies:
         }
     }
 }
+
+/// A heavy bar that hangs on a truss of six light ones begins to fall with 1.5 g/L, and swings with the square root of it.
+#[test]
+fn light_structures_carry_heavy_bodies() {
+    let text = "grashof: 1
+name: heavy bar on a light truss
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { A: [0, 0], B: [0, -0.11 m] }
+bodies:
+  t0: { bar: { from: [0 m, 0 m], to: [1 m, -0.14 m], mass: 10 g } }
+  t1: { bar: { from: [0 m, -0.11 m], to: [1 m, -0.14 m], mass: 10 g } }
+  t2: { bar: { from: [0 m, -0.11 m], to: [2 m, -0.15 m], mass: 10 g } }
+  t3: { bar: { from: [1 m, -0.14 m], to: [2 m, -0.15 m], mass: 10 g } }
+  t4: { bar: { from: [1 m, -0.14 m], to: [3 m, -0.08 m], mass: 10 g } }
+  t5: { bar: { from: [2 m, -0.15 m], to: [3 m, -0.08 m], mass: 10 g } }
+  bob: { bar: { from: [3 m, -0.08 m], to: [3.5 m, -0.08 m], mass: 30 kg } }
+joints:
+  j0: { revolute: [ground.A, t0.start], cut: true }
+  j1: { revolute: [ground.B, t1.start], cut: true }
+  k0: { revolute: [t0.end, t1.end], cut: true }
+  j2: { revolute: [ground.B, t2.start], cut: true }
+  j3: { revolute: [t0.end, t3.start], cut: true }
+  k1: { revolute: [t2.end, t3.end], cut: true }
+  j4: { revolute: [t0.end, t4.start], cut: true }
+  j5: { revolute: [t2.end, t5.start], cut: true }
+  k2: { revolute: [t4.end, t5.end], cut: true }
+  hang: { revolute: [t4.end, bob.start], cut: true }
+start: { hang.angle: 0 deg }
+studies:
+  dop853: { dynamics: { until: 10 ms, every: 10 ms, tolerance: 1e-10 }, columns: [hang.alpha, hang.fy] }
+  bdf: { dynamics: { until: 10 ms, every: 10 ms, tolerance: 1e-6, integrator: bdf }, columns: [hang.alpha, hang.fy] }
+  radau5: { dynamics: { until: 10 ms, every: 10 ms, integrator: radau5 }, columns: [hang.alpha, hang.fy] }
+  vibration: { linearize: { at: statics }, columns: [hang.angle] }
+";
+    for name in ["dop853", "bdf", "radau5"] {
+        let found = study(text, name, Coordinates::Joint);
+        let [alpha, force] = [found.rows[0][0] / -29.43 - 1.0, found.rows[0][1] / 73.575 - 1.0];
+        assert!(alpha.abs().max(force.abs()) < 1e-8, "{name}: {alpha:e} {force:e}");
+        assert!(found.findings.is_empty(), "{name}: {:?}", found.findings);
+    }
+    let found = study(text, "vibration", Coordinates::Joint);
+    assert!(found.findings.iter().all(|f| f.code != "not-at-rest"), "{:?}", found.findings);
+}

@@ -106,9 +106,6 @@ pub struct Engine {
     pub kkt: Kkt,
     /// Accelerations where forces depend on reactions.
     pub friction: Option<Friction>,
-    /// Where rows are nearly dependent at the start: σ from which on accelerations and multipliers obey the rows to round-off. Nearer to a
-    /// singular position they would multiply what states are off.
-    regular: Option<f64>,
     /// What was spent so far.
     pub counts: Counts,
     /// How steps are chosen.
@@ -135,13 +132,6 @@ pub struct Engine {
     modes: Vec<i32>,
 }
 
-/// σ at the start below which it is a singular position, and from which on the refinements of [`Kkt::solve`] leave round-off.
-const SINGULAR: f64 = 1e-6;
-const NEARLY_DEPENDENT: f64 = 1e-2;
-
-/// Part of σ at the start below which a position is nearer to a singular one.
-const NEARER: f64 = 0.1;
-
 impl Engine {
     /// Tools for a system.
     pub fn new(system: &dyn System, control: Control) -> Self {
@@ -154,7 +144,6 @@ impl Engine {
             terms: Terms::new(dims, pattern),
             kkt: Kkt::of_pattern(pattern),
             friction: Friction::of_pattern(dims, pattern),
-            regular: (SINGULAR..NEARLY_DEPENDENT).contains(&pattern.weakest).then(|| NEARER * pattern.weakest),
             counts: Counts::default(),
             control,
             size_q: pattern.size_q.clone(),
@@ -213,11 +202,7 @@ impl Engine {
             self.counts.factorisations += 1;
             friction.solve(&self.terms, &mut |l, f, slope| system.reaction_friction(at, l, f, slope), a, lambda)?;
         } else {
-            let Terms { force, gamma, g, .. } = &self.terms;
-            self.kkt.solve(force, gamma, a, lambda);
-            if let Some(regular) = self.regular {
-                self.kkt.converge(g, gamma, regular, a, lambda);
-            }
+            self.kkt.solve(&self.terms.force, &self.terms.gamma, a, lambda);
         }
         match a.iter().chain(&*zdot).position(|x| !x.is_finite()) {
             Some(i) => Err(self.not_finite(i)),

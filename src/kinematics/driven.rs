@@ -95,6 +95,8 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             // of a motion that is given, bodies without inertia are no exception
             let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern()).with_pivots();
             kkt.set_scale(&start.metric, &g_scale);
+            let weakest = kkt.weakest(&start.metric, dynamics.work.g.values());
+            kkt.set_weakest(weakest);
             let mut metric = Box::new(Block::new(dynamics.work.mass.pattern()));
             start.metric.iter().enumerate().for_each(|(i, d)| metric.set(i, i, *d));
             // a force in no special direction

@@ -85,6 +85,8 @@ impl Linear {
         let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
         let row_scale = dynamics.row_scale(at.q, at.modes, metric);
         kkt.set_scale(metric, &row_scale);
+        let weakest = kkt.weakest(metric, dynamics.work.g.values());
+        kkt.set_weakest(weakest);
         kkt.factor(dynamics.work.mass.values(), dynamics.work.g.values()).map_err(|_| Singular)?;
         Ok(Self {
             rows: linearizer.rows(at),

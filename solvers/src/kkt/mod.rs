@@ -37,7 +37,7 @@ pub(crate) use scale::root_inverse;
 pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
 use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
-use crate::{Block, Pattern, Sparsity};
+use crate::{Pattern, Sparsity};
 use blocks::Blocks;
 use conjugate::{Conjugate, largest};
 use definite::Definite;
@@ -58,6 +58,10 @@ pub struct Kkt {
     /// Scaled E (m).
     e: Vec<f64>,
     refinements: usize,
+    /// Where rows are nearly dependent at the start: σ from which on they are to hold to round-off.
+    regular: Option<f64>,
+    /// Values of G, where that is so.
+    g: Vec<f64>,
     blocks: Blocks,
     /// Places of the diagonal of M (nv).
     diagonal: Vec<usize>,
@@ -95,22 +99,15 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 /// Part of D below which a diagonal entry of M counts as none.
 const LIGHT: f64 = 1e-2;
 
-/// Inverse iterations for [`weakest`].
+/// Inverse iterations for the smallest singular value at the start.
 const ITERATIONS: usize = 4;
 
-/// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ that is not of redundant rows, for the scales of a pattern and the rows `g` at
-/// the start; 1 without rows. Values below 1e-6 are not told from 0. Allocates.
-#[must_use]
-pub fn weakest(pattern: &Pattern, g: &[f64]) -> f64 {
-    let mut mass = Block::new(&pattern.mass);
-    pattern.metric.iter().enumerate().for_each(|(i, d)| mass.set(i, i, *d));
-    let mut kkt = Kkt::of_pattern(pattern);
-    let mut vector = vec![0.0; kkt.rows];
-    if vector.is_empty() || kkt.factor(mass.values(), g).is_err() {
-        return 1.0;
-    }
-    (0..ITERATIONS).fold(1.0, |_, _| kkt.smallest_singular_value_that_moves(&mut vector))
-}
+/// σ at the start below which it is a singular position, and from which on the refinements leave round-off.
+const SINGULAR: f64 = 1e-6;
+const NEARLY_DEPENDENT: f64 = 1e-2;
+
+/// Part of σ at the start below which a position is nearer to a singular one: there solutions would multiply what states are off.
+const NEARER: f64 = 1e-2;
 
 impl Kkt {
     /// One for full matrices of `nv` velocities and `rows` constraint rows, with scales of one.
@@ -122,6 +119,7 @@ impl Kkt {
     pub fn of_pattern(pattern: &Pattern) -> Self {
         let mut kkt = Self::of_blocks(&pattern.mass, &pattern.g);
         kkt.set_scale(&pattern.metric, &pattern.g_scale);
+        kkt.set_weakest(pattern.weakest);
         kkt
     }
 
@@ -167,6 +165,8 @@ impl Kkt {
             scale: vec![1.0; n],
             e: vec![REGULARIZATION; n - nv],
             refinements: REFINEMENTS,
+            regular: None,
+            g: Vec::new(),
             form,
             definite: false,
             pivoted: None,
@@ -208,6 +208,10 @@ impl Kkt {
         if self.nv + self.rows == 0 {
             // nothing is free and nothing constrains: minimal coordinates of what cannot move
             return Ok(());
+        }
+        if self.regular.is_some() {
+            self.g.clear();
+            self.g.extend_from_slice(g);
         }
         let light = self.diagonal.iter().zip(&self.scale).any(|(k, s)| mass[*k] * s * s < LIGHT);
         self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
@@ -263,18 +267,21 @@ impl Kkt {
         for ((out, x), s) in lambda.iter_mut().zip(&self.x[nv..]).zip(s) {
             *out = x * s;
         }
+        if let Some(regular) = self.regular {
+            self.converge(gamma, regular, a, lambda);
+        }
     }
 
-    /// Goes on from accelerations `a` (nv) and multipliers `lambda` (m) that [`Kkt::solve`] has found, by the factors at hand, until
-    /// G a = `gamma` (m) holds to round-off.
+    /// Goes on from accelerations `a` (nv) and multipliers `lambda` (m) until G a = `gamma` (m) holds to round-off.
     ///
     /// Nothing changes where it does already, or where a singular value other than those of redundant rows is below `regular`.
-    pub fn converge(&mut self, g: &Block, gamma: &[f64], regular: f64, a: &mut [f64], lambda: &mut [f64]) {
+    fn converge(&mut self, gamma: &[f64], regular: f64, a: &mut [f64], lambda: &mut [f64]) {
         let nv = self.nv;
         let mut conjugate = std::mem::take(&mut self.conjugate);
-        let rows = g.lines().zip(gamma).zip(&self.scale[nv..]);
+        let g = &self.blocks.0[1];
+        let row = |i: usize| g.row(i).iter().zip(&self.g[g.range(i)]).map(|(k, g)| g * a[*k]).sum::<f64>();
         conjugate.r.clear();
-        conjugate.r.extend(rows.map(|((row, gamma), s)| (row.dot(a) - gamma) * s));
+        conjugate.r.extend(gamma.iter().zip(&self.scale[nv..]).enumerate().map(|(i, (gamma, s))| (row(i) - gamma) * s));
         let unknowns = a.iter().chain(&*lambda).zip(&self.scale);
         let round_off = ROUNDED * unknowns.fold(0.0, |size: f64, (x, s)| size.max((x / s).abs()));
         if largest(&conjugate.r) > round_off {
@@ -291,6 +298,24 @@ impl Kkt {
             }
         }
         self.conjugate = conjugate;
+    }
+
+    /// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ that is not of redundant rows, with D (nv) the `metric` and `g` the values of
+    /// G at the start; 1 without rows. Values below 1e-6 are not told from 0. Factors anew, and allocates.
+    pub fn weakest(&mut self, metric: &[f64], g: &[f64]) -> f64 {
+        let mut mass = vec![0.0; self.blocks.0[0].entries()];
+        self.diagonal.iter().zip(metric).for_each(|(k, d)| mass[*k] = *d);
+        let mut vector = vec![0.0; self.rows];
+        if vector.is_empty() || self.factor(&mass, g).is_err() {
+            return 1.0;
+        }
+        (0..ITERATIONS).fold(1.0, |_, _| self.smallest_singular_value_that_moves(&mut vector))
+    }
+
+    /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by [`Kkt::weakest`] of it, and as far
+    /// as no position is nearer to a singular one.
+    pub fn set_weakest(&mut self, weakest: f64) {
+        self.regular = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(NEARER * weakest);
     }
 
     /// Estimates of the smallest singular values σ of diag(G D⁻¹ Gᵀ)^−½ G D^−½, the smallest first, by one inverse iteration on the

@@ -36,8 +36,7 @@ use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
 use direct::Source;
-use grashof_solvers::kkt::{self, Kkt};
-use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
+use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Sparsity, Stage, State, System, Tangent, Terms};
 pub(crate) use root::{Met, Root, Watched};
 use seen::Seen;
 pub(super) use works::WORKS;
@@ -197,7 +196,8 @@ where
             rough: Vec::new(),
             weakest: 1.0,
         };
-        let pattern = Pattern { weakest: kkt::weakest(&pattern, dynamics.work.g.values()), ..pattern };
+        let weakest = Kkt::of_pattern(&pattern).weakest(&pattern.metric, dynamics.work.g.values());
+        let pattern = Pattern { weakest, ..pattern };
         let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
         let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());
         let mut system = Self {

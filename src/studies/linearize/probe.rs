@@ -71,6 +71,8 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.rates(&at.modes);
         self.gap = d.undefined(&at.modes).map(Gap::Law);
         self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
+        let weakest = self.kkt.weakest(self.metric, d.work.g.values());
+        self.kkt.set_weakest(weakest);
         self.kkt.factor(d.work.mass.values(), d.work.g.values()).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };
         self.kkt.solve(&d.work.force, &d.work.gamma, &mut out.a, &mut out.lambda);
