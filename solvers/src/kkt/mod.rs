@@ -7,8 +7,9 @@
 //!
 //! E makes the matrix regular when rows of G are redundant or a position is singular, so that no row is ever dropped. Up to two
 //! steps of iterative refinement against the matrix without E take its error away: each multiplies it by about 1e-8/σ², σ the
-//! smallest non-zero singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½. Where rows are redundant, the multipliers are those of least
-//! λᵀEλ. An E that follows the present rows vanishes with them, and a smaller one loses energy in singular positions (measured).
+//! smallest non-zero singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½. Where that is small at the start already, conjugate gradients do
+//! (`conjugate.rs`). Where rows are redundant, the multipliers are those of least λᵀEλ. An E that follows the present rows vanishes with
+//! them, and a smaller one loses energy in singular positions (measured).
 //!
 //! The diagonal of a row that is round-off at assembly is that of its natural size, and of one that happens to vanish there that of
 //! a position nearby ([`natural_row_scale`]).
