@@ -42,6 +42,8 @@ pub(super) struct Probe<'m, G: Space> {
     observer: Observer<G>,
     reactions: Reactions<G>,
     kkt: Kkt,
+    /// σ of the rows in the state that was answered first.
+    weakest: Option<f64>,
     metric: &'m [f64],
     /// What has no value in the state that was answered last.
     pub(super) gap: Option<Gap>,
@@ -56,6 +58,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
             observer: Observer::new(model, mechanism, parameters, ids),
             kkt: Kkt::of_blocks(&mass_pattern(mechanism), &row_pattern(mechanism)),
             dynamics,
+            weakest: None,
             metric,
             gap: None,
         }
@@ -71,7 +74,7 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.rates(&at.modes);
         self.gap = d.undefined(&at.modes).map(Gap::Law);
         self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
-        let weakest = self.kkt.weakest(self.metric, d.work.g.values());
+        let weakest = *self.weakest.get_or_insert_with(|| self.kkt.weakest(self.metric, d.work.g.values()));
         self.kkt.set_weakest(weakest);
         self.kkt.factor(d.work.mass.values(), d.work.g.values()).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };

@@ -42,7 +42,7 @@ where
         let jump: Vec<f64> = after.v.iter().zip(&before.v).map(|(after, before)| after - before).collect();
         let mut rest: Vec<f64> = terms.mass.lines().map(|line| line.dot(&jump)).collect();
         let unit_forces: Vec<Vec<f64>> = self.met(crossed).into_iter().map(|along| self.gradient(along)).collect();
-        let free: Vec<Vec<f64>> = unit_forces.iter().map(|w| self.resolved(w).0).collect();
+        let free: Vec<Vec<f64>> = unit_forces.iter().map(|w| self.response(w).a).collect();
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let n = free.len();
         if n > 0 {
@@ -53,7 +53,7 @@ where
                 rest.iter_mut().zip(w).for_each(|(rest, w)| *rest -= p * w);
             }
         }
-        let kappa = self.resolved(&rest).1;
+        let kappa = self.response(&rest).lambda;
         0.5 * kappa.iter().zip(nu_before.iter().zip(&terms.nu)).map(|(k, (before, after))| k * (before + after)).sum::<f64>()
     }
 
@@ -65,15 +65,10 @@ where
         if rests.is_empty() {
             return Vec::new();
         }
-        self.kinematics(at);
-        self.dynamics.inertias();
-        self.dynamics.mass();
-        let w = &self.dynamics.work;
-        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
-        if kkt.factor(w.mass.values(), w.g.values()).is_err() {
+        if !self.factored(at) {
             return Vec::new();
         }
-        let kappa = self.resolved(force).1;
+        let kappa = self.response(force).lambda;
         let most = kappa.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let stops = &self.dynamics.mechanism.stops;
         rests.into_iter().filter(|&(row, stop)| stops[stop].sense * kappa[row] > PULLED * most).map(|(_, stop)| stop).collect()
@@ -93,14 +88,5 @@ where
             all.extend(along.filter(|along| !all.contains(along)));
         }
         all
-    }
-
-    /// A force (nv) as M x + Gᵀκ with G x = 0: x (nv) and κ (rows); by the factors at hand.
-    fn resolved(&mut self, force: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let (mut x, mut kappa) = (vec![0.0; self.dims.v], vec![0.0; self.dims.rows()]);
-        if let Some(kkt) = &mut self.kkt {
-            kkt.solve(force, &vec![0.0; self.dims.rows()], &mut x, &mut kappa);
-        }
-        (x, kappa)
     }
 }

@@ -51,10 +51,10 @@ pub(crate) struct Decided {
     pub(crate) open: Vec<usize>,
 }
 
-/// Accelerations and multipliers by a unit force along something.
-struct Response {
-    a: Vec<f64>,
-    lambda: Vec<f64>,
+/// Accelerations (nv) and multipliers (rows) by a force, or what velocities jump by and impulses.
+pub(super) struct Response {
+    pub(super) a: Vec<f64>,
+    pub(super) lambda: Vec<f64>,
 }
 
 impl<G> Mechanical<'_, G>
@@ -323,12 +323,7 @@ where
 
     /// Rigid stops that joints touch in a state without velocity in which rows hold them to their place.
     pub(crate) fn held_on_stops(&mut self, state: &State) -> Vec<usize> {
-        self.kinematics(&state.at());
-        self.dynamics.inertias();
-        self.dynamics.mass();
-        let w = &self.dynamics.work;
-        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
-        if kkt.factor(w.mass.values(), w.g.values()).is_err() {
+        if !self.factored(&state.at()) {
             return Vec::new();
         }
         let stops = &self.dynamics.mechanism.stops;
@@ -354,12 +349,22 @@ where
         gradient
     }
 
-    /// What a unit force along a gradient does, by the factors at hand.
-    fn response(&mut self, gradient: &[f64]) -> Response {
+    /// Evaluates a state and factors M and G there; false if M is singular on the motions that are left.
+    pub(super) fn factored(&mut self, at: &At<'_>) -> bool {
+        self.kinematics(at);
+        self.dynamics.inertias();
+        self.dynamics.mass();
+        let w = &self.dynamics.work;
+        let kkt = self.kkt.get_or_insert_with(|| Kkt::of_pattern(&self.pattern));
+        kkt.factor(w.mass.values(), w.g.values()).is_ok()
+    }
+
+    /// What a force (nv) does, or an impulse: it is M a + Gᵀλ with G a = 0; by the factors at hand.
+    pub(super) fn response(&mut self, force: &[f64]) -> Response {
         let m = self.dynamics.mechanism;
         let mut response = Response { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()] };
         if let Some(kkt) = &mut self.kkt {
-            kkt.solve(gradient, &vec![0.0; m.rows.len()], &mut response.a, &mut response.lambda);
+            kkt.solve(force, &vec![0.0; m.rows.len()], &mut response.a, &mut response.lambda);
         }
         response
     }
