@@ -485,4 +485,7 @@ studies:
     }
     let found = study(text, "vibration", Coordinates::Joint);
     assert!(found.findings.iter().all(|f| f.code != "not-at-rest"), "{:?}", found.findings);
+    let poles = found.lists.iter().find(|list| list.name == "poles_imaginary").expect("poles");
+    let swing = poles.values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    assert!((swing / 29.43_f64.sqrt() - 1.0).abs() < 1e-6, "{swing}");
 }
