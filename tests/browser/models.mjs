@@ -62,6 +62,20 @@ joints: { J: { revolute: [a.end, b.start], axis: [0, 0, 1] } }
 start: { a.x: 0, a.y: 0, a.z: 1 m, a.vx: 8 m/s, a.vy: 3 m/s, a.vz: 6 m/s, J.angle: 60 deg, J.omega: 300 deg/s }
 studies: { fly: { dynamics: { until: 1.5 s, every: 20 ms }, columns: [time, a.com.x] } }
 `,
+  // they hang from where they start, in the plane and in space
+  ...Object.fromEntries([['hangs', 'planar', '[0, -9.81 m/s^2]', ''], ['hangs-in-space', 'spatial', '[0, 0, -9.81 m/s^2]', ', axis: [0, -1, 0]']].map(([name, space, gravity, axis]) => [name, `grashof: 1
+name: ${name}
+space: ${space}
+gravity: ${gravity}
+bodies:
+  rod: { bar: { length: 1 m, mass: 1 kg } }
+  bob: { bar: { length: 30 cm, mass: 1 kg } }
+joints:
+  P: { revolute: [ground, rod.start]${axis} }
+  Q: { revolute: [rod.end, bob.start]${axis} }
+start: { P.angle: -30 deg, Q.angle: 20 deg }
+studies: { rest: { statics: { from: start }, columns: [P.angle, Q.angle] } }
+`])),
   // its variable falls on the way
   clamp: `grashof: 1
 name: clamp

@@ -106,6 +106,23 @@ export async function what_is_at_rest_has_no_transport(open) {
   }
 }
 
+export async function what_rests_is_drawn_where_it_rests(open) {
+  for (const [model, wanted] of [['hangs', [0, -1]], ['hangs-in-space', [0, 0, -1]]]) {
+    const { tab } = await open(model, { study: 'rest' });
+    const drawing = tab.locator('select[aria-label=drawing]');
+    const image = () => tab.locator('.canvas canvas').evaluate((canvas) => canvas.toDataURL());
+    await picture(tab);
+    (await tab.evaluate(() => grashof.place('Q'))).forEach((x, i) => near(x, wanted[i], 1e-6, `${model}, ${i}`));
+    // the start behind it, or all equilibria
+    const one = await image();
+    await drawing.selectOption('equilibria');
+    await picture(tab);
+    (await tab.evaluate(() => grashof.place('Q'))).forEach((x, i) => near(x, wanted[i], 1e-6, `${model}, all, ${i}`));
+    assert.ok((await image()) !== one, model);
+    assert.ok(await tab.locator('summary', { hasText: /^Equilibria$/ }).isVisible());
+  }
+}
+
 export async function positions_without_time_say_so(open) {
   const { tab } = await open('crank_rocker', { study: 'lengths' });
   const [speed, timeless] = [tab.locator('[aria-label=speed]'), tab.locator('.timeless')];

@@ -121,10 +121,15 @@ function beside(values: Num[]): Child[] {
   return values.map((v) => (v !== null && v !== 0 && Math.abs(v) < NOTHING * most ? h('span', { title: digits(v) }, '0') : hinted(v)));
 }
 
+/** What the lists of a kind of study are of. */
+function listed(kind: string): string {
+  return ({ statics: 'Equilibria', linearize: 'Poles', periodic: 'Multipliers' } as Record<string, string>)[kind] ?? 'Modes';
+}
+
 function lists(results: Results): Child[] {
   const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), h('span', {}, ...beside(values).flatMap((text, i) => (i > 0 ? [',  ', text] : [text])))]);
   const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
-  return all.length + shapes.length > 0 ? [plain('Modes', ['', 'values'], [...all, ...shapes], true)] : [];
+  return all.length + shapes.length > 0 ? [plain(listed(results.kind), ['', 'values'], [...all, ...shapes], true)] : [];
 }
 
 function matrices(results: Results): Child[] {
@@ -153,7 +158,7 @@ export function facts(study: Study, show: ShowPlace): HTMLElement {
   return h('div', { class: 'facts card' },
     summary.length > 0 && h('div', { class: 'summary' }, ...summary),
     part('Distribution', true, ...distributions(study)),
-    part('Modes', true, ...lists(study)),
+    part(listed(study.kind), true, ...lists(study)),
     part('Results of the kind', false, scalars(rest)),
     part('Matrices', true, ...matrices(study)),
     part('Extremes', false, extremes(study)),

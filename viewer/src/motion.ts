@@ -18,6 +18,8 @@ export class Motion {
   readonly width: number;
   readonly from: number;
   readonly to: number;
+  /** Places that are drawn palely behind the present one: of what rests the start, or other equilibria. */
+  behind: number[] = [];
   private poses: Float64Array;
   private posed = NaN;
 

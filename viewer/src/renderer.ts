@@ -19,6 +19,9 @@ export interface Options {
   follow: string | null;
 }
 
+/** Opacity of positions behind the present one. */
+export const PALE = 0.35;
+
 export interface Renderer {
   /** Goes with a body, or stays. */
   follow(name: string | null): void;

@@ -251,6 +251,8 @@ export class Stage {
     const scene = sceneOf(coded);
     const motion = new Motion(scene, falling(results.independent.values, scene.frames.at));
     this.motion = motion;
+    const still = motion.to <= motion.from || rests(results);
+    if (still) motion.behind = Array.from(scene.frames.shown, (k) => scene.frames.at[k]!).filter((at) => at !== motion.begin);
     this.pace = pace(results, motion.begin, motion.end, scene.arrows.filter(({ kind }) => kind !== 'reaction').map(({ name }) => name));
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
@@ -260,7 +262,6 @@ export class Stage {
     if (this.kept?.dimensions === motion.scene.dimensions) this.renderer?.outlook(this.kept.look);
     this.kept = undefined;
     this.shape();
-    const still = motion.to <= motion.from || rests(results);
     this.element.classList.toggle('still', still);
     this.canvas.setAttribute('aria-label', `drawing of the mechanism: ${motion.scene.bodies.length - 1} bodies; ${space ? 'drag turns, shift and drag moves' : 'drag moves'}, the wheel with Ctrl zooms`);
     const kinds = arrows.kinds();
@@ -274,7 +275,7 @@ export class Stage {
     const { seconds, place } = this.pace;
     this.offer(again);
     if (!again) this.pick(seconds(motion.end) - seconds(motion.begin));
-    this.clock.range(still ? motion.end : motion.begin, motion.end, seconds, place);
+    this.clock.range(motion.begin, still ? motion.begin : motion.end, seconds, place);
     if (shown !== null) this.clock.seek(shown);
     this.state();
   }

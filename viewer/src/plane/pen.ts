@@ -32,6 +32,14 @@ export class Pen {
     return this;
   }
 
+  /** Draws so that what lies below shows through. */
+  faintly(opacity: number, draw: () => void): void {
+    const before = this.on.globalAlpha;
+    this.on.globalAlpha = before * opacity;
+    draw();
+    this.on.globalAlpha = before;
+  }
+
   /** Text with room around its letters. */
   text(text: string, [x, y]: Point, color: string, halo: string, size = 12): void {
     const { on } = this;

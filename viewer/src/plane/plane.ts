@@ -4,7 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
-import type { Options, Renderer } from '../renderer';
+import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
@@ -143,7 +143,13 @@ export class Plane implements Renderer {
     const shapes = scene.bodies.flatMap((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).map((shape) => ({ depth: depth(shape), draw: () => this.shape(index, shape) })));
     const rods = scene.links.filter(({ kind }) => kind === 'rod').map((rod) => ({ depth: 0, draw: () => this.rod(rod) }));
     const toothed = this.gears.wheels.map((wheel) => ({ depth: -Math.sqrt(8) * Math.abs(wheel.wheel.radius), draw: () => this.wheel(wheel) }));
-    [...toothed, ...shapes, ...rods].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
+    const bodies = [...toothed, ...shapes, ...rods].sort((a, b) => a.depth - b.depth);
+    for (const behind of this.motion.behind) {
+      this.place = behind;
+      pen.faintly(PALE, () => bodies.forEach((one) => one.draw()));
+    }
+    this.place = place;
+    bodies.forEach((one) => one.draw());
     this.gears.racks.forEach((rack) => signs.rack(pen, this.rackLine(rack), inks));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));

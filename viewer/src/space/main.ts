@@ -6,7 +6,7 @@ import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
 import { Pen, type Point, toward } from '../plane/pen';
 import { dashpot, link, spiral } from '../plane/signs';
-import type { Options, Renderer } from '../renderer';
+import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
@@ -133,9 +133,19 @@ class Space implements Renderer {
     this.look(width, height, width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
     pen.on.clearRect(0, 0, width, height);
     this.ground(inks);
-    const items: Item[] = [];
     const { all, pins } = this.shapes(inks);
-    all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body)));
+    const bodies = () => {
+      const items: Item[] = [];
+      all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body)));
+      return items;
+    };
+    const paint = (items: Item[]) => items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
+    for (const behind of motion.behind) {
+      this.place = behind;
+      pen.faintly(PALE, () => paint(bodies()));
+    }
+    this.place = place;
+    const items = bodies();
     motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body)));
     for (const { kind, a, b } of motion.scene.links) {
       const [p, q] = [motion.world(a, place), motion.world(b, place)];
@@ -147,7 +157,7 @@ class Space implements Renderer {
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
-    items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
+    paint(items);
     // over the bodies, as in the figures of the program
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) this.dashpot(joint, inks);
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
@@ -295,9 +305,7 @@ class Space implements Renderer {
   /** A face that is seen through, with a clear rim if it is edged. */
   private pane(world: Vector[], lit: string, edged: boolean): void {
     const { pen } = this;
-    pen.on.globalAlpha = 0.42;
-    pen.path(world.map((p) => this.pixel(p)), true).fill(lit);
-    pen.on.globalAlpha = 1;
+    pen.faintly(0.42, () => pen.path(world.map((p) => this.pixel(p)), true).fill(lit));
     if (edged) pen.stroke(mixed(lit, '#000000', 0.3), 1.6);
   }
 
