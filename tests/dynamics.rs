@@ -6,6 +6,7 @@ mod crank_rocker;
 mod events;
 mod faults;
 mod hits;
+mod resting;
 mod switches;
 
 use crate::reference::program::{Run, Table};

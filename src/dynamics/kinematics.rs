@@ -276,13 +276,18 @@ impl<G: Space> Dynamics<'_, G> {
     }
 
     /// A gauge that a row holds, on a rigid stop or sticking: exactly where it is held, or 0 for its rate (`order` 1) and acceleration (2);
-    /// and the rate of one that a clutch holds to others, which is one number for all of them, so that the slip of the clutch is 0.
+    /// one that a driver at rest holds: what its law says; and the rate of one that a clutch holds to others, which is one number for all of them, so that the slip of the clutch is 0.
     /// What is evaluated there has round-off, by which a comparison would come out now so, now otherwise.
     #[must_use]
     pub fn held(&self, gauge: usize, order: usize) -> Option<G::S> {
         let m = self.mechanism;
         if let Some(row) = m.holding(gauge) {
             return Some(if order == 0 { row.target(&self.work.held) } else { G::S::default() });
+        }
+        let motions = &self.work.motions;
+        if let Some(drive) = m.drives.iter().find(|drive| drive.gauge == gauge && motions[drive.output + 1].value() == 0.0) {
+            let place = if order == 0 { m.rows[drive.row].offset } else { G::S::default() };
+            return Some(motions[drive.output + order] + place);
         }
         let (first, rests) = if order == 1 { m.moving_as_one(gauge, None) } else { (gauge, false) };
         if rests { Some(G::S::default()) } else { (first != gauge).then(|| self.work.readings[first].rate) }

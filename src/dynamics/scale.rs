@@ -42,17 +42,15 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let mut natural = self.natural();
         let here = &self.work.g;
         let scale = natural_row_scale(here.pattern(), here.values(), natural.values(), metric);
-        let motions = self.motions(&scale, metric);
-        if motions.is_empty() {
+        let positions = self.around(q, &scale, metric);
+        if positions.is_empty() {
             return scale;
         }
         let unit = m.units(m.size());
         let mut entries = here.clone();
         entries.values_mut().iter_mut().for_each(|g| *g = g.abs());
         let mut around = self.clone();
-        for delta in motions {
-            let mut q = q.to_vec();
-            m.retract(&mut q, &delta);
+        for q in positions {
             around.position(&q, modes);
             grow(natural.values_mut(), around.natural().values());
             grow(entries.values_mut(), around.work.g.values());
@@ -68,8 +66,10 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         natural_row_scale(entries.pattern(), entries.values(), natural.values(), metric)
     }
 
-    /// Large displacements (nv each) along motions that the rows leave but for those that time moves.
-    fn motions(&self, scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
+    /// Positions (nq each) around `q`, that evaluated last: far along motions that the rows, of the scale `scale`, leave but for those
+    /// that time moves. None if they leave none. Allocates.
+    #[must_use]
+    pub fn around(&self, q: &[f64], scale: &[f64], metric: &[f64]) -> Vec<Vec<f64>> {
         let m = self.mechanism;
         let passive: Vec<usize> = (0..m.rows.len()).filter(|&row| !m.is_moved(&m.rows[row])).collect();
         if passive.is_empty() {
@@ -83,7 +83,10 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
             let y: Vec<f64> = (0..n).map(|k| (GOLDEN * k as f64 + phase).cos()).collect();
             let delta = rank.motion(&y);
             let most = delta.iter().zip(&unit).fold(0.0, |m, (d, u): (&f64, &f64)| f64::max(m, d.abs() / u));
-            delta.iter().map(|d| STEP * d / most).collect()
+            let delta: Vec<f64> = delta.iter().map(|d| STEP * d / most).collect();
+            let mut there = q.to_vec();
+            m.retract(&mut there, &delta);
+            there
         };
         if n == 0 { Vec::new() } else { PHASES.map(along).to_vec() }
     }

@@ -34,5 +34,6 @@ pub use loops::describe_loop;
 pub use outline::Outline;
 pub use parts::{Attached, Body, Mechanism, TreeNode};
 pub use row::{Function, Row, RowKind, RowOwner};
+pub(crate) use sets::Sets;
 pub use start::{Asked, Orientation, Start};
 pub use step::Step;

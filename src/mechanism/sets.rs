@@ -1,18 +1,18 @@
 //! Things that belong together.
 
 /// Sets of the numbers 0 to n − 1 that are joined two by two (Tarjan & van Leeuwen, J. ACM 31 (1984) 245-281: by path halving).
-pub(super) struct Sets {
+pub(crate) struct Sets {
     above: Vec<usize>,
 }
 
 impl Sets {
     /// Each number by itself.
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         Self { above: (0..n).collect() }
     }
 
     /// The number that stands for the set of another.
-    pub(super) fn of(&mut self, mut k: usize) -> usize {
+    pub(crate) fn of(&mut self, mut k: usize) -> usize {
         while self.above[k] != k {
             self.above[k] = self.above[self.above[k]];
             k = self.above[k];
@@ -21,7 +21,7 @@ impl Sets {
     }
 
     /// Makes the sets of two numbers one.
-    pub(super) fn join(&mut self, a: usize, b: usize) {
+    pub(crate) fn join(&mut self, a: usize, b: usize) {
         let (one, other) = (self.of(a), self.of(b));
         self.above[other] = one;
     }

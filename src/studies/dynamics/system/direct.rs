@@ -1,6 +1,7 @@
 //! What the numbers of a state tell alone, switches and columns: they need no places of bodies.
 
 use super::Root;
+use super::decided::Decided;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::mechanism::{Gauge, Leaf, Measured, Step};
@@ -48,33 +49,48 @@ impl Source {
 
 /// The inputs of each program of a mechanism with their sources; none unless all roots are switches of programs that read such numbers
 /// alone. The mechanism stands at the coordinates `q`.
-pub(super) fn sources<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], roots: &[Root]) -> Option<Vec<Vec<(usize, Source)>>> {
+pub(super) fn sources<G: Space<S = f64>>(
+    dynamics: &Dynamics<'_, G>,
+    q: &[f64],
+    decided: &Decided,
+    roots: &[Root],
+) -> Option<Vec<Vec<(usize, Source)>>> {
     let programs = dynamics.mechanism.programs();
     let mut sources = vec![Vec::new(); programs.len()];
     for root in roots {
         let Root::Force { program, .. } = *root else { return None };
         if sources[program].is_empty() {
-            sources[program] = all(dynamics, q, programs[program].fills.iter().copied())?;
+            sources[program] = all(dynamics, q, decided, programs[program].fills.iter().copied())?;
         }
     }
     Some(sources)
 }
 
 /// The quantities of an observer with their sources; none unless such numbers tell them all. The mechanism stands at the coordinates `q`.
-pub(super) fn watched<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], observer: &Observer<G>) -> Option<Vec<(usize, Source)>> {
+pub(super) fn watched<G: Space<S = f64>>(
+    dynamics: &Dynamics<'_, G>,
+    q: &[f64],
+    decided: &Decided,
+    observer: &Observer<G>,
+) -> Option<Vec<(usize, Source)>> {
     // what a stop or friction holds is read as exactly as it is held
     let free = dynamics.mechanism.stops.is_empty() && dynamics.mechanism.contacts.is_empty();
-    if free { all(dynamics, q, observer.leaves()?) } else { None }
+    if free { all(dynamics, q, decided, observer.leaves()?) } else { None }
 }
 
-fn all<G>(dynamics: &Dynamics<'_, G>, q: &[f64], leaves: impl IntoIterator<Item = (usize, Leaf)>) -> Option<Vec<(usize, Source)>>
+fn all<G>(
+    dynamics: &Dynamics<'_, G>,
+    q: &[f64],
+    decided: &Decided,
+    leaves: impl IntoIterator<Item = (usize, Leaf)>,
+) -> Option<Vec<(usize, Source)>>
 where
     G: Space<S = f64>,
 {
-    leaves.into_iter().map(|(input, leaf)| Some((input, source(dynamics, q, leaf)?))).collect()
+    leaves.into_iter().map(|(input, leaf)| Some((input, source(dynamics, q, decided, leaf)?))).collect()
 }
 
-fn source<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], leaf: Leaf) -> Option<Source> {
+fn source<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], decided: &Decided, leaf: Leaf) -> Option<Source> {
     match leaf {
         Leaf::Time => Some(Source::Time),
         Leaf::State(k) => Some(Source::State(k)),
@@ -86,7 +102,9 @@ fn source<G: Space<S = f64>>(dynamics: &Dynamics<'_, G>, q: &[f64], leaf: Leaf) 
                 Measured::Angle => angle(dynamics, q, measured, dynamics.work.readings[gauge].x)?,
                 _ => return None,
             };
-            Some(if order == 0 { Source::Position(position) } else { Source::Rate(rate) })
+            // what rows decide is read as exactly as they hold it
+            let free = !rate.terms.iter().any(|(k, _)| decided.has(*k));
+            free.then_some(if order == 0 { Source::Position(position) } else { Source::Rate(rate) })
         }
         Leaf::Gauge { .. } | Leaf::Stretch { .. } | Leaf::Spin { .. } => None,
     }

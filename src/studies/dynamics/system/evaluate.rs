@@ -21,7 +21,8 @@ where
         if !self.seen.is_placed(at, rows) {
             self.dynamics.work.held.copy_from_slice(at.live);
             self.dynamics.time(at.t, at.modes);
-            self.dynamics.position(at.q, at.modes);
+            let q = self.decided.coordinates(at.q);
+            self.dynamics.position(q, at.modes);
             self.seen.place(at);
         }
     }
@@ -29,7 +30,8 @@ where
     /// Evaluates velocities of a state whose positions are there.
     pub(super) fn velocities(&mut self, at: &At<'_>) {
         if !self.seen.is_moving(at) {
-            self.dynamics.velocity(at.v, at.modes);
+            let v = self.decided.velocities(&self.dynamics.work, at.v);
+            self.dynamics.velocity(v, at.modes);
             self.seen.moves(at);
         }
     }
@@ -51,9 +53,11 @@ where
     pub(crate) fn observe(&mut self, at: &At<'_>, a: &[f64], lambda: &[f64]) {
         self.motion(at);
         self.loads(at);
-        self.dynamics.react(a, lambda, &mut self.reactions);
         let own = self.own(at.modes);
-        self.observer.read(&mut self.dynamics, [at.q, at.v, a], &self.reactions, own);
+        let Self { dynamics, observer, reactions, decided, .. } = self;
+        let [q, v, a] = decided.accelerations(&dynamics.work, [at.q, at.v, a]);
+        dynamics.react(a, lambda, reactions);
+        observer.read(dynamics, [q, v, a], reactions, own);
     }
 
     /// Columns and event functions at the state observed last.
@@ -69,8 +73,9 @@ where
         }
         self.seen.takes_loads(at);
         let own = self.own(at.modes);
-        let Self { dynamics, observer, reactions, a, .. } = self;
-        observer.read(dynamics, [at.q, at.v, a], reactions, own);
+        let Self { dynamics, observer, reactions, decided, a, .. } = self;
+        let [q, v] = decided.standing(at.q, at.v);
+        observer.read(dynamics, [q, v, a], reactions, own);
     }
 
     /// [`Mechanical::glance`], which leaves the evaluator where it is if the numbers of the state tell all.
