@@ -5,6 +5,7 @@ mod eigensolvers;
 mod many;
 mod many_damped;
 mod meeting;
+mod round_off;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};

@@ -2,7 +2,7 @@
 
 use super::damped::{Damped, damped, state_matrix, tell_free_apart};
 use super::eigen::{self, Eigen};
-use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
+use super::report::{self, BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
@@ -45,11 +45,11 @@ where
     with_mass(&held.mass, &names, &study.place)?;
 
     let mut report = Report { study, own: &own, lists: Vec::new(), shapes: Vec::new(), findings };
+    let ways = DVector::from_iterator(own.len(), own.iter().map(|c| if c.turns { 1.0 } else { start.size }));
     // an equilibrium that was searched for has been judged there
     if !asked.at_equilibrium {
         // what a way of this part of a radian or of the size would change, and this part of what adds up, is round-off
-        let ways = DVector::from_iterator(own.len(), own.iter().map(|c| if c.turns { 1.0 } else { start.size }));
-        let noise = (&held.round_off * ways + &held.forces) * BALANCED;
+        let noise = (&held.round_off * &ways + &held.forces) * BALANCED;
         report.balance(held.unbalanced.iter().zip(noise.iter().copied()));
     }
     let wanted = asked.lowest.unwrap_or(own.len()).min(own.len());
@@ -57,7 +57,7 @@ where
     let mut drawn: Vec<DVector<f64>> = Vec::new();
     let mut frequencies = Vec::new();
     if potential
-        && let Some(found) = undamped(&mut report, &held, &asked.methods, wanted, stop)
+        && let Some(found) = undamped(&mut report, &held, &ways, &asked.methods, wanted, stop)
         && !asked.damped
     {
         frequencies = report.frequencies(&found);
@@ -83,10 +83,11 @@ where
     Ok(report.outcome(case, &mechanism, &frequencies, held.residual, scenes))
 }
 
-/// Modes by all methods; the first one's.
+/// Modes by all methods; the first one's. `ways` are 1 rad or the size of the mechanism.
 fn undamped(
     report: &mut Report<'_>,
     held: &Held,
+    ways: &DVector<f64>,
     methods: &[Eigensolver],
     wanted: usize,
     stop: &dyn Fn() -> bool,
@@ -129,7 +130,9 @@ fn undamped(
     let (_, found) = first?;
     let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
         let sizes = x.abs();
-        Undamped { value, noise: ROUND_OFF * sizes.dot(&(&held.round_off * &sizes)), shape: x.into_owned() }
+        let made_of = sizes.dot(&(&held.round_off * &sizes)) + held.forces.component_div(ways).dot(&sizes.component_mul(&sizes));
+        let noise = ROUND_OFF * made_of + report::of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
+        Undamped { value, noise, shape: x.into_owned() }
     };
     Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())
 }

@@ -2,7 +2,7 @@
 
 use super::damped::{Damped, by_largest};
 use super::picture::picture;
-use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped, of_work};
 use super::rest::held_start;
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
@@ -78,7 +78,7 @@ where
     let Lowest { values, mut vectors, mut steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
-    let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(pencil, independent, value, x)).collect();
+    let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x)).collect();
     let (frequencies, drawn) = if asked.damped {
         let LowestDamped { motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
         steps += more;
@@ -106,7 +106,8 @@ where
 }
 
 /// A mode by its vector (nv), which is turned so that its largest coordinate is positive.
-fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value: f64, x: &mut [f64]) -> Undamped {
+fn mode(held: &HeldSparse, size: f64, value: f64, x: &mut [f64]) -> Undamped {
+    let HeldSparse { pencil, independent, .. } = held;
     let mut shape = shape(independent, x);
     let largest = shape.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() * (1.0 + 1e-9) { *x } else { m });
     if largest < 0.0 {
@@ -116,7 +117,9 @@ fn mode(pencil: &Pencil, independent: &[(Coordinate, Vec<(usize, f64)>)], value:
     let line = |(line, xi): (grashof_solvers::Line<'_, f64>, &f64)| xi.abs() * line.entries().map(|(j, k)| (k * x[j]).abs()).sum::<f64>();
     let noise = pencil.stiffness.lines().zip(x.iter()).map(line).sum::<f64>();
     let made_of: f64 = pencil.grain.iter().zip(x.iter()).map(|(grain, x)| grain * x * x).sum();
-    Undamped { value, shape, noise: ROUND_OFF * (noise + made_of) }
+    let parts = independent.iter().zip(shape.iter()).map(|((c, _), x)| if c.turns { *x } else { x / size });
+    let noise = ROUND_OFF * (noise + made_of) + of_work(held.work, parts);
+    Undamped { value, shape, noise }
 }
 
 /// The lowest damped motions beside undamped modes, whose frequencies say where they are to be sought.
