@@ -275,3 +275,36 @@ studies:
         }
     }
 }
+
+#[test]
+fn forces_that_balance_have_no_findings() {
+    // two sliders against each other: what shakes the ground is the round-off of forces of hundreds of newtons
+    let text = "grashof: 1
+name: symmetric double slider
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0] }
+bodies:
+  c: { disc: { radius: 5 cm, mass: 1 kg }, points: { p: [4 cm, 0], q: [-4 cm, 0] } }
+  r1: { bar: { length: 15 cm, mass: 0.3 kg } }
+  r2: { bar: { length: 15 cm, mass: 0.3 kg } }
+  s1: { mass: 0.5 kg }
+  s2: { mass: 0.5 kg }
+joints:
+  O: { revolute: [ground.O, c.origin] }
+  A1: { revolute: [c.p, r1.start] }
+  A2: { revolute: [c.q, r2.start] }
+  B1: { revolute: [r1.end, s1.origin] }
+  B2: { revolute: [r2.end, s2.origin] }
+  W1: { slider: [ground.O, s1.origin], axis: [1, 0] }
+  W2: { slider: [ground.O, s2.origin], axis: [-1, 0] }
+loads: { m: { joint: O, torque: 0.5 N m } }
+start: { O.angle: 10 deg, O.omega: 0 rad/s, W1.position: ~19 cm, W2.position: ~19 cm, r1.angle: ~0 deg, r2.angle: ~180 deg }
+studies:
+  turned: { dynamics: { until: 1 s, every: 5 ms }, columns: [time, c.omega, shaking, com, momentum.x, frame, W1, W2, O] }
+";
+    let outcome = study(text, "turned", Coordinates::Joint);
+    let unresolved: Vec<&str> = outcome.findings.iter().filter(|f| f.code == "unresolved").map(|f| &*f.message).collect();
+    assert!(unresolved.is_empty(), "{unresolved:?}");
+    assert_eq!(outcome.certificate.resolved.map(|resolution| resolution.open), Some(0));
+}

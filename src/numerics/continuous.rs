@@ -36,6 +36,11 @@ pub trait Curve {
         0.0
     }
 
+    /// A column that is nowhere larger than this is zero but for round-off, of which nothing is followed.
+    fn floor(&self, _column: usize) -> f64 {
+        0.0
+    }
+
     /// Whether a place is so near to a singular position that what depends on constraints multiplies the errors of the state.
     fn singular(&mut self, _at: f64, _piece: usize) -> bool {
         false

@@ -353,6 +353,9 @@ impl<'a, C: Curve> Work<'a, C> {
             _ => f64::INFINITY,
         };
         let size = self.size[column];
+        if size <= self.curve.floor(column) {
+            return None;
+        }
         // at the end of a piece a column may begin as a root does: steep, but without an extreme, and of no weight in an integral
         let [from, to] = [self.breaks[panel.piece], self.breaks[panel.piece + 1]];
         let at_end = panel.from == from || panel.to == to;
@@ -397,7 +400,8 @@ impl<'a, C: Curve> Work<'a, C> {
             for column in 0..self.size.len() {
                 let values: Vec<f64> = panels[run.clone()].iter().flat_map(|p| p.column(column)).collect();
                 let [least, most] = [f64::min, f64::max].map(|f| values.iter().copied().fold(values[0], f));
-                if most - least > MUCH * self.size[column] && !jumps(&values) {
+                let round_off = self.size[column] <= self.curve.floor(column);
+                if most - least > MUCH * self.size[column] && !jumps(&values) && !round_off {
                     let singular = self.curve.singular(at, piece);
                     open.push(Open { column, at, left: most - least, size: 0.0, singular, pole: None });
                     if singular {

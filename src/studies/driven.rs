@@ -261,6 +261,7 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     samples: usize,
     variable: Variable<'a>,
 ) -> Result<Seen<'a>, Lost> {
+    motion.take_floors(case, &watched.ids);
     let resolved = motion.resolve()?;
     motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);

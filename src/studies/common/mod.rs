@@ -4,6 +4,7 @@ pub mod case;
 pub mod clock;
 mod energies;
 pub(crate) mod functional;
+pub(crate) mod grain;
 pub(crate) mod indeterminate;
 pub mod motion;
 pub mod named;

@@ -1,9 +1,12 @@
 //! A driven motion as a curve: columns at any place of the range, cut into pieces where switches change.
 
+use super::case::Case;
 use super::clock::Clock;
+use super::grain::{Grain, PLACES};
 use super::observe::Observer;
 use super::passage::Passage;
 use super::switching::{Distance, Switching};
+use crate::expression::Id;
 use crate::geometry::{Pose, Space};
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::driven::Driven;
@@ -58,6 +61,10 @@ pub struct Motion<'m, G: Space<S = f64>> {
     pub(crate) modes: Vec<i32>,
     distances: Vec<Distance>,
     columns: usize,
+    /// Size of the mechanism, m.
+    size: f64,
+    /// Below what each column is zero but for round-off.
+    floors: Vec<f64>,
 }
 
 impl<'m, G: Space<S = f64>> Motion<'m, G> {
@@ -92,6 +99,8 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
             modes,
             distances: vec![],
             columns,
+            size: start.size,
+            floors: vec![],
         };
         motion.find_ends();
         let cut = motion.path.gap.is_some() || motion.path.jump.is_some();
@@ -292,6 +301,19 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         found
     }
 
+    /// Takes below what each of the watched expressions is zero, from the size of the motion.
+    pub(crate) fn take_floors(&mut self, case: Case<'_>, ids: &[Id]) {
+        let (mut grain, [low, high]) = (Grain::of(self.size), self.ends);
+        for s in PLACES.map(|part| low + part * (high - low)) {
+            // what cannot be reached is met again
+            if self.solve(s, None).is_ok() {
+                let Driven { dynamics, v, .. } = &mut self.driven;
+                grain.take(dynamics, v, &self.modes);
+            }
+        }
+        self.floors = grain.floors(case.model, case.study, ids, self.clock.end());
+    }
+
     /// Looks again where resolved columns have no value.
     ///
     /// # Errors
@@ -417,6 +439,10 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
 
     fn columns(&self) -> usize {
         self.columns + self.driven.dynamics.mechanism.stops.len()
+    }
+
+    fn floor(&self, column: usize) -> f64 {
+        self.floors.get(column).copied().unwrap_or(0.0)
     }
 
     fn eval(&mut self, s: f64, piece: usize, out: &mut [f64]) -> Result<(), Lost> {

@@ -203,7 +203,12 @@ where
     let stretches = trajectory.stretches();
     let resolution = setup::resolution(plan.settings.control);
     trajectory.near_enough = NEAR * resolution;
-    let resolved = resolve::on(trajectory, &stretches, &breaks, resolution)?;
+    trajectory.floors = trajectory.grain().floors(case.model, case.study, &watched.ids, to - from);
+    let mut resolved = resolve::on(trajectory, &stretches, &breaks, resolution)?;
+    if trajectory.looks_too_far(&resolved) {
+        trajectory.near_enough = 0.0;
+        resolved = resolve::on(trajectory, &stretches, &breaks, resolution)?;
+    }
     trajectory.all_defined(&resolved)?;
     let extremes = extrema(trajectory, resolved.samples(), &breaks);
     let clock = Clock::of_time(plan.until);

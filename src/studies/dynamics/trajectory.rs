@@ -7,6 +7,7 @@ use crate::geometry::Space;
 use crate::kinematics::undefined::Gap;
 use crate::numerics::continuous::Curve;
 use crate::numerics::resolve::{FIRST_PANELS, Resolved};
+use crate::studies::common::grain::{Grain, PLACES, ROUND_OFF};
 use grashof_solvers::dense_output::Form;
 use grashof_solvers::{Control, Dense, Engine, Node, Sigma, Stage, System};
 
@@ -81,6 +82,8 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>> {
     follow: bool,
     /// How far a state may be off the constraints where columns are followed between rows, as part of its size.
     pub(crate) near_enough: f64,
+    /// Below what each column is zero but for round-off.
+    pub(super) floors: Vec<f64>,
     /// Whether an event has ended the motion.
     pub(super) ended_by_event: bool,
     /// The step found last.
@@ -109,6 +112,7 @@ where
             out: vec![0.0; outputs],
             follow,
             near_enough: 0.0,
+            floors: Vec::new(),
             ended_by_event: false,
             near: 0,
             current: 0,
@@ -319,6 +323,30 @@ where
         [engine.position_residual(), engine.velocity_residual(&self.node.state.v)]
     }
 
+    /// Sizes of the motion.
+    pub(crate) fn grain(&mut self) -> Grain {
+        let mut grain = Grain::of(self.phases.first().map_or(1.0, |phase| phase.system.size));
+        let breaks = self.breaks();
+        let (Some(&from), Some(&to)) = (breaks.first(), breaks.last()) else { return grain };
+        for t in PLACES.map(|part| from + part * (to - from)) {
+            let piece = breaks.partition_point(|b| *b <= t).clamp(1, self.pieces.len()) - 1;
+            if self.take(t, piece).is_ok() {
+                let system = &mut self.phases[self.pieces[piece].phase].system;
+                let state = self.node.state.at();
+                system.kinematics(&state);
+                let m = system.dynamics.mechanism;
+                grain.take(&mut system.dynamics, state.v, &state.modes[..m.switches + m.windings]);
+            }
+        }
+        grain
+    }
+
+    /// Whether a column is open that is no larger than what states off the constraints make of it.
+    pub(super) fn looks_too_far(&self, resolved: &Resolved) -> bool {
+        let made = |column: usize| self.near_enough / ROUND_OFF * self.floor(column);
+        resolved.open.iter().any(|open| open.size <= made(open.column))
+    }
+
     /// All outputs of the observer at the state evaluated last.
     pub(crate) fn outputs(&mut self, piece: usize) -> &[f64] {
         let phase = self.pieces[piece].phase;
@@ -398,6 +426,10 @@ where
         let (low, high) = self.pieces[piece].steps;
         let steps = &self.steps[low..high];
         steps.get(steps.partition_point(|s| s.end < at)).map_or(0.0, |s| s.h)
+    }
+
+    fn floor(&self, column: usize) -> f64 {
+        self.floors.get(column).copied().unwrap_or(0.0)
     }
 
     fn singular(&mut self, at: f64, piece: usize) -> bool {

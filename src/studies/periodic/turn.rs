@@ -150,6 +150,10 @@ impl<G: Space<S = f64>> Curve for Turn<'_, '_, G> {
         let t = self.time(s, piece)?;
         self.trajectory.look(t, piece, out)
     }
+
+    fn floor(&self, column: usize) -> f64 {
+        self.trajectory.floor(column)
+    }
 }
 
 /// One column of a trajectory over time.
