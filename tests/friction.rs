@@ -5,6 +5,7 @@ mod bristles;
 mod closed_forms;
 mod clutches;
 mod equivalence;
+mod jumps;
 mod sticking;
 mod stops;
 

@@ -98,6 +98,10 @@ pub struct Integration {
     rough: Vec<usize>,
     /// Roots at the begin of the part of a step in which one was crossed.
     roots: Vec<f64>,
+    /// Roots just before what happens at an event.
+    instant: Vec<f64>,
+    /// Whether the first step is not looked at yet.
+    begins: bool,
     /// Roots at the nodes of a part of a step, and beside them.
     samples: Vec<Vec<f64>>,
     probe: Vec<f64>,
@@ -183,6 +187,8 @@ impl Integration {
             looked,
             rough: system.pattern().rough.clone(),
             roots: vec![0.0; dims.roots],
+            instant: vec![0.0; dims.roots],
+            begins: true,
             samples: vec![vec![0.0; dims.roots]; NODES + 1],
             probe: vec![0.0; dims.roots],
             resolver: Resolver::new(),

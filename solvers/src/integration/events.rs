@@ -22,6 +22,9 @@ const MOST_HALVINGS: usize = 30;
 /// Switches whose operands become equal at one event.
 const MOST_AT_REST: usize = 16;
 
+/// What is zero at an event rests there if it is so a moment later; what was crossed at the event, so much later, as part of the same time.
+const LATER: f64 = 1e-3;
+
 /// A root is located to this part of the step.
 const LOCATED: f64 = 1e-11;
 
@@ -47,6 +50,9 @@ impl Integration {
         self.trial.state.live.copy_from_slice(&self.last.state.live);
         system.roots(self.last.state.at(), &self.last.a, &self.last.lambda, &mut self.samples[0]);
         let h = self.node.state.t - self.last.state.t;
+        if let Some(root) = self.wrong_from_the_start(system, h)? {
+            return Ok(Some((0.0, root)));
+        }
         let end = timed.map_or(1.0, |(theta, _)| theta);
         let (mut from, mut width) = (0.0, self.resolved.map_or(1.0, |width| width / h));
         let mut looks = 0;
@@ -82,7 +88,21 @@ impl Integration {
             }
         }
         self.remember(width, h);
+        if timed.is_some() {
+            self.roots.copy_from_slice(&self.samples[0]);
+        }
         Ok(timed)
+    }
+
+    /// A root on which forces depend and that is negative at the start and a moment later, whatever it is in the rest of the first step of
+    /// the length `h`.
+    fn wrong_from_the_start(&mut self, system: &mut dyn System, h: f64) -> Result<Option<usize>, Why> {
+        if !std::mem::take(&mut self.begins) || system.pattern().acting.iter().all(|root| self.samples[0][*root] >= 0.0) {
+            return Ok(None);
+        }
+        self.look(system, (MOMENT * self.moment() / h).min(1.0))?;
+        let Self { looked, samples, probe, .. } = self;
+        Ok(system.pattern().acting.iter().copied().find(|root| looked.contains(root) && samples[0][*root] < 0.0 && probe[*root] < 0.0))
     }
 
     /// Keeps the width to which roots were resolved in a step of the length `h`, as the first to be tried in the next one.
@@ -242,6 +262,7 @@ impl Integration {
         }
         self.balance(system, true)?;
         self.before.copy_from(&self.node);
+        system.roots(self.node.state.at(), &self.node.a, &self.node.lambda, &mut self.instant);
         self.crossed.clear();
         self.blows.clear();
         self.engine.counts.events += 1;
@@ -320,11 +341,13 @@ impl Integration {
         Ok(Progress::Event)
     }
 
-    /// A root that belongs to the same instant: negative in the state reached, and not crossed yet.
+    /// A root that belongs to the same instant: negative in the state reached, positive before what has happened or before that part of the
+    /// step, and not crossed yet.
     fn also_crossed(&mut self, system: &mut dyn System) -> Option<usize> {
         let Node { state, a, lambda, .. } = &self.node;
         system.roots(state.at(), a, lambda, &mut self.probe);
-        let near = |root: &usize| self.probe[*root] < 0.0 && self.roots[*root] > 0.0 && !self.crossed.contains(root);
+        let was_positive = |root: usize| self.roots[root] > 0.0 || self.instant[root] > 0.0;
+        let near = |root: &usize| self.probe[*root] < 0.0 && was_positive(*root) && !self.crossed.contains(root);
         self.looked.iter().copied().find(near)
     }
 
@@ -355,15 +378,19 @@ impl Integration {
             if self.probe.iter().all(|g| *g != 0.0) {
                 break;
             }
-            self.trial.copy_from(&self.node);
-            self.drift(system, MOMENT * self.moment());
-            if system.pattern().roots_by_reactions {
-                self.engine.accelerate(system, &mut self.trial)?;
+            for (later, part) in [MOMENT, LATER].into_iter().enumerate() {
+                self.trial.copy_from(&self.node);
+                self.drift(system, part * self.moment());
+                if system.pattern().roots_by_reactions {
+                    self.engine.accelerate(system, &mut self.trial)?;
+                }
+                system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[later]);
             }
-            system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[0]);
             let Self { looked, foresight, crossed, probe, samples, node, .. } = self;
-            // what was crossed just now leaves zero, however slowly
-            let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && !crossed.contains(root);
+            // what was crossed just now may leave zero slowly, unless a law of time has ended at the same instant
+            let law_ended = crossed.iter().any(|root| foresight.roots.contains(root));
+            let rests = |root: usize| !crossed.contains(&root) || law_ended && samples[1][root] == 0.0;
+            let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && rests(**root);
             let mut at_rest = looked.iter().chain(&foresight.roots).filter(stays);
             let Some(effect) = at_rest.find_map(|root| system.equal(*root, &mut node.state)) else { break };
             if effect == Effect::Restart {

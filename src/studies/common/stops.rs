@@ -16,6 +16,9 @@ use crate::results::{Failure, Finding};
 /// Part of the size of the mechanism (rad for angles) by which a stop may be passed: rounding, and the blows of a motion in time.
 pub(crate) const PASSED: f64 = 1e-9;
 
+/// A place within this part of the range of a switch is not judged by one side of it.
+const BESIDE: f64 = 1e-7;
+
 /// A part of the range so far from its start is no motion.
 const BEGUN: f64 = 1e-7;
 
@@ -158,7 +161,11 @@ pub(crate) fn barrier<G: Space<S = f64>>(
         offer(at, message, "drive it less far, or give the stop a `stiffness`");
     }
     if matches!(case.study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty() {
-        let places = resolved.places.iter().copied().zip(resolved.pieces.iter().copied());
+        // where a joint changes its side it presses by nothing, on either
+        let range = motion.ends[1] - motion.ends[0];
+        let breaks = motion.breaks.clone();
+        let changes = |s: f64| breaks.iter().any(|b| (s - b).abs() <= BESIDE * range);
+        let places = resolved.places.iter().copied().zip(resolved.pieces.iter().copied()).filter(|(s, _)| !changes(*s));
         let jammed: Vec<f64> = places.filter(|(s, piece)| jams(motion, *s, *piece)).map(|(s, _)| s).collect();
         if let Some([before, behind]) = nearest(jammed.into_iter(), &resolved.places) {
             let at = last(before, behind, |s| !jams(motion, s, motion.piece_at(s)));

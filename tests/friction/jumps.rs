@@ -1,0 +1,132 @@
+//! Loads that jump by time: what they overload for a part of a step gives way at once, and what a start holds wrongly is put right there.
+
+use super::{done, forms, tried};
+use crate::reference::Verdict;
+
+/// What lasts for less than a step of 0.1 s, from 1 s on.
+const PULSE: &str = "exp(-(t - 1 s)/0.1 s)";
+
+/// The way of a mass of 1 kg under 2 N exp(−s/0.1 s) against friction of 1 N, until it stops: v = 0.2 (1 − exp(−10 s)) − s.
+fn knocked() -> f64 {
+    let s = (0..200).fold(0.2, |s: f64, _| 0.2 * (1.0 - (-10.0 * s).exp()));
+    0.2 * s - 0.02 * (1.0 - (-10.0 * s).exp()) - 0.5 * s * s
+}
+
+#[test]
+fn each_knock_moves_a_block_that_friction_holds() {
+    let mut verdict = Verdict::default();
+    for (settings, tolerance) in forms() {
+        let text = format!(
+            "grashof: 1
+name: knocks
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg, inertia: 1 kg m^2 }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0], friction: {{ coulomb: 1 N }} }} }}
+loads: {{ pull: {{ joint: A, force: \"2 N*exp(-mod(t, 1 s)/0.1 s)\" }} }}
+studies: {{ run: {{ dynamics: {{ until: 3.9 s, every: 0.3 s, {settings} }}, columns: [time, A.position] }} }}
+"
+        );
+        let outcome = done(&text, "run");
+        let last = outcome.rows.iter().last().map_or(f64::NAN, |row| row[1]);
+        verdict.close("A.position", &settings, last, 4.0 * knocked(), 10.0 * tolerance);
+    }
+    verdict.give("each_knock_moves_a_block_that_friction_holds");
+}
+
+#[test]
+fn no_contact_carries_more_than_it_can_behind_a_jump() {
+    let text = |settings: &str| {
+        format!(
+            "grashof: 1
+name: contacts
+space: planar
+gravity: none
+ground: {{ G: [0, 0], H: [1 m, 0] }}
+bodies: {{ s: {{ mass: 1 kg }}, a: {{ mass: 1 kg }}, b: {{ mass: 1 kg }}, c: {{ mass: 1 kg }}, d: {{ mass: 1 kg }} }}
+joints:
+  S: {{ slider: [ground, s.origin], axis: [1, 0], limits: {{ from: 0 m, restitution: 0 }} }}
+  A: {{ slider: [ground.G, a.origin], axis: [1, 0] }}
+  B: {{ slider: [ground.H, b.origin], axis: [1, 0] }}
+  C: {{ slider: [ground.G, c.origin], axis: [1, 0] }}
+  D: {{ slider: [ground.H, d.origin], axis: [1, 0] }}
+clutches: {{ ow: {{ between: [A, B], one_way: true }}, cl: {{ between: [C, D], force: 1 N }} }}
+loads:
+  ps: {{ joint: S, force: \"if(t > 1 s, 1 N*{PULSE} - 0.5 N, -0.5 N)\" }}
+  pa: {{ joint: A, force: \"if(t > 1 s, 1 N - 2 N*{PULSE}, 1 N)\" }}
+  pc: {{ joint: C, force: \"if(t > 1 s, 4 N*{PULSE}, 1 N)\" }}
+studies:
+  run: {{ dynamics: {{ until: 1.25 s, every: 5 ms, {settings} }}, columns: [time, S.position, S.stop, ow.force, cl.force] }}
+"
+        )
+    };
+    let mut verdict = Verdict::default();
+    for (settings, tolerance) in forms() {
+        let outcome = done(&text(&settings), "run");
+        for row in outcome.rows.iter() {
+            let (place, s) = (format!("{settings}, {} s", row[0]), row[0] - 1.0);
+            // it lifts at once: a = exp(−10 s) − 0.5
+            let lifted = if s > 0.0 { 0.1 * s - 0.01 * (1.0 - (-10.0 * s).exp()) - 0.25 * s * s } else { 0.0 };
+            verdict.close("S.position", &place, row[1], lifted, 10.0 * tolerance);
+            verdict.close("S.stop", &place, row[2].min(0.0), 0.0, 1e-6);
+            verdict.close("ow.force", &place, row[3].min(0.0), 0.0, 1e-6);
+            verdict.close("cl.force", &place, row[4].max(1.0), 1.0, 1e-6);
+        }
+    }
+    verdict.give("no_contact_carries_more_than_it_can_behind_a_jump");
+}
+
+#[test]
+fn a_clutch_that_a_start_closes_at_a_speed_takes_its_blow_however_long_the_first_step() {
+    let mut verdict = Verdict::default();
+    for (settings, tolerance) in forms() {
+        for until in [0.1, 2.0, 20.0] {
+            let text = format!(
+                "grashof: 1
+name: closed by the start
+space: planar
+gravity: none
+ground: {{ A: [0, 0], B: [1 m, 0] }}
+bodies: {{ a: {{ mass: 1 kg, inertia: 1 kg m^2 }}, b: {{ mass: 1 kg, inertia: 1 kg m^2 }} }}
+joints: {{ A: {{ revolute: [ground.A, a.origin] }}, B: {{ revolute: [ground.B, b.origin] }} }}
+clutches: {{ cl: {{ between: [A, B], one_way: true }} }}
+loads: {{ pull: {{ joint: A, torque: -10 N m }} }}
+start: {{ A.omega: 0.2 rad/s, B.omega: 0 rad/s }}
+studies: {{ run: {{ dynamics: {{ until: {until} s, every: {until} s, {settings} }}, columns: [time, A.omega, B.omega] }} }}
+"
+            );
+            let outcome = done(&text, "run");
+            let row = outcome.rows.iter().last().map_or(vec![f64::NAN; 3], |row| row.to_vec());
+            let place = format!("{settings}, {until} s");
+            verdict.close("A.omega", &place, row[1], 0.1 - 10.0 * until, 100.0 * tolerance);
+            verdict.close("B.omega", &place, row[2], 0.1, 100.0 * tolerance);
+        }
+    }
+    verdict.give("a_clutch_that_a_start_closes_at_a_speed_takes_its_blow_however_long_the_first_step");
+}
+
+#[test]
+fn a_driven_guide_whose_force_changes_its_side_does_not_jam() {
+    let text = "grashof: 1
+name: driven guide
+space: planar
+gravity: none
+ground: { G0: [0.008, 0.192] }
+bodies:
+  b0: { mass: 0.834, com: [0.094, -0.001], inertia: 0.149, points: { Q: [-0.025, -0.094] } }
+  b1: { mass: 2.341, com: [0.096, 0.043], inertia: 0.087, points: { Q: [-0.094, -0.038] } }
+joints:
+  J0: { revolute: [ground.G0, b0.Q] }
+  J1: { slider: [b0.origin, b1.Q], axis: [0, 1], friction: { coulomb: 0.165 } }
+drivers:
+  dJ0: { joint: J0, angle: -0.977 rad + 0.875 rad*sin(1.856 rad/s*t + 1 rad) - 0.875 rad*sin(1) }
+  dJ1: { joint: J1, position: -0.118 m + 0.227 m*sin(1.17 rad/s*t + 1 rad) - 0.227 m*sin(1) }
+studies:
+  inv: { inverse: { over: 3 s, samples: 30 }, columns: [time, J1.f, J1.friction, dJ1.force] }
+";
+    let outcome = tried(text, "inv").unwrap_or_else(|failure| panic!("{}", failure.reason()));
+    assert!(outcome.stopped.is_none() && outcome.rows.iter().count() >= 31);
+    for row in outcome.rows.iter() {
+        assert!((row[2].abs() - 0.165 * row[1]).abs() <= 1e-9 * (1.0 + row[1]), "{row:?}");
+    }
+}
