@@ -213,6 +213,29 @@ studies:
       alpha: { show: [rocker.alpha] }
       speed: { show: [crank.omega] }
 `,
+  // forces that grow without bound towards dead points at both ends
+  slant: `grashof: 1
+name: slant
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+ground: { O: [0, 0, 0], C: [30 cm, 20 cm, 5 cm] }
+bodies:
+  crank: { bar: { length: 8 cm, width: 1 cm, height: 1 cm, mass: 0.3 kg } }
+  rod: { bar: { length: 35 cm, width: 1 cm, height: 1 cm, mass: 0.8 kg } }
+  rocker: { bar: { length: 20 cm, width: 1 cm, height: 1 cm, mass: 0.6 kg } }
+joints:
+  O: { revolute: [ground.O, crank.start], axis: [0, 0, 1] }
+  A: { universal: [crank.end, rod.start], axes: [[0, 0, 1], [0, 1, 0]] }
+  B: { spherical: [rod.end, rocker.end] }
+  C: { revolute: [ground.C, rocker.start], axis: [1, 0, 0], to: [0, 0, 1] }
+drivers: { drive: { joint: O, speed: 90 rpm } }
+start: { O.angle: 0 deg, C.angle: ~90 deg }
+studies:
+  turn:
+    inverse: { over: 1 turn, samples: 180 }
+    columns: [O.angle, C.angle, C.omega, drive, A]
+    plot: { torque: [drive.torque] }
+`,
   // seen from above, and at a place of its motion that no frame has by itself
   door: `grashof: 1
 name: door
@@ -232,7 +255,7 @@ studies:
 export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5,-90\n' }, winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };
 
 /** Models a study of which stops on its way. */
-export const STOPPED = ['stuck'];
+export const STOPPED = ['stuck', 'slant'];
 
 /** Models that are run with their figures. */
 export const WITH_FIGURES = ['swing'];

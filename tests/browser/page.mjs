@@ -1,6 +1,7 @@
 // The page as a whole: contents, findings and their places, tables, light and dark, narrow and wide.
 
-import { assert } from './read.mjs';
+import { readFileSync } from 'node:fs';
+import { assert, csv, near } from './read.mjs';
 
 export async function studies_are_listed_with_what_they_are_about(open) {
   const { tab } = await open('crank_rocker');
@@ -61,7 +62,7 @@ export async function the_file_shows_the_place_of_a_finding(open) {
 export async function tables_sort_and_show_what_they_left_out(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const rows = tab.locator('.table', { hasText: 'Rows' });
-  assert.match(await rows.locator('.note').innerText(), /rows shown: \d+ of 36\d\d, curves within 0.0001 of their range/);
+  assert.match(await rows.locator('.note').innerText(), /rows shown: \d+ of 36\d\d, curves within 0.0001 of the range of their axes/);
   const head = rows.locator('th', { hasText: /^phi3/ });
   await head.locator('button').click();
   assert.equal(await head.getAttribute('aria-sort'), 'ascending');
@@ -96,6 +97,27 @@ export async function tables_have_the_digits_that_their_columns_carry(open) {
   for (const { cells } of rows) assert.match(cells[angle], /^\d+(\.0+)?$/);
   const lengths = new Set(rows.map(({ cells }) => (cells[angle].split('.')[1] ?? '').length));
   assert.equal(lengths.size, 1, 'the same decimals in all rows');
+}
+
+export async function small_numbers_beside_large_ones_have_their_digits(open) {
+  const { tab, directory } = await open('slant', { study: 'turn' });
+  const wanted = csv(`${directory}/turn.csv`);
+  const heads = (await tab.locator('.rows[aria-label=Rows] th').allInnerTexts()).map((head) => head.split(' [')[0]);
+  const number = (text) => Number(text.replace('−', '-').replace('·10', 'e').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]/g, (c) => '⁰¹²³⁴⁵⁶⁷⁸⁹⁻'.indexOf(c) === 10 ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c)));
+  const rows = await rowsOf(tab, 'Rows');
+  assert.ok(rows.length > 20, `${rows.length} rows`);
+  for (const { cells } of rows) {
+    const angle = (number(cells[0]) * Math.PI) / 180;
+    const off = wanted['O.angle'].map((x) => Math.abs(x - angle));
+    const row = off.indexOf(Math.min(...off));
+    for (const name of ['drive.torque', 'drive.power', 'A.fx', 'A.fy', 'A.fz']) {
+      const [found, exact] = [number(cells[heads.indexOf(name)]), wanted[name][row]];
+      if (Number.isFinite(found)) near(found, exact, 6e-5 * Math.abs(exact), `${name} at ${cells[0]}`);
+    }
+  }
+  const extreme = tab.locator('.rows[aria-label=Extremes] tr', { hasText: 'A.fx' });
+  const { max } = JSON.parse(readFileSync(`${directory}/turn.json`, 'utf8')).extrema['A.fx'];
+  near(number((await extreme.locator('td').nth(2).textContent())), max.value, 1e-4 * Math.abs(max.value), 'greatest A.fx');
 }
 
 export async function rows_on_both_sides_of_a_switch_say_which(open) {

@@ -282,6 +282,16 @@ export async function poles_at_dead_points_leave_the_axis_with_a_word(open) {
   assert.equal(await plot(tab, 'speed').locator('.note').isVisible(), false);
 }
 
+export async function curves_beside_poles_are_those_of_the_rows(open) {
+  const { tab, directory } = await open('slant');
+  const { 'O.angle': angle, 'drive.torque': torque } = csv(`${directory}/turn.csv`);
+  for (const row of [40, 55, 62, 77, 90]) {
+    await seek(tab, angle[row]);
+    // from -10 to 10 N m at most
+    near(await value(tab, 'torque'), torque[row], 2e-3, `torque at ${angle[row]}`);
+  }
+}
+
 export async function axes_of_different_places_fill_their_ranges(open) {
   const { tab } = await open('double_wishbone', { study: 'bump' });
   const ticks = (await plot(tab, 'track').locator('text').allTextContents()).map((text) => Number(text.replace('−', '-'))).filter(Number.isFinite);

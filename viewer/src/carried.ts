@@ -1,4 +1,4 @@
-// How many digits the numbers of a column carry: those of a report are whole multiples of a power of ten.
+// How many digits the numbers of a column carry: those of a report are whole multiples of a power of ten, and have at least some digits.
 
 import { digits } from './numbers';
 import type { Num } from './types';
@@ -9,6 +9,8 @@ const TOLD = 1e-5;
 const WHOLE = 1e-11;
 /** Part of the largest number that is told of a column that does not vary, or whose numbers were not rounded. */
 const SEVEN = 1e-6;
+/** Digits that a number is told with at least. */
+const LEAST = 5;
 /** Decimals with which a number is still easy to read. */
 const MOST = 9;
 
@@ -18,10 +20,10 @@ function last(x: number): number {
   return Number(power) - (mantissa.split('.')[1]?.length ?? 0);
 }
 
-/** The step of which all numbers are whole multiples, as far as they tell; none of no numbers but zeros. */
-function step(values: readonly Num[]): number | null {
+/** The step of which the largest numbers are whole multiples, as far as they tell; none of no numbers but zeros. Smaller ones may have more decimals. */
+function step(values: readonly Num[], largest: number): number | null {
   let power = Infinity;
-  for (const x of values) if (x !== null && x !== 0 && Number.isFinite(x)) power = Math.min(power, last(x));
+  for (const x of values) if (x !== null && Number.isFinite(x) && Math.abs(x) >= 0.1 * largest && x !== 0) power = Math.min(power, last(x));
   return power === Infinity ? null : 10 ** power;
 }
 
@@ -52,14 +54,19 @@ export interface Writing {
 
 const missing = (x: Num): x is null => x === null || !Number.isFinite(x);
 
-/** Numbers with the same decimals in all rows: as few as tell them, and at most so many. */
+/** Numbers with the same decimals in all rows: as few as tell them, and at most so many; where that leaves one too few digits it has more. */
 function fixed(values: readonly Num[], most: number): (x: Num) => string {
   const whole = (count: number) => values.every((x) => missing(x) || Math.abs(Math.round(x * 10 ** count) * 10 ** (most - count) - Math.round(x * 10 ** most)) < 0.5);
   let count = 0;
   while (count < most && !whole(count)) count++;
   const zero = (0).toFixed(count);
+  // the decimals that a number needs for its digits; numbers of one size have as many
+  const own = (x: number) => LEAST - 1 - Math.floor(Math.log10(Math.abs(x)));
+  const more = new Set<number>();
+  for (const x of values) if (!missing(x) && x !== 0 && own(x) > count && Math.abs(Number(x.toFixed(count)) - x) > 0.5 * 10 ** -own(x)) more.add(own(x));
   return (x) => {
     if (missing(x)) return '–';
+    if (x !== 0 && more.has(own(x))) return own(x) > MOST ? digits(x, LEAST) : x.toFixed(own(x)).replace('-', '−');
     const text = x.toFixed(count);
     return text === `-${zero}` ? zero : text.replace('-', '−');
   };
@@ -70,11 +77,16 @@ export function writing(values: readonly Num[], size: number): Writing {
   const by = (x: Num) => (x === null ? null : x / size);
   const shown = values.map(by);
   const { range, largest, least } = extent(shown);
-  const own = (step(values) ?? 0) / size;
+  const own = (step(values, largest * size) ?? 0) / size;
   const rounded = own > WHOLE * largest;
   const carried = Math.max(own, rounded && range > 0 ? TOLD * range : SEVEN * largest);
-  const file = rounded ? decimals(own) : null;
-  const full = (x: Num) => (missing(x) ? '' : String(file === null || file > 15 ? Number((by(x)! + 0).toPrecision(15)) : Number(by(x)!.toFixed(file)) + 0));
+  // a small number beside large ones has decimals of its own
+  const file = (x: number) => decimals(Math.min(own, 10 ** last(x) / size));
+  const full = (x: Num) => {
+    if (missing(x)) return '';
+    const places = rounded ? file(x) : 16;
+    return String(places > 15 ? Number((by(x)! + 0).toPrecision(15)) : Number(by(x)!.toFixed(places)) + 0);
+  };
   // numbers of many sizes that were not rounded have their own digits each
   const uneven = !rounded && least < 1e-3 * largest;
   if (largest === 0 || (!uneven && largest < 1e7 && largest >= 1e-3 && decimals(carried) <= MOST)) {
@@ -85,7 +97,7 @@ export function writing(values: readonly Num[], size: number): Writing {
     const value = by(x);
     if (missing(value) || value === 0) return digits(value);
     const count = uneven ? 7 : Math.floor(Math.log10(Math.abs(value)) - Math.log10(carried) + 1e-9) + 1;
-    return count < 1 ? '0' : digits(value, Math.min(count, 15));
+    return digits(value, Math.min(Math.max(count, LEAST), 15));
   };
   return { text, full };
 }

@@ -106,10 +106,10 @@ function turned(x: number[], place: number, from: number, to: number): { first: 
 
 /** The value of a column at one place. */
 export function valueAt({ x, pieces: parts }: Fine, values: Num[], at: number): number {
-  // a place at an end may lie beyond it by rounding
+  // a place at an end may lie beside it by rounding
   const ends = [x[0] ?? NaN, x[x.length - 1] ?? NaN].sort((a, b) => a - b) as [number, number];
   const near = 1e-9 * (ends[1] - ends[0]);
-  const place = at < ends[0] && at > ends[0] - near ? ends[0] : at > ends[1] && at < ends[1] + near ? ends[1] : at;
+  const place = ends.find((end) => Math.abs(at - end) < near) ?? at;
   for (const { from, to } of parts) {
     const [a, b] = [x[from]!, x[to - 1]!];
     if ((place - a) * (place - b) > 0) continue;

@@ -53,9 +53,6 @@ function findings(results: Results, show: ShowPlace): HTMLElement | null {
   return all.length === 0 ? null : h('ul', { class: 'findings' }, ...all);
 }
 
-/** Part of the other extreme of a column below which one of them is round-off. */
-const ROUND_OFF = 1e-12;
-
 function extremes(results: Results): HTMLElement | null {
   const columns = new Map(results.table.columns.map((c) => [c.name, c]));
   const place = shownIn(results.independent);
@@ -64,8 +61,7 @@ function extremes(results: Results): HTMLElement | null {
     if (!both || !column) return [];
     const { unit, size } = shownIn(column);
     const { min, max } = both;
-    const noise = ROUND_OFF * Math.max(Math.abs(min.value ?? 0), Math.abs(max.value ?? 0));
-    const value = (x: number | null) => hinted(x === null ? null : Math.abs(x) <= noise ? 0 : x / size);
+    const value = (x: number | null) => hinted(x === null ? null : x / size);
     const at = (x: number | null) => hinted(x === null ? null : x / place.size);
     return [[heading(name, unit), value(min.value), at(min.at), value(max.value), at(max.at)]];
   });
@@ -173,6 +169,6 @@ export function rowsInWords(results: Results): string {
   const there = independent.values.length;
   if (!rows || there === 0 || there >= rows.of) return '';
   const within = digits(rows.within, 2);
-  return `rows shown: ${there} of ${rows.of}, curves within ${within} of their range`;
+  return `rows shown: ${there} of ${rows.of}, curves within ${within} of the range of their axes`;
 }
 

@@ -10,6 +10,7 @@
 //! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
 
 mod base64;
+mod axes;
 mod bundle;
 mod live;
 mod poses;

@@ -17,9 +17,30 @@ pub(super) struct Curves<'a> {
     /// Columns, each of as many numbers.
     pub(super) columns: Vec<&'a [f64]>,
     /// What each of them may be off between the rows that are kept.
-    pub(super) allowed: Vec<f64>,
+    pub(super) allowed: Vec<Allowed>,
     /// Rows that stand just before a switch.
     pub(super) switches: &'a [usize],
+}
+
+/// What a curve may be off: `within` where an axis shows it, the same part more of how far it is beyond the ends of that axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed {
+    pub(super) within: f64,
+    pub(super) axis: [f64; 2],
+}
+
+impl Allowed {
+    /// The same everywhere.
+    pub(super) fn everywhere(within: f64) -> Self {
+        Self { within, axis: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+
+    /// Where the curve has a value.
+    fn at(&self, y: f64) -> f64 {
+        let [low, high] = self.axis;
+        let beyond = (low - y).max(y - high).max(0.0);
+        if beyond > 0.0 { self.within * (1.0 + beyond / (high - low)) } else { self.within }
+    }
 }
 
 /// The rows that are kept.
@@ -93,7 +114,7 @@ impl Curves<'_> {
             let weights = self.weights(nodes, self.x[row]);
             for (column, allowed) in self.columns.iter().zip(&self.allowed) {
                 let off = nodes.iter().zip(weights).map(|(node, weight)| weight * column[*node]).sum::<f64>() - column[row];
-                let off = off.abs() / allowed;
+                let off = off.abs() / allowed.at(column[row]);
                 // a column that has no value in this piece asks for nothing; weights of rows at one place are no numbers
                 if off.is_nan() && column[row].is_finite() {
                     return f64::INFINITY;
@@ -142,7 +163,7 @@ mod tests {
     use super::*;
 
     fn of(x: &[f64], y: &[f64], switches: &[usize], most: usize) -> Kept {
-        Curves { x, columns: vec![y], allowed: vec![1e-4], switches }.kept(most)
+        Curves { x, columns: vec![y], allowed: vec![Allowed::everywhere(1e-4)], switches }.kept(most)
     }
 
     #[test]
@@ -152,7 +173,7 @@ mod tests {
         let kept = of(&x, &y, &[], 4000);
         assert!((80..300).contains(&kept.rows.len()), "{}", kept.rows.len());
         assert_eq!((kept.rows.first(), kept.rows.last(), kept.breaks.len()), (Some(&0), Some(&3600), 0));
-        let curves = Curves { x: &x, columns: vec![&y], allowed: vec![1e-4], switches: &[] };
+        let curves = Curves { x: &x, columns: vec![&y], allowed: vec![Allowed::everywhere(1e-4)], switches: &[] };
         let off = (0..kept.rows.len() - 1).map(|k| curves.off(&kept.rows, k, f64::INFINITY)).fold(0.0, f64::max);
         assert!(off <= 1.0, "{off}");
     }

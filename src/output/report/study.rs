@@ -1,5 +1,6 @@
 //! A study as a page has it: its results without the rows and frames that no curve and no picture needs.
 
+use super::axes::Seen;
 use super::poses::{self, Coded};
 use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
 use crate::output::json_number;
@@ -7,7 +8,7 @@ use crate::output::posed::{self, forms::faces_of};
 use crate::output::sheet::body_color;
 use crate::output::view::level;
 use crate::results::scene::Shape;
-use crate::results::{Plot, Results, Scene};
+use crate::results::{Extremes, Plot, Results, Scene};
 use serde_json::{Value, json};
 
 /// Numbers of tables, and of poses, that the page has of a study, about.
@@ -134,7 +135,7 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
         table,
         curves,
         scalars: results.scalars.clone(),
-        extremes: results.extremes.clone(),
+        extremes: extremes(results),
         lists: results.lists.clone(),
         shapes: results.shapes.clone(),
         linear: results.linear.clone(),
@@ -155,6 +156,17 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
     value["rows"] = json(&shown);
     whole(&mut value);
     value
+}
+
+/// Extremes without what is round-off beside the other numbers of the column.
+fn extremes(results: &Results) -> Vec<(String, Option<Extremes>)> {
+    let mut extremes = results.extremes.clone();
+    for (name, both) in &mut extremes {
+        let (Some(column), Some(Extremes { min, max })) = (results.table.column(name), both) else { continue };
+        let nothing = Seen::of(results, column).round_off();
+        [min, max].into_iter().filter(|one| one.value.abs() <= nothing).for_each(|one| one.value = 0.0);
+    }
+    extremes
 }
 
 /// A scene with its frames as differences.
