@@ -120,6 +120,14 @@ export async function small_numbers_beside_large_ones_have_their_digits(open) {
   near(number((await extreme.locator('td').nth(2).textContent())), max.value, 1e-4 * Math.abs(max.value), 'greatest A.fx');
 }
 
+export async function what_a_drawing_leaves_out_is_told_and_small_beside_a_dead_point(open) {
+  const { tab } = await open('slant', { study: 'turn' });
+  const note = await tab.locator('.stage').innerText();
+  const [, told, power = ''] = /drawn to within ([\d.]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))? m/.exec(note) ?? [null, '0'];
+  const size = Number(told) * 10 ** (power === '' ? 0 : -[...power.slice(1)].reduce((sum, c) => 10 * sum + '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c), 0));
+  assert.ok(size < 1e-3 * 0.35, note);
+}
+
 export async function rows_on_both_sides_of_a_switch_say_which(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const rows = await rowsOf(tab, 'Rows');

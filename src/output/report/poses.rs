@@ -3,8 +3,9 @@
 //! Poses of neighbouring frames differ little, and so do their differences. Differences of that order which takes the fewest digits
 //! are a few digits long, where the poses themselves need ten.
 
+use super::rows::{Allowed, Curves};
 use crate::results::Scene;
-use crate::results::scene::{Arrow, Frames};
+use crate::results::scene::{Arrow, Frames, interpolate};
 use serde::Serialize;
 
 /// Part of the size of a mechanism to which poses are rounded; angles and quaternions in absolute terms.
@@ -14,8 +15,9 @@ const ARROW: f64 = 1e-5;
 const AT: f64 = 1e-12;
 /// Differences of higher orders hold more noise of rounding than motion.
 const ORDERS: usize = 6;
-/// Half as many frames leave out so much more between them: the fourth power of the distance.
-const COARSER: f64 = 16.0;
+/// What thinned frames may be off by, as part of the size, before they are chosen by what interpolation leaves out; and by what then.
+const UNSEEN: f64 = 1e-4;
+const CHOSEN: f64 = 1e-5;
 /// Frames that are left at least.
 const FEWEST: usize = 24;
 
@@ -117,26 +119,71 @@ fn ten(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() { format!("1e{}", x.log10().floor() as i32).parse().unwrap_or(1.0) } else { 1.0 }
 }
 
-/// Every second frame, until there are about `most` numbers.
+/// About `most` numbers: every second frame, and again; where too much is left out between those, the frames that interpolation asks for.
 pub(super) fn thinned(scene: &mut Scene, most: usize) {
+    let count = scene.frames.at.len();
     let width = scene.width().max(1);
-    while scene.frames.poses.len() > most && scene.frames.at.len() / 2 >= FEWEST {
-        let count = scene.frames.at.len();
-        let kept: Vec<usize> = (0..count).filter(|i| i % 2 == 0 || i + 1 == count).collect();
-        let chosen = |values: &[f64], width: usize| -> Vec<f64> {
-            kept.iter().flat_map(|i| values.iter().skip(i * width).take(width).copied()).collect()
-        };
-        for arrow in &mut scene.arrows {
-            let width = arrow.values.len() / count;
-            arrow.values = chosen(&arrow.values, width);
-        }
-        let frames = &mut scene.frames;
-        frames.at = chosen(&frames.at, 1);
-        frames.poses = chosen(&frames.poses, width);
-        frames.shown.iter_mut().for_each(|i| *i = i.div_ceil(2).min(kept.len() - 1));
-        frames.shown.dedup();
-        frames.error *= COARSER;
+    let mut kept: Vec<usize> = (0..count).collect();
+    while kept.len() * width > most && kept.len() / 2 >= FEWEST {
+        let last = kept.len() - 1;
+        kept = kept.iter().enumerate().filter(|(i, _)| i % 2 == 0 || *i == last).map(|(_, frame)| *frame).collect();
     }
+    if kept.len() == count {
+        return;
+    }
+    let mut off = left_out(scene, &kept);
+    if off > UNSEEN * size(scene) {
+        kept = chosen(scene, (most / width).max(FEWEST));
+        off = left_out(scene, &kept);
+    }
+    let rows = |values: &[f64], width: usize| -> Vec<f64> {
+        kept.iter().flat_map(|i| values.iter().skip(i * width).take(width).copied()).collect()
+    };
+    for arrow in &mut scene.arrows {
+        arrow.values = rows(&arrow.values, arrow.values.len() / count);
+    }
+    let frames = &mut scene.frames;
+    frames.shown.iter_mut().for_each(|i| *i = kept.partition_point(|frame| frame < i).min(kept.len() - 1));
+    frames.shown.dedup();
+    (frames.at, frames.poses) = (rows(&frames.at, 1), rows(&frames.poses, width));
+    frames.error += off;
+}
+
+/// What a turn moves at most, m for a rad, or for a number of a quaternion.
+fn turned(scene: &Scene) -> f64 {
+    size(scene) * if scene.dimensions == 2 { 1.0 } else { 2.0 }
+}
+
+/// How far bodies are from where they are drawn at most, m, if some frames alone are kept.
+fn left_out(scene: &Scene, kept: &[usize]) -> f64 {
+    let (stride, width, dimensions) = (scene.stride(), scene.width(), scene.dimensions);
+    let Frames { at, poses, .. } = &scene.frames;
+    let places: Vec<f64> = kept.iter().map(|i| at[*i]).collect();
+    let nodes: Vec<f64> = kept.iter().flat_map(|i| &poses[i * width..(i + 1) * width]).copied().collect();
+    let arm = turned(scene);
+    let mut found = vec![0.0; width];
+    let mut most: f64 = 0.0;
+    for (x, frame) in at.iter().zip(poses.chunks_exact(width.max(1))) {
+        interpolate(&places, &nodes, stride, *x, &mut found);
+        for (a, b) in found.chunks_exact(stride).zip(frame.chunks_exact(stride)) {
+            let gap =
+                |range: std::ops::Range<usize>| a[range.clone()].iter().zip(&b[range]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            most = most.max(gap(0..dimensions) + arm * gap(dimensions..stride));
+        }
+    }
+    most
+}
+
+/// About `most` frames, as many as interpolation needs.
+fn chosen(scene: &Scene, most: usize) -> Vec<usize> {
+    let (stride, width) = (scene.stride(), scene.width());
+    let columns: Vec<Vec<f64>> = (0..width).map(|k| scene.frames.poses.iter().skip(k).step_by(width).copied().collect()).collect();
+    let off = CHOSEN * size(scene);
+    let within = |k: usize| if k % stride < scene.dimensions { off } else { off / turned(scene) };
+    let allowed = (0..width).map(|k| Allowed::everywhere(within(k).max(f64::MIN_POSITIVE))).collect();
+    let columns = columns.iter().map(Vec::as_slice).collect();
+    // twice as many at one go may be more than are wanted
+    Curves { x: &scene.frames.at, columns, allowed, switches: &[] }.kept(most / 2).rows
 }
 
 #[cfg(test)]
@@ -184,6 +231,27 @@ mod tests {
         thinned(&mut scene, 160);
         assert_eq!(scene.frames.at.len(), 51);
         assert_eq!((scene.frames.at.last(), scene.frames.poses.len()), (Some(&100.0), 153));
-        assert_eq!((scene.frames.shown, scene.frames.error), (vec![0, 25, 50], 16e-6));
+        assert_eq!(scene.frames.shown, [0, 25, 50]);
+        // along a straight line nothing is left out
+        assert!((scene.frames.error - 1e-6).abs() < 1e-12, "{}", scene.frames.error);
+    }
+
+    #[test]
+    fn frames_that_lie_close_beside_a_dead_point_stay() {
+        // a body that moves with the root of the way to the end, at frames ever closer to it
+        let at: Vec<f64> = (0..2000).map(|i| 1.0 - (1.0 - f64::from(i) / 1999.0).powi(4)).collect();
+        let poses: Vec<f64> = at.iter().flat_map(|x| [(1.0 - x).max(0.0).sqrt(), 0.0, 0.0]).collect();
+        let frames = Frames { poses: poses.clone(), at: at.clone(), shown: vec![0, 1999], error: 0.0, closed: false };
+        let mut scene = Scene { dimensions: 2, bodies: vec![Default::default(); 2], frames, ..Scene::default() };
+        thinned(&mut scene, 600);
+        let Frames { at: places, poses: nodes, shown, error, .. } = &scene.frames;
+        assert!(places.len() < 210 && *error < 1e-4, "{} frames, to within {error}", places.len());
+        assert_eq!(shown[..], [0, places.len() - 1]);
+        let off = at.iter().zip(poses.chunks_exact(3)).map(|(x, pose)| {
+            let mut found = [0.0; 3];
+            interpolate(places, nodes, 3, *x, &mut found);
+            (found[0] - pose[0]).abs()
+        });
+        assert!(off.fold(0.0, f64::max) <= error + 1e-15);
     }
 }

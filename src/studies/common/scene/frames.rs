@@ -14,6 +14,12 @@ const CELLS: usize = 6;
 const ENOUGH: f64 = 1e-6;
 /// Error that is not seen, as part of the size: a motion with blows, whose error falls with the cells only, is taken no further.
 const UNSEEN: f64 = 1e-3;
+/// Of one that is still seen, cells are halved where it is off by more than this part of the size: beside a dead point bodies move with
+/// the root of the way to it, and a uniform grid comes to nothing.
+const FAIR: f64 = 1e-4;
+/// Places within a cell at which the bound is told in the end, and how often a cell is halved at most.
+const WITHIN: [f64; 3] = [0.125, 0.5, 0.875];
+const HALVED: usize = 40;
 /// The middle of a cell is not quite the worst place in it.
 const BESIDE_MIDDLE: f64 = 1.5;
 /// Irrational places that are looked at.
@@ -98,7 +104,13 @@ pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: 
         before = error / BESIDE_MIDDLE;
         grid = interleaved(grid, middles);
     };
-    sampler.frames(span, &grid, error)
+    let cells = grid.len() - 1;
+    let parts: Vec<f64> = (0..=cells).map(|i| i as f64 / cells as f64).collect();
+    if error <= UNSEEN * sampler.size {
+        return sampler.frames(span, &parts, &grid, error);
+    }
+    let (parts, grid, error) = sampler.halved(parts, grid, cells + most / 4, &mut look);
+    sampler.frames(span, &parts, &grid, error)
 }
 
 /// The part of a span at which the independent variable has a value between those of its ends, by regula falsi.
@@ -240,14 +252,52 @@ impl Sampler {
         self.reaches[1..].iter().zip(poses).map(off).fold(0.0, f64::max)
     }
 
-    /// The frames of a grid.
-    fn frames(&self, span: Span, grid: &[Option<Frame>], error: f64) -> Frames {
+    /// A grid whose cells are halved where interpolation is off, to `most` cells; with the parts of the span where its frames are, and how
+    /// far it is off then.
+    fn halved(
+        &self,
+        mut parts: Vec<f64>,
+        mut grid: Vec<Option<Frame>>,
+        most: usize,
+        look: &mut dyn FnMut(f64) -> Option<Frame>,
+    ) -> (Vec<f64>, Vec<Option<Frame>>, f64) {
+        let mut at = |parts: &[f64], cell: usize, within: f64| look(parts[cell] + within * (parts[cell + 1] - parts[cell]));
+        let mut middles: Vec<Option<Frame>> = (0..parts.len() - 1).map(|cell| at(&parts, cell, 0.5)).collect();
+        for _ in 0..HALVED {
+            let curve = self.curve(&grid);
+            let off = |middle: &Option<Frame>| middle.as_ref().is_some_and(|frame| self.error(&curve, frame) > FAIR * self.size);
+            let bad: Vec<bool> = middles.iter().map(off).collect();
+            if !bad.contains(&true) || grid.len() >= most {
+                break;
+            }
+            // from the last cell on, so that those before keep their places
+            for cell in (0..bad.len()).rev().filter(|cell| bad[*cell]) {
+                parts.insert(cell + 1, 0.5 * (parts[cell] + parts[cell + 1]));
+                grid.insert(cell + 1, middles[cell].take());
+                let halves = [at(&parts, cell, 0.5), at(&parts, cell + 1, 0.5)];
+                middles.splice(cell..=cell, halves);
+            }
+        }
+        let curve = self.curve(&grid);
+        let places = (0..parts.len() - 1).flat_map(|cell| WITHIN.map(|within| (cell, within)));
+        let off = places.filter_map(|(cell, within)| Some(self.error(&curve, &at(&parts, cell, within)?)));
+        let error = BESIDE_MIDDLE * off.fold(0.0, f64::max);
+        (parts, grid, error)
+    }
+
+    /// The frames of a grid, at some parts of the span.
+    fn frames(&self, span: Span, parts: &[f64], grid: &[Option<Frame>], error: f64) -> Frames {
         let Continuous { mut at, mut poses, sign } = self.curve(grid);
         let width = if at.is_empty() { 0 } else { poses.len() / at.len() };
         let closed = span.turns && at.len() > 2 && self.returns(&poses[..width], &poses[poses.len() - width..]);
         let last = at.len().saturating_sub(1);
         let steps = if closed { SHOWN } else { SHOWN - 1 };
-        let mut shown: Vec<usize> = (0..SHOWN).map(|i| (2 * i * last + steps) / (2 * steps)).collect();
+        let known: Vec<f64> = parts.iter().zip(grid).filter(|(_, frame)| frame.is_some()).map(|(part, _)| *part).collect();
+        // of a uniform grid by their numbers, so that a turn has them at round places; of one with halved cells by the way
+        let even = parts.len() < 3 || parts.windows(2).all(|ends| (ends[1] - ends[0] - parts[1]).abs() < 1e-12);
+        let next = |part: f64| known.partition_point(|at| *at < part - 1e-12);
+        let place = |i: usize| if even { (2 * i * last + steps) / (2 * steps) } else { next(i as f64 / steps as f64).min(last) };
+        let mut shown: Vec<usize> = (0..SHOWN).map(place).collect();
         shown.dedup();
         shown.retain(|i| *i < at.len());
         if sign < 0.0 {
@@ -279,6 +329,24 @@ impl Sampler {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_are_halved_beside_a_dead_point_until_the_bound_is_small() {
+        // a bar that turns with the root of the way to the end
+        let sampler = Sampler { reaches: vec![0.0, 0.3], stride: 3, size: 1.0 };
+        let turn = |part: f64| (1.0 - part).sqrt();
+        let mut look = |part: f64| Some((part, vec![0.0, 0.0, turn(part)]));
+        let parts: Vec<f64> = (0..=64).map(|i| f64::from(i) / 64.0).collect();
+        let grid: Vec<Option<Frame>> = parts.iter().map(|part| look(*part)).collect();
+        let (parts, grid, error) = sampler.halved(parts, grid, 500, &mut look);
+        assert!(error < 3e-4 && parts.len() < 150, "{error} with {}", parts.len());
+        let frames = sampler.frames(Span { ends: [0.0, 1.0], ..Span::default() }, &parts, &grid, error);
+        let off = |x: f64| 0.3 * (frames.at(x, 2)[2] - turn(x)).abs();
+        let worst = (0..100_000).map(|i| off(f64::from(i) / 1e5)).fold(0.0, f64::max);
+        assert!(worst <= error, "{worst} is more than the bound {error}");
+        let shown: Vec<f64> = frames.shown.iter().map(|i| frames.at[*i]).collect();
+        assert!(shown.len() == SHOWN && shown.iter().enumerate().all(|(i, x)| (x - 0.2 * i as f64).abs() < 0.02), "{shown:?}");
+    }
 
     #[test]
     fn a_place_that_is_asked_for_is_an_edge_of_a_cell() {
