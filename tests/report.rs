@@ -168,6 +168,49 @@ fn a_report_is_of_what_ran_and_goes_when_it_is_not_wanted() {
 }
 
 #[test]
+fn a_study_without_results_is_listed_with_the_reason_and_changed_values_are_told() {
+    let place = Place::new("failed");
+    let model = place.0.join("arm.yaml");
+    let text = "
+grashof: 1
+name: arm
+space: planar
+gravity: none
+parameters: { l: 1 m, speed: 60 rpm }
+bodies: { arm: { bar: { length: l, mass: 1 kg } } }
+joints: { O: { revolute: [ground, arm.start] } }
+drivers: { drive: { joint: O, speed: speed } }
+start: { O.angle: 0 deg }
+studies:
+  far:
+    about: It does not reach so far.
+    kinematics: { over: 1 turn, samples: 12 }
+    scalars: { reach: max(arm.end.x) }
+    solve: { vary: l, between: [1 m, 2 m], target: { reach: 5 m } }
+  turn: { kinematics: { over: 1 turn, samples: 12 }, columns: [O.angle] }
+";
+    fs::write(&model, text).unwrap();
+    let run = |more: &[&str]| place.run(model.to_str().unwrap(), more);
+    assert_eq!(run(&["--set", "speed=90 rpm"]).status.code(), Some(3));
+    let data = place.data();
+    assert!(data["overview"].as_array().unwrap().contains(&serde_json::json!({ "label": "set", "value": "speed = 90 rpm" })));
+    let studies = data["studies"].as_array().unwrap();
+    assert_eq!((studies.len(), &studies[1]["study"]), (2, &Value::from("turn")));
+    assert_eq!((&studies[0]["study"], &studies[0]["about"]), (&Value::from("far"), &Value::from("It does not reach so far.")));
+    let fault = &studies[0]["faults"][0];
+    assert!(fault["message"].as_str().unwrap().contains("does not meet its target 5 m"), "{fault}");
+    assert_eq!((&fault["place"], fault["help"].as_str().unwrap().is_empty()), (&Value::from("studies.far.solve"), false));
+    // one that is left out since its parameter is set is listed, too
+    assert!(run(&["--set", "l=2 m"]).status.success());
+    let data = place.data();
+    assert!(data["studies"][0]["faults"][0]["message"].as_str().unwrap().contains("varies `l`, which `--set` fixes"));
+    // of a run without any result nothing is written
+    fs::remove_file(place.0.join("report.html")).unwrap();
+    assert_eq!(run(&["--study", "far"]).status.code(), Some(3));
+    assert!(place.page().is_none());
+}
+
+#[test]
 fn somebodys_page_is_not_replaced() {
     let place = Place::new("somebody");
     fs::write(place.0.join("report.html"), "mine").unwrap();

@@ -10,9 +10,16 @@ use crate::studies::common::case::parameters;
 pub fn told<T>(document: &Document, selection: Option<&Selection<'_>>, path: &str, make: impl FnOnce(&ReportModel<'_>) -> T) -> T {
     let model = selection.and_then(|selection| document.model(selection).ok());
     let looked = model.as_ref().and_then(|model| survey(model, &parameters(model)).ok());
-    let overview = looked.as_ref().map(overview).unwrap_or_default();
+    let mut overview = looked.as_ref().map(overview).unwrap_or_default();
+    overview.extend(selection.into_iter().flat_map(changed));
     let (name, about) = model.as_ref().map_or((document.file(), ""), |model| (&model.name, &model.about));
     make(&ReportModel { name, path, source: document.text(), about, overview: &overview })
+}
+
+/// What was given from outside of the file instead of what stands there.
+fn changed(selection: &Selection<'_>) -> Vec<(String, String)> {
+    let variants = selection.variants.iter().map(|name| ("variant".to_string(), name.clone()));
+    variants.chain(selection.sets.iter().map(|(name, value)| ("set".into(), format!("{name} = {value}")))).collect()
 }
 
 /// What is worth knowing of a mechanism at a glance.

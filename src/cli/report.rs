@@ -3,7 +3,8 @@
 use super::{Common, code, files};
 use grashof::api::told;
 use grashof::model::Document;
-use grashof::output::{Report, ReportModel, Staging};
+use grashof::output::{Report, ReportFault, ReportModel, Staging};
+use serde_json::Value;
 use std::path::Path;
 
 /// Its name. The name of a study has no point, so that no file of a study is called so.
@@ -14,6 +15,13 @@ pub(super) fn begun(document: &Document, common: &Common) -> Report {
     // where it lies is nobody's business to whom the page is sent
     let path = Path::new(document.file()).file_name().and_then(|name| name.to_str()).unwrap_or_default();
     with_model(document, common, path, Report::new)
+}
+
+/// Lists a study without results, with what it is for and the errors that were printed.
+pub(super) fn add_failed(report: &mut Report, study: &str, about: &str, errors: &[Value]) {
+    let text = |error: &Value, key: &str| error[key].as_str().unwrap_or_default().to_string();
+    let fault = |error: &Value| ReportFault { message: text(error, "message"), place: text(error, "path"), help: text(error, "help") };
+    report.add_failed(study, about, &errors.iter().map(fault).collect::<Vec<_>>());
 }
 
 /// What a page has of a model, without studies; none if it has errors.

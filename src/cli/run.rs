@@ -10,6 +10,7 @@ use grashof::model::{Document, Model, Selection};
 use grashof::output::{Formats, ReportStudy};
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::verify::verify;
+use serde_json::json;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -108,9 +109,15 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
     let mut loader = Loader::new(&document, common.threads());
     let (mut noted, mut uncut) = (false, 0);
     for study in &studies {
-        let mut reported = |report: Option<String>| {
+        let mut reported = |told: Option<Told>, about: &str| {
             let errors = take_errors();
-            match report {
+            let (json, shown) = told.map_or((None, None), |told| (told.json, told.page));
+            match (&mut page, &shown) {
+                (Some(page), Some(study)) => page.add(study),
+                (Some(page), None) => report::add_failed(page, study, about, &errors),
+                (None, _) => {}
+            }
+            match json {
                 Some(report) => reports.push(with_errors(&report, errors)),
                 None if errors.is_empty() => {}
                 None => reports.push(failure_json(Some(study), errors)),
@@ -122,7 +129,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
             Ok(model) => model,
             Err(code) => {
                 let code = if interrupted() { print_interrupt(study, "is not begun") } else { code };
-                reported(None);
+                reported(None, "");
                 worst = worst.max(code);
                 if interrupted() {
                     return code;
@@ -133,12 +140,16 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         match conflict(&model) {
             Some(parameter) if !arguments.study.is_empty() => {
                 worst = worst.max(refused(&parameter, study));
-                reported(None);
+                reported(None, about(&model));
                 continue;
             }
             Some(parameter) => {
+                let reason = format!("study `{study}` is skipped: it varies `{parameter}`, which `--set` fixes");
                 if !common.quiet {
-                    print_note(&format!("note: study `{study}` is skipped: it varies `{parameter}`, which `--set` fixes"));
+                    print_note(&format!("note: {reason}"));
+                }
+                if let Some(page) = &mut page {
+                    report::add_failed(page, study, about(&model), &[json!({ "message": reason })]);
                 }
                 continue;
             }
@@ -152,12 +163,9 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         request.drop_expectations(&mut model, common.changes(), &mut noted);
         let told = request.study(&model, study, study);
         worst = worst.max(told.code);
-        reported(told.json);
+        reported(Some(told), about(&model));
         if interrupted() {
             return code::INTERRUPTED;
-        }
-        if let (Some(page), Some(study)) = (&mut page, &told.page) {
-            page.add(study);
         }
     }
     if uncut == studies.len() {
@@ -171,6 +179,11 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         worst = worst.max(report::written(page, &directory, common));
     }
     worst
+}
+
+/// What the study of a model is for.
+fn about(model: &Model) -> &str {
+    model.study.as_ref().map_or("", |study| &study.about)
 }
 
 /// Says what became of a study when Ctrl-C was pressed.
@@ -240,7 +253,7 @@ impl Request<'_> {
             return Told { code: print_interrupt(study, what), json, page: None };
         }
         let mut code = finished.code;
-        self.show(&finished, stem, model.study.as_ref().map_or("", |s| s.about.as_str()));
+        self.show(&finished, stem, about(model));
         if self.wanted.verify && finished.output.is_some() {
             interrupt::begins(format!("interrupted: study `{study}` is written, and not verified"), false);
             code = code.max(self.verified(model, study, &finished.computed));

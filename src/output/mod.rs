@@ -79,7 +79,7 @@ pub use plot::{Axis, Curve, Figure, Mark, Scale};
 pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
 pub use posed::drawing;
 pub use raster::RenderError;
-pub use report::{LIVE_POLICY, Report, ReportModel, ReportRuns, ReportStudy, live_page};
+pub use report::{LIVE_POLICY, Report, ReportFault, ReportModel, ReportRuns, ReportStudy, live_page};
 pub use results_schema::results_schema;
 pub use row_files::RowFiles;
 pub use scalars::ten_digits;

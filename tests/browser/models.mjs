@@ -236,6 +236,24 @@ studies:
     columns: [O.angle, C.angle, C.omega, drive, A]
     plot: { torque: [drive.torque] }
 `,
+  // a study without results before one with some
+  short_arm: `grashof: 1
+name: short arm
+space: planar
+gravity: none
+parameters: { l: 1 m }
+bodies: { arm: { bar: { length: l, mass: 1 kg } } }
+joints: { O: { revolute: [ground, arm.start] } }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 0 deg }
+studies:
+  far:
+    about: It does not reach so far.
+    kinematics: { over: 1 turn, samples: 12 }
+    scalars: { reach: max(arm.end.x) }
+    solve: { vary: l, between: [1 m, 2 m], target: { reach: 5 m } }
+  turn: { kinematics: { over: 1 turn, samples: 12 }, columns: [O.angle] }
+`,
   // seen from above, and at a place of its motion that no frame has by itself
   door: `grashof: 1
 name: door
@@ -255,7 +273,7 @@ studies:
 export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5,-90\n' }, winch: { 'seen.csv': 'time,height\n0.1,-20\n0.2,-90\n0.3,-210\n0.4,-380\n' } };
 
 /** Models a study of which stops on its way. */
-export const STOPPED = ['stuck', 'slant'];
+export const STOPPED = ['short_arm', 'stuck', 'slant'];
 
 /** Models that are run with their figures. */
 export const WITH_FIGURES = ['swing'];

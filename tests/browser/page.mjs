@@ -49,6 +49,19 @@ export async function what_is_not_met_is_marked_and_leads_to_its_line(open) {
   assert.match(await tab.locator('.yaml .here').innerText(), /expect: \{ max\(P\.position\)/);
 }
 
+export async function a_study_without_results_says_why(open) {
+  const { tab } = await open('short_arm');
+  assert.deepEqual(await tab.locator('nav .name').allInnerTexts(), ['far', 'turn']);
+  assert.equal(await tab.locator('nav .bad').innerText(), 'far');
+  assert.equal(await tab.locator('#study-title').innerText(), 'far');
+  const found = tab.locator('.findings .bad');
+  assert.match(await found.innerText(), /`?reach`? does not meet its target 5 m[^]*studies\.far\.solve[^]*help: give other bounds/);
+  await found.locator('.place').click();
+  assert.match(await tab.locator('.yaml .here').innerText(), /solve: \{ vary: l/);
+  await tab.locator('nav a', { hasText: 'turn' }).click();
+  await tab.locator('#study-title', { hasText: 'turn' }).waitFor();
+}
+
 export async function the_file_shows_the_place_of_a_finding(open) {
   const { tab } = await open('crank_rocker', { study: 'lengths' });
   const place = tab.locator('.findings .place').first();

@@ -1,15 +1,15 @@
 // Reading the data of the page.
 
-import type { CodedScene, Data, Differences, Scene } from './types';
+import type { CodedScene, Data, Differences, Failed, Scene, Study } from './types';
 
 /** The data behind the page: base64 of gzip of JSON. */
-export async function load(): Promise<Data> {
+export async function load(): Promise<Omit<Data, 'studies'> & { studies: (Study | Failed)[] }> {
   const text = document.getElementById('data')?.textContent ?? '';
   const letters = atob(text);
   const bytes = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return JSON.parse(await new Response(stream).text()) as Data;
+  return JSON.parse(await new Response(stream).text());
 }
 
 /** Numbers frame after frame from their differences. */

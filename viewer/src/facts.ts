@@ -3,7 +3,7 @@
 import { type Child, h } from './dom';
 import { broken, coded, digits, heading, hinted, shownIn, valued } from './numbers';
 import { plain } from './table';
-import type { Certificate, Column, Num, Results, Scalar, Solution, Statistics, Study } from './types';
+import type { Certificate, Column, Fault, Num, Results, Scalar, Solution, Statistics, Study } from './types';
 
 /** Part of the largest number of a list below which another is nothing but rounding. */
 const NOTHING = 1e-14;
@@ -40,6 +40,13 @@ function solution(solved: Solution | null): HTMLElement | null {
 /** A button that leads to a place of the model file. */
 function link(place: string, show: ShowPlace): HTMLElement | null {
   return place === '' ? null : h('button', { type: 'button', class: 'place', title: 'show in the model file', click: () => show(place) }, place);
+}
+
+/** Why a study has no results. */
+export function faults(all: Fault[], show: ShowPlace): HTMLElement {
+  const entry = ({ message, place, help }: Fault) =>
+    h('li', { class: 'bad' }, h('span', {}, ...coded(message)), ' ', link(place, show), help !== '' && h('p', { class: 'help soft' }, 'help: ', ...coded(help)));
+  return h('ul', { class: 'findings' }, ...all.map(entry));
 }
 
 /** Why it stopped, what was found, and which expectations are not met. */

@@ -8,9 +8,10 @@ import type { Told } from './scales';
 import { coded } from './numbers';
 import { prose } from './prose';
 import { type Source, source } from './source';
+import { faults } from './facts';
 import { StudyView } from './study';
 import { begin, isDark, toggle } from './theme';
-import type { Data, Study } from './types';
+import type { Data, Failed, Fault, Study } from './types';
 
 declare global {
   interface Window {
@@ -37,7 +38,7 @@ const EDGE = 16;
 const LATER = 250;
 
 /** A study in the contents. */
-export interface Entry { name: string; about: string; bad: boolean; state?: string }
+export interface Entry { name: string; about: string; bad: boolean; state?: string; faults?: Fault[] }
 
 /** What a page has beside that of a report. */
 export interface More {
@@ -54,7 +55,8 @@ function headOf({ model, overview, version }: Data): string {
   return JSON.stringify([model.name, model.about, overview, version]);
 }
 
-export function entryOf(study: Study): Entry {
+export function entryOf(study: Study | Failed): Entry {
+  if ('faults' in study) return { name: study.study, about: study.about, bad: true, faults: study.faults };
   return { name: study.study, about: study.about, bad: study.stopped !== null || study.expectations.some((e) => !e.met) };
 }
 
@@ -247,7 +249,11 @@ export class Page {
 
   private waiting(entry: Entry): HTMLElement {
     return h('article', { class: 'study', 'aria-labelledby': 'study-title' },
-      h('header', { class: 'title' }, h('h2', { id: 'study-title', tabindex: -1 }, entry.name), h('p', { class: 'about' }, entry.bad ? 'There is no result of this study.' : 'is being computed')));
+      h('header', { class: 'title' },
+        h('h2', { id: 'study-title', tabindex: -1 }, entry.name),
+        entry.faults && entry.about !== '' && h('p', { class: 'about' }, ...coded(entry.about)),
+        h('p', { class: 'about' }, entry.bad ? 'There is no result of this study.' : 'is being computed')),
+      entry.faults && entry.faults.length > 0 && h('div', { class: 'facts card' }, faults(entry.faults, (place) => this.current().show(place))));
   }
 
   private mark(): void {

@@ -9,6 +9,11 @@ export interface Data {
   studies: Study[];
 }
 
+/** Why a study has no results. */
+export interface Fault { message: string; place: string; help: string }
+/** A study without results. */
+export interface Failed { study: string; about: string; faults: Fault[] }
+
 export interface Column {
   name: string;
   quantity: string;

@@ -7,10 +7,11 @@
 //! ```
 //!
 //! where each study is [`Results`](crate::results::Results) as serde writes it, with `about`, with `rows`, which says what was left out
-//! of its table, and with the frames of its scenes as differences ([`poses`]). The same run gives the same bytes.
+//! of its table, and with the frames of its scenes as differences ([`poses`]). One without results is `{ "study", "about", "faults" }`.
+//! The same run gives the same bytes.
 
-mod base64;
 mod axes;
+mod base64;
 mod bundle;
 mod live;
 mod poses;
@@ -27,6 +28,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::{Value, json};
 use std::io::Write;
+use study::in_one_line;
 
 const PAGE: &str = include_str!("../../../viewer/dist/page.js");
 /// What the page may load and run: itself, by the checksums of its parts.
@@ -62,11 +64,24 @@ impl ReportModel<'_> {
     }
 }
 
+/// Why a study has no results.
+#[derive(Clone, Debug, Default)]
+pub struct ReportFault {
+    /// In words.
+    pub message: String,
+    /// Path in the file; may be empty.
+    pub place: String,
+    /// One remedy; may be empty.
+    pub help: String,
+}
+
 /// A report to which studies are added as they are finished; it keeps them compressed.
 #[derive(Debug)]
 pub struct Report {
     title: String,
     data: GzEncoder<Vec<u8>>,
+    /// Studies that it lists, and those of them that have results.
+    listed: usize,
     studies: usize,
     spatial: bool,
 }
@@ -76,8 +91,13 @@ impl Report {
     #[must_use]
     pub fn new(model: &ReportModel<'_>) -> Self {
         let head = model.json().to_string();
-        let mut report =
-            Self { title: model.name.into(), data: GzEncoder::new(Vec::new(), Compression::default()), studies: 0, spatial: false };
+        let mut report = Self {
+            title: model.name.into(),
+            data: GzEncoder::new(Vec::new(), Compression::default()),
+            listed: 0,
+            studies: 0,
+            spatial: false,
+        };
         report.put(head.strip_suffix('}').unwrap_or(&head));
         report.put(",\"studies\":[");
         report
@@ -85,15 +105,27 @@ impl Report {
 
     /// Adds a study.
     pub fn add(&mut self, study: &ReportStudy) {
-        if self.studies > 0 {
-            self.put(",");
-        }
-        self.put(&study.text);
+        self.list(&study.text);
         self.studies += 1;
         self.spatial |= study.spatial;
     }
 
-    /// Whether there is no study.
+    /// Lists a study.
+    fn list(&mut self, text: &str) {
+        if self.listed > 0 {
+            self.put(",");
+        }
+        self.put(text);
+        self.listed += 1;
+    }
+
+    /// Adds a study that has no results, with what it is for and why there are none: messages, places in the file, remedies.
+    pub fn add_failed(&mut self, study: &str, about: &str, faults: &[ReportFault]) {
+        let faults: Vec<_> = faults.iter().map(|f| json!({ "message": f.message, "place": f.place, "help": f.help })).collect();
+        self.list(&json!({ "study": study, "about": in_one_line(about), "faults": faults }).to_string());
+    }
+
+    /// Whether no study has results.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.studies == 0

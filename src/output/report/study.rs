@@ -216,6 +216,11 @@ fn json(value: &impl serde::Serialize) -> Value {
 }
 
 fn with_about(mut value: Value, about: &str) -> String {
-    value["about"] = about.split_whitespace().collect::<Vec<_>>().join(" ").into();
+    value["about"] = in_one_line(about).into();
     value.to_string()
+}
+
+/// A text without its line breaks.
+pub(super) fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
