@@ -254,6 +254,32 @@ studies:
     solve: { vary: l, between: [1 m, 2 m], target: { reach: 5 m } }
   turn: { kinematics: { over: 1 turn, samples: 12 }, columns: [O.angle] }
 `,
+  // numbers with long equal digits, far from 1, and an axis that ends within its curve
+  digits: `grashof: 1
+name: digits
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies: { rod: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { A: { revolute: [ground, rod.start] } }
+start: { A.angle: -30 deg }
+measures:
+  nearly: 30 deg + 1e-10*A.angle
+  spike: 1/(1.001 + sin(A.angle))
+  tiny: 1e-17 m*cos(A.angle)
+  large: 3e7 N*cos(A.angle)
+  shift: 2 m + 1e-6 m*cos(A.angle)
+studies:
+  swing:
+    dynamics: { until: 1 s, every: 10 ms }
+    columns: [time, nearly, spike, tiny, large, shift]
+    plot:
+      nearly: [nearly]
+      spike: { show: [spike], y: { from: 0, to: 20 } }
+      tiny: [tiny]
+      shift: [shift]
+      both: { show: [nearly], right: { show: [large] } }
+      path: { show: [tiny], over: nearly }
+`,
   // seen from above, and at a place of its motion that no frame has by itself
   door: `grashof: 1
 name: door
@@ -276,4 +302,4 @@ export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5
 export const STOPPED = ['short_arm', 'stuck', 'slant'];
 
 /** Models that are run with their figures. */
-export const WITH_FIGURES = ['swing'];
+export const WITH_FIGURES = ['swing', 'digits'];

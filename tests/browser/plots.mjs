@@ -292,6 +292,39 @@ export async function curves_beside_poles_are_those_of_the_rows(open) {
   }
 }
 
+export async function axes_say_what_those_of_the_program_say(open) {
+  for (const [model, study] of [['digits', 'swing'], ['swing', 'path']]) {
+    const { tab, directory } = await open(model, { study });
+    const names = await tab.locator('[data-plot]').evaluateAll((all) => all.map((one) => one.dataset.plot));
+    for (const name of names) {
+      await plot(tab, name).scrollIntoViewIfNeeded();
+      await tab.waitForTimeout(100);
+      const svg = readFileSync(`${directory}/${study}-${name}.svg`, 'utf8');
+      // the names of axes have a size of their own, and units behind `in`
+      const wanted = [...svg.matchAll(/<text[^>]* font-size="22"[^>]*>([^<]+)</g)].map(([, text]) => text.replace(/ in ([^ ].*)$/, ' [$1]'));
+      const found = await plot(tab, name).locator('svg.chart text').allTextContents();
+      assert.ok(wanted.length >= 2, svg.slice(0, 2000));
+      for (const axis of wanted) assert.ok(found.includes(axis), `${name}: ${axis} is not among ${found.join(' | ')}`);
+    }
+  }
+  const { tab } = await open('digits');
+  // numbers are equal in no place, and end with the axis
+  const ticks = (await plot(tab, 'nearly').locator('svg.chart text[text-anchor=end]').allTextContents());
+  assert.ok(ticks.length >= 3 && new Set(ticks).size === ticks.length, ticks.join());
+  const upright = (await plot(tab, 'spike').locator('svg.chart text[text-anchor=end]').allTextContents()).map(Number);
+  assert.deepEqual([Math.min(...upright), Math.max(...upright)], [0, 20]);
+}
+
+export async function values_are_told_with_units_and_not_with_powers_of_ten_as_units(open) {
+  const { tab } = await open('digits');
+  await seek(tab, 0.25);
+  const told = (name) => plot(tab, name).locator('.value').first().innerText();
+  assert.match(await told('nearly'), /^29\.99999999\d+ deg$/);
+  assert.match(await told('shift'), /^2\.000000[5-9]\d* m$/);
+  assert.match(await told('tiny'), /^[5-9]\.\d+·10⁻¹⁸ m$/);
+  assert.match(await told('spike'), /^4\.\d+$/);
+}
+
 export async function axes_of_different_places_fill_their_ranges(open) {
   const { tab } = await open('double_wishbone', { study: 'bump' });
   const ticks = (await plot(tab, 'track').locator('text').allTextContents()).map((text) => Number(text.replace('−', '-'))).filter(Number.isFinite);

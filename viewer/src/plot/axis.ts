@@ -1,11 +1,19 @@
-// Axes: from values to pixels, and where ticks stand.
+// Axes: from values to pixels, where ticks stand, and how their numbers are shown: with the prefix, the power of ten and the number that is
+// taken off which the figures of the program have (src/output/panel.rs).
 
-import { digits, pretty } from '../numbers';
+import { digits, heading, pretty } from '../numbers';
+
+/** Digits of a value that is read at the cursor. */
+const READ = 6;
+
+/** How numbers of an axis are shown: those of the ticks are `(value − offset) factor`, in `unit`, which has a prefix or a power of ten. */
+export interface Shown { unit: string; factor: number; offset: number }
 
 export interface Axis {
   low: number;
   high: number;
   log: boolean;
+  shown: Shown;
   /** From a value to a part of the axis. */
   part(value: number): number;
   /** Back from a part. */
@@ -41,30 +49,41 @@ function step(range: number, count: number, unit: string): number {
   return [1, 2, 5, 10].map((m) => m * power).find((s) => s >= least * (1 - 1e-9))!;
 }
 
-function linear(low: number, high: number, unit: string, gap: number): Axis {
+/** How numbers from `low` to `high` are shown, as in the figures of the program; `shifts` lets a number be taken off where all have long equal digits. */
+function shownFrom(low: number, high: number, unit: string, shifts: boolean): Shown {
+  const [span, largest] = [high - low, Math.max(Math.abs(low), Math.abs(high))];
+  const round = 10 ** Math.ceil(Math.log10(span));
+  const offset = shifts && span > 0 && span < 1e-4 * largest ? Math.round((low + high) / 2 / round) * round : 0;
+  return { ...scaled(unit, Math.max(Math.abs(low - offset), Math.abs(high - offset))), offset };
+}
+
+function linear(low: number, high: number, shown: Shown, gap: number): Axis {
   const range = high - low || 1;
+  const { unit, factor, offset } = shown;
   return {
-    low, high, log: false,
+    low, high, log: false, shown,
     part: (value) => (value - low) / range,
     value: (part) => low + part * range,
     ticks(room) {
-      const by = step(range, room / gap, unit);
+      const [from, to] = [(low - offset) * factor, (high - offset) * factor];
+      const by = step(to - from || 1, room / gap, unit);
       const decimals = Math.max(0, -Math.floor(Math.log10(by) + 1e-9));
       const out = [];
-      for (let k = Math.ceil(low / by - 1e-9); k * by <= high + 1e-9 * range; k++) {
+      for (let k = Math.ceil(from / by - 1e-9); k * by <= to + 1e-9 * (to - from); k++) {
         const at = k * by;
-        out.push({ at, text: (decimals <= 6 && Math.abs(at) < 1e7 ? at.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1').replace('-', '−') : digits(at, 4)) });
+        const text = decimals <= 6 && Math.abs(at) < 1e7 ? at.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1').replace('-', '−') : digits(at, 4);
+        out.push({ at: at / factor + offset, text });
       }
       return out;
     },
   };
 }
 
-function logarithmic(low: number, high: number): Axis {
+function logarithmic(low: number, high: number, unit: string): Axis {
   const [a, b] = [Math.log10(low), Math.log10(high)];
   const range = b - a || 1;
   return {
-    low, high, log: true,
+    low, high, log: true, shown: { unit: pretty(unit), factor: 1, offset: 0 },
     part: (value) => (value > 0 ? (Math.log10(value) - a) / range : NaN),
     value: (part) => 10 ** (a + part * range),
     ticks(room) {
@@ -82,8 +101,8 @@ function logarithmic(low: number, high: number): Axis {
   };
 }
 
-/** An axis over values; `tight` without room at its ends. */
-export function axis(values: Iterable<number>, unit: string, log: boolean, tight: boolean, gap: number): Axis {
+/** An axis over values; `tight` without room at its ends, `plain` without a number that is taken off. */
+export function axis(values: Iterable<number>, unit: string, { log = false, tight = false, plain = false, gap }: { log?: boolean; tight?: boolean; plain?: boolean; gap: number }): Axis {
   let [low, high] = [Infinity, -Infinity];
   for (const x of values) {
     if (!Number.isFinite(x) || (log && x <= 0)) continue;
@@ -91,15 +110,40 @@ export function axis(values: Iterable<number>, unit: string, log: boolean, tight
     if (x > high) high = x;
   }
   if (low > high) [low, high] = log ? [1, 10] : [0, 1];
-  if (log) return logarithmic(low === high ? low / 2 : low / (tight ? 1 : 1.2), low === high ? high * 2 : high * (tight ? 1 : 1.2));
+  if (log) return logarithmic(low === high ? low / 2 : low / (tight ? 1 : 1.2), low === high ? high * 2 : high * (tight ? 1 : 1.2), unit);
   const size = Math.max(Math.abs(low), Math.abs(high));
   // round-off is no curve
-  if (high - low <= 1e-12 * size) [low, high] = [low - 0.05 * (size || 1), high + 0.05 * (size || 1)];
+  const constant = high - low <= 1e-12 * size;
+  if (constant) [low, high] = [low - 0.25 * (size || 4), high + 0.25 * (size || 4)];
   const room = tight ? 0 : 0.06 * (high - low);
-  return linear(low - room, high + room, unit, gap);
+  return linear(low - room, high + room, shownFrom(low, high, unit, !plain && !constant), gap);
 }
 
-/** An axis over a chosen range. */
-export function over(low: number, high: number, unit: string, log: boolean, gap: number): Axis {
-  return log ? logarithmic(low, high) : linear(low, high, unit, gap);
+/** An axis over a range that the file gives, or a reader has chosen by looking closely. */
+export function over(low: number, high: number, unit: string, log: boolean, gap: number, close = false): Axis {
+  return log ? logarithmic(low, high, unit) : linear(low, high, shownFrom(low, high, unit, close), gap);
+}
+
+/** An axis with other ends whose numbers are shown as before. */
+export function withEnds(low: number, high: number, shown: Shown, gap: number): Axis {
+  return linear(low, high, shown, gap);
+}
+
+/** One way to show the numbers of two axes. */
+export function shared(unit: string, a: Axis, b: Axis): Shown {
+  return shownFrom(-Math.max(...[a.low, a.high, b.low, b.high].map(Math.abs)), 0, unit, false);
+}
+
+/** What an axis says: a name, the number that is taken off, and the unit of the rest. */
+export function said(name: string, { shown: { unit, offset } }: Axis, plain: string): string {
+  const off = offset === 0 ? '' : ` ${offset < 0 ? '+' : '−'} ${digits(Math.abs(offset), 12)} ${pretty(plain)}`.trimEnd();
+  return heading(name + off, unit).trim();
+}
+
+/** A value on an axis for a reader: in the unit of the axis, but without powers of ten as units and with what is taken off. */
+export function read(value: number, { low, high, shown: { unit, factor, offset } }: Axis, plain: string): string {
+  const prefixed = offset === 0 && !unit.startsWith('10');
+  // where all have long equal digits the others are told, too
+  const equal = Math.max(0, Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / (high - low))));
+  return `${digits(prefixed ? value * factor : value, Math.min(READ + equal, 15))} ${prefixed ? unit : pretty(plain)}`.trim();
 }

@@ -1,9 +1,8 @@
 // A figure as SVG: panels of curves, one above the other, over one horizontal axis. The screen, the printer and a file get the same.
 
 import { s } from '../dom';
-import { heading, pretty } from '../numbers';
 import type { Ends } from '../types';
-import { type Axis, axis, over, scaled } from './axis';
+import { type Axis, axis, over, read, said, shared, withEnds } from './axis';
 import { type Point, heads } from './heads';
 import { bounded } from './poles';
 
@@ -50,10 +49,9 @@ export interface View {
   strong?: (curve: number) => boolean;
 }
 
-interface Scaled { axis: Axis; factor: number; unit: string; own: string }
-/** Curves of one unit that are shown; `own` is that unit, `unit` the one of the axis. */
-export interface Panel { curves: Curve[]; own: string; top: number; height: number; y: Axis; factor: number; unit: string; right?: Scaled; clipped: boolean }
-export interface Layout { left: number; right: number; width: number; height: number; x: Axis; xFactor: number; panels: Panel[] }
+/** Curves of one unit that are shown. */
+export interface Panel { curves: Curve[]; unit: string; top: number; height: number; y: Axis; right?: Axis; clipped: boolean }
+export interface Layout { left: number; right: number; width: number; height: number; x: Axis; panels: Panel[] }
 
 export const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#3c3c3c'];
 /** Half as long as in the figures of the program. */
@@ -89,33 +87,29 @@ export function style(curve: Curve, figure: Figure): { stroke: string; 'stroke-d
 export function layout(figure: Figure, view: View): Layout {
   const shown = figure.curves.filter((curve) => curve.shown);
   const units = [...new Set(figure.curves.filter((curve) => !curve.right).map((curve) => curve.unit))];
-  const largest = (values: Iterable<number>) => {
-    let most = 0;
-    for (const x of values) if (Math.abs(x) > most && Number.isFinite(x)) most = Math.abs(x);
-    return most;
-  };
-  const horizontal = scaled(figure.x.unit, largest(all(figure.curves, 'x')));
-  const given = view.x ?? null;
-  const x = given ? over(...given, figure.x.unit, false, 80) : limited(figure.range, figure.x.unit, false, 80, axis(all(figure.curves, 'x'), figure.x.unit, false, figure.ordered, 80));
+  const unit = figure.x.unit;
+  const x = view.x ? over(...view.x, unit, false, 80, true) : limited(figure.range, unit, false, 80, axis(all(figure.curves), unit, { tight: figure.ordered, plain: figure.equal, gap: 80 }));
   const height = units.length > 1 ? 170 : 250;
-  const panels = units.map((unit, k): Panel => {
-    const left = shown.filter((curve) => curve.unit === unit && !curve.right);
+  const upright = (curves: Curve[], of: string, range: Ends | undefined, log: boolean): [Axis, boolean] => {
+    const bounds = log ? null : bounded(curves);
+    const values = [...within(curves, view.x ?? [x.low, x.high])].map((y) => (bounds ? Math.min(Math.max(y, bounds[0]), bounds[1]) : y));
+    return [limited(range, of, log, 44, axis(values, of, { log, plain: figure.equal, gap: 44 })), bounds !== null];
+  };
+  const panels = units.map((own, k): Panel => {
+    const left = shown.filter((curve) => curve.unit === own && !curve.right);
     const others = k === 0 ? shown.filter((curve) => curve.right) : [];
-    const seen = view.x ?? [x.low, x.high];
-    const bounds = view.log ? null : bounded(left);
-    const values = () => (bounds ? [...within(left, seen)].map((y) => Math.min(Math.max(y, bounds[0]), bounds[1])) : within(left, seen));
-    const fitted = () => limited(figure.ranges?.find((r) => r.unit === unit)?.range, unit, view.log, 44, axis(values(), unit, view.log, false, 44));
-    const own = view.y && units.length === 1 ? over(...view.y, unit, view.log, 44) : fitted();
-    const { unit: name, factor } = scaled(unit, Math.max(bounds ? Math.max(Math.abs(own.low), Math.abs(own.high)) : largest(all(left, 'y')), figure.ranges?.some((r) => r.unit === unit) ? Math.abs(own.high) : 0));
-    const right = k === 0 && figure.right ? scaledRight(figure.right, others, seen) : undefined;
-    return { curves: [...left, ...others], own: unit, top: 12 + k * (height + 18), height, y: own, factor, unit: name, clipped: bounds !== null, ...(right && { right }) };
+    const [fitted, cut] = upright(left, own, figure.ranges?.find((r) => r.unit === own)?.range, view.log);
+    const y = view.y && units.length === 1 ? over(...view.y, own, view.log, 44, true) : fitted;
+    const [right, cutRight] = k === 0 && figure.right ? upright(others, figure.right.unit, figure.right.range, false) : [undefined, false];
+    return { curves: [...left, ...others], unit: own, top: 12 + k * (height + 18), height, y, clipped: cut || cutRight, ...(right && { right }) };
   });
-  const labels = panels.flatMap((panel) => scaledTicks(panel.y, panel.factor, panel.unit, panel.height).map((tick) => tick.text.length));
-  const beside = panels.flatMap(({ right, height: room }) => (right ? scaledTicks(right.axis, right.factor, right.own, room).map((tick) => tick.text.length) : []));
+  const letters = (of: Axis | undefined, room: number) => (of ? of.ticks(room).map(({ text }) => text.length) : []);
+  const labels = panels.flatMap((panel) => letters(panel.y, panel.height));
+  const beside = panels.flatMap((panel) => letters(panel.right, panel.height));
   const aside = beside.length > 0 ? 34 + LETTER * Math.max(1, ...beside) : 14;
   const left = Math.min(34 + LETTER * Math.max(view.width > NARROW ? TICK : 1, ...labels), view.width / 3);
   const bottom = panels[panels.length - 1];
-  const out: Layout = { left, right: view.width - aside, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, xFactor: horizontal.factor, panels };
+  const out: Layout = { left, right: view.width - aside, width: view.width, height: (bottom ? bottom.top + bottom.height : 0) + 46, x, panels };
   if (figure.equal && panels.length === 1) equalise(out, panels[0]!, figure, view);
   return out;
 }
@@ -124,15 +118,11 @@ export function layout(figure: Figure, view: View): Layout {
 function limited(range: Ends | undefined, unit: string, log: boolean, gap: number, fitted: Axis): Axis {
   const [low, high] = range ?? [null, null];
   if (low === null && high === null) return fitted;
-  const ends = [low ?? fitted.low, high ?? fitted.high].sort((a, b) => a - b) as [number, number];
+  const ends = [low ?? fitted.low, high ?? fitted.high] as [number, number];
+  // one end may lie beyond all curves
+  if (ends[0] > ends[1]) ends.splice(0, 2, ...(low !== null && high !== null ? [high, low] : [low ?? high!, low ?? high!]));
+  if (ends[0] === ends[1]) ends[1] += Math.abs(ends[0]) || 1;
   return over(...ends, unit, log, gap);
-}
-
-/** The axis on the right for its curves. */
-function scaledRight({ unit, range }: { unit: string; range: Ends }, curves: Curve[], seen: [number, number]): Scaled {
-  const fitted = limited(range, unit, false, 44, axis(within(curves, seen), unit, false, false, 44));
-  const { unit: name, factor } = scaled(unit, Math.max(Math.abs(fitted.low), Math.abs(fitted.high)));
-  return { axis: fitted, factor, unit: name, own: unit };
 }
 
 /** Values in view that a logarithmic axis cannot show. */
@@ -143,24 +133,18 @@ export function below(figure: Figure, { x: { low, high } }: Layout): number {
 }
 
 /** The vertical axis of a curve. */
-export function axisOf(panel: Panel, curve: Curve): { axis: Axis } {
-  return curve.right && panel.right ? panel.right : { axis: panel.y };
+export function axisOf(panel: Panel, curve: Curve): Axis {
+  return curve.right && panel.right ? panel.right : panel.y;
 }
 
-/** A value of a curve in the unit of its axis, and that unit. */
-export function asOnAxis({ panels }: Layout, { unit, right }: Curve, value: number): { value: number; unit: string } {
-  const axis = right ? panels[0]?.right : panels.find(({ own }) => own === unit);
-  return axis ? { value: value * axis.factor, unit: axis.unit } : { value, unit: pretty(unit) };
+/** A value of a curve as it is read at the cursor. */
+export function readOf({ panels }: Layout, curve: Curve, value: number): string {
+  const panel = curve.right ? panels[0] : panels.find(({ unit }) => unit === curve.unit);
+  return panel ? read(value, axisOf(panel, curve), curve.unit) : '';
 }
 
-/** Ticks in the unit that is shown. */
-function scaledTicks(of: Axis, factor: number, unit: string, room: number, gap = 44): { at: number; text: string }[] {
-  if (factor === 1) return of.ticks(room);
-  return over(of.low * factor, of.high * factor, unit, of.log, gap).ticks(room).map(({ at, text }) => ({ at: at / factor, text }));
-}
-
-function* all(curves: Curve[], of: 'x' | 'y'): Iterable<number> {
-  for (const curve of curves) yield* curve[of];
+function* all(curves: Curve[]): Iterable<number> {
+  for (const { x } of curves) yield* x;
 }
 
 function* within(curves: Curve[], range: [number, number] | null): Iterable<number> {
@@ -173,14 +157,8 @@ function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
   const [w, h] = [out.x.high - out.x.low, panel.y.high - panel.y.low];
   panel.height = Math.min(Math.max((room * h) / w, 180), 380);
   const scale = Math.min(room / w, panel.height / h);
-  const wider = (a: Axis, size: number, unit: string, gap: number) => {
-    const middle = (a.low + a.high) / 2;
-    return over(middle - size / 2, middle + size / 2, unit, false, gap);
-  };
-  if (!view.log) {
-    out.x = wider(out.x, room / scale, figure.x.unit, 60);
-    panel.y = wider(panel.y, panel.height / scale, panel.unit, 40);
-  }
+  const wider = (a: Axis, size: number, gap: number) => withEnds((a.low + a.high - size) / 2, (a.low + a.high + size) / 2, figure.x.unit === panel.unit ? shared(panel.unit, out.x, panel.y) : a.shown, gap);
+  if (!view.log) [out.x, panel.y] = [wider(out.x, room / scale, 60), wider(panel.y, panel.height / scale, 40)];
   out.height = panel.top + panel.height + 46;
 }
 
@@ -188,7 +166,7 @@ function equalise(out: Layout, panel: Panel, figure: Figure, view: View): void {
 function pieces(curve: Curve, { left, right, x: across }: Layout, panel: Panel): Point[][] {
   const { x, y, dots } = curve;
   const { top, height } = panel;
-  const up = axisOf(panel, curve).axis;
+  const up = axisOf(panel, curve);
   const out: Point[][] = [];
   let piece: Point[] | null = null;
   let [px, py] = [NaN, NaN];
@@ -258,11 +236,11 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
     const id = `clip-${count++}`;
     const { top, height } = panel;
     svg.append(s('clipPath', { id }, s('rect', { x: left, y: top - 2, width: Math.max(right - left, 0), height: height + 4 })));
-    for (const { at, text } of scaledTicks(panel.y, panel.factor, panel.unit, height)) {
+    for (const { at, text } of panel.y.ticks(height)) {
       const y = top + (1 - panel.y.part(at)) * height;
       svg.append(s('line', { x1: left, x2: right, y1: y, y2: y, stroke: 'var(--grid)' }), label(text, left - 7, y + 4, 'end'));
     }
-    for (const { at, text } of scaledTicks(out.x, out.xFactor, figure.x.unit, right - left, 80)) {
+    for (const { at, text } of out.x.ticks(right - left)) {
       const x = left + out.x.part(at) * (right - left);
       svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--grid)' }));
       if (panel === last) svg.append(label(text, x, top + height + 17, 'middle'));
@@ -279,32 +257,28 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       const [{ stroke, ...dash }, opacity] = [style(curve, figure), strong === false ? FAINT : 1];
       const line = s('path', { d: path(own, curve.dots), fill: 'none', stroke, ...dash, 'stroke-width': width, 'stroke-opacity': opacity, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
       const seen = curve.dots || curve.x.length <= FEW ? [] : heads(inside(own, out, panel), right - left, panel.curves.length);
-      const leaves = panel.clipped && !curve.right ? leaving(own, panel).map((corners) => s('polygon', { points: corners.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, class: 'leaving' })) : [];
+      const leaves = panel.clipped ? leaving(own, panel).map((corners) => s('polygon', { points: corners.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, class: 'leaving' })) : [];
       return [line, ...leaves, ...seen.map((head) => s('polygon', { points: head.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, opacity }))];
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
     const own = panel.curves.filter((curve) => !curve.right);
-    const name = figure.y || said(own);
-    const text = heading(name, panel.unit) || '';
-    const upright = label(text, 0, 0, 'middle');
+    const upright = label(said(figure.y || named(own), panel.y, panel.unit), 0, 0, 'middle');
     upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);
     svg.append(upright);
     if (panel.right && figure.right) {
-      const { axis: of, factor, unit, own: plain } = panel.right;
-      for (const { at, text: tick } of scaledTicks(of, factor, plain, height)) svg.append(label(tick, right + 7, top + (1 - of.part(at)) * height + 4, 'start'));
+      for (const { at, text: tick } of panel.right.ticks(height)) svg.append(label(tick, right + 7, top + (1 - panel.right.part(at)) * height + 4, 'start'));
       svg.append(s('path', { d: `M${right} ${top}V${top + height}`, stroke: 'var(--line)' }));
-      const side = label(heading(figure.right.label, unit), 0, 0, 'middle');
+      const side = label(said(figure.right.label, panel.right, figure.right.unit), 0, 0, 'middle');
       side.setAttribute('transform', `translate(${out.width - 4} ${top + height / 2}) rotate(-90)`);
       svg.append(side);
     }
   }
-  const unit = scaled(figure.x.unit, figure.x.unit === '' ? 1 : 1 / out.xFactor).unit;
-  svg.append(label(heading(figure.x.label, unit), (left + right) / 2, out.height - 8, 'middle'));
+  svg.append(label(said(figure.x.label, out.x, figure.x.unit), (left + right) / 2, out.height - 8, 'middle'));
   return svg;
 }
 
 /** What an axis says of its curves: their names if they are few, else what they are of. */
-function said(curves: Curve[]): string {
+function named(curves: Curve[]): string {
   const names = [...new Set(curves.map(({ label: name }) => name))];
   const quantities = new Set(curves.map(({ quantity }) => quantity));
   if (names.length <= NAMES && names.join(', ').length <= SPACE) return names.join(', ');

@@ -2,8 +2,8 @@
 
 import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
-import { digits, pretty, words } from '../numbers';
-import { type Curve, type Layout, type View, asOnAxis, axisOf, below, color, draw, layout, style } from './chart';
+import { pretty, words } from '../numbers';
+import { type Curve, type Layout, type View, axisOf, below, color, draw, layout, readOf, style } from './chart';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
@@ -191,18 +191,12 @@ export class PlotView {
     figure.curves.forEach((curve, k) => {
       const point = this.point(k, at, points);
       const panel = panels.find((p) => p.curves.includes(curve));
-      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? this.told(curve, point[1]) : '';
+      this.values[k]!.textContent = point && Number.isFinite(point[1]) ? readOf(this.place, curve, point[1]) : '';
       if (!point || !panel || !Number.isFinite(point[0] + point[1])) return;
-      const [px, py] = [across.part(point[0]), axisOf(panel, curve).axis.part(point[1])];
+      const [px, py] = [across.part(point[0]), axisOf(panel, curve).part(point[1])];
       if (!(px >= -1e-9 && px <= 1 + 1e-9 && py >= -1e-9 && py <= 1 + 1e-9)) return;
       this.overlay.append(s('circle', { cx: u(point[0]), cy: panel.top + (1 - py) * panel.height, r: 3.6, fill: color(curve, figure), stroke: 'var(--paper)', 'stroke-width': 1.4 }));
     });
-  }
-
-  /** A value in the unit of its axis, with that unit. */
-  private told(curve: Curve, y: number): string {
-    const { value, unit } = asOnAxis(this.place, curve, y);
-    return `${digits(value, 6)} ${unit}`.trim();
   }
 
   /** The point of a curve at the cursor or at the time. */
