@@ -280,6 +280,28 @@ studies:
       both: { show: [nearly], right: { show: [large] } }
       path: { show: [tiny], over: nearly }
 `,
+  // a ring around a sun, and two bars that cross
+  crossing: `grashof: 1
+name: crossing
+space: planar
+gravity: none
+ground: { O: [0, 0], P: [25 cm, 0], Q: [45 cm, 0] }
+bodies:
+  sun: { disc: { radius: 3 cm, mass: 1 kg } }
+  ring: { mass: 3 kg, inertia: 0.02 kg m^2, drawn: { circle: 12 cm } }
+  one: { bar: { length: 30 cm, mass: 1 kg }, points: { mid: [15 cm, 0] } }
+  two: { bar: { length: 30 cm, mass: 1 kg }, points: { mid: [15 cm, 0] } }
+joints:
+  S: { revolute: [ground.O, sun.origin] }
+  R: { revolute: [ground.O, ring.origin] }
+  P: { revolute: [ground.P, one.start] }
+  M: { revolute: [one.mid, two.mid] }
+  W: { pin-in-slot: [ground.Q, two.start], axis: [1, 0] }
+couplings: { same: { zero: S.angle - P.angle }, back: { zero: R.angle + P.angle } }
+drivers: { drive: { joint: P, speed: 10 deg/s } }
+start: { P.angle: 20 deg, S.angle: 20 deg, R.angle: -20 deg, two.angle: ~160 deg }
+studies: { lift: { kinematics: { over: 20 deg, samples: 20 }, columns: [time, P.angle] } }
+`,
   // seen from above, and at a place of its motion that no frame has by itself
   door: `grashof: 1
 name: door

@@ -141,6 +141,16 @@ export async function what_a_drawing_leaves_out_is_told_and_small_beside_a_dead_
   assert.ok(size < 1e-3 * 0.35, note);
 }
 
+export async function names_of_bodies_stand_on_their_own(open) {
+  const { tab } = await open('crossing');
+  await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const [names, [scale]] = await tab.evaluate(() => [grashof.names(), grashof.look()]);
+  const at = (text) => names.find((name) => name.text === text)?.at ?? assert.fail(`${text} is not among ${names.map((name) => name.text)}`);
+  const apart = (a, b) => Math.hypot(at(a)[0] - at(b)[0], at(a)[1] - at(b)[1]);
+  assert.ok(apart('ring', 'S, R') > 0.03 * scale, 'the ring has its name within the sun');
+  for (const bar of ['one', 'two']) assert.ok(apart(bar, 'M') > 12, `the name of ${bar} begins where both cross`);
+}
+
 export async function rows_on_both_sides_of_a_switch_say_which(open) {
   const { tab } = await open('crank_rocker', { study: 'one-turn' });
   const rows = await rowsOf(tab, 'Rows');

@@ -17,10 +17,13 @@ export interface Named { text: string; at: Point; box: Box; of: 'joint' | Other[
 interface Group { text: string; at(place: number): Vector; width: number; points: Point[]; side: number; other: Other | null }
 
 /** A body, spring or path with its name and the places where that may stand. */
-interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; color(inks: Inks): string }
+interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; color(inks: Inks): string; body?: number }
 
 /** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
 interface Spot { at(place: number): Vector; places: Vector[]; wide: boolean }
+
+/** The line of a body, or the edge of what is wide, at the places that are looked at. */
+interface Part { body: number; closed: boolean; lines: Vector[][] }
 
 /** Where a point is seen at a place of the motion. */
 type Seen = (at: Vector, place: number) => Point;
@@ -42,8 +45,8 @@ const SIDES = 16;
 const NEAR = 8;
 /** The side of a name that lies on its body. */
 const ON = 16;
-/** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, or to stand nearer to a wrong joint. */
-const COST = { name: 10, edge: 12, joint: 9, wrong: 9 };
+/** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, to stand nearer to a wrong joint, or to a wrong body. */
+const COST = { name: 10, edge: 12, joint: 9, wrong: 9, astray: 3.5 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
@@ -52,8 +55,12 @@ const STAY = 0.6;
 const CROWDED = 4;
 const NAMED = 0.2;
 const ROW = 14;
-/** Parts of a bar where its name may stand. */
+/** Parts of a bar where its name may stand, and of the radius of a disc, in so many directions. */
 const ALONG = [0.5, 0.35, 0.65, 0.2, 0.8];
+const RIM = 0.82;
+const ROUND = 8;
+/** Corners of the edge of a disc. */
+const EDGES = 16;
 
 const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room < a[2] && a[1] - room < b[3] && b[1] - room < a[3];
 
@@ -86,8 +93,45 @@ function spots(shape: Shape): { places: number[][]; wide: boolean } {
     case 'hull': return shape.points.length === 2 ? { places: along(shape.points[0]!, shape.points[1]!), wide: false } : { places: [middle(shape.points)], wide: shape.points.length > 2 };
     case 'polygon': return { places: [middle(shape.points)], wide: true };
     case 'mass': return { places: [shape.at], wide: false };
+    case 'disc': return { places: [shape.center, ...circle(shape.center, RIM * shape.radius, ROUND)], wide: true };
     default: return { places: [shape.center], wide: true };
   }
+}
+
+/** Points of a circle in the plane; none in space. */
+function circle(center: number[], radius: number, count: number): number[][] {
+  const turn = (k: number) => (2 * Math.PI * k) / count;
+  return center.length > 2 ? [] : Array.from({ length: count }, (_, k) => [center[0]! + radius * Math.cos(turn(k)), center[1]! + radius * Math.sin(turn(k))]);
+}
+
+/** The line of a body in its frame, or the edge of what is wide. */
+function outline(shape: Shape): { line: number[][]; closed: boolean } {
+  switch (shape.kind) {
+    case 'bar': case 'cylinder': return { line: [shape.from, shape.to], closed: false };
+    case 'hull': case 'polygon': return { line: shape.points, closed: shape.points.length > 2 && shape.points[0]!.length === 2 };
+    case 'mass': return { line: [shape.at], closed: false };
+    case 'disc': return shape.center.length > 2 ? { line: [shape.center], closed: false } : { line: circle(shape.center, shape.radius, EDGES), closed: true };
+    default: return { line: [shape.center], closed: false };
+  }
+}
+
+/** How far a point is from a line in the picture; 0 within an edge. */
+function away([x, y]: Point, line: Point[], closed: boolean): number {
+  let [least, inside] = [Infinity, false];
+  for (let i = closed ? 0 : Math.min(1, line.length - 1); i < line.length; i++) {
+    const [[ax, ay], [bx, by]] = [line[(i || line.length) - 1]!, line[i]!];
+    const [dx, dy] = [bx - ax, by - ay];
+    const s = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+    least = Math.min(least, Math.hypot(ax + s * dx - x, ay + s * dy - y));
+    if (ay > y !== by > y && x < ax + ((y - ay) / dy) * dx) inside = !inside;
+  }
+  return closed && inside ? 0 : least;
+}
+
+/** How large a line is in the picture. */
+function extent(line: Point[]): number {
+  const [xs, ys] = [line.map(([x]) => x), line.map(([, y]) => y)];
+  return Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
 }
 
 export class Names {
@@ -99,8 +143,9 @@ export class Names {
   /** The names that were left out last. */
   private hidden = new Set<string>();
   private view = '';
-  /** The places of the motion that are looked at. */
+  /** The places of the motion that are looked at, and where bodies are there. */
   private readonly looks: number[];
+  private readonly parts: Part[];
 
   constructor(motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
@@ -110,11 +155,16 @@ export class Names {
     this.looks = at;
     const spot = (of: (place: number) => Vector, wide = false): Spot => ({ at: of, places: at.map(of), wide });
     this.joints = joints.map(({ name, b }) => ({ name, ...spot((place) => motion.world(b, place)) }));
+    this.parts = bodies.flatMap(({ shapes: [shape] }, body): Part[] => {
+      if (body === 0 || !shape) return [];
+      const { line, closed } = outline(shape);
+      return [{ body, closed, lines: at.map((place) => line.map((own) => motion.world({ body, at: own }, place))) }];
+    });
     this.others = bodies.flatMap(({ name, shapes: [shape], color }, body): Other[] => {
       if (body === 0 || !shape) return [];
       const { places, wide } = spots(shape);
       const all = places.map((own) => spot((place) => motion.world({ body, at: own }, place), wide));
-      return [{ name, of: 'body', spots: all, color: (inks) => bodyInks(color, inks).edge }];
+      return [{ name, of: 'body', spots: all, color: (inks) => bodyInks(color, inks).edge, body }];
     });
     for (const { name, kind, a, b } of links) {
       const between = (s: number) => (place: number): Vector => {
@@ -178,14 +228,16 @@ export class Names {
     const others = this.others.filter(({ of }) => of !== 'path' || paths);
     const area = [...joints.map(({ width }) => width), ...others.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
     if (area > NAMED * size[0] * size[1]) return;
+    const parts = this.parts.map(({ body, closed, lines }) => ({ body, closed, lines: lines.map((line, k) => line.map((p) => pixel(p, this.looks[k]!))) }));
     for (const other of others) {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
       const groups = all.map(({ at, places, wide }, k) => {
         const group: Group = { text, at, width, points: this.seen(places, pixel), side: 0, other };
-        return { group, cost: this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k };
+        const cost = this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k;
+        return { group, cost, all: other.body === undefined ? cost : cost + this.astray(group, other.body, parts, size) };
       });
-      const best = groups.reduce((a, b) => (b.cost < a.cost ? b : a));
+      const best = groups.reduce((a, b) => (b.all < a.all ? b : a));
       if (best.cost > CROWDED) continue;
       take(best.group);
       this.groups = [...this.groups, best.group];
@@ -227,6 +279,29 @@ export class Names {
       }
     }
     return sum;
+  }
+
+  /** How bad it is that a name, or the place where it begins, is nearer to other bodies than to its own, or within a smaller one. */
+  private astray({ points, side, width }: Group, body: number, parts: { body: number; closed: boolean; lines: Point[][] }[], size: Point): number {
+    const own = parts.find((part) => part.body === body);
+    if (!own) return 0;
+    let wrong = 0;
+    points.forEach((at, k) => {
+      const [left, top, right, bottom] = within(boxOn(side, at, width), size);
+      const middle: Point = [(left + right) / 2, (top + bottom) / 2];
+      const line = own.lines[k]!;
+      const [gap, most] = [away(middle, line, own.closed), extent(line)];
+      const taken = (part: typeof own) => {
+        const other = part.lines[k]!;
+        const near = away(middle, other, part.closed);
+        // what is larger is behind
+        if (near === 0 && extent(other) >= most) return false;
+        if (own.closed && gap === 0) return near === 0;
+        return near < gap || (!own.closed && away(at, other, part.closed) < SIGN);
+      };
+      if (parts.some((part) => part !== own && taken(part))) wrong++;
+    });
+    return (COST.astray * wrong) / points.length;
   }
 
   /** The joints in groups that are at one place all the time. */
