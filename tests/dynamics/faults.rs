@@ -91,6 +91,22 @@ fn chatter_on_a_switch() {
 }
 
 #[test]
+fn events_that_turn_the_motion_back_at_once() {
+    let run = run("gravity: none
+parameters: { q: 2 N }
+bodies: { car: { mass: 1 kg } }
+joints: { S: { slider: [ground, car.origin], axis: [1, 0] } }
+loads: { push: { joint: S, force: q } }
+events: { relay: { when: S.velocity - 1 m/s, set: { q: -q } } }
+start: { S.position: 0 m, S.velocity: 0 m/s }
+studies:
+  run: { dynamics: { until: 2 s, every: 0.1 s }, columns: [time, S.velocity] }
+");
+    told(&run, 3, &["`relay`", "pile up", "hysteresis", "t = 0.5"]);
+    kept(&run, 0.5, 1e-3);
+}
+
+#[test]
 fn bodies_without_mass_or_inertia() {
     let leaf = run("gravity: [0, -9.81 m/s^2]
 bodies: { upper: { bar: { length: 1 m, mass: 1 kg } }, lower: { bar: { length: 1 m } } }

@@ -154,8 +154,9 @@ impl<'a> Course<'a> {
             }
             Err(failure) => return Err(Lost::Stopped(failure.reason())),
         };
-        if self.piles && self.zeno.pile_up(state.t, 0.0) {
-            return Err(Lost::Stopped(explain::chatters(phases, &self.met, state.t)));
+        if (self.piles || self.begins == Begins::Parameters) && self.zeno.pile_up(state.t, 0.0) {
+            let hunts = explain::hunts(&self.events, state.t);
+            return Err(Lost::Stopped(if self.met.is_empty() { hunts } else { explain::chatters(phases, &self.met, state.t) }));
         }
         Ok(phase)
     }

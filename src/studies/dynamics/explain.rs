@@ -143,6 +143,14 @@ pub(super) fn chatters<G: Space<S = f64>>(phases: &Phases<G>, met: &[Met], t: f6
     )
 }
 
+/// Why a run ends where events set parameters without end.
+pub(super) fn hunts(events: &[Happened], t: f64) -> String {
+    let name = events.last().map_or("", |event| &event.name);
+    format!(
+        "at t = {t:.6} s events pile up without end, the last one is `{name}`: what they set turns the motion back over them at once; give two events with a distance between what they wait for (a hysteresis), or a load that changes smoothly"
+    )
+}
+
 /// Contacts at rest that other joints or drivers hold as well.
 pub(super) fn not_unique<G: Space<S = f64>>(phases: &Phases<G>, open: &[usize]) -> Vec<Finding> {
     let contacts = phases.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
