@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 mod codes;
+mod doubts;
 mod others;
 #[cfg(unix)]
 mod signals;

@@ -5,6 +5,7 @@ use super::shard::Part;
 use super::study::Job;
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_out, run};
+use grashof::model::Report;
 use grashof::output::Formats;
 use grashof::studies::loader::Loader;
 
@@ -28,7 +29,7 @@ pub(super) fn study(arguments: &Arguments, name: &str, yaml: impl Fn(usize) -> S
     let Some(mut document) = files::document(&arguments.model, common) else { return code::INPUT };
     let name = document.add_study(name, &yaml(document.body_count()));
     let Some(selection) = files::selection(common, Some(&name)) else { return code::INPUT };
-    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
+    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection, &Report::default()) {
         Ok(model) => model,
         Err(code) => return code,
     };

@@ -8,7 +8,7 @@ use super::interrupt::{self, interrupted, watch_interrupts};
 use super::progress::Progress;
 use super::run::load;
 use super::{Common, code, files, print_error, print_note, print_out};
-use grashof::model::{Document, Forward, Integrator, Kind, Study};
+use grashof::model::{Document, Forward, Integrator, Kind, Report, Study};
 use grashof::output::{Staging, comparison, render_figure};
 use grashof::results::{Compared, Failure};
 use grashof::studies::common::case::parameters;
@@ -76,7 +76,7 @@ fn compared(arguments: &Arguments, common: &Common) -> Result<u8, u8> {
         files::print(&report, common);
         return Err(code::INPUT);
     }
-    let mut model = load(&mut Loader::new(&document, common.threads()), &document, common, &selection)?;
+    let mut model = load(&mut Loader::new(&document, common.threads()), &document, common, &selection, &Report::default())?;
     let study = model.study.clone().ok_or(code::INPUT)?;
     let forward = motion(&study)?.clone();
     let values = parameters(&model);

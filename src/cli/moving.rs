@@ -82,13 +82,13 @@ impl Moving {
 /// Computes the motion of a study; what is wrong was reported.
 pub(super) fn moving(chosen: &Chosen, common: &Common) -> Result<Moving, u8> {
     watch_interrupts();
-    let (document, selection, _) = files::sound(&chosen.model, common).ok_or(code::INPUT)?;
+    let (document, selection, told) = files::sound(&chosen.model, common).ok_or(code::INPUT)?;
     files::print_notes(&document, common);
     let known = document.study_names();
     let name = named(chosen.study.as_deref(), &known).ok_or(code::INPUT)?;
     interrupt::begins(format!("interrupted: study `{name}` is not shown"), false);
     let selection = Selection { study: Some(name), ..selection };
-    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
+    let model = match run::load(&mut Loader::new(&document, common.threads()), &document, common, &selection, &told) {
         Err(_) if interrupted() => return Err(ended(name)),
         loaded => loaded?,
     };

@@ -6,7 +6,7 @@ use super::shard::{Part, Shard};
 use super::study::{Finished, Job};
 use super::terminal::{failure_json, take_errors, with_errors};
 use super::{Common, code, files, print_error, print_note, print_out, report};
-use grashof::model::{Document, Model, Selection};
+use grashof::model::{Document, Model, Report, Selection};
 use grashof::output::{Formats, ReportStudy};
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::verify::verify;
@@ -84,7 +84,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
 
 /// Runs the studies one after the other; for JSON, their reports or why there is none.
 fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) -> u8 {
-    let Some((document, ..)) = files::sound(&arguments.model, common) else { return code::INPUT };
+    let Some((document, _, told)) = files::sound(&arguments.model, common) else { return code::INPUT };
     files::print_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {
@@ -125,7 +125,7 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
         };
         interrupt::begins(format!("interrupted: study `{study}` is not begun"), false);
         let selected = files::selection(common, Some(study)).ok_or(code::INPUT);
-        let mut model = match selected.and_then(|selection| load(&mut loader, &document, common, &selection)) {
+        let mut model = match selected.and_then(|selection| load(&mut loader, &document, common, &selection, &told)) {
             Ok(model) => model,
             Err(code) => {
                 let code = if interrupted() { print_interrupt(study, "is not begun") } else { code };
@@ -307,9 +307,19 @@ pub(super) fn conflict(model: &Model) -> Option<String> {
     varied.map(|p| model.parameters[p].name.clone()).find(|name| model.set.contains(name))
 }
 
-/// The model of a study, with the scalars that it takes from others; what is wrong has been printed.
-pub(super) fn load(loader: &mut Loader<'_>, document: &Document, common: &Common, selection: &Selection<'_>) -> Result<Model, u8> {
-    loader.drawn(selection, &interrupted).map_err(|why| match why {
+/// The model of a study, with the scalars that it takes from others; what is wrong or doubtful has been printed, but for what was `told`.
+pub(super) fn load(
+    loader: &mut Loader<'_>,
+    document: &Document,
+    common: &Common,
+    selection: &Selection<'_>,
+    told: &Report,
+) -> Result<Model, u8> {
+    let loaded = loader.drawn(selection, &interrupted);
+    if let Ok(model) = &loaded {
+        files::print(&model.warnings.clone().beyond(told), common);
+    }
+    loaded.map_err(|why| match why {
         NotLoaded::Wrong(report) => {
             files::print(&report, common);
             code::INPUT

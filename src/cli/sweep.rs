@@ -85,7 +85,7 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
 /// Computes a sweep, or a part of it, or gathers its parts.
 pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     watch_interrupts();
-    let Some((document, selection, _)) = files::sound(asked.model, common) else { return code::INPUT };
+    let Some((document, selection, told)) = files::sound(asked.model, common) else { return code::INPUT };
     files::print_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };
@@ -93,7 +93,7 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     let (stem, swept) =
         if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
     let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };
-    let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection) {
+    let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection, &told) {
         Ok(model) => model,
         Err(_) if interrupted() => return code::INTERRUPTED,
         Err(code) => return code,

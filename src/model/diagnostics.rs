@@ -184,6 +184,14 @@ impl Report {
         self
     }
 
+    /// The same without what another report says of the same places.
+    #[must_use]
+    pub fn beyond(mut self, other: &Self) -> Self {
+        let of = |d: &Diagnostic| (d.code, d.file.clone(), d.line(), d.column());
+        self.diagnostics.retain(|found| !other.diagnostics.iter().any(|known| of(known) == of(found)));
+        self
+    }
+
     /// Number of errors.
     #[must_use]
     pub fn errors(&self) -> usize {

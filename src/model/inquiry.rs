@@ -308,7 +308,9 @@ impl<'d, 's> Inquiry<'d, 's> {
         }
         let failed = faults.iter().any(|fault| !fault.warning);
         match model {
-            Some(model) if !failed && (study.is_none() || model.study.is_some()) => Ok(model),
+            Some(model) if !failed && (study.is_none() || model.study.is_some()) => {
+                Ok(Model { warnings: self.document.report(&faults), ..model })
+            }
             _ => Err(self.document.report(&faults)),
         }
     }

@@ -2,6 +2,7 @@
 
 use super::bodies::{Attraction, Body};
 use super::contacts::Clutch;
+use super::diagnostics::Report;
 use super::entities::{
     Coupling, Dimensions, DisplayUnit, Driver, Event, FirstOrder, Joint, Load, Measure, Motor, Parameter, Spring, Start, Table,
 };
@@ -65,6 +66,8 @@ pub struct Model {
     pub set: Vec<String>,
     /// What must hold of its numbers, and of those of its study.
     pub checks: Vec<Check>,
+    /// What it probably does not mean as it says it, and no error.
+    pub warnings: Report,
 }
 
 impl Model {

@@ -1,6 +1,7 @@
 //! A model on its way from the file, and what all parts of the decoder do.
 
 use crate::expression::{self, Dimension, Expr, ExternalFunction, Id, Lowered, Pool, SyntaxError};
+use crate::model::diagnostics::Report;
 use crate::model::entities::Dimensions;
 use crate::model::fault::{At, Fault, Given, Spot};
 use crate::model::fields::Want;
@@ -91,6 +92,7 @@ impl<'n> Decoder<'n> {
             study: None,
             variants: layers.patches.iter().map(|(name, _)| (*name).to_owned()).collect(),
             set: Vec::new(),
+            warnings: Report::default(),
             checks: Vec::new(),
         };
         let name_space = NameSpace {
