@@ -32,7 +32,7 @@ const SIGNS: [&str; 15] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/",
 pub(super) const NO_TEMPERATURE: &str = "there are no temperatures: write the number without a unit";
 
 /// Signs of other languages, and what to write instead.
-const FOREIGN: [(&str, &str); 17] = [
+const FOREIGN: [(&str, &str); 24] = [
     ("**", "write `^` for a power"),
     ("&&", "write `and`"),
     ("&", "write `and`"),
@@ -49,6 +49,13 @@ const FOREIGN: [(&str, &str); 17] = [
     ("°F", NO_TEMPERATURE),
     ("°", "write `deg`"),
     ("π", "write `pi`"),
+    ("²", "write `^2`"),
+    ("³", "write `^3`"),
+    ("\u{b5}", "write `u`, as in `um`"),
+    ("\u{3bc}", "write `u`, as in `um`"),
+    ("Ω", "write `ohm`"),
+    ("\u{2212}", "write `-`"),
+    ("√", "write `sqrt(..)`"),
     ("~", "`~` may only precede a whole value of `start`"),
 ];
 
@@ -82,7 +89,10 @@ pub(super) fn lexemes(text: &str) -> Result<Vec<Lexeme<'_>>, SyntaxError> {
         } else {
             let foreign = text[i..].starts_with("**");
             let Some(sign) = SIGNS.into_iter().find(|sign| !foreign && text[i..].starts_with(sign)) else {
-                return Err(stranger(text, i));
+                return Err(match all.last() {
+                    Some(Lexeme { token: Token::Number(_), at }) if text[i..].starts_with('π') => times_pi(text, &text[at.clone()], i),
+                    _ => stranger(text, i),
+                });
             };
             all.push(Lexeme { token: Token::Sign(sign), at: i..i + sign.len() });
             i + sign.len()
@@ -172,6 +182,14 @@ fn path_end(text: &str, start: usize) -> Result<(usize, bool), SyntaxError> {
         dotted = true;
         end += 1;
     }
+}
+
+/// `2π` and `2πr`.
+fn times_pi(text: &str, number: &str, i: usize) -> SyntaxError {
+    let behind = &text[i + 'π'.len_utf8()..];
+    let name = &behind[..behind.bytes().take_while(|c| is_name_part(*c)).count()];
+    let times = if name.is_empty() { "" } else { "*" };
+    SyntaxError { help: Some(format!("write `{number}*pi{times}{name}`")), ..stranger(text, i) }
 }
 
 fn stranger(text: &str, i: usize) -> SyntaxError {

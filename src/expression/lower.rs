@@ -6,9 +6,10 @@
 use super::function::{self, Function, Functional, Shape};
 use super::parser::{Expr, Kind};
 use super::pool::{Id, Node, Pool};
+use super::quantity::{near_unit_hint, unit_below, unit_hint};
 use super::scope::{Fault, Lowered, Scope, Unknown};
 use super::switch::Compare;
-use super::units::{Dimension, nearest_unit, unit};
+use super::units::Dimension;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -24,6 +25,9 @@ pub fn lower(pool: &mut Pool, expr: &Expr, text: &str, scope: &mut dyn Scope) ->
         _ => Err(lowerer.faults),
     }
 }
+
+/// What is expected in the place of a name that is called.
+pub const CALLED: &str = "a function or a table";
 
 pub(super) struct Lowerer<'a> {
     pub(super) pool: &'a mut Pool,
@@ -117,15 +121,8 @@ impl Lowerer<'_> {
                 Some(self.made(symbol.id, symbol.dimension, false))
             }
             Err(mut unknown) => {
-                if unknown.help.is_none() && unit(path).is_some() {
-                    unknown.help = Some(format!("`{path}` is a unit and follows its number: `1 {path}`"));
-                } else if unknown.help.is_none() && matches!(path, "h" | "hr" | "hour" | "hours") {
-                    unknown.help = Some("hours are no unit: write `60 min` for one, as in `5 km/(60 min)`".to_owned());
-                } else if unknown.help.is_none()
-                    && let Some(near) = nearest_unit(path)
-                {
-                    unknown.help = Some(format!("did you mean the unit `{near}`? It follows its number: `1 {near}`"));
-                }
+                let below = unit_below(self.slice(&(0..at.start)), path).filter(|_| !unknown.found.is_empty());
+                unknown.help = below.or(unknown.help).or_else(|| unit_hint(path)).or_else(|| near_unit_hint(path));
                 self.unknown(at, unknown);
                 None
             }
@@ -171,6 +168,19 @@ impl Lowerer<'_> {
         Some(Lowered { any, boolean: false, ..self.made(id, dimension, bare) })
     }
 
+    /// How a quantity of a dimension becomes a number: `t/1 s`.
+    fn as_number(&self, at: &Range<usize>, dimension: Dimension) -> String {
+        const LONGEST: usize = 30;
+        let text = self.slice(at).trim();
+        let one_word = text.bytes().all(|c| c.is_ascii_alphanumeric() || b"._".contains(&c));
+        let text = match text {
+            text if one_word => text.to_owned(),
+            text if text.len() > LONGEST => "x".to_owned(),
+            text => format!("({text})"),
+        };
+        format!("divide it by a unit, as `{text}/{}`", dimension.written("1"))
+    }
+
     fn product(&mut self, first: &Expr, rest: &[(bool, Expr)]) -> Option<Lowered> {
         let mut product = self.expr(first);
         for (divide, factor) in rest {
@@ -196,7 +206,8 @@ impl Lowerer<'_> {
         let exponent = exponent.filter(|n| {
             let plain = n.any || n.dimension == Dimension::NONE;
             if !plain {
-                self.fault(at, n.dimension.name(), "a number as exponent", None);
+                let help = self.as_number(at, n.dimension);
+                self.fault(at, n.dimension.name(), "a number as exponent", Some(help));
             }
             plain
         })?;
@@ -273,7 +284,7 @@ impl Lowerer<'_> {
                 self.expr(argument);
             }
         }
-        self.fault(name_at, format!("`{name}(..)`"), "a function or a table", Some(function::remedy(name)));
+        self.fault(name_at, format!("`{name}(..)`"), CALLED, Some(function::remedy(name)));
         None
     }
 
@@ -303,7 +314,8 @@ impl Lowerer<'_> {
                     && x.expect(Dimension::NONE).is_err()
                 {
                     let expected = format!("a number or an angle in `{}`", function.usage);
-                    self.fault(x_at, x.dimension.name(), expected, None);
+                    let help = self.as_number(x_at, x.dimension);
+                    self.fault(x_at, x.dimension.name(), expected, Some(help));
                     return None;
                 }
                 (Dimension::NONE, false, operands[0].0?.bare)
@@ -363,7 +375,9 @@ impl Lowerer<'_> {
         let (operand, operand_at) = &operands[0];
         let argument = (*operand)?;
         if let Err(found) = argument.expect(x) {
-            self.fault(operand_at, found, format!("{} as argument of table `{name}`", x.name()), None);
+            let expected = format!("{} as argument of table `{name}`", x.name());
+            let help = (x == Dimension::NONE).then(|| self.as_number(operand_at, argument.dimension));
+            self.faults.push(Fault { at: operand_at.clone(), found, expected, help, wanted: Some(x) });
             return None;
         }
         let text = self.slice(at).to_owned();

@@ -199,7 +199,9 @@ impl<'a> Parser<'a> {
             Token::Sign(")") if self.open == 0 => Some(format!("no parenthesis is open here; {TRAP}")),
             Token::Sign(",") if self.open == 0 => Some(match (self.last().token, self.token(1)) {
                 (Token::Number(_), Token::Number(_)) => {
-                    format!("a decimal point: `{before}.{}`", self.slice(&self.lexemes[self.next + 1].at))
+                    let behind = &self.text[self.lexemes[self.next + 1].at.start..];
+                    let end = behind.bytes().take_while(|c| c.is_ascii_alphanumeric() || b" ./^".contains(c)).count();
+                    format!("a decimal point: `{before}.{}`", behind[..end].trim_end())
                 }
                 _ => "commas only separate the arguments of a function".to_owned(),
             }),

@@ -123,6 +123,25 @@ impl Parser<'_> {
         if let Some(word) = ["and", "or"].into_iter().find(|known| known.eq_ignore_ascii_case(word)) {
             return error("a unit or an operator", format!("write `{word}`"));
         }
+        // `60 U/min`, `60 rev/s`
+        if let ("U" | "r" | "rev" | "revs" | "turns", Token::Sign("/"), Token::Word(time @ ("min" | "s"))) =
+            (word, self.token(1), self.token(2))
+        {
+            return error("a unit or an operator", format!("write `{text} {}`", if time == "min" { "rpm" } else { "turn/s" }));
+        }
+        // the factor of a power is another one
+        if !matches!(self.token(1), Token::Sign("(" | "^"))
+            && let Some((power, times, known, name)) = multiple(word)
+        {
+            let meant = format!("{} {known}", shifted(number * times, power));
+            return error(
+                "a unit or an operator",
+                match name {
+                    Some(name) => format!("for {name} write `{meant}`, for a product `{text}*{word}`"),
+                    None => format!("write `{meant}`"),
+                },
+            );
+        }
         if self.token(1) != Token::Sign("(")
             && let Some(units) = meant(word)
         {
@@ -133,6 +152,54 @@ impl Parser<'_> {
         let near = near.map_or_else(String::new, |near| format!("did you mean `{text} {near}`? "));
         error("a unit or an operator", format!("{near}a product is written with a star: `{text}*{word}{call}`").replace("? a", "? A"))
     }
+}
+
+/// What is meant by a word that is a multiple of a known unit and no unit of the format: the power of ten, a factor, the unit, and what it
+/// is called where the word might be a name as well.
+fn multiple(word: &str) -> Option<(i32, f64, &'static str, Option<&'static str>)> {
+    const PREFIXES: [(&str, i32); 10] =
+        [("da", 1), ("d", -1), ("c", -2), ("h", 2), ("m", -3), ("u", -6), ("n", -9), ("k", 3), ("M", 6), ("G", 9)];
+    const OF: [&str; 12] = ["m", "g", "s", "rad", "N", "J", "W", "Pa", "bar", "V", "A", "ohm"];
+    match word {
+        "t" => return Some((3, 1.0, "kg", Some("tonnes"))),
+        "tonne" | "tonnes" => return Some((3, 1.0, "kg", None)),
+        "h" => return Some((0, 60.0, "min", Some("hours"))),
+        "hr" | "hrs" | "hour" | "hours" => return Some((0, 60.0, "min", None)),
+        _ => {}
+    }
+    PREFIXES.into_iter().find_map(|(prefix, power)| {
+        let of = OF.into_iter().find(|of| word.strip_prefix(prefix) == Some(of))?;
+        Some((power, 1.0, of, None))
+    })
+}
+
+/// What to write for a name that is none, but a unit, or hours.
+pub(crate) fn unit_hint(word: &str) -> Option<String> {
+    if unit(word).is_some() {
+        return Some(format!("`{word}` is a unit and follows its number: `1 {word}`"));
+    }
+    if matches!(word, "h" | "hr" | "hour" | "hours") {
+        return Some("hours are no unit: write `60 min` for one, as in `5 km/(60 min)`".to_owned());
+    }
+    None
+}
+
+/// What to write for a name that is none, but near to a unit.
+pub(super) fn near_unit_hint(word: &str) -> Option<String> {
+    let near = meant(word).or_else(|| nearest_unit(word).map(str::to_owned))?;
+    Some(format!("did you mean the unit `{near}`? It follows its number: `1 {near}`"))
+}
+
+/// What to write for a word behind a slash, where a unit may stand, that is meant as one: `mm2` in `3 N/mm2`.
+pub(super) fn unit_below(before: &str, word: &str) -> Option<String> {
+    let above = before.trim_end().strip_suffix('/')?;
+    if matches!(word, "h" | "hr" | "hour" | "hours") {
+        return unit_hint(word);
+    }
+    let (start, _) = above.char_indices().rev().take_while(|(_, c)| c.is_alphanumeric() || "^. ".contains(*c)).last()?;
+    let above = above[start..].trim();
+    let quantity = above.starts_with(|c: char| c.is_ascii_digit()) && above.ends_with(|c: char| c.is_alphanumeric());
+    meant(word).filter(|_| quantity).map(|units| format!("write `{above}/{}`", units.replace(' ', "/")))
 }
 
 /// The power of ten that a factor is, if it is one.
@@ -266,6 +333,19 @@ mod tests {
             ("sin 3", "write `sin(3)`"),
             ("2*cos x", "write `cos(x)`"),
             ("if t > 1 s", "write `if(condition, then, else)`"),
+            ("5 t", "for tonnes write `5000 kg`, for a product `5*t`"),
+            ("2.5 tonnes", "write `2500 kg`"),
+            ("2 h", "for hours write `120 min`, for a product `2*h`"),
+            ("5 mN", "write `0.005 N`"),
+            ("3 dm", "write `0.3 m`"),
+            ("60 U/min", "write `60 rpm`"),
+            ("1 rev/s", "write `1 turn/s`"),
+            ("2π", "write `2*pi`"),
+            ("2πr", "write `2*pi*r`"),
+            ("π/2", "write `pi`"),
+            ("2 m²", "write `^2`"),
+            ("5 µm", "write `u`, as in `um`"),
+            ("3,5 m/s", "a decimal point: `3.5 m/s`"),
             ("2 k", "a product is written with a star: `2*k`"),
             ("2 f(a)", "a product is written with a star: `2*f(..)`"),
         ] {

@@ -1,4 +1,4 @@
-//! Degrees of freedom at a position, by the rank of the rows.
+//! Degrees of freedom at a position, by the rank of the rows, and what to do where drivers are more.
 
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -26,4 +26,17 @@ pub(super) fn rows<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes
     dynamics.position(q, modes);
     let scale = dynamics.row_scale(q, modes, metric);
     (dynamics.work.g.clone(), scale)
+}
+
+/// What to do where more drivers hold a mechanism than it has freedoms; `coupled` are the names of its couplings.
+pub(crate) fn with_fewer_drivers(freedom: usize, coupled: &[String]) -> String {
+    match coupled {
+        [] if freedom == 0 => "remove a joint, or take one that leaves more motion: the joints hold all bodies where they are".into(),
+        [] => "remove drivers until there are as many as degrees of freedom".into(),
+        names => format!(
+            "remove drivers, or the coupling{} {}, until there are as many drivers as degrees of freedom",
+            if names.len() == 1 { "" } else { "s" },
+            names.join(", ")
+        ),
+    }
 }

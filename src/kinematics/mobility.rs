@@ -1,7 +1,7 @@
 //! Degrees of freedom: the Grübler count, the numerical rank, redundant rows, and the Grashof class of four-bars.
 
 use super::assemble::{Assembled, ChangePoint};
-use super::freedom::{rows, undriven};
+use super::freedom::{rows, undriven, with_fewer_drivers};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, RowOwner};
 use crate::model::{Kind, Model, Study};
@@ -66,7 +66,7 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
                 plural(m.freedom)
             ),
             place: "drivers".into(),
-            help: "remove drivers until there are as many as degrees of freedom".into(),
+            help: with_fewer_drivers(m.freedom, &[]),
         });
     }
     if m.left > 0 {

@@ -8,6 +8,7 @@
 mod acting;
 mod asked;
 mod bodies;
+mod commas;
 mod contacts;
 mod coordinates;
 mod data;

@@ -8,7 +8,7 @@ use super::place::PointRef;
 use super::suggest;
 use super::vocabulary::Quantity;
 use super::whole::Model;
-use crate::expression::{Dimension, Id, Pool, Symbol, Unknown};
+use crate::expression::{Dimension, Id, Pool, Symbol, Unknown, unit_hint};
 use std::collections::HashMap;
 
 /// A resolved path.
@@ -214,7 +214,7 @@ impl<'a> NameSpace<'a> {
             format!("did you mean `{near}{rest}`?")
         });
         let found = if head == path { format!("unknown name `{head}`") } else { format!("unknown name `{head}` in `{path}`") };
-        let help = help.unwrap_or_else(|| {
+        let help = help.or_else(|| unit_hint(head).filter(|_| head == path)).unwrap_or_else(|| {
             format!("take a name that is there, or define `{}`, as a parameter, a measure, a driver", suggest::clip(head))
         });
         unknown(found, "a name of this model", Some(help))

@@ -5,6 +5,7 @@ use super::document::{Document, Selection};
 use super::fault::{Fault, Spot};
 use super::inquiry::Inquiry;
 use super::whole::Model;
+use crate::expression::CALLED;
 use std::collections::HashSet;
 
 impl Document {
@@ -36,8 +37,8 @@ impl Document {
         let headless = faults.iter().any(|fault| fault.code == "unknown-key" && !fault.place.contains('.'));
         let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();
         let consequence = |fault: &Fault| {
-            // the names of a section whose own name is misspelt are unknown
-            headless && fault.code.starts_with("unknown-")
+            // the names of a section whose own name is misspelt are unknown, and what it holds is not there
+            headless && (fault.code.starts_with("unknown-") || fault.code == "no-driver" || fault.expected == CALLED)
                 || fault.spot != Spot::Key && (form.contains(&fault.cause()) || form.contains(&fault.place))
         };
         faults.extend(meaning.into_iter().filter(|fault| !consequence(fault)));

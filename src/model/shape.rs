@@ -1,6 +1,7 @@
 //! The generic reader: walks a value along the tables of fields and collects every fault of form. What passes here has the
 //! right keys and the right kinds of values; their meaning is checked where they are decoded.
 
+use super::commas::{comma, decimal, open_parenthesis, rejoin};
 use super::fault::{At, Fault, Spot};
 use super::fields::{Field, Keys, Record, Shape, Size, Want};
 use super::merge::{Layers, Node};
@@ -41,6 +42,8 @@ impl Shapes<'_> {
             (Shape::Text, Node::Plain(Value::Number(n))) => Some(format!("write it in quotes: \"{n}\"")),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "yes" | "on") => Some("write `true`".to_owned()),
             (Shape::Flag, Node::Plain(Value::String(s))) if matches!(s.as_str(), "no" | "off") => Some("write `false`".to_owned()),
+            (Shape::Map(table), Node::Plain(Value::Number(n))) => with_its_key(table, &n.to_string()),
+            (Shape::Map(table), Node::Plain(Value::String(s))) => with_its_key(table, &clip(s)),
             (Shape::Value(_), node) if node.is_list() => Some("write one value, without brackets".to_owned()),
             (shape, Node::Plain(Value::Number(n))) => self.as_vector(&n.to_string(), shape),
             (shape, Node::Plain(Value::String(text))) => self.as_vector(text, shape),
@@ -59,6 +62,13 @@ impl Shapes<'_> {
             Shape::Either(shapes) => shapes.iter().find_map(of),
             shape => of(shape),
         }?;
+        let axis = ["x", "y", "z"].iter().position(|axis| *axis == value.trim()).filter(|_| want == Want::Of(Dimension::NONE));
+        if let (Some(n), Some(axis)) = (self.components, axis)
+            && axis < n
+        {
+            let unit: Vec<&str> = (0..n).map(|i| if i == axis { "1" } else { "0" }).collect();
+            return Some(format!("write `[{}]`", unit.join(", ")));
+        }
         let size = value.trim().trim_start_matches(['-', '+']).trim_start();
         let number = size.starts_with(|c: char| c.is_ascii_digit() || c == '.');
         let zeros = if self.components == Some(3) { "0, 0" } else { "0" };
@@ -203,8 +213,17 @@ impl Shapes<'_> {
     fn commas(&mut self, node: Node<'_>, at: &At<'_, '_>) -> Vec<usize> {
         let Node::Plain(Value::Mapping(map)) = node else { return Vec::new() };
         let mut cut = Vec::new();
-        for (i, (key, value)) in map.iter().enumerate() {
-            let Some(name) = key.as_str().filter(|_| open_parenthesis(value)) else { continue };
+        let next = map.iter().skip(1).map(Some).chain([None]);
+        for (i, ((key, value), next)) in map.iter().zip(next).enumerate() {
+            let Some(name) = key.as_str() else { continue };
+            if let Some(number) = decimal(value, next) {
+                let help = format!("write `{name}: {number}`");
+                self.fault("comma-in-braces", &at.key(name), "a comma in a number", "a decimal point").help = Some(help);
+                cut.extend([i, i + 1]);
+            }
+            if !open_parenthesis(value) {
+                continue;
+            }
             let pieces = map.iter().skip(i + 1).take_while(|(_, value)| value.is_null()).map(|(key, _)| key);
             if let Some(joined) = rejoin(value, pieces) {
                 let place = self.place(&at.key(name));
@@ -391,6 +410,15 @@ pub(crate) fn describe(node: Node<'_>) -> String {
 /// Longest name of what files are named after: two of them make the name of a figure.
 const LONGEST_TITLE: usize = 100;
 
+/// A value in the place of a map: under the one key that the map needs, beside the first of those of which it needs one.
+fn with_its_key(table: &Record, value: &str) -> Option<String> {
+    let mut required = table.fields.iter().filter(|field| field.required);
+    let key = required.next().filter(|field| matches!(field.shape, Shape::Value(_)))?.key;
+    let others: Vec<String> =
+        table.choices.iter().filter(|choice| choice.required).map(|choice| format!(", {}: ...", choice.keys[0])).collect();
+    required.next().is_none().then(|| format!("write `{{ {key}: {value}{} }}`", others.concat()))
+}
+
 fn lower_first(text: &str) -> String {
     let mut chars = text.trim_end_matches('.').chars();
     match chars.next() {
@@ -400,48 +428,6 @@ fn lower_first(text: &str) -> String {
         Some(first) => format!("({}{})", first.to_lowercase(), chars.as_str()),
         None => String::new(),
     }
-}
-
-/// The sign of an expression that a comma has cut.
-fn open_parenthesis(value: &Value) -> bool {
-    value.as_str().is_some_and(|text| balance(text) > 0)
-}
-
-fn balance(text: &str) -> i64 {
-    text.bytes().map(|c| i64::from(c == b'(') - i64::from(c == b')')).sum()
-}
-
-/// The expression that was meant: pieces are joined until the parentheses close.
-fn rejoin<'v>(first: &Value, pieces: impl Iterator<Item = &'v Value>) -> Option<String> {
-    let mut text = first.as_str()?.to_owned();
-    for piece in pieces {
-        text.push_str(", ");
-        match piece {
-            Value::String(s) => text.push_str(s),
-            Value::Number(n) => text.push_str(&n.to_string()),
-            _ => return None,
-        }
-        match balance(&text) {
-            0 => return Some(text),
-            n if n < 0 => return None,
-            _ => {}
-        }
-    }
-    None
-}
-
-fn comma(place: String, joined: &str, key: Option<&str>) -> Fault {
-    let repaired = match key {
-        Some(key) => format!("write `{key}: \"{joined}\"`, or give it a line of its own"),
-        None => format!("write \"{joined}\""),
-    };
-    Fault::new(
-        "comma-in-braces",
-        place,
-        "inside of `{ }` and `[ ]` a comma ends the value",
-        "an expression with commas in quotes or on its own line",
-    )
-    .help(repaired)
 }
 
 /// All faults of form of a file: its own sections, its variants and its studies.

@@ -100,7 +100,11 @@ impl<G: Space<S = f64>> System<'_, G> {
             (None, true) => String::new(),
             (None, false) => format!(", with which the {coupling} {all} cannot hold"),
         };
-        let checked = if couplings.is_empty() { "check the lengths".to_owned() } else { format!("check the {coupling} {all}") };
+        let checked = match (loops.first(), couplings.is_empty()) {
+            (_, false) => format!("check the {coupling} {all}"),
+            (Some(_), true) => "check the lengths".to_owned(),
+            (None, true) => "remove it: joints, drivers or other values fix it already".to_owned(),
+        };
         AssemblyFault {
             code: "start-cannot-hold",
             message: format!(

@@ -5,6 +5,7 @@ use super::close::System;
 use super::explain::{short, unit, unit_of_rate};
 use super::fault::AssemblyFault;
 use crate::geometry::Space;
+use crate::kinematics::freedom::with_fewer_drivers;
 use crate::mechanism::{Asked, Mechanism, RowOwner, Start};
 use crate::numerics::least_squares::{Level, in_turn};
 
@@ -130,14 +131,7 @@ impl<G: Space<S = f64>> System<'_, G> {
                     if freedom == 1 { "" } else { "s" }
                 ),
                 place: "drivers".into(),
-                help: match coupled.len() {
-                    0 => "remove drivers until there are as many as degrees of freedom".into(),
-                    n => format!(
-                        "remove drivers, or the coupling{} {}, until there are as many drivers as degrees of freedom",
-                        if n == 1 { "" } else { "s" },
-                        coupled.join(", ")
-                    ),
-                },
+                help: with_fewer_drivers(freedom, &coupled),
             });
         }
         if exact.is_empty() && (moved == 1 || moved == drivers) {

@@ -232,7 +232,7 @@ impl<'n> Decoder<'n> {
                 let place = self.place(at);
                 for fault in faults.into_iter().filter(|fault| !fault.found.is_empty()) {
                     let code = codes.iter().find(|(found, _)| *found == fault.found).map(|(_, code)| *code);
-                    let refused = refused_call.filter(|_| fault.expected == "a function or a table");
+                    let refused = refused_call.filter(|_| fault.expected == expression::CALLED);
                     let made = if let Some(refused) = refused {
                         Fault::new(
                             "wrong-level",

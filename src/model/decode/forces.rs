@@ -199,7 +199,13 @@ impl<'n> Decoder<'n> {
                 Some("remove one of the two".to_owned());
         }
         let motion = if keys.speed.given() {
-            Motion::Speed(self.read_of(keys.speed, at, coordinate.dimension(1))?)
+            let before = self.faults.len();
+            let speed = self.read_of(keys.speed, at, coordinate.dimension(1));
+            for fault in self.faults[before..].iter_mut().filter(|fault| fault.message.starts_with("`t` ")) {
+                let law = if coordinate.angle { keys.angle.key() } else { keys.position.key() };
+                fault.help = Some(format!("`speed` is constant: write `{law}:`, which takes an expression of `t`"));
+            }
+            Motion::Speed(speed?)
         } else if let Some(rise) = keys.rise.node {
             let (rise, here) = (RiseKeys::of(rise), at.key(keys.rise));
             let by = self.read_as(rise.by, &here, wanted_of(Some(coordinate)));
