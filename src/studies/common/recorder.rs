@@ -4,7 +4,7 @@ use super::case::{Case, Streamed};
 use super::clock::{Clock, Variable};
 use super::named::{column, column_of};
 use super::selection::Selection;
-use super::watched::Watched;
+use super::watched::{Watched, together};
 use crate::expression::Dimension;
 use crate::results::{Column, Finding, Rows};
 
@@ -18,8 +18,18 @@ pub(crate) struct Recorder<'a> {
     shown: Vec<usize>,
     /// What is shown in each row, of rows that are passed on as far as it is to be kept.
     kept: Selection,
-    /// Of each column the number of rows in which it is not defined, and where it was so first.
-    blank: Vec<(usize, f64)>,
+    /// Of each column the rows in which it is not defined.
+    blank: Vec<Blank>,
+}
+
+/// Rows in which a column is not defined.
+#[derive(Clone, Copy, Default)]
+struct Blank {
+    count: usize,
+    /// Where it was so first.
+    first: f64,
+    /// A number that the same rows give, and others do not.
+    rows: u64,
 }
 
 /// The rows that were kept.
@@ -52,15 +62,19 @@ impl<'a> Recorder<'a> {
             Some(Streamed { keep: 0, .. }) => Selection::new(0, PLACES),
             Some(Streamed { keep, .. }) => Selection::new(shown.len(), keep),
         };
-        Self { case, clock, variable, shown, kept, blank: vec![(0, 0.0); study.columns.len()] }
+        Self { case, clock, variable, shown, kept, blank: vec![Blank::default(); study.columns.len()] }
     }
 
     /// A row at some progress in a piece, with the values of all that is watched.
     pub(crate) fn row(&mut self, progress: f64, piece: usize, watched: &[f64]) {
         let place = self.clock.value(progress);
         let shown = self.shown.iter().map(|&c| watched[c]);
+        let number = self.kept.count() as u64 + 1;
         for (blank, _) in self.blank.iter_mut().zip(shown.clone()).filter(|(_, value)| !value.is_finite()) {
-            *blank = (blank.0 + 1, if blank.0 == 0 { place } else { blank.1 });
+            let first = if blank.count == 0 { place } else { blank.first };
+            // 2⁶⁴ over the golden ratio spreads numbers over all bits
+            let rows = blank.rows.rotate_left(5) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            *blank = Blank { count: blank.count + 1, first, rows };
         }
         if let Some(Streamed { sink, .. }) = self.case.rows {
             sink.row(place, &shown.clone().take(self.blank.len()).collect::<Vec<_>>());
@@ -81,22 +95,25 @@ impl<'a> Recorder<'a> {
         places.step_by(every)
     }
 
-    /// Columns with blank cells that the study does not name as such.
+    /// Columns with blank cells that the study does not name as such, those with the same blank rows together.
     pub(crate) fn findings(&self) -> Vec<Finding> {
         let study = self.case.study;
         let columns = study.columns.iter().zip(&self.blank);
-        let blank = columns.filter(|(c, (count, _))| *count > 0 && !study.undefined.contains(&c.value));
-        let finding = |(column, (count, first)): (&crate::model::Column, &(usize, f64))| Finding {
+        let blank = columns.filter(|(c, blank)| blank.count > 0 && !study.undefined.contains(&c.value));
+        let all = together(blank.map(|(column, blank)| (format!("`{}`", column.name), (blank.count, blank.rows), blank.first)));
+        let finding = |(names, (count, _), first): (Vec<String>, (usize, u64), f64)| Finding {
             code: "blank-cells".into(),
             message: format!(
-                "`{}` is not defined in {count} of {} rows, first at {}: its cells are blank there",
-                column.name,
+                "{} {} not defined in {count} of {} rows, first at {}: {} cells are blank there",
+                names.join(", "),
+                if names.len() == 1 { "is" } else { "are" },
                 self.count(),
-                self.variable.at(*first)
+                self.variable.at(first),
+                if names.len() == 1 { "its" } else { "their" }
             ),
             path: format!("{}.columns", study.place),
         };
-        blank.map(finding).collect()
+        all.into_iter().map(finding).collect()
     }
 
     /// What was kept.

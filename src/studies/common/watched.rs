@@ -98,6 +98,29 @@ pub(crate) fn in_variable(mut e: Extremes, clock: Clock) -> Extremes {
     e
 }
 
+/// Why something is not resolved.
+#[derive(PartialEq)]
+enum Why {
+    /// It grows without bound at a change point, within what is told of it.
+    Pole(String),
+    /// It cannot be computed next to a singular position.
+    Singular,
+    /// It varies too fast.
+    Fast,
+}
+
+/// Names of which the same is to be said, with what it is and the first of what belongs to each.
+pub(crate) fn together<K: PartialEq, T>(all: impl Iterator<Item = (String, K, T)>) -> Vec<(Vec<String>, K, T)> {
+    let mut found: Vec<(Vec<String>, K, T)> = Vec::new();
+    for (name, said, with) in all {
+        match found.iter_mut().find(|(_, known, _)| *known == said) {
+            Some((names, ..)) => names.push(name),
+            None => found.push((vec![name], said, with)),
+        }
+    }
+    found
+}
+
 /// Columns and switches that are not resolved within the effort that they are worth.
 pub(crate) fn unresolved(
     model: &Model,
@@ -109,23 +132,41 @@ pub(crate) fn unresolved(
     clock: Clock,
 ) -> Vec<Finding> {
     let finding = |message: String| Finding { code: "unresolved".into(), message, path: study.place.clone() };
-    let columns = watched.open(study, resolved).map(|(open, column)| {
+    let open = watched.open(study, resolved).map(|(open, column)| {
         let what = match column {
-            Some(name) => format!("column `{name}`"),
+            Some(name) => format!("`{name}`"),
             None => format!("what {} is taken of", watched.asked(model, study, open.column)),
         };
         // a place is told as well as it is known
         let told = NEAR * clock.length;
         let at = variable.at((clock.value(open.at) / told).round() * told);
-        finding(match (open.pole, open.singular) {
-            (Some(reach), _) => format!(
-                "{what} grows without bound at the change point {at}: within {} of it a straight line was taken for extremes, means and integrals, which have no meaning there",
-                variable.told(reach)
+        let why = match (open.pole, open.singular) {
+            (Some(reach), _) => Why::Pole(variable.told(reach)),
+            (None, true) => Why::Singular,
+            (None, false) => Why::Fast,
+        };
+        (what, (column.is_some(), at, why), ())
+    });
+    let columns = together(open).into_iter().map(|(names, (columns, at, why), ())| {
+        let one = names.len() == 1;
+        let what = match (columns, one) {
+            (true, true) => format!("column {}", names[0]),
+            (true, false) => format!("columns {}", names.join(", ")),
+            (false, _) => names.join(", "),
+        };
+        finding(match why {
+            Why::Pole(reach) => format!(
+                "{what} {} without bound at the change point {at}: within {reach} of it a straight line was taken for extremes, means and integrals, which have no meaning there",
+                if one { "grows" } else { "grow" }
             ),
-            (None, true) => format!(
+            Why::Singular => format!(
                 "{what} cannot be computed next to the singular position at {at}, which multiplies the errors of the state: a straight line was taken there for extremes, means and integrals"
             ),
-            (None, false) => format!("{what} varies too fast or without bound near {at}: there its extremes, means and integrals may be wrong"),
+            Why::Fast => format!(
+                "{what} {} too fast or without bound near {at}: there {} extremes, means and integrals may be wrong",
+                if one { "varies" } else { "vary" },
+                if one { "its" } else { "their" }
+            ),
         })
     });
     let switches = switches.iter().map(|&(switch, at)| {
