@@ -53,5 +53,6 @@ mod solve;
 mod statics;
 mod sweep;
 mod undefined;
+mod underconstrained;
 mod urdf;
 mod watch;

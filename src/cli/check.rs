@@ -1,6 +1,7 @@
 //! `grashof check`: a look at a model before it moves.
 
 use super::{Common, code, files, print_out};
+use grashof::api::explained;
 use grashof::expression::{Id, Node, parse_unit};
 use grashof::kinematics::mobility::Grashof;
 use grashof::kinematics::survey::{Survey, survey};
@@ -62,7 +63,9 @@ fn hindered(document: &Document, study: &str, common: &Common) -> Option<String>
     if let Err(Hindrance { at, failure }) = rehearse(&model, asked) {
         let at: Vec<String> = at.iter().map(|(name, x)| format!("{name} = {x}")).collect();
         let at = if at.is_empty() { String::new() } else { format!(" at {}", at.join(", ")) };
-        return Some(format!("study `{study}`{at}: {}", failure.reason()));
+        let help = explained(document, study, &failure).diagnostics.into_iter().find_map(|diagnostic| diagnostic.help);
+        let help = help.filter(|help| !help.is_empty()).map_or_else(String::new, |help| format!("; {help}"));
+        return Some(format!("study `{study}`{at}: {}{help}", failure.reason()));
     }
     let values = parameters(&model);
     let pulls = !(model.loads.is_empty() && model.springs.is_empty() && model.motors.is_empty());

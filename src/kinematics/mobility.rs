@@ -2,6 +2,7 @@
 
 use super::assemble::{Assembled, ChangePoint};
 use super::freedom::{rows, undriven, with_fewer_drivers};
+use super::remaining::remaining;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, RowOwner};
 use crate::model::{Kind, Model, Study};
@@ -29,8 +30,7 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    // in a change point rows lose rank that they have everywhere else
-    let q = start.change.as_ref().and_then(ChangePoint::beside).unwrap_or(&start.q);
+    let q = beside(start);
     let rows = rows(mechanism, q, &start.modes, &start.metric);
     let free = undriven(mechanism, &rows, &start.metric);
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
@@ -43,6 +43,11 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
         moved: mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row)),
         redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),
     }
+}
+
+/// Where rows are counted: in a change point they lose rank that they have everywhere else.
+fn beside(start: &Assembled) -> &[f64] {
+    start.change.as_ref().and_then(ChangePoint::beside).unwrap_or(&start.q)
 }
 
 /// Whether the drivers leave no freedom and do not contend for the same one.
@@ -71,6 +76,12 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
     }
     if m.left > 0 {
         let loose = loose(mechanism);
+        // what no joint holds moves in any case
+        let remaining = loose.is_empty().then(|| {
+            let q = beside(start);
+            let (g, scale) = rows(mechanism, q, &start.modes, &start.metric);
+            remaining(mechanism, q, start, &Rank::new(&g, &start.metric, &scale, RANK_TOLERANCE))
+        });
         let kind = match study.kind {
             Kind::Kinematics(_) => "kinematics",
             Kind::Balance { .. } => "balance",
@@ -84,12 +95,13 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
                 plural(m.freedom),
                 plural(drivers),
                 if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
-                in_no_joint(&loose)
+                remaining.as_ref().map_or_else(|| in_no_joint(&loose), |remaining| remaining.words.clone())
             ),
             place: if drivers == 0 { study.place.clone() } else { "drivers".into() },
-            help: match loose.first() {
-                Some(body) => format!("give `{body}` a joint, or remove it"),
-                None => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
+            help: match (loose.first(), remaining.and_then(|remaining| remaining.help)) {
+                (Some(body), _) => format!("give `{body}` a joint, or remove it"),
+                (None, Some(help)) => help,
+                (None, None) => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),
             },
         });
     }

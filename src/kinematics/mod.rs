@@ -19,6 +19,7 @@ pub(crate) mod pair;
 pub mod partition;
 pub mod path;
 pub mod pencil;
+mod remaining;
 pub(crate) mod saddle;
 pub(crate) mod standing;
 pub mod survey;
