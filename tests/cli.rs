@@ -10,6 +10,7 @@ use std::process::{Command, Output, Stdio};
 mod codes;
 mod doubts;
 mod others;
+mod shown;
 #[cfg(unix)]
 mod signals;
 mod streams;

@@ -35,8 +35,7 @@ fn solution(results: &Results) -> String {
     let Some(solved) = &results.solution else { return String::new() };
     let (value, unit) = solved.parameter.shown();
     let value = format!("{} {unit}", ten_digits(value));
-    // a number without its unit, but where the model asks for one
-    let of = results.scalars.iter().find(|scalar| scalar.name == solved.of && scalar.shown_in.is_some());
+    let of = results.scalars.iter().find(|scalar| scalar.name == solved.of);
     let found = of.map_or_else(
         || ten_digits(solved.found),
         |scalar| {
@@ -45,7 +44,7 @@ fn solution(results: &Results) -> String {
             format!("{} {unit}", ten_digits(value))
         },
     );
-    format!("  solved: {} = {} ({} runs), {} = {found}\n", solved.parameter.name, value.trim_end(), solved.runs, solved.of)
+    format!("  solved: {} = {} ({} runs), {} = {}\n", solved.parameter.name, value.trim_end(), solved.runs, solved.of, found.trim_end())
 }
 
 /// How many rows there are, and over what.
@@ -60,7 +59,7 @@ fn range(results: &Results) -> String {
         return String::new();
     }
     let (unit, size) = results.independent.shown();
-    let unit = results.independent.shown_in.as_ref().map_or_else(String::new, |_| format!(" {unit}"));
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let end = |x: Option<&f64>| place(x.map(|x| x / size).as_ref());
     let (from, to) = (end(places.first()), end(places.last()));
     let count = results.table.selected_from.unwrap_or(places.len());

@@ -17,7 +17,7 @@ pub(super) fn summary(results: &Results) -> String {
     let numbers: Vec<&Column> = results.table.columns.iter().filter(|c| NUMBERS.contains(&c.name.as_str())).collect();
     let mut lines: Vec<Vec<String>> = vec![vec!["mode".into()]];
     lines[0].extend(numbers.iter().map(|column| column.heading()));
-    lines[0].extend(["[1/s]".into(), "period [s]".into()]);
+    lines[0].extend(["cycles [1/s]".into(), "period [s]".into()]);
     for i in 0..results.shapes.len() {
         let mut line = vec![format!("{}", i + 1)];
         line.extend(numbers.iter().map(|c| digits(c.values.get(i).copied().unwrap_or(f64::NAN) / c.shown().1, 10)));
