@@ -13,6 +13,7 @@ mod others;
 mod shown;
 #[cfg(unix)]
 mod signals;
+mod start;
 mod streams;
 
 /// A small four-bar with two studies and a sweep; `{}` stands for further lines of the study `turn`.

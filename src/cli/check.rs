@@ -11,6 +11,7 @@ use grashof::studies::common::case::parameters;
 use grashof::studies::loader::quickly;
 use grashof::studies::rehearsal::{Hindrance, rehearse};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 
 #[derive(clap::Args)]
 pub(super) struct Arguments {
@@ -182,14 +183,7 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
         print_out(&format!("  {:<25} {}", format!("links [{}]", length_in.unit), lengths.join(", ")));
         print_out(&format!("  range of the input        {}", range_of_the_input(model, g)));
     }
-    if !survey.start.is_empty() {
-        print_out("\nstart                        asked            found");
-        for f in &survey.start {
-            let tilde = if f.guess { "~" } else { " " };
-            let of = In::of(model, f.unit);
-            print_out(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, of.number(f.asked), of.number(f.found), of.unit));
-        }
-    }
+    print_start(model, survey);
     if !survey.lengths.is_empty() {
         print_out("\ndistances as at the start");
         for (name, length) in &survey.lengths {
@@ -203,6 +197,39 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
         }
     }
 }
+
+/// Most coordinates of joints that are shown though nothing was asked of them.
+const SHOWN: usize = 12;
+
+/// The start as it was asked for and found, and where joints stand in it of which nothing was asked.
+fn print_start(model: &Model, survey: &Survey) {
+    let asked: HashSet<&str> = survey.start.iter().map(|f| f.name.split_once('.').map_or(&*f.name, |(of, _)| of)).collect();
+    // where a joint stands follows from its bodies as well
+    let silent = |joint: usize| {
+        let (name, _, a, b, _) = &survey.joints[joint];
+        [name, a, b].iter().all(|of| !asked.contains(of.as_str()))
+    };
+    let others: Vec<_> = survey.stands.iter().filter(|(joint, ..)| silent(*joint)).collect();
+    if survey.start.is_empty() && others.is_empty() {
+        return;
+    }
+    print_out("\nstart                        asked            found");
+    for f in &survey.start {
+        let tilde = if f.guess { "~" } else { " " };
+        let of = In::of(model, f.unit);
+        print_out(&format!("  {:<22} {tilde}{:>14}   {:>14} {}", f.name, of.number(f.asked), of.number(f.found), of.unit));
+    }
+    for (joint, coordinate, x, unit) in others.iter().take(SHOWN) {
+        let (name, of) = (format!("{}.{coordinate}", survey.joints[*joint].0), In::of(model, unit));
+        print_out(&format!("  {name:<22} {:>15}   {:>14} {}", "-", short(x / of.size, AT_START), of.unit));
+    }
+    if let Some(more) = others.len().checked_sub(SHOWN + 1) {
+        print_out(&format!("  and {} of other joints; `--json` has all", counted(more + 1, "value", "values")));
+    }
+}
+
+/// Part of a unit that is round-off of zero where nothing was asked for.
+const AT_START: f64 = 1e-10;
 
 /// The range of a four-bar's input, in the measure of the user that follows it, else in the angle of its joint.
 fn range_of_the_input(model: &Model, grashof: &Grashof) -> String {
@@ -254,13 +281,17 @@ fn print_notes(notes: &[String]) {
 
 fn as_json(model: &Model, survey: &Survey, findings: &[String]) -> Value {
     let m = &survey.mobility;
+    let stand = |joint: usize| -> serde_json::Map<String, Value> {
+        let own = survey.stands.iter().filter(|(j, ..)| *j == joint);
+        own.map(|(_, coordinate, x, _)| ((*coordinate).to_owned(), json_number(*x))).collect()
+    };
     json!({
         "name": model.name,
         "bodies": survey.bodies.iter().map(|(name, mass, com, inertia)| json!({
             "name": name, "mass": json_number(*mass), "com": json_numbers(com), "inertia": json_numbers(inertia),
         })).collect::<Vec<_>>(),
-        "joints": survey.joints.iter().map(|(name, kind, a, b, tree)| json!({
-            "name": name, "kind": kind, "bodies": [a, b], "cut": !tree,
+        "joints": survey.joints.iter().enumerate().map(|(i, (name, kind, a, b, tree))| json!({
+            "name": name, "kind": kind, "bodies": [a, b], "cut": !tree, "start": stand(i),
         })).collect::<Vec<_>>(),
         "loops": survey.loops,
         "coordinates": survey.sizes.0,

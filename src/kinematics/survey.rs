@@ -7,7 +7,7 @@ use super::undefined::{assembled, in_state};
 use crate::dynamics::Dynamics;
 use crate::geometry::{Planar, Space, Spatial};
 use crate::mechanism::{Coordinates, describe_loop};
-use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue};
+use crate::model::{Dimensions, LoadOn, Model, Quantity, SpringOn, StartValue, coordinates_of};
 use crate::results::{Failure, Finding};
 use crate::scalar::Scalar;
 
@@ -28,6 +28,8 @@ pub struct Survey {
     pub grashof: Option<Grashof>,
     /// Start asked and found.
     pub start: Vec<Found>,
+    /// Where all joints stand at the start: the joint, by its index, the name of its coordinate, its value and unit.
+    pub stands: Vec<(usize, &'static str, f64, &'static str)>,
     /// Bodies that no joint leads to and nothing else of the model names.
     pub forgotten: Vec<String>,
     /// Distances without a length, by the names of their joints: those at the start, m.
@@ -65,6 +67,11 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         axes.iter().map(along).collect()
     };
     let name = |b: usize| m.bodies[b].name.clone();
+    let mut dynamics = Dynamics::new(m);
+    dynamics.time(0.0, &modes);
+    dynamics.position(&start.q, &modes);
+    dynamics.velocity(&start.v, &modes);
+    dynamics.watch(&start.q, &start.v, &modes);
     Ok(Survey {
         bodies: m
             .bodies
@@ -80,9 +87,6 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
         sizes: (m.nq, m.nv, m.rows.len()),
         mobility: mobility(m, &start),
         grashof: grashof(m).map(|mut found| {
-            let mut dynamics = Dynamics::new(m);
-            dynamics.time(0.0, &modes);
-            dynamics.position(&start.q, &modes);
             found.near(dynamics.work.readings[m.joints[found.input].slots[0]].x);
             found
         }),
@@ -92,6 +96,13 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
             .filter_map(|j| Some((j.name.clone(), m.rows[j.rows.clone()].iter().find(|row| row.anchored)?.offset)))
             .collect(),
         findings: start.findings().collect(),
+        stands: model
+            .joints
+            .iter()
+            .enumerate()
+            .flat_map(|(i, joint)| coordinates_of(&joint.kind).iter().map(move |coordinate| (i, coordinate)))
+            .map(|(i, c)| (i, c.names[0], dynamics.work.readings[m.joints[i].slots[c.slot]].x, if c.angle { "rad" } else { "m" }))
+            .collect(),
         start: start.found,
         forgotten: loose(m).into_iter().filter(|name| !is_named(model, name)).map(str::to_owned).collect(),
     })
