@@ -173,3 +173,41 @@ fn a_plate_that_falls_flat_stays_flat() {
     }
     verdict.give("flat plate");
 }
+
+#[test]
+fn an_event_of_a_rate_is_met_at_the_blow_that_carries_it_over() {
+    let text = |settings: &str| {
+        format!(
+            "grashof: 1
+name: rate over its threshold
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: {{ G1: [0.338, -0.123] }}
+bodies:
+  b1: {{ mass: 2.63, com: [0.044, 0.005], inertia: 0.137, points: {{ P: [0.276, 0] }} }}
+  b2: {{ mass: 0.547, com: [0.284, -0.006], inertia: 0.25, points: {{ P: [0.235, 0] }} }}
+joints: {{ J1: {{ revolute: [ground.G1, b1.origin] }}, J2: {{ revolute: [b1.P, b2.origin] }} }}
+clutches: {{ cl: {{ between: [J1, J2], torque: 2.989 N m }} }}
+start: {{ J2.omega: 0.924 }}
+parameters: {{ n: 0 }}
+events:
+  over: {{ when: J2.omega + 0.22 rad/s, crossing: rising, set: {{ n: n + 1 }} }}
+  blow: {{ when: J2.angle + 0.106 rad, crossing: falling, restitution: {{ joint: J2, e: 0.254 }} }}
+studies: {{ run: {{ dynamics: {{ until: 1 s, {settings} }}, columns: [time, J2.omega] }} }}
+"
+        )
+    };
+    let mut verdict = Verdict::default();
+    for coordinates in ["joint", "cartesian", "minimal"] {
+        for scheme in ["dop853", "radau5", "bdf"] {
+            let place = format!("{scheme}, {coordinates}");
+            let outcome = study(&text(&format!("integrator: {scheme}, coordinates: {coordinates}")), "run", Coordinates::Joint);
+            let of = |name: &str| outcome.events.iter().filter(|event| event.name == name).map(|event| event.at).collect::<Vec<_>>();
+            let (over, blows) = (of("over"), of("blow"));
+            verdict.close("events", &place, over.len() as f64, 2.0, 0.0);
+            // the first two blows, which turn the joint round
+            over.iter().zip(&blows).for_each(|(over, blow)| verdict.close("time", &place, *over, *blow, 1e-12));
+        }
+    }
+    verdict.give("an_event_of_a_rate_is_met_at_the_blow_that_carries_it_over");
+}
