@@ -276,7 +276,8 @@ impl<G: Space> Dynamics<'_, G> {
     }
 
     /// A gauge that a row holds, on a rigid stop or sticking: exactly where it is held, or 0 for its rate (`order` 1) and acceleration (2);
-    /// one that a driver at rest holds: what its law says; and the rate of one that a clutch holds to others, which is one number for all of them, so that the slip of the clutch is 0.
+    /// one that a driver at rest holds: what its law says; and the rate of one that a clutch holds to others, which is one number for all
+    /// of them, so that the slip of the clutch is 0.
     /// What is evaluated there has round-off, by which a comparison would come out now so, now otherwise.
     #[must_use]
     pub fn held(&self, gauge: usize, order: usize) -> Option<G::S> {

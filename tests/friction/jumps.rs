@@ -56,18 +56,22 @@ loads:
   pa: {{ joint: A, force: \"if(t > 1 s, 1 N - 2 N*{PULSE}, 1 N)\" }}
   pc: {{ joint: C, force: \"if(t > 1 s, 4 N*{PULSE}, 1 N)\" }}
 studies:
-  run: {{ dynamics: {{ until: 1.25 s, every: 5 ms, {settings} }}, columns: [time, S.position, S.stop, ow.force, cl.force] }}
+  run: {{ dynamics: {{ until: 2 s, every: 5 ms, {settings} }}, columns: [time, S.position, S.stop, ow.force, cl.force] }}
 "
         )
     };
     let mut verdict = Verdict::default();
-    for (settings, tolerance) in forms() {
+    // steps of usual tolerances are longer than the overload
+    let usual = ["tolerance: 1e-8", "tolerance: 1e-8, coordinates: cartesian", "tolerance: 1e-7, integrator: radau5"];
+    for (settings, tolerance) in forms().chain(usual.map(|settings| (settings.to_owned(), 1e-6))) {
         let outcome = done(&text(&settings), "run");
         for row in outcome.rows.iter() {
             let (place, s) = (format!("{settings}, {} s", row[0]), row[0] - 1.0);
-            // it lifts at once: a = exp(−10 s) − 0.5
+            // it lifts at once: a = exp(−10 s) − 0.5, and falls back at s = 0.2557 s
             let lifted = if s > 0.0 { 0.1 * s - 0.01 * (1.0 - (-10.0 * s).exp()) - 0.25 * s * s } else { 0.0 };
-            verdict.close("S.position", &place, row[1], lifted, 10.0 * tolerance);
+            if s < 0.25 {
+                verdict.close("S.position", &place, row[1], lifted, 10.0 * tolerance);
+            }
             verdict.close("S.stop", &place, row[2].min(0.0), 0.0, 1e-6);
             verdict.close("ow.force", &place, row[3].min(0.0), 0.0, 1e-6);
             verdict.close("cl.force", &place, row[4].max(1.0), 1.0, 1e-6);

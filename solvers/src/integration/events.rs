@@ -378,17 +378,13 @@ impl Integration {
             if self.probe.iter().all(|g| *g != 0.0) {
                 break;
             }
-            for (later, part) in [MOMENT, LATER].into_iter().enumerate() {
-                self.trial.copy_from(&self.node);
-                self.drift(system, part * self.moment());
-                if system.pattern().roots_by_reactions {
-                    self.engine.accelerate(system, &mut self.trial)?;
-                }
-                system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[later]);
+            // what was crossed just now may leave zero slowly, unless a law of time has ended at the same instant
+            let law_ended = self.crossed.iter().any(|root| self.foresight.roots.contains(root));
+            self.look_later(system, MOMENT, 0)?;
+            if law_ended {
+                self.look_later(system, LATER, 1)?;
             }
             let Self { looked, foresight, crossed, probe, samples, node, .. } = self;
-            // what was crossed just now may leave zero slowly, unless a law of time has ended at the same instant
-            let law_ended = crossed.iter().any(|root| foresight.roots.contains(root));
             let rests = |root: usize| !crossed.contains(&root) || law_ended && samples[1][root] == 0.0;
             let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && rests(**root);
             let mut at_rest = looked.iter().chain(&foresight.roots).filter(stays);
@@ -401,6 +397,17 @@ impl Integration {
             system.roots(state.at(), a, lambda, &mut self.probe);
         }
         Ok(restart)
+    }
+
+    /// Roots a `part` of the moment behind the node along its velocities and accelerations, into a sample.
+    fn look_later(&mut self, system: &mut dyn System, part: f64, sample: usize) -> Result<(), Why> {
+        self.trial.copy_from(&self.node);
+        self.drift(system, part * self.moment());
+        if system.pattern().roots_by_reactions {
+            self.engine.accelerate(system, &mut self.trial)?;
+        }
+        system.roots(self.trial.state.at(), &self.trial.a, &self.trial.lambda, &mut self.samples[sample]);
+        Ok(())
     }
 
     /// The longest of the times between the last events that changed the motion, of which one is now, s.

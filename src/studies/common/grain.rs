@@ -43,8 +43,8 @@ impl Grain {
         self.rates.push(v.iter().zip(&units).fold(0.0, |most, (v, unit)| f64::max(most, v.abs() / unit)));
     }
 
-    /// Below what each of the watched expressions `ids` is zero, in its unit: 0 where its dimension is not known. At rest the rate counts that
-    /// turns 1 rad in the whole `time`, s.
+    /// Below what each of the watched expressions `ids` is zero, in its unit: 0 where its dimension is not known. At rest the rate
+    /// counts that turns 1 rad in the whole `time`, s.
     pub(crate) fn floors(self, model: &Model, study: &Study, ids: &[Id], time: f64) -> Vec<f64> {
         let Self { length, energies, rates } = self;
         let (energy, rate) = (typical(energies), f64::max(typical(rates), time.abs().recip()));
