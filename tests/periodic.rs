@@ -4,6 +4,7 @@
 mod conservative;
 mod crank_rocker;
 mod faults;
+mod jumps;
 mod linear;
 mod nonlinear;
 mod switches;

@@ -181,7 +181,8 @@ impl<I: Copy> Test<I> {
         Some(ends.map(|d| if d.is_nan() { 1.0 } else { d }))
     }
 
-    /// The mode on the other side of the end of `mode` that is nearest.
+    /// The mode on the other side of the end of `mode` that is nearest; the one that the value asks for where that lies farther on, as
+    /// behind a jump of the operand (`floor(4*mod(x, 1))`, a table of `mod`).
     ///
     /// From the middle mode 0 of a sign it is the side where the value lies, positive on a tie.
     pub(super) fn neighbour(self, mode: i32, value: impl Fn(I) -> f64, tables: &[LookupTable]) -> i32 {
@@ -194,11 +195,21 @@ impl<I: Copy> Test<I> {
             Self::Compare(..) | Self::Order(..) => i32::from(mode == 0),
             Self::Sign(a) => across(value(a)),
             Self::Whole(_) if mode == OUTSIDE => mode,
-            Self::Whole(a) if value(a) - whole(mode) < 0.5 => whole_below(whole(mode) - 1.0),
-            Self::Whole(_) => whole_below(whole(mode) + 1.0),
-            Self::Segment { table, x } => tables.get(table as usize).map_or(mode, |t| t.neighbour(value(x), mode)),
+            Self::Whole(a) => {
+                let side = if value(a) - whole(mode) < 0.5 { -1.0 } else { 1.0 };
+                farther(mode, whole_below(whole(mode) + side), whole_below(value(a)))
+            }
+            Self::Segment { table, x } => {
+                tables.get(table as usize).map_or(mode, |t| farther(mode, t.neighbour(value(x), mode), t.segment(value(x))))
+            }
         }
     }
+}
+
+/// `asked` if it lies beyond `next` as seen from `mode`, else `next`.
+fn farther(mode: i32, next: i32, asked: i32) -> i32 {
+    let beyond = if next > mode { asked > next } else { asked < next };
+    if beyond && asked != OUTSIDE { asked } else { next }
 }
 
 #[cfg(test)]
@@ -235,6 +246,10 @@ mod tests {
             [(2.25, 2, 0.1875, 1), (2.75, 2, 0.1875, 3), (-0.25, -1, 0.1875, 0), (-0.75, -1, 0.1875, -2), (3.0, 3, 0.0, 2)]
         {
             assert_eq!((test.mode(|_| x, &[]), test.root(mode, |_| x, &[]), test.neighbour(mode, |_| x, &[])), (mode, root, next), "{x}");
+        }
+        // behind jumps of the operand
+        for (x, mode, next) in [(7.5, 2, 7), (-3.5, 2, -4), (4.0, 2, 4), (f64::NAN, 2, 3), (1e10, 2, 3)] {
+            assert_eq!(test.neighbour(mode, |_| x, &[]), next, "{x}");
         }
         // upwards through 3
         assert_eq!((test.root(2, |_| 3.0, &[]), test.neighbour(2, |_| 3.0, &[])), (0.0, 3));

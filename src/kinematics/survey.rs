@@ -101,7 +101,11 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
             .iter()
             .enumerate()
             .flat_map(|(i, joint)| coordinates_of(&joint.kind).iter().map(move |coordinate| (i, coordinate)))
-            .map(|(i, c)| (i, c.names[0], dynamics.work.readings[m.joints[i].slots[c.slot]].x, if c.angle { "rad" } else { "m" }))
+            // a point mass that is pinned has no angle
+            .filter_map(|(i, c)| {
+                let slot = *m.joints[i].slots.get(c.slot)?;
+                Some((i, c.names[0], dynamics.work.readings[slot].x, if c.angle { "rad" } else { "m" }))
+            })
             .collect(),
         start: start.found,
         forgotten: loose(m).into_iter().filter(|name| !is_named(model, name)).map(str::to_owned).collect(),

@@ -52,3 +52,19 @@ fn check_shows_few_of_many_joints() {
     assert_eq!(start(&done.stdout).len(), 13, "{}", done.stdout);
     assert!(done.stdout.contains("  and 8 values of other joints; `--json` has all"), "{}", done.stdout);
 }
+
+/// A point mass has no angle, so that the joint that pins it has no coordinate.
+#[test]
+fn a_point_mass_that_is_pinned_has_no_angle_to_show() {
+    let place = Place::new("pinned-mass");
+    let joints = "  A: { revolute: [crank.end, coupler.start] }\n";
+    assert!(MODEL.contains(joints) && MODEL.contains("bodies:\n"));
+    let text = MODEL.replace(joints, &format!("{joints}  W: {{ revolute: [crank.end, weight.origin] }}\n"));
+    let text = &text[..text.find("variants:").unwrap()];
+    let text = format!("{text}studies: {{ turn: {{ inverse: {{ over: 1 turn, samples: 24 }} }} }}\n");
+    place.put("m.yaml", &text.replace("bodies:\n", "bodies:\n  weight: { mass: 2 kg }\n"));
+    let report = place.run(&["check", "m.yaml", "--json"]).ends(0).json();
+    let pinned = report["joints"].as_array().unwrap().iter().find(|joint| joint["name"] == "W").unwrap();
+    assert!(pinned.get("start").is_none_or(|start| start.as_object().unwrap().is_empty()), "{pinned}");
+    place.run(&["run", "m.yaml", "--no-plots"]).ends(0);
+}

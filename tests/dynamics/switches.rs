@@ -278,3 +278,58 @@ studies:
     }
     verdict.give("at rest");
 }
+
+/// Work of 6 N m times how many fifths of a turn have passed since it began, from 0 to an angle.
+fn stairs(angle: f64) -> f64 {
+    let (turns, fifth) = ((angle / TAU).floor(), TAU / 5.0);
+    let whole = ((angle - turns * TAU) / fifth).floor();
+    let begun = whole * (whole - 1.0) / 2.0 + whole * ((angle - turns * TAU) / fifth - whole);
+    6.0 * fifth * (10.0 * turns + begun)
+}
+
+/// Tables and whole numbers of what jumps back at the end of a cycle, over the time and over the angle.
+#[test]
+fn cycles_that_begin_anew_take_the_switches_inside_of_them_along() {
+    let mut verdict = Verdict::default();
+    for scheme in SCHEMES {
+        let rest = |torque: &str, until: f64| {
+            format!(
+                "tables: {{ cycle: {{ points: [[0 s, 0 N m], [0.25 s, 8 N m], [0.5 s, 4 N m], [1 s, 2 N m]] }} }}
+loads: {{ push: {{ joint: O, torque: \"{torque}\" }} }}
+studies: {{ run: {{ dynamics: {{ until: {until} s, {scheme} }}, columns: [O.angle, O.omega] }} }}"
+            )
+        };
+        // torque times time of a cycle of 1 s: 12 and 4 N m s; until, and past, the end of one
+        for (torque, until, turned) in [
+            ("6 N m*floor(5*mod(t, 1 s)/1 s)", 10.0, 120.0),
+            ("6 N m*floor(5*mod(t, 1 s)/1 s)", 10.5, 122.4),
+            ("cycle(mod(t, 1 s))", 10.0, 40.0),
+            ("cycle(mod(t + 0.25 s, 1 s))", 10.75, 43.0),
+        ] {
+            let found = run_text(&wheel(&rest(torque, until)), &["--no-plots"]).succeeded().table("run");
+            let omega = found.rows.last().map_or(f64::NAN, |row| row[1]);
+            verdict.close("O.omega", &format!("{scheme}, {torque}, until {until} s"), omega, 50.0 + turned / 20.0, 1e-7);
+        }
+        let found = run_text(&wheel(&rest("6 N m*floor(5*mod(O.angle, 1 turn)/1 turn)", 2.0)), &["--no-plots"]).succeeded().table("run");
+        for row in &found.rows {
+            let right = (2500.0 + 2.0 * stairs(row[0]) / 20.0).sqrt();
+            verdict.close("O.omega over the angle", &format!("{scheme}, {} rad", row[0]), row[1], right, 1e-7);
+        }
+    }
+    verdict.give("cycles");
+}
+
+/// A start just before a switch of time has the side before it.
+#[test]
+fn a_switch_of_time_just_behind_the_start() {
+    let mut verdict = Verdict::default();
+    for late in ["0 s", "1e-15 s", "1e-12 s", "1e-9 s", "1e-6 s"] {
+        let rest = format!(
+            "loads: {{ push: {{ joint: O, torque: 6 N m*sign(t - {late}) }} }}
+studies: {{ run: {{ dynamics: {{ until: 1 s, integrator: dop853 }}, columns: [O.omega] }} }}"
+        );
+        let found = run_text(&wheel(&rest), &["--no-plots"]).succeeded().table("run");
+        verdict.close("O.omega", late, found.rows.last().map_or(f64::NAN, |row| row[0]), 50.3, 1e-6);
+    }
+    verdict.give("starts just before a switch");
+}

@@ -14,6 +14,7 @@ impl Integration {
         self.relative.copy_from_slice(&self.node.state.v);
         self.engine.shared(&self.node.state.v, |k, speed| self.relative[k] = speed);
         self.choose_modes(system)?;
+        self.cross_timed_at_start(system)?;
         let pattern = system.pattern();
         self.sigma = self.weakest.begin(&mut self.engine, &pattern.metric, &pattern.g_scale);
         self.largest_sigma = self.sigma.min(1.0);

@@ -3,7 +3,10 @@
 use super::Integration;
 use super::foresight::shortest;
 use crate::engine::{Node, Why};
-use crate::{Ahead, System};
+use crate::{Ahead, At, System};
+
+/// Crossings of one root of time alone at one instant.
+const MOST: usize = 3;
 
 impl Integration {
     /// The time in (from, to] that a step may not pass: of the first root of time alone that leaves its positive side in the modes of
@@ -20,7 +23,8 @@ impl Integration {
         let state = if from < node.state.t { &last.state } else { &node.state };
         if foresight.modes != state.modes || foresight.until < from {
             foresight.modes.copy_from_slice(&state.modes);
-            (foresight.until, foresight.next, foresight.unknown) = (from, None, false);
+            // what happens in the instant of a start or an event is crossed there
+            (foresight.until, foresight.next, foresight.unknown) = (from + shortest(from, self.goal), None, false);
         }
         if foresight.next.is_none() && foresight.until < to {
             let mut at = state.at();
@@ -43,8 +47,8 @@ impl Integration {
         Ok(next.filter(|(t, _)| *t <= to).map(|(t, root)| (((t - from) / (to - from)).clamp(0.0, 1.0), root)))
     }
 
-    /// A root of time alone that belongs to the instant of the node, and was not crossed yet. Whether one that is zero there does so shows
-    /// behind it, as far ahead as the next step will look.
+    /// A root of time alone that belongs to the instant of the node. Whether one that is zero there does so shows behind it, as far ahead
+    /// as the next step will look. One that was crossed may be so again, by round-off of what another one has let jump.
     pub(super) fn also_timed(&mut self, system: &mut dyn System) -> Option<usize> {
         if self.foresight.roots.is_empty() {
             return None;
@@ -52,8 +56,27 @@ impl Integration {
         let Node { state, .. } = &self.node;
         let instant = state.t + shortest(state.t, self.goal);
         match system.ahead(state.at(), instant.max(state.t + self.h), &self.foresight.roots) {
-            Ahead::Crossing(t, root) if t <= instant && !self.crossed.contains(&root) => Some(root),
+            Ahead::Crossing(t, root) if t <= instant && self.crossed.iter().filter(|crossed| **crossed == root).count() < MOST => {
+                Some(root)
+            }
             _ => None,
         }
+    }
+    /// Crosses roots of time alone at a start, whose modes are those of a moment later, until they are those of its instant.
+    pub(super) fn cross_timed_at_start(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        if self.foresight.roots.is_empty() {
+            return Ok(());
+        }
+        for _ in 0..MOST * self.foresight.roots.len() {
+            let state = &mut self.node.state;
+            let instant = state.t + shortest(state.t, self.goal);
+            let Ahead::Crossing(t, root) = system.ahead(At { t: instant, ..state.at() }, instant, &self.foresight.roots) else { break };
+            if t > instant {
+                break;
+            }
+            system.cross(root, state, &mut self.row);
+            self.engine.accelerate(system, &mut self.node)?;
+        }
+        Ok(())
     }
 }

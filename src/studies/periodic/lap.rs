@@ -176,7 +176,8 @@ impl Search<'_> {
         trajectory.go(last, pieces - 1).map_err(lost)?;
         let end = trajectory.node.clone();
         let ended = match self.section {
-            Section::Time(_) => last >= until,
+            // an event just before it may leave no step
+            Section::Time(_) => last >= until - 4.0 * f64::EPSILON * until.abs(),
             _ => events.pop_if(|e| e.name == ENDS).is_some(),
         };
         if ended && !exhausted {
