@@ -308,12 +308,12 @@ studies: {{ run: {{ dynamics: {{ until: {until} s, {scheme} }}, columns: [O.angl
         ] {
             let found = run_text(&wheel(&rest(torque, until)), &["--no-plots"]).succeeded().table("run");
             let omega = found.rows.last().map_or(f64::NAN, |row| row[1]);
-            verdict.close("O.omega", &format!("{scheme}, {torque}, until {until} s"), omega, 50.0 + turned / 20.0, 1e-7);
+            verdict.close("O.omega", format!("{scheme}, {torque}, until {until} s"), omega, 50.0 + turned / 20.0, 1e-7);
         }
         let found = run_text(&wheel(&rest("6 N m*floor(5*mod(O.angle, 1 turn)/1 turn)", 2.0)), &["--no-plots"]).succeeded().table("run");
         for row in &found.rows {
             let right = (2500.0 + 2.0 * stairs(row[0]) / 20.0).sqrt();
-            verdict.close("O.omega over the angle", &format!("{scheme}, {} rad", row[0]), row[1], right, 1e-7);
+            verdict.close("O.omega over the angle", format!("{scheme}, {} rad", row[0]), row[1], right, 1e-7);
         }
     }
     verdict.give("cycles");
