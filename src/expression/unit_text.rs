@@ -33,6 +33,30 @@ pub fn meant_unit(text: &str) -> String {
     }
 }
 
+/// What is found where an angle is wanted and a number is divided by one.
+pub const PER_ANGLE: &str = "a number divided by an angle";
+
+/// What to write instead of a text that is [`PER_ANGLE`].
+#[must_use]
+pub fn angle_instead(text: &str) -> String {
+    meant_fraction(text)
+        .unwrap_or_else(|| "write half a turn as `0.5 turn`, and divide by `1 rad` where a plain number is meant".to_owned())
+}
+
+/// What was meant by a fraction of a unit, `1/2 turn`, which is 1/(2 turn); none if a text is something else.
+#[must_use]
+pub fn meant_fraction(text: &str) -> Option<String> {
+    let text = text.trim_start_matches('~').trim();
+    let (above, rest) = text.split_once('/')?;
+    let (below, unit) = rest.trim().split_once(' ')?;
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let quotient = number(above)? / number(below)?;
+    parse_unit(unit)?;
+    let short = quotient.to_string();
+    let written = if short.len() <= 6 { format!("{short} {unit}") } else { format!("({}/{below})*1 {unit}", above.trim()) };
+    Some(format!("a number and its unit are taken first: `{text}` is {}/({below} {unit}); write `{written}`", above.trim()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,6 +69,18 @@ mod tests {
         for text in ["", "3", "1/s", "furlong", "Nm + 2", "°C"] {
             let help = meant_unit(text);
             assert!(help.starts_with("known: m km ") && help.contains(" ohm "), "{text}: {help}");
+        }
+    }
+
+    #[test]
+    fn fractions_of_a_unit_are_told_as_they_are_written() {
+        for (text, written) in
+            [("1/2 turn", "0.5 turn"), ("~1/4 turn", "0.25 turn"), ("1 / 3 N m", "(1/3)*1 N m"), ("3/2 rad/s", "1.5 rad/s")]
+        {
+            assert!(meant_fraction(text).unwrap().ends_with(&format!("write `{written}`")), "{text}: {:?}", meant_fraction(text));
+        }
+        for text in ["1/2", "0.5 turn", "a/2 turn", "1/x turn", "1/2 turns", "1/(2 turn)", "1/2 turn + 3 deg"] {
+            assert_eq!(meant_fraction(text), None, "{text}");
         }
     }
 }

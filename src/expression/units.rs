@@ -161,6 +161,12 @@ impl Dimension {
         *self == Self::NONE && self.angle == 2
     }
 
+    /// Whether this is a plain number divided by an angle, as `1/2 turn` is: 1/(2 turn).
+    #[must_use]
+    pub fn is_per_angle(&self) -> bool {
+        *self == Self::NONE && self.angle < 0
+    }
+
     /// Whether a unit of the other may show a number of this dimension: an angle is none of a plain number.
     #[must_use]
     pub fn is_shown_as(&self, other: Self) -> bool {

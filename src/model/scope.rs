@@ -273,7 +273,11 @@ impl Scope for View<'_, '_, '_> {
                 "max" | "min" => format!("`{name}(a, b)` of two values needs two"),
                 _ => format!("write `{name}(..)` in `scalars` of a study; another study has it by `take`"),
             });
-            let why = unknown(format!("`{name}(..)` is taken of a whole study"), "it can be used only in `scalars` and `expect`", help);
+            let why = unknown(
+                format!("`{name}(..)` is taken of a whole study"),
+                "it can be used only in `scalars`, and in `expect` on the left of the colon",
+                help,
+            );
             return Err(self.refuse("wrong-level", why));
         };
         if self.outside.is_some() {

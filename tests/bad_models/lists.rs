@@ -8,6 +8,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
         Refused,
         &[
             // keys and names
+            "fraction-of-a-turn",
             "misspelt-section",
             "misspelt-drivers",
             "misspelt-in-body",

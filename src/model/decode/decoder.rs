@@ -283,12 +283,15 @@ impl<'n> Decoder<'n> {
             Want::Angle => Dimension::NONE,
             Want::Varies(_) | Want::Any => return true,
         };
-        if let Err(found) = lowered.expect(dimension) {
+        let per_angle = want == Want::Angle && lowered.dimension.is_per_angle();
+        if let Err(found) = if per_angle { Err(expression::PER_ANGLE.to_owned()) } else { lowered.expect(dimension) } {
             let place = self.place(at);
             let text = node.text().unwrap_or_default();
             let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
-            if let Some(help) = self.unit_missing(text, dimension) {
+            if let Some(help) = self.unit_missing(text, dimension).or_else(|| expression::meant_fraction(text)) {
                 fault.help = Some(help);
+            } else if per_angle {
+                fault.help = Some(expression::angle_instead(text));
             } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));
             } else {

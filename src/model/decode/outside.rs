@@ -2,7 +2,7 @@
 
 use super::decoder::{Decoder, Origin};
 use super::written::unit_of;
-use crate::expression::{Dimension, Id, Lowered};
+use crate::expression::{self, Dimension, Id, Lowered};
 use crate::model::asked::{Asked, Caller};
 use crate::model::data::DataFiles;
 use crate::model::fault::{At, Given, Spot};
@@ -99,8 +99,9 @@ impl<'n> Decoder<'n> {
         let inner = inner.trim_end();
         let origin = Origin::Outside(&argument.given, argument.value + begin);
         let (lowered, _): (Lowered, _) = self.lower(inner, origin, &At::ROOT, allow, local)?;
-        match lowered.expect(wanted) {
-            Ok(_) => {
+        let per_angle = wanted.is_angle() && lowered.dimension.is_per_angle();
+        match if per_angle { Err(expression::PER_ANGLE.to_owned()) } else { lowered.expect(wanted) } {
+            Ok(()) => {
                 if wanted.is_angle() && inner.parse::<f64>().is_ok_and(|x| x.abs() > std::f64::consts::TAU) {
                     let message = format!("`{name}` is {inner} rad, more than a turn");
                     let fault = self.fault("bare-angle", &At::ROOT, message, "an angle in rad, or with its unit");
@@ -112,7 +113,8 @@ impl<'n> Decoder<'n> {
             Err(other) => {
                 let fault = self.fault("wrong-dimension", &At::ROOT, format!("found {other}"), wanted.name());
                 fault.spot = origin.spot(0..inner.len());
-                fault.help = Some(format!("`{name}` is given in {}", unit_words(wanted)));
+                let fraction = expression::meant_fraction(inner);
+                fault.help = Some(fraction.unwrap_or_else(|| format!("`{name}` is given in {}", unit_words(wanted))));
                 None
             }
         }

@@ -1,7 +1,7 @@
 //! `kinematics` and `inverse`: motion over a range that drivers prescribe.
 
 use super::contract::{Declared, Features};
-use crate::expression::{Dimension, Id};
+use crate::expression::{self, Dimension, Id};
 use crate::model::coordinates::{self, Coordinate};
 use crate::model::decode::decoder::Decoder;
 use crate::model::entities::LoadOn;
@@ -91,8 +91,11 @@ impl<'n> Decoder<'n> {
         if lowered.expect(dimension).is_err() {
             let message = format!("found {}", lowered.dimension.name());
             let of = if coordinate.angle { "such as `1 turn`" } else { "such as `10 cm`" };
-            self.fault("wrong-dimension", &over_at, message, format!("{} of the driver, or a time (s)", want.name())).help =
-                Some(format!("say how far the driver goes, {of}, or for how long, such as `2 s`"));
+            self.fault("wrong-dimension", &over_at, message, format!("{} of the driver, or a time (s)", want.name())).help = Some(
+                over.text()
+                    .and_then(expression::meant_fraction)
+                    .unwrap_or_else(|| format!("say how far the driver goes, {of}, or for how long, such as `2 s`")),
+            );
             return None;
         }
         self.fits(&lowered, want, over, None, &over_at);
