@@ -211,3 +211,60 @@ studies: {{ run: {{ dynamics: {{ until: 1 s, {settings} }}, columns: [time, J2.o
     }
     verdict.give("an_event_of_a_rate_is_met_at_the_blow_that_carries_it_over");
 }
+
+/// A mass at the height of 1 m, and an arm at 60 degrees, over what throws them back; events that count.
+fn counted(body: &str, events: &str, dynamics: &str) -> String {
+    format!(
+        "grashof: 1
+name: counted hits
+space: planar
+gravity: [0, -10 m/s^2]
+parameters: {{ n: 0 }}
+{body}
+events: {{ {events} }}
+measures: {{ counted: n }}
+studies:
+  run: {{ dynamics: {{ until: 2.5 s, {dynamics} }}, columns: [time, counted] }}
+"
+    )
+}
+
+/// Hits until the rebound is below 0.001 m/s or rad/s; rest until the end.
+fn hits(speed: f64, e: f64) -> f64 {
+    ((speed / 1e-3).ln() / (1.0 / e).ln()).ceil()
+}
+
+#[test]
+fn events_that_set_count_every_hit_of_a_stop_and_of_an_impact() {
+    let mut verdict = Verdict::default();
+    let mass = |limits: &str| {
+        format!(
+            "bodies: {{ mass: {{ mass: 2 kg }} }}
+joints: {{ S: {{ slider: [ground, mass.origin], axis: [0, 1]{limits} }} }}
+start: {{ S.position: 1 m }}"
+        )
+    };
+    let arm = "bodies: { arm: { bar: { length: 1 m, mass: 1 kg } } }
+joints: { A: { revolute: [ground, arm.start], limits: { from: 0 deg, restitution: 0.6 } } }
+start: { A.angle: 60 deg }";
+    let set = "set: { n: n + 1 }";
+    for dynamics in
+        ["integrator: auto", "integrator: radau5", "integrator: bdf", "integrator: rk4, step: 1 ms", "integrator: generalized-alpha"]
+    {
+        let mut case = |body: &str, events: &str, right: f64| {
+            let found = study(&counted(body, events, dynamics), "run", Coordinates::Joint);
+            verdict.close("hits", format!("{dynamics}, {events}, {body}"), last(&found)[1], right, 0.0);
+        };
+        for e in [0.5, 0.3, 0.05] {
+            let right = hits(20f64.sqrt(), e);
+            let limits = format!(", limits: {{ from: 0 m, restitution: {e} }}");
+            case(&mass(&limits), &format!("hit: {{ when: S.position, {set} }}, seen: {{ when: S.position }}"), right);
+            let impact = format!("struck: {{ when: S.position, crossing: falling, restitution: {{ joint: S, e: {e} }} }}");
+            case(&mass(""), &format!("{impact}, hit: {{ when: S.position, crossing: falling, {set} }}"), right);
+        }
+        // the square of the speed at the first hit: 3 g sin 60° / l
+        let speed = (30.0 * 60f64.to_radians().sin()).sqrt();
+        case(arm, &format!("tip: {{ when: arm.end.y, {set} }}, turned: {{ when: A.omega, crossing: rising }}"), hits(speed, 0.6));
+    }
+    verdict.give("hits that are counted");
+}

@@ -247,6 +247,7 @@ where
         // whose roots are in the scratch: the programs of the mechanism by number, then that of the columns
         let of_columns = m.programs().len();
         let mut filled = usize::MAX;
+        let rests = !self.events.is_empty() && self.rests(at.v);
         if !self.events.is_empty() {
             self.observer.columns(at.modes, &mut self.outputs);
         }
@@ -277,7 +278,10 @@ where
                 }
                 Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
                 Root::Slides(_) | Root::Holds { .. } => self.grip(self.roots[i], &at, a, lambda),
-                Root::Event(event) => self.way(event, self.outputs[self.events[event].output], at.modes),
+                Root::Event(event) => match self.way(event, self.outputs[self.events[event].output], at.modes) {
+                    way if way <= 0.0 && rests && !self.pattern.timed.contains(&i) => f64::MIN_POSITIVE,
+                    way => way,
+                },
             };
         }
     }

@@ -226,6 +226,12 @@ where
         }
     }
 
+    /// Whether the whole mechanism stands still on rigid stops, where nothing but round-off leads an event over its zero.
+    pub(super) fn rests(&mut self, v: &[f64]) -> bool {
+        let Self { roots, decided, dynamics, .. } = self;
+        roots.iter().any(|root| matches!(root, Root::Rest { .. })) && decided.velocities(&dynamics.work, v).iter().all(|v| *v == 0.0)
+    }
+
     /// The value of a root of a contact; after the look at the state.
     pub(super) fn touch(&self, root: Root, at: &At<'_>, a: &[f64], lambda: &[f64]) -> f64 {
         let m = self.dynamics.mechanism;
