@@ -102,7 +102,7 @@ where
         if sense == 0 && contact.is_one_way() && self.dynamics.extent_rate(contact.along) < -BLOW * self.rest(contact) {
             row.fill(0.0);
             self.dynamics.extent_gradient(contact.along, |k, x| row[k] += x);
-            let waits = self.lifts(state, row);
+            let waits = self.lets_go() || self.lifts(state, row);
             return if waits { Effect::Stop } else { Effect::Bounce { restitution: 0.0, stops: true } };
         }
         Effect::Stop
