@@ -3,8 +3,8 @@
 use crate::common;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Report, Selection};
-use grashof::output::{Figure, figures, render_figure};
-use grashof::results::{By, Results};
+use grashof::output::{Drawing, Figure, drawing, figures, render_figure};
+use grashof::results::{By, Results, Scene};
 use grashof::studies::common::named::named;
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::sweep::{Drawn, Settings, at, single};
@@ -171,4 +171,52 @@ studies:
         .map(|s| told(&s.quantity, s.shown_in.as_ref().map_or(&s.unit, |u| &u.unit)))
         .collect();
     assert_eq!(scalars, ["energy in J", "energy in J", "torque in N m", "energy in J", "torque in N m", "energy in J"]);
+}
+
+/// The scene and the drawing of a study.
+fn drawn(text: &str, name: &str) -> (Scene, Drawing) {
+    let scene = common::study(text, name, Coordinates::Joint).scenes.remove(0).1;
+    let drawing = drawing("m", name, "mechanism", &scene);
+    (scene, drawing)
+}
+
+#[test]
+fn the_arrow_of_a_driver_has_the_sense_of_its_rate() {
+    let crank = |driver: &str, spatial: bool| {
+        let space = if spatial { "spatial" } else { "planar" };
+        format!(
+            "grashof: 1
+name: crank
+space: {space}
+gravity: none
+bodies: {{ crank: {{ bar: {{ length: 6 cm, mass: 1 kg }} }} }}
+joints: {{ A: {{ revolute: [ground, crank.start]{} }} }}
+drivers: {{ drive: {{ joint: A, {driver} }} }}
+studies:
+  one: {{ kinematics: {{ over: 1 turn, samples: 20 }} }}
+  three: {{ kinematics: {{ over: 3 turn, samples: 20 }} }}
+  five: {{ kinematics: {{ over: 5 turn, samples: 20 }} }}
+  seconds: {{ dynamics: {{ until: 5 s, every: 0.5 s }} }}
+  times: {{ kinematics: {{ over: 5 s, samples: 20 }} }}
+",
+            if spatial { ", axis: [0, 0, 1]" } else { "" }
+        )
+    };
+    let sense = |text: &str, name: &str| drawn(text, name).1.joints[0].poses[0].sense;
+    for spatial in [false, true] {
+        for (rpm, sign) in [(60, 1.0), (-60, -1.0), (-6000, -1.0)] {
+            let text = crank(&format!("speed: {rpm} rpm"), spatial);
+            for name in ["one", "three", "five", "seconds", "times"] {
+                assert_eq!(sense(&text, name), sign, "{rpm} rpm, {name}, {spatial}");
+            }
+        }
+    }
+    // both ways, only forth, forth after a rest
+    for (law, sign) in [
+        ("angle: \"1 rad*sin(3 rad/s*t)\"", 0.0),
+        ("angle: \"3 rad/s*t + 1 rad*sin(3 rad/s*t)\"", 1.0),
+        ("rise: { by: -90 deg, during: 2 s, law: poly5 }", -1.0),
+    ] {
+        assert_eq!(sense(&crank(law, false), "times"), sign, "{law}");
+    }
 }

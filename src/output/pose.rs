@@ -112,7 +112,7 @@ pub struct Placement {
     pub way: Option<[[f64; 2]; 2]>,
     /// Two directions at right angles in space, across the axis, counter-clockwise about it.
     pub across: [[f64; 2]; 2],
-    /// Sense in which it moves: 1 along or counter-clockwise about the axis, −1 the other way, 0 not known.
+    /// Sense in which it is driven: 1 along or counter-clockwise about the axis, −1 the other way, 0 for both and for neither.
     pub sense: f64,
     /// Of a slide how far the body that slides reaches to the lower side of the way, or to the right of an upright one, m.
     pub clear: f64,

@@ -2,7 +2,7 @@
 
 use super::Posed;
 use crate::output::pose::{Placement, Symbol, SymbolKind};
-use crate::output::view::{across, cross, dot};
+use crate::output::view::across;
 use crate::results::scene::{Joint, Place, Shape};
 
 impl Posed<'_> {
@@ -35,7 +35,7 @@ impl Posed<'_> {
             way: joint.stroke.filter(|_| slides).map(|ends| ends.map(on_way)),
             across: across(about).map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
-            sense: if joint.driven { self.sense(joint, slides) } else { 0.0 },
+            sense: joint.sense,
             stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),
         }
     }
@@ -71,43 +71,6 @@ impl Posed<'_> {
         let own = (far[1] - at[1]).atan2(far[0] - at[0]);
         let (s, c) = (self.angle(poses, joint.a.body) + stop + own).sin_cos();
         Some([c, s])
-    }
-
-    /// Sense of the motion of a joint from the first shown frame on, 0 at rest.
-    fn sense(&self, joint: &Joint, slides: bool) -> f64 {
-        let frames = &self.scene.frames;
-        let asked = self.scene.at.map(|x| frames.at.partition_point(|at| *at <= x).saturating_sub(1));
-        let Some(first) = asked.or(frames.shown.first().copied()).map(|first| first.min(frames.count().saturating_sub(2))) else {
-            return 0.0;
-        };
-        // back in its time a motion that begins at its end goes the other way
-        let ahead = if frames.shown.len() > 1 && frames.shown[1] < frames.shown[0] { -1.0 } else { 1.0 };
-        let [before, behind] = [first, first + 1].map(|index| self.scene.frame(index.min(frames.count() - 1)));
-        let change = if slides {
-            let along = |poses: &[f64]| {
-                let (a, b) = (self.scene.world(poses, &joint.a), self.scene.world(poses, &joint.b));
-                dot(std::array::from_fn(|i| b[i] - a[i]), self.scene.direction(poses, joint.a.body, &joint.axis))
-            };
-            along(behind) - along(before)
-        } else {
-            let planar = self.scene.dimensions == 2;
-            let axis = if planar { [0.0, 0.0, 1.0] } else { std::array::from_fn(|i| joint.axis.get(i).copied().unwrap_or(0.0)) };
-            let e = across(axis)[0];
-            // a direction of b that lies across the axis before, seen from a before and behind
-            let seen = |poses: &[f64], own: [f64; 3]| self.in_axes_of(poses, joint.a.body, self.scene.direction(poses, joint.b.body, &own));
-            let own = self.in_axes_of(before, joint.b.body, self.scene.direction(before, joint.a.body, &e));
-            dot(axis, cross(seen(before, own), seen(behind, own)))
-        };
-        if change.abs() > 1e-12 { change.signum() * ahead } else { 0.0 }
-    }
-
-    /// A direction of the world in the axes of a body.
-    fn in_axes_of(&self, poses: &[f64], body: usize, v: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|i| {
-            let mut e = [0.0; 3];
-            e[i] = 1.0;
-            dot(self.scene.direction(poses, body, &e), v)
-        })
     }
 }
 

@@ -44,6 +44,10 @@ pub struct Joint {
     pub cut: bool,
     /// Whether a driver or motor moves it.
     pub driven: bool,
+    /// The sense in which that moves it over the whole motion: 1 along or counter-clockwise about its axis, −1 the other way, 0 for both
+    /// and for neither.
+    #[serde(default)]
+    pub sense: f64,
     /// Whether it has viscous damping.
     pub damped: bool,
 }

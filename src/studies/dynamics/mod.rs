@@ -127,7 +127,7 @@ where
     findings.extend(rows.findings());
     findings.extend(indeterminate::open(case, &watched, &phases.first().mechanism, &phases.first().start));
     let Kept { places, switches, rows, selected_from } = rows.recorded();
-    let span = Span { ends: [from, to], ..Span::default() };
+    let span = Span { ends: [from, to], times: Some([from, to]), ..Span::default() };
     let subject = Subject { case, mechanism: &phases.first().mechanism };
     let scenes = scene::wanted(case, || subject.over(span, &mut |t| Some((t, pose(&mut trajectory, &breaks, t)?))));
     Ok(Outcome {

@@ -59,7 +59,7 @@ pub(super) fn picture<G: Space<S = f64>>(
     for _ in 0..HALVINGS {
         if at(s).is_some() && at(-s).is_some() {
             let most = if mechanism.nv > LARGE { QUARTERS } else { CELLS };
-            let span = Span { ends: [0.0, TAU], turns: true, first: QUARTERS, most, at: None };
+            let span = Span { ends: [0.0, TAU], turns: true, first: QUARTERS, most, ..Span::default() };
             let mut scene = subject.over(span, &mut |phase| Some((phase, at(s * phase.sin())?)));
             let last = scene.frames.count() - 1;
             scene.frames.shown = vec![last / 4, 0, last - last / 4];

@@ -114,7 +114,8 @@ impl<'a> Regime<'a> {
         let numbers =
             Sources { case: Case { model, study, ..case }, tables, functionals: &functionals, results: &results, works: &[] }.numbers(true);
         let trajectory = &mut lap.trajectory;
-        let span = Span { ends: [times[0], times[times.len() - 1]], turns: true, ..Span::default() };
+        let ends = [times[0], times[times.len() - 1]];
+        let span = Span { ends, times: Some(ends), turns: true, ..Span::default() };
         let over = asked.over.is_some().then_some(columns.over).flatten();
         let mut out = vec![0.0; trajectory.columns()];
         let subject = Subject { case, mechanism: &phases.mechanism };

@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::results::scene::{Frames, interpolate};
 
 /// Cells of the first grid of a motion: six positions of a turn fall on frames.
-const CELLS: usize = 6;
+pub(super) const CELLS: usize = 6;
 /// Error that is small enough, as part of the size.
 const ENOUGH: f64 = 1e-6;
 /// Error that is not seen, as part of the size: a motion with blows, whose error falls with the cells only, is taken no further.
@@ -17,9 +17,14 @@ const UNSEEN: f64 = 1e-3;
 /// Of one that is still seen, cells are halved where it is off by more than this part of the size: beside a dead point bodies move with
 /// the root of the way to it, and a uniform grid comes to nothing.
 const FAIR: f64 = 1e-4;
+/// A body that goes round more than once in the plane turns by less than this from frame to frame, rad, if so many cells do: straight
+/// lines through few frames have its angle, but few positions of a turn.
+const TURNED: f64 = std::f64::consts::TAU / 24.0;
 /// Places within a cell at which the bound is told in the end, and how often a cell is halved at most.
 const WITHIN: [f64; 3] = [0.125, 0.5, 0.875];
 const HALVED: usize = 40;
+/// Reach of a body at least, as part of the size.
+const LEAST: f64 = 0.01;
 /// The middle of a cell is not quite the worst place in it.
 const BESIDE_MIDDLE: f64 = 1.5;
 /// Irrational places that are looked at.
@@ -36,6 +41,8 @@ pub(super) const SHOWN: usize = 6;
 pub(crate) struct Span {
     /// Progress at its ends.
     pub(crate) ends: [f64; 2],
+    /// Time at its ends, s, if it is a motion in time.
+    pub(crate) times: Option<[f64; 2]>,
     /// Whether it may come back to where it began.
     pub(crate) turns: bool,
     /// Cells of the first grid.
@@ -48,7 +55,7 @@ pub(crate) struct Span {
 
 impl Default for Span {
     fn default() -> Self {
-        Self { ends: [0.0; 2], turns: false, first: CELLS, most: 4095, at: None }
+        Self { ends: [0.0; 2], times: None, turns: false, first: CELLS, most: 4095, at: None }
     }
 }
 
@@ -72,7 +79,9 @@ pub(super) fn of_poses<G: Space<S = f64>>(poses: &[Vec<Pose<G>>]) -> Frames {
 /// Frames over a span of a motion.
 pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: &mut At<'_, G>) -> Frames {
     let [low, high] = span.ends;
-    let sampler = Sampler { reaches: reaches(mechanism), stride: if G::VECTOR == 2 { 3 } else { 7 }, size: mechanism.size() };
+    // what has no place beside its origin turns all the same
+    let reaches = reaches(mechanism).into_iter().map(|reach| reach.max(LEAST * mechanism.size())).collect();
+    let sampler = Sampler { reaches, stride: if G::VECTOR == 2 { 3 } else { 7 }, size: mechanism.size() };
     // the ends as they are given, not as they are rounded
     let progress = |part: f64| if part == 1.0 { high } else { low + (high - low) * part };
     let grid = span
@@ -98,7 +107,8 @@ pub(super) fn over<G: Space<S = f64>>(mechanism: &Mechanism<G>, span: Span, at: 
         }
         let blows = error < UNSEEN * sampler.size && error > 0.25 * before && cells >= 200;
         let error = BESIDE_MIDDLE * error;
-        if error <= ENOUGH * sampler.size || 2 * cells > most || blows {
+        let coarse = sampler.turned(&curve).is_some_and(|turned| turned > TURNED && turned * cells as f64 <= TURNED * most as f64);
+        if error <= ENOUGH * sampler.size && !coarse || 2 * cells > most || blows {
             break error;
         }
         before = error / BESIDE_MIDDLE;
@@ -223,6 +233,18 @@ impl Sampler {
             curve.poses.extend(row);
         }
         curve
+    }
+
+    /// By how much a body turns from one frame to the next at most, rad, of those in the plane that go round more than once.
+    fn turned(&self, curve: &Continuous) -> Option<f64> {
+        let width = self.stride * (self.reaches.len() - 1);
+        let count = curve.at.len();
+        if self.stride != 3 || count < 2 {
+            return None;
+        }
+        let angle = |frame: usize, column: usize| curve.poses[frame * width + column];
+        let rounds = (2..width).step_by(3).filter(|k| (angle(count - 1, *k) - angle(0, *k)).abs() > std::f64::consts::TAU * (1.0 + 1e-6));
+        rounds.flat_map(|k| (1..count).map(move |i| (angle(i, k) - angle(i - 1, k)).abs())).reduce(f64::max)
     }
 
     /// Takes of the two quaternions of each rotation the one nearer to that of a neighbour.

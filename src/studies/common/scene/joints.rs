@@ -28,6 +28,7 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 stops,
                 cut: joint.tree.is_none(),
                 driven: drivers.chain(case.model.motors.iter().map(|m| m.joint)).any(|driven| driven == index),
+                sense: 0.0,
                 damped: said.damping.is_some_and(|damping| case.value(damping) != 0.0),
             };
             drawn.stroke = stroke(scene, &drawn);

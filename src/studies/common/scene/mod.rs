@@ -7,6 +7,7 @@ mod gears;
 mod joints;
 mod links;
 mod places;
+mod senses;
 mod shafts;
 mod shapes;
 mod traces;
@@ -26,7 +27,10 @@ use crate::mechanism::Mechanism;
 use crate::model::{Side, View};
 use crate::results::Scene;
 use crate::results::scene::Frames;
+use std::f64::consts::TAU;
 
+/// Whole turns of a range of which each has its own cells of the first grid, at most.
+const MOST_TURNS: f64 = 20.0;
 /// Name of the drawing of a motion.
 pub(crate) const MECHANISM: &str = "mechanism";
 
@@ -49,13 +53,13 @@ impl<G: Space<S = f64>> Subject<'_, G> {
     /// The scene of a motion, which tells at any progress the independent variable and the poses of the bodies there.
     #[must_use]
     pub(crate) fn over(&self, span: Span, at: &mut frames::At<'_, G>) -> Scene {
-        self.with(frames::over(self.mechanism, Span { at: self.shown_at(), ..span }, at))
+        self.with(frames::over(self.mechanism, Span { at: self.shown_at(), ..span }, at), span.times)
     }
 
     /// The scene of given poses, the first one drawn strongly.
     #[must_use]
     pub(crate) fn of_poses(&self, poses: &[Vec<Pose<G>>]) -> Scene {
-        self.with(frames::of_poses(poses))
+        self.with(frames::of_poses(poses), None)
     }
 
     /// The place that the study asks to be shown.
@@ -63,8 +67,8 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         self.case.study.shown_at.map(|at| self.case.value(at)).filter(|at| at.is_finite())
     }
 
-    /// All but the frames follows from the mechanism, and from them.
-    fn with(&self, frames: Frames) -> Scene {
+    /// All but the frames follows from the mechanism, and from them and the times between which they are, s.
+    fn with(&self, frames: Frames, times: Option<[f64; 2]>) -> Scene {
         let Self { case, mechanism } = *self;
         let mut scene = Scene {
             dimensions: G::VECTOR,
@@ -78,6 +82,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         };
         scene.links = links::links(case.model, mechanism, &scene);
         scene.joints = joints::joints(case, mechanism, &scene);
+        senses::tell(case, mechanism, times, &mut scene);
         scene.arrows = arrows::arrows(case, mechanism);
         scene.gears = gears::gears(case.model, mechanism, &scene);
         gears::outline_wheels(&scene.gears, &mut scene.bodies);
@@ -95,7 +100,12 @@ impl<G: Space<S = f64>> Subject<'_, G> {
 pub(crate) fn of_motion<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'_, G>) -> Scene {
     let subject = Subject { case, mechanism: motion.driven.dynamics.mechanism };
     let (ends, length) = (motion.ends, motion.clock.length);
-    let span = Span { ends, turns: (length - std::f64::consts::TAU).abs() < 1e-9, ..Span::default() };
+    let times = Some(ends.map(|s| motion.time(s)));
+    // of a few whole turns the frames are at the same angles of each
+    let turns = (length / TAU).round();
+    let whole = (1.0..=MOST_TURNS).contains(&turns) && (length - turns * TAU).abs() < 1e-9;
+    let first = if whole { frames::CELLS * turns as usize } else { frames::CELLS };
+    let span = Span { ends, times, turns: whole && turns == 1.0, first, ..Span::default() };
     subject.over(span, &mut |s| Some((motion.clock.value(s), motion.poses(s)?)))
 }
 

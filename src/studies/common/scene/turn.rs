@@ -37,14 +37,20 @@ fn angles(scene: &Scene, joint: &Joint, way: &[usize]) -> Option<Vec<f64>> {
     (rises && angles[angles.len() - 1] > TAU * (1.0 + 1e-6)).then_some(angles)
 }
 
-/// By how much a hinge turns from one frame to another, less than half a turn, rad.
-fn step(scene: &Scene, joint: &Joint, frames: [usize; 2]) -> f64 {
+/// By how much a hinge turns from one frame to another, in space less than half a turn, rad.
+pub(super) fn step(scene: &Scene, joint: &Joint, frames: [usize; 2]) -> f64 {
+    if scene.dimensions == 2 {
+        // angles in the plane are not wrapped
+        let angle =
+            |index: usize, body: usize| body.checked_sub(1).map_or(0.0, |k| scene.frame(index).get(3 * k + 2).copied().unwrap_or(f64::NAN));
+        let between = |index: usize| angle(index, joint.b.body) - angle(index, joint.a.body);
+        return between(frames[1]) - between(frames[0]);
+    }
     let [before, behind] = frames.map(|index| [&joint.a, &joint.b].map(|place| rotation(scene, index, place.body)));
     // of b in a before and behind, and the one from the other
     let [from, to] = [before, behind].map(|[a, b]| a.inverse() * b);
     let turn = to * from.inverse();
-    let axis: [f64; 3] =
-        if scene.dimensions == 2 { [0.0, 0.0, 1.0] } else { std::array::from_fn(|i| joint.axis.get(i).copied().unwrap_or(0.0)) };
+    let axis: [f64; 3] = std::array::from_fn(|i| joint.axis.get(i).copied().unwrap_or(0.0));
     let along = turn.i * axis[0] + turn.j * axis[1] + turn.k * axis[2];
     let angle = 2.0 * along.atan2(turn.w);
     angle - TAU * (angle / TAU).round()
@@ -54,7 +60,6 @@ fn step(scene: &Scene, joint: &Joint, frames: [usize; 2]) -> f64 {
 fn rotation(scene: &Scene, index: usize, body: usize) -> UnitQuaternion<f64> {
     let Some(before) = body.checked_sub(1) else { return UnitQuaternion::identity() };
     match *scene.frame(index).get(before * scene.stride()..body * scene.stride()).unwrap_or_default() {
-        [_, _, angle] => UnitQuaternion::from_euler_angles(0.0, 0.0, angle),
         [_, _, _, w, x, y, z] => UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
         _ => UnitQuaternion::identity(),
     }
