@@ -3,8 +3,8 @@
 use crate::common;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Report, Selection};
-use grashof::output::{Drawing, Figure, drawing, figures, render_figure};
-use grashof::results::{By, Results, Scene};
+use grashof::output::{Drawing, Figure, Film, Pace, Shot, ShotOptions, drawing, figures, moving_svg, render_figure};
+use grashof::results::{By, Column, Results, Scene};
 use grashof::studies::common::named::named;
 use grashof::studies::loader::{Loader, NotLoaded};
 use grashof::studies::sweep::{Drawn, Settings, at, single};
@@ -219,4 +219,40 @@ studies:
     ] {
         assert_eq!(sense(&crank(law, false), "times"), sign, "{law}");
     }
+}
+
+#[test]
+fn paths_of_fast_points_are_the_arcs_that_they_run_through() {
+    let wheel = |until: &str| {
+        format!(
+            "grashof: 1
+name: wheel
+space: planar
+gravity: none
+bodies: {{ wheel: {{ disc: {{ radius: 9 cm, mass: 1 kg }}, points: {{ rim: [9 cm, 0] }} }} }}
+joints: {{ O: {{ revolute: [ground, wheel.origin] }} }}
+start: {{ O.omega: 3000 rpm }}
+studies: {{ spin: {{ dynamics: {{ until: {until}, every: {until} }}, columns: [wheel.rim] }} }}
+"
+        )
+    };
+    let (scene, drawing) = drawn(&wheel("0.5 s"), "spin");
+    let middle = |ends: &[[f64; 2]]| (0.5 * (ends[0][0] + ends[1][0])).hypot(0.5 * (ends[0][1] + ends[1][1]));
+    assert!(drawing.traces[0].points.windows(2).all(|ends| middle(ends) > 0.09 * 0.999), "{} places", drawing.traces[0].points.len());
+    // in pictures that move, too
+    let shot = |scene: &Scene, rate: f64| {
+        let asked = ShotOptions { rate, pace: Pace::Duration(2.0), repeats: false };
+        let independent = Column { name: "time".into(), unit: "s".into(), ..Column::default() };
+        Shot::of(&Results { independent, ..Results::default() }, scene, &asked).expect("a shot")
+    };
+    let paths = |text: &str| {
+        let (scene, _) = drawn(text, "spin");
+        let shot = shot(&scene, 10.0);
+        let svg = moving_svg(&Film::new("wheel", "spin", "mechanism", &scene, &shot), 400);
+        let count = |line: &str| line.split("points=\"").nth(1).and_then(|of| of.split('"').next()).map_or(0, |of| of.split(' ').count());
+        svg.lines().filter(|line| line.starts_with("<polyline stroke-dasharray")).map(count).collect::<Vec<_>>()
+    };
+    assert!(scene.traces.len() == 1 && paths(&wheel("0.5 s")).iter().all(|count| *count > 2500), "{:?}", paths(&wheel("0.5 s")));
+    // 5000 turns would fill the picture
+    assert!(drawn(&wheel("100 s"), "spin").1.traces.is_empty() && paths(&wheel("100 s")).is_empty());
 }

@@ -46,7 +46,9 @@ impl<'a> Film<'a> {
     pub fn new(model: &str, study: &str, name: &str, scene: &'a Scene, shot: &'a Shot) -> Self {
         let poses = |x: &f64| scene.frames.at(*x, scene.dimensions);
         let some: Vec<f64> = shot.at.iter().step_by(shot.at.len().div_ceil(LOOKED_AT).max(1)).copied().collect();
-        let step = ALONG.div_ceil(shot.steps.max(1));
+        let seen: Vec<(&crate::results::scene::Trace, Vec<f64>)> =
+            scene.traces.iter().filter_map(|trace| Some((trace, posed::traces::places(scene, trace)?))).collect();
+        let step = step(shot, seen.iter().map(|(_, places)| places.as_slice()));
         let view = posed::view(scene);
         let along = shot.places(shot.steps * step);
         let path = |trace: &crate::results::scene::Trace| {
@@ -55,7 +57,7 @@ impl<'a> Film<'a> {
         };
         let whole = Drawing {
             title: posed::title(model, study, name, &scene.caption),
-            traces: scene.traces.iter().map(path).collect(),
+            traces: seen.iter().map(|(trace, _)| path(trace)).collect(),
             ..posed::at_all(scene, &some)
         };
         let plan = plan(&whole);
@@ -113,6 +115,18 @@ impl<'a> Film<'a> {
         over.text(at, format!("{time:.digits$} s"), LETTERS, Anchor::Middle);
         over.items.remove(0)
     }
+}
+
+/// Places of each path from picture to picture: as many as the fastest part of one asks for, whose places in a still picture are given.
+fn step<'p>(shot: &Shot, paths: impl Iterator<Item = &'p [f64]>) -> usize {
+    let steps = shot.steps.max(1);
+    let pictures = shot.places(steps);
+    let within = |places: &[f64], ends: &[f64]| {
+        let before = |x: f64| places.partition_point(|place| *place < x);
+        before(ends[0].max(ends[1])).abs_diff(before(ends[0].min(ends[1])))
+    };
+    let most = paths.flat_map(|places| pictures.windows(2).map(move |ends| within(places, ends))).max().unwrap_or(0);
+    most.clamp(ALONG.div_ceil(steps), (posed::traces::MOST / steps).max(ALONG.div_ceil(steps)))
 }
 
 /// Makes the pictures of a film as pixels; what does not move is painted once.

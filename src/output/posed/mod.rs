@@ -4,14 +4,12 @@ mod forces;
 pub(super) mod forms;
 mod gears;
 mod joints;
+pub(super) mod traces;
 
-use super::pose::{Drawing, Link, LinkKind, Outline, Symbol, Trace};
+use super::pose::{Drawing, Link, LinkKind, Outline, Symbol};
 use super::view::View;
 use crate::results::Scene;
 use crate::results::scene::{self, Place};
-
-/// Places along a path.
-const ALONG: usize = 240;
 
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
@@ -23,7 +21,7 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let shown = scene.frames.shown.iter().filter(other);
     let frames = asked.iter().map(Vec::as_slice).chain(shown.map(|index| scene.frame(*index))).collect();
     let posed = Posed { scene, view: view(scene), frames };
-    let traces = scene.traces.iter().map(|trace| posed.trace(trace)).collect();
+    let traces = scene.traces.iter().filter_map(|trace| posed.trace(trace)).collect();
     let first = scene.at.or_else(|| scene.frames.at.get(*scene.frames.shown.first()?).copied());
     let forces = first.map(|at| posed.forces(at).collect()).unwrap_or_default();
     Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
@@ -136,23 +134,6 @@ impl Posed<'_> {
     fn angle(&self, poses: &[f64], body: usize) -> f64 {
         let [x, y] = self.view.flat(self.scene.direction(poses, body, &[1.0]));
         y.atan2(x)
-    }
-
-    /// A path through the frames, with places between them where they are few.
-    fn trace(&self, trace: &scene::Trace) -> Trace {
-        let place = Place { body: trace.body, at: trace.at.clone() };
-        let frames = &self.scene.frames;
-        let between = ALONG.div_ceil(frames.count().max(2) - 1);
-        let mut points = Vec::new();
-        for (index, pair) in frames.at.windows(2).enumerate() {
-            points.push(self.flat(self.scene.frame(index), &place));
-            for k in 1..between {
-                let x = pair[0] + (pair[1] - pair[0]) * k as f64 / between as f64;
-                points.push(self.flat(&frames.at(x, self.scene.dimensions), &place));
-            }
-        }
-        points.extend(frames.count().checked_sub(1).map(|last| self.flat(self.scene.frame(last), &place)));
-        Trace { name: trace.name.clone(), points }
     }
 }
 
