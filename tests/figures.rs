@@ -256,3 +256,45 @@ studies: {{ spin: {{ dynamics: {{ until: {until}, every: {until} }}, columns: [w
     // 5000 turns would fill the picture
     assert!(drawn(&wheel("100 s"), "spin").1.traces.is_empty() && paths(&wheel("100 s")).is_empty());
 }
+
+#[test]
+fn pale_positions_cover_the_cycle_of_the_mechanism() {
+    // a crank that turns once while what drives it turns three and a third times
+    let text = |turns: f64| {
+        format!(
+            "grashof: 1
+name: geared crank
+space: planar
+gravity: none
+ground: {{ M: [-26 cm, 0], W: [0, 0], R: [0, 0] }}
+bodies:
+  pinion: {{ disc: {{ radius: 6 cm, mass: 2 kg }} }}
+  crank: {{ disc: {{ radius: 20 cm, mass: 20 kg }}, points: {{ pin: [9 cm, 0] }} }}
+  rod: {{ bar: {{ length: 40 cm, mass: 1 kg }} }}
+  ram: {{ mass: 1 kg }}
+joints:
+  M: {{ revolute: [ground.M, pinion.origin] }}
+  W: {{ revolute: [ground.W, crank.origin] }}
+  A: {{ revolute: [crank.pin, rod.start] }}
+  B: {{ revolute: [rod.end, ram.origin] }}
+  G: {{ slider: [ground.R, ram.origin], axis: [1, 0] }}
+couplings: {{ mesh: {{ gear: [M, W], ratio: -6/20 }} }}
+drivers: {{ motor: {{ joint: M, speed: 200 rpm }} }}
+start: {{ W.angle: 0 deg, rod.angle: ~0 deg }}
+studies:
+  turns: {{ kinematics: {{ over: {turns} turn, samples: 50 }} }}
+"
+        )
+    };
+    for turns in [2.0, 10.0 / 3.0, 10.0, 12.0] {
+        let scene = drawn(&text(turns), "turns").0;
+        let of = |index: usize| scene.frame(index)[5].abs().to_degrees();
+        let shown: Vec<f64> = scene.frames.shown.iter().map(|index| of(*index) - of(scene.frames.shown[0])).map(f64::abs).collect();
+        // the whole of what is less than a cycle, else one
+        let whole = if turns == 2.0 { 216.0 * 6.0 / 5.0 } else { 360.0 };
+        assert!(
+            shown.len() == 6 && shown.iter().enumerate().all(|(k, at)| (at - whole * k as f64 / 6.0).abs() < 6.0),
+            "{turns}: {shown:?}"
+        );
+    }
+}

@@ -88,7 +88,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         gears::outline_wheels(&scene.gears, &mut scene.bodies);
         shafts::outline_shafts(&mut scene);
         scene.traces = traces::traces(case, mechanism, &scene);
-        if let Some(shown) = turn::first_turn(&scene) {
+        if let Some(shown) = turn::first_cycle(&scene) {
             scene.frames.shown = shown;
         }
         scene
