@@ -298,3 +298,25 @@ studies:
         );
     }
 }
+
+#[test]
+fn torques_in_space_turn_about_their_axes() {
+    let text = "grashof: 1
+name: torques
+space: spatial
+gravity: none
+bodies: { a: { ball: { radius: 5 cm, mass: 1 kg } } }
+joints: { O: { spherical: [ground, a.origin] } }
+loads: { tx: { at: a.origin, torque: [1 N m, 0, 0] }, tz: { at: a.origin, torque: [0, 0, -4 N m] } }
+studies: { go: { dynamics: { until: 1 ms, every: 1 ms }, show: [loads], view: top } }
+";
+    let model = common::model(text, Some("go"));
+    let study = model.study.clone().expect("a study");
+    let settings = Settings { threads: 1, drawn: Drawn::All, stop: &|| false };
+    let results = single(&model, &study, at(&model, &study, Vec::new(), settings, None, &|_, _| {})).unwrap_or_else(|f| panic!("{f:?}"));
+    let forces = drawing("m", "go", "mechanism", &results.scenes[0].1).forces;
+    // from above what turns about x is seen as a line, what turns about z as a circle, clockwise where that points down
+    let area = |k: usize| forces[k].across[0][0] * forces[k].across[1][1] - forces[k].across[0][1] * forces[k].across[1][0];
+    assert_eq!(forces.iter().map(|f| f.turning).collect::<Vec<_>>(), [Some(1.0), Some(4.0)]);
+    assert!(area(0).abs() < 1e-9 && (area(1) + 1.0).abs() < 1e-9, "{} {}", area(0), area(1));
+}

@@ -39,8 +39,8 @@ pub(super) struct Plan {
     pub(super) sheet: Sheet,
     pub(super) signs: Signs,
     pub(super) height: f64,
-    /// Force per length of arrows of loads and reactions, N/m.
-    pub(super) forces: [f64; 2],
+    /// How large arrows of loads and reactions are.
+    pub(super) forces: forces::Scales,
 }
 
 /// The plan by which all of a drawing is seen.

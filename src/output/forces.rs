@@ -14,6 +14,8 @@ use std::f64::consts::TAU;
 const LONGEST: f64 = 0.25;
 /// The longest arrow that tells a scale, pixels.
 const SAMPLE: f64 = 110.0;
+/// Radius of the arrow of the largest torque, pixels.
+const LARGEST: f64 = 48.0;
 /// Shorter arrows are not seen, pixels.
 const SEEN: f64 = 3.0;
 /// Length of the head of an arrow, pixels.
@@ -29,13 +31,24 @@ fn length(force: &Force) -> f64 {
     force.along[0].hypot(force.along[1])
 }
 
-/// Force per length of the arrows of each kind, N/m; those that the study leaves open are a round number that suits a mechanism of this
-/// size, m, the same for both.
-pub(super) fn scales(drawing: &Drawing, size: f64) -> [f64; 2] {
+/// How large forces and torques are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scales {
+    /// Force per length of the arrows of each kind, N/m.
+    force: [f64; 2],
+    /// The largest torque, whose arrow has the largest radius, N m.
+    torque: f64,
+}
+
+/// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m, the same
+/// for both kinds.
+pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
     let open = drawing.forces.iter().filter(|force| force.scale.is_none());
     let most = open.map(length).filter(|x| x.is_finite()).fold(0.0, f64::max);
     let suits = if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 };
-    KINDS.map(|(kind, _)| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale).unwrap_or(suits))
+    let asked = |kind| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale);
+    let torques = drawing.forces.iter().filter_map(|force| force.turning).map(f64::abs).filter(|x| x.is_finite());
+    Scales { force: KINDS.map(|(kind, _)| asked(kind).unwrap_or(suits)), torque: torques.fold(0.0, f64::max) }
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a number.
@@ -45,34 +58,39 @@ fn round_above(x: f64) -> f64 {
 }
 
 /// The tips of all arrows, m.
-pub(super) fn tips<'d>(drawing: &'d Drawing, scales: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + 'd {
+pub(super) fn tips<'d>(drawing: &'d Drawing, scales: Scales) -> impl Iterator<Item = [f64; 2]> + 'd {
     drawing.forces.iter().map(move |force| {
-        let scale = scales[force.kind as usize];
+        let scale = scales.force[force.kind as usize];
         [force.at[0] + force.along[0] / scale, force.at[1] + force.along[1] / scale]
     })
 }
 
 /// Draws the arrows of a drawing that are seen, of which names keep clear.
-pub(super) fn draw(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: [f64; 2], scene: &mut Scene, letters: &mut Lettering) {
+pub(super) fn draw(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: Scales, scene: &mut Scene, letters: &mut Lettering) {
     for (force, tip) in drawing.forces.iter().zip(tips(drawing, scales)) {
         let Some((from, to)) = ends(force, tip, sheet) else { continue };
-        if force.turning.is_some_and(|turning| turning != 0.0) {
-            letters.avoid(from, [30.0 * signs.size; 2], [0.0; 2]);
-        } else if force.turning.is_none() && direction(from, to).1 >= SEEN {
+        let outline = outline(force, signs, scales, [from, to]);
+        if force.turning.is_some() {
+            let reach = |i: usize| outline.iter().map(|p| (p[i] - from[i]).abs()).fold(0.0, f64::max);
+            if reach(0).max(reach(1)) < SEEN {
+                continue;
+            }
+            letters.avoid(from, [0, 1].map(|i| 3.0 * signs.size + reach(i)), [0.0; 2]);
+        } else if direction(from, to).1 >= SEEN {
             letters.avoid_line(&[from, to], Obstacle::Body);
         } else {
             continue;
         }
-        scene.shape(outline(force, signs, [from, to]), Some(color(force.kind)), None);
+        scene.shape(outline, Some(color(force.kind)), None);
     }
 }
 
 /// The arrows of all forces of a drawing, each as one item with a number of points that does not change with the force, so that it can be
 /// followed from picture to picture; one of no force has no area.
-pub(super) fn draw_all(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: [f64; 2], scene: &mut Scene) {
+pub(super) fn draw_all(drawing: &Drawing, sheet: &Sheet, signs: Signs, scales: Scales, scene: &mut Scene) {
     for (force, tip) in drawing.forces.iter().zip(tips(drawing, scales)) {
         if let Some((from, to)) = ends(force, tip, sheet) {
-            scene.shape(outline(force, signs, [from, to]), Some(color(force.kind)), None);
+            scene.shape(outline(force, signs, scales, [from, to]), Some(color(force.kind)), None);
         }
     }
 }
@@ -82,11 +100,12 @@ fn ends(force: &Force, tip: [f64; 2], sheet: &Sheet) -> Option<(Point, Point)> {
     (is_usable(&force.at) && is_usable(&tip)).then(|| (sheet.point(force.at), sheet.point(tip)))
 }
 
-fn outline(force: &Force, signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
-    match force.turning {
-        Some(turning) => turned(signs, from, turning),
-        None => arrow(signs, [from, to]),
-    }
+/// The outline of an arrow from `from` to `to`, or of one that turns about `from`.
+fn outline(force: &Force, signs: Signs, scales: Scales, [from, to]: [Point; 2]) -> Vec<Point> {
+    let Some(turning) = force.turning else { return arrow(signs, [from, to]) };
+    let part = if scales.torque > 0.0 { (turning.abs() / scales.torque).min(1.0) } else { 0.0 };
+    let across = force.across.map(|[x, y]| [x, -y]);
+    turned(signs, from, across, part * LARGEST * signs.size, if turning < 0.0 { -1.0 } else { 1.0 })
 }
 
 /// An arrow; one that is shorter than its head is a smaller one.
@@ -99,34 +118,53 @@ fn arrow(signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
     vec![at(0.0, -shaft), at(base, -shaft), at(base, -wing), to, at(base, wing), at(base, shaft), at(0.0, shaft)]
 }
 
-/// A torque: an arrow of seven tenths of a turn about its place, counter-clockwise for a positive one.
-fn turned(signs: Signs, at: Point, turning: f64) -> Vec<Point> {
+/// A torque: an arrow of seven tenths of a turn about its place, by two directions across its axis in pixels, counter-clockwise for a
+/// positive one, of a radius in pixels; as wide as other arrows unless it is small. Seen from the side it is a line.
+fn turned(signs: Signs, at: Point, [u, v]: [Point; 2], radius: f64, sense: f64) -> Vec<Point> {
     const STEPS: u32 = 30;
-    let sense = if turning == 0.0 { 0.0 } else { turning.signum() };
-    let (radius, half, head) = (27.0 * signs.size, 0.5 * signs.pen(3.0), HEAD * signs.size.max(0.6));
-    let point = |angle: f64, radius: f64| off(at, [angle.cos(), angle.sin()], sense.abs() * radius, 0.0);
-    let angle = |k: u32| 0.6 * TAU - sense * 0.7 * TAU * f64::from(k) / f64::from(STEPS);
-    let (end, tip) = (angle(STEPS), angle(STEPS) - sense * head / radius);
-    let outer = (0..=STEPS).map(|k| point(angle(k), radius + half));
-    let head = [point(end, radius + 0.5 * head), point(tip, radius), point(end, radius - 0.5 * head)];
-    outer.chain(head).chain((0..=STEPS).rev().map(|k| point(angle(k), radius - half))).collect()
+    let head = HEAD * signs.size.max(0.6);
+    let part = (radius / (1.2 * head)).min(1.0);
+    let (half, head) = (part * 0.5 * signs.pen(3.0), part * head);
+    let point = |angle: f64| {
+        let (s, c) = angle.sin_cos();
+        [at[0] + radius * (c * u[0] + s * v[0]), at[1] + radius * (c * u[1] + s * v[1])]
+    };
+    let angle = |k: u32| 0.4 * TAU + sense * 0.7 * TAU * f64::from(k) / f64::from(STEPS);
+    let beside = |k: u32, far: f64| {
+        let (along, _) = direction(point(angle(k) - 1e-3), point(angle(k) + 1e-3));
+        off(point(angle(k)), along, 0.0, far)
+    };
+    let end = point(angle(STEPS));
+    let (along, _) = direction(point(angle(STEPS) - sense * 1e-3), end);
+    let head = [off(end, along, 0.0, -0.5 * head), off(end, along, head, 0.0), off(end, along, 0.0, 0.5 * head)];
+    let line = |far: f64| (0..=STEPS).map(move |k| beside(k, sense * far));
+    line(-half).chain(head).chain(line(half).rev()).collect()
 }
 
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
-pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: [f64; 2], scene: &mut Scene, left: f64, letters: f64) {
+pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut Scene, left: f64, letters: f64) {
     let (mut x, y) = (left, scene.height - 26.0);
     for (kind, name) in KINDS {
-        if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales[kind as usize]) {
+        if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales.force[kind as usize]) {
             continue;
         }
-        let most = SAMPLE * scales[kind as usize] / pixels;
+        let most = SAMPLE * scales.force[kind as usize] / pixels;
         let value = round_above(0.4 * most);
-        let to = x + value * pixels / scales[kind as usize];
+        let to = x + value * pixels / scales.force[kind as usize];
         scene.shape(arrow(Signs { size: 0.8 }, [[x, y], [to, y]]), Some(color(kind)), None);
         let (shown, unit) = if value >= 1e3 { (value / 1e3, "kN") } else { (value, "N") };
         let text = format!("{name}: {} {unit}", significant(shown, 4));
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
         x = to + 16.0 + font::width(&text, letters) + 30.0;
+    }
+    // where the axes of space leave room for it
+    if scales.torque > 0.0 && x < scene.width - 380.0 {
+        let (signs, level) = (Signs { size: 0.4 }, [[1.0, 0.0], [0.0, -1.0]]);
+        let radius = LARGEST * signs.size;
+        scene.shape(turned(signs, [x + radius, y], level, radius, 1.0), Some(color(ForceKind::Load)), None);
+        let (shown, unit) = if scales.torque >= 1e3 { (scales.torque / 1e3, "kN m") } else { (scales.torque, "N m") };
+        let text = format!("torques: at most {} {unit}", significant(shown, 3));
+        scene.text([x + 2.0 * radius + 12.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
     }
 }
 
@@ -142,9 +180,26 @@ mod tests {
             assert_eq!((points.len(), points[3]), (7, to));
         }
         assert!(arrow(signs, [[5.0; 2]; 2]).iter().all(|p| *p == [5.0; 2]));
-        let counts = [2.0, -1.0, 0.0].map(|turning| turned(signs, [0.0; 2], turning).len());
-        assert!(counts.iter().all(|count| *count == counts[0]));
-        assert!(turned(signs, [5.0; 2], 0.0).iter().all(|p| *p == [5.0; 2]));
+        let level = [[1.0, 0.0], [0.0, -1.0]];
+        let torque = |radius: f64, sense: f64| turned(signs, [5.0; 2], level, radius, sense);
+        assert!([30.0, 3.0, 0.0].iter().all(|radius| torque(*radius, -1.0).len() == torque(36.0, 1.0).len()));
+        assert!(torque(0.0, 1.0).iter().all(|p| *p == [5.0; 2]));
+    }
+
+    #[test]
+    fn torques_turn_about_their_axes_and_are_as_large_as_they_are() {
+        // about an axis in the picture's plane: a line across it, with a head
+        let seen = |across: [[f64; 2]; 2], turning: f64| {
+            let force = Force { turning: Some(turning), across, ..Force::default() };
+            outline(&force, Signs { size: 1.0 }, Scales { force: [1.0; 2], torque: 4.0 }, [[0.0; 2]; 2])
+        };
+        let span = |points: &[Point], i: usize| points.iter().fold(0.0_f64, |most, p| most.max(p[i].abs()));
+        let (flat, round) = (seen([[1.0, 0.0], [0.0; 2]], 4.0), seen([[1.0, 0.0], [0.0, 1.0]], 4.0));
+        assert!(span(&flat, 1) < 8.0 && span(&flat, 0) > 30.0 && span(&round, 1) > 30.0, "{flat:?}");
+        assert!(span(&seen([[1.0, 0.0], [0.0, 1.0]], -2.0), 0) < 0.7 * span(&round, 0));
+        // counter-clockwise: from 144 degrees over 270 to 36, where the tip is; y of the sheet goes down
+        let area = |points: &[Point]| (0..31).map(|k| points[k][0] * points[k + 1][1] - points[k][1] * points[k + 1][0]).sum::<f64>();
+        assert!(area(&round) < 0.0 && area(&seen([[1.0, 0.0], [0.0, 1.0]], -4.0)) > 0.0);
     }
 
     #[test]
@@ -153,10 +208,10 @@ mod tests {
         let forces = vec![force(ForceKind::Load, [0.0, -300.0], None), force(ForceKind::Reaction, [400.0, 300.0], None)];
         let mut drawing = Drawing { forces, ..Drawing::default() };
         // 500 N are at most a quarter of 2 m long
-        assert_eq!(scales(&drawing, 2.0), [1000.0, 1000.0]);
+        assert_eq!(scales(&drawing, 2.0).force, [1000.0, 1000.0]);
         drawing.forces[1].scale = Some(50.0);
-        assert_eq!(scales(&drawing, 2.0), [1000.0, 50.0]);
-        assert_eq!(tips(&drawing, [1000.0, 50.0]).last(), Some([8.0, 6.0]));
-        assert_eq!(scales(&Drawing::default(), 1.0), [1.0, 1.0]);
+        assert_eq!(scales(&drawing, 2.0).force, [1000.0, 50.0]);
+        assert_eq!(tips(&drawing, scales(&drawing, 2.0)).last(), Some([8.0, 6.0]));
+        assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: 0.0 });
     }
 }

@@ -177,8 +177,10 @@ pub struct Force {
     pub at: [f64; 2],
     /// As it is seen, N; of a torque nothing.
     pub along: [f64; 2],
-    /// Of a torque its part about the direction to the eye, N m; none of a force.
+    /// Of a torque its size, N m, less than 0 in the plane for one that turns clockwise; none of a force.
     pub turning: Option<f64>,
+    /// Of a torque two directions at right angles in space as they are seen, across its axis, counter-clockwise about it.
+    pub across: [[f64; 2]; 2],
     /// Force per length of its arrow, N/m; none for one that suits the picture.
     pub scale: Option<f64>,
 }

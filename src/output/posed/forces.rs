@@ -2,6 +2,7 @@
 
 use super::Posed;
 use crate::output::pose::{Force, ForceKind};
+use crate::output::view::{across, dot};
 use crate::results::scene::{Arrow, ArrowKind, Place};
 
 impl Posed<'_> {
@@ -28,8 +29,13 @@ impl Posed<'_> {
             _ => std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0)),
         };
         let vector = if vector.iter().all(|x| x.is_finite()) { vector } else { [0.0; 3] };
-        let torque = arrow.kind == ArrowKind::Torque;
-        let along = if torque { [0.0; 2] } else { self.view.flat(vector) };
-        Some(Force { kind, at, along, turning: torque.then(|| self.view.depth(vector)), scale: arrow.scale })
+        if arrow.kind != ArrowKind::Torque {
+            return Some(Force { kind, at, along: self.view.flat(vector), scale: arrow.scale, ..Force::default() });
+        }
+        let (turning, across) = match values[..] {
+            [turning] => (if turning.is_finite() { turning } else { 0.0 }, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+            _ => (dot(vector, vector).sqrt(), across(vector)),
+        };
+        Some(Force { kind, at, turning: Some(turning), across: across.map(|e| self.view.flat(e)), scale: arrow.scale, ..Force::default() })
     }
 }
