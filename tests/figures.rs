@@ -320,3 +320,21 @@ studies: { go: { dynamics: { until: 1 ms, every: 1 ms }, show: [loads], view: to
     assert_eq!(forces.iter().map(|f| f.turning).collect::<Vec<_>>(), [Some(1.0), Some(4.0)]);
     assert!(area(0).abs() < 1e-9 && (area(1) + 1.0).abs() < 1e-9, "{} {}", area(0), area(1));
 }
+
+#[test]
+fn a_guide_ends_with_the_body_that_carries_it() {
+    let text = "grashof: 1
+name: cylinder
+space: planar
+gravity: none
+bodies: { barrel: { bar: { length: 70 cm, mass: 12 kg } }, rod: { bar: { length: 70 cm, mass: 6 kg } } }
+joints: { C: { revolute: [ground, barrel.start] }, S: { slider: [barrel.start, rod.start], axis: [1, 0] } }
+drivers: { pump: { joint: S, rise: { by: 45 cm, during: 8 s, law: poly5 } }, hold: { joint: C, angle: 0 deg } }
+start: { S.position: 20 cm }
+studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
+";
+    let drawing = drawn(text, "lift").1;
+    let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
+    let (Some([from, to]), Some(([start, end], true))) = (slide.way, slide.carrier) else { panic!("{slide:?}") };
+    assert!((to[0] - from[0] - 0.45).abs() < 1e-9 && start == [0.0; 2] && (end[0] - 0.7).abs() < 1e-12, "{slide:?}");
+}

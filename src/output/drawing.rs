@@ -194,7 +194,12 @@ impl Pen<'_> {
         let size = self.signs.size;
         if symbol.kind == SymbolKind::Slide {
             let more = self.signs.slide_box()[0] + 14.0 * size;
-            let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
+            let mut way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
+            if let Some((ends, round)) = placement.carrier.filter(|_| !symbol.way_grounded) {
+                // the guide ends round, as bars do
+                let inset = 0.5 * self.signs.guide_width() - if round { 0.5 * symbols::BAR * size } else { 0.0 };
+                way = symbols::within(way, ends, inset);
+            }
             if ink.strong {
                 let body = Self::looks(body_color(symbol.way_body), 1.0);
                 self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement.clear);

@@ -110,6 +110,8 @@ pub struct Placement {
     pub along: [f64; 2],
     /// The ends of the way or slot, if they are known; else it is drawn a little longer than what is seen of the motion.
     pub way: Option<[[f64; 2]; 2]>,
+    /// Of a slide the ends of the shape of the body that carries its way, if that has one along it, and whether they are round.
+    pub carrier: Option<([[f64; 2]; 2], bool)>,
     /// Two directions at right angles in space, across the axis, counter-clockwise about it.
     pub across: [[f64; 2]; 2],
     /// Sense in which it is driven: 1 along or counter-clockwise about the axis, −1 the other way, 0 for both and for neither.

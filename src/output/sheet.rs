@@ -33,6 +33,10 @@ impl Sheet {
             at: self.point(placement.at),
             along: turned(placement.along),
             way,
+            carrier: placement
+                .carrier
+                .filter(|(ends, _)| ends.iter().all(is_usable))
+                .map(|(ends, round)| (ends.map(|end| self.point(end)), round)),
             across: placement.across.map(turned),
             sense: placement.sense,
             clear: placement.clear * self.scale,

@@ -234,9 +234,26 @@ pub(super) fn longer(way: [Point; 2], placement: &Placement, more: f64) -> [Poin
     [off(way[0], along, -more, 0.0), off(way[1], along, more, 0.0)]
 }
 
+/// What of a way lies between two places along it, and by `inset` farther in; all of it where nothing would be left.
+pub(super) fn within(way: [Point; 2], ends: [Point; 2], inset: f64) -> [Point; 2] {
+    let (along, length) = direction(way[0], way[1]);
+    let place = |p: Point| (p[0] - way[0][0]) * along[0] + (p[1] - way[0][1]) * along[1];
+    let [a, b] = ends.map(place);
+    let (low, high) = ((a.min(b) + inset).max(0.0), (a.max(b) - inset).min(length));
+    if low < high { [off(way[0], along, low, 0.0), off(way[0], along, high, 0.0)] } else { way }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_way_ends_with_what_carries_it() {
+        let way = [[0.0, 5.0], [100.0, 5.0]];
+        assert_eq!(within(way, [[80.0, 5.0], [20.0, 5.0]], 5.0), [[25.0, 5.0], [75.0, 5.0]]);
+        assert_eq!(within(way, [[-50.0, 5.0], [60.0, 5.0]], 5.0), [[0.0, 5.0], [55.0, 5.0]]);
+        assert_eq!(within(way, [[200.0, 5.0], [300.0, 5.0]], 5.0), way);
+    }
 
     #[test]
     fn a_way_without_length_is_drawn_along_its_slide() {

@@ -33,11 +33,49 @@ impl Posed<'_> {
             at: self.flat(poses, if slides { &joint.b } else { &joint.a }),
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
             way: joint.stroke.filter(|_| slides).map(|ends| ends.map(on_way)),
+            carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
             across: across(about).map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
             sense: joint.sense,
             stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),
         }
+    }
+
+    /// Where along a slide the shape of the moving body that carries it ends, measured from its point along the axis, m, and whether it ends
+    /// round: that of the first shape given by the model that lies along the slide and reaches some of its way.
+    fn carrier(&self, joint: &Joint) -> Option<([f64; 2], bool)> {
+        let [low, high] = joint.stroke.filter(|_| joint.a.body != 0)?;
+        let n = self.scene.dimensions;
+        let from = |p: &[f64]| (0..n).map(|i| p[i] - joint.a.at[i]).collect::<Vec<f64>>();
+        let along = |p: &[f64]| from(p).iter().zip(&joint.axis).map(|(d, e)| d * e).sum::<f64>();
+        let beside = |p: &[f64]| {
+            let s = along(p);
+            from(p).iter().zip(&joint.axis).map(|(d, e)| (d - s * e).powi(2)).sum::<f64>().sqrt()
+        };
+        let bar = |from: &[f64], to: &[f64], radius: f64, round: bool| {
+            let ends = [along(from).min(along(to)), along(from).max(along(to))];
+            (beside(from).max(beside(to)) <= radius.max(1e-6 * (ends[1] - ends[0]))).then_some((ends, round))
+        };
+        let of = |shape: &Shape| match shape {
+            Shape::Bar { from, to, width } => bar(from, to, 0.5 * width.unwrap_or(0.0), true),
+            Shape::Cylinder { from, to, radius } => bar(from, to, *radius, false),
+            Shape::Box { center, size } => {
+                let half = 0.5 * (0..n).map(|i| (joint.axis[i] * size[i]).abs()).sum::<f64>();
+                let thick = 0.5 * size.iter().map(|x| x * x).sum::<f64>().sqrt();
+                (beside(center) < thick).then(|| ([along(center) - half, along(center) + half], false))
+            }
+            Shape::Polygon { points } => {
+                let side = |p: &Vec<f64>| joint.axis[0] * from(p)[1] - joint.axis[1] * from(p)[0];
+                let span = |of: &dyn Fn(&Vec<f64>) -> f64| {
+                    points.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+                };
+                let across = span(&side);
+                (across[0] <= 0.0 && across[1] >= 0.0).then(|| (span(&|p| along(p)), false))
+            }
+            _ => None,
+        };
+        let shapes = self.scene.bodies[joint.a.body].shapes.iter().filter_map(of);
+        shapes.into_iter().find(|(ends, _)| ends[0] < high && ends[1] > low)
     }
 
     /// How far the outlines of the body that slides reach from the way to its lower side, m.
