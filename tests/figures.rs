@@ -3,7 +3,7 @@
 use crate::common;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Report, Selection};
-use grashof::output::{Drawing, Figure, Film, Pace, Shot, ShotOptions, drawing, figures, moving_svg, render_figure};
+use grashof::output::{Drawing, Figure, Film, Pace, Shot, ShotOptions, drawing, figures, moving_svg, render_drawing, render_figure};
 use grashof::results::{By, Column, Results, Scene};
 use grashof::studies::common::named::named;
 use grashof::studies::loader::{Loader, NotLoaded};
@@ -337,4 +337,27 @@ studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
     let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
     let (Some([from, to]), Some(([start, end], true))) = (slide.way, slide.carrier) else { panic!("{slide:?}") };
     assert!((to[0] - from[0] - 0.45).abs() < 1e-9 && start == [0.0; 2] && (end[0] - 0.7).abs() < 1e-12, "{slide:?}");
+}
+
+#[test]
+fn a_disc_does_not_hide_the_bearing_that_it_turns_on() {
+    let text = |shape: &str| {
+        format!(
+            "grashof: 1
+name: wheel
+space: planar
+gravity: none
+bodies: {{ wheel: {{ {shape} }} }}
+joints: {{ O: {{ revolute: [ground, wheel.origin] }} }}
+start: {{ O.omega: 1 rad/s }}
+studies: {{ go: {{ dynamics: {{ until: 1 s, every: 0.5 s }} }} }}
+"
+        )
+    };
+    let svg = render_drawing(&drawn(&text("disc: { radius: 20 cm, mass: 2 kg }"), "go").1).expect("a picture").svg;
+    let lines: Vec<&str> = svg.lines().collect();
+    let radius = |line: &str| line.split(" r=\"").nth(1).and_then(|of| of.split('"').next()?.parse::<f64>().ok()).unwrap_or(0.0);
+    let disc = lines.iter().rposition(|line| line.starts_with("<circle") && radius(line) > 100.0).expect("a disc");
+    let bearing = lines.iter().position(|line| line.contains("#eeeeee")).expect("a bearing");
+    assert!(bearing > disc, "{svg}");
 }

@@ -155,7 +155,7 @@ impl Pen<'_> {
         let placed = |symbol: &Symbol| symbol.poses.get(pose).and_then(|placement| self.sheet.placement(placement));
         let joints: Vec<_> = self.drawing.joints.iter().filter_map(|symbol| Some((symbol, placed(symbol)?))).collect();
         for (symbol, placement) in &joints {
-            self.below(symbol, placement, &ink);
+            self.below(symbol, placement, &ink, pose);
         }
         self.forms(pose, strength, &joints);
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.kind == SymbolKind::Slot) {
@@ -190,7 +190,7 @@ impl Pen<'_> {
     }
 
     /// What lies under the bodies at a joint: bearings, ways, boxes.
-    fn below(&mut self, symbol: &Symbol, placement: &Placement, ink: &Looks) {
+    fn below(&mut self, symbol: &Symbol, placement: &Placement, ink: &Looks, pose: usize) {
         let size = self.signs.size;
         if symbol.kind == SymbolKind::Slide {
             let more = self.signs.slide_box()[0] + 14.0 * size;
@@ -216,9 +216,20 @@ impl Pen<'_> {
             }
             self.signs.slider(&mut self.scene, placement, ink);
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
-            self.signs.ground(&mut self.scene, placement.at);
+            if self.disc(symbol, pose).is_none() {
+                self.signs.ground(&mut self.scene, placement.at);
+            }
             self.letters.avoid(placement.at, [28.0 * size, 22.0 * size], [0.0, 22.0 * size]);
         }
+    }
+
+    /// The disc in the plane, as body and number of its shape, before which the bearing of a joint stands: that would not be seen behind it.
+    fn disc(&self, symbol: &Symbol, pose: usize) -> Option<(usize, usize)> {
+        let slides = matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
+        let body = symbol.bodies.into_iter().find(|body| *body != 0).filter(|_| symbol.grounded && !slides)?;
+        let forms = self.drawing.bodies.get(body)?.poses.get(pose)?;
+        let shape = forms.iter().rposition(|form| matches!(form.kind, FormKind::Disc { spoke: Some(_), .. }))?;
+        Some((body, shape))
     }
 
     /// The shapes of all bodies, those farther from the eye first.
@@ -227,15 +238,15 @@ impl Pen<'_> {
         let rods = self.drawing.links.iter().filter(|link| link.kind == LinkKind::Rod).filter_map(|link| {
             let [from, to] = *link.poses.get(pose)?;
             let kind = FormKind::Bar { from, to, width: None };
-            Some((ROD, 0.0, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
+            Some((ROD, 0.0, None, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
             let forms = body.poses.get(pose).map_or(&[][..], Vec::as_slice);
-            forms.iter().filter_map(move |form| Some((body_color(index), form.depth, sheet.form(form)?)))
+            forms.iter().enumerate().filter_map(move |(k, form)| Some((body_color(index), form.depth, Some((index, k)), sheet.form(form)?)))
         });
         let mut all: Vec<_> = bodies.chain(rods).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
-        for (color, _, form) in all {
+        for (color, _, shape, form) in all {
             // A body of one point is shown by the joint there, if there is one.
             let single = match &form {
                 FormKind::Plate { points } if points.len() == 1 => Some(points[0]),
@@ -246,6 +257,10 @@ impl Pen<'_> {
             }
             let outline = self.signs.form(&mut self.scene, &form, &Self::looks(color, strength));
             self.letters.avoid_line(&outline, if strength == 1.0 { Obstacle::Body } else { Obstacle::Shade });
+            if pose == 0 && shape.is_some() {
+                let bearings: Vec<_> = joints.iter().filter(|(symbol, _)| self.disc(symbol, pose) == shape).collect();
+                bearings.iter().for_each(|(_, placement)| self.signs.ground(&mut self.scene, placement.at));
+            }
         }
     }
 

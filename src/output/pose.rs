@@ -71,6 +71,8 @@ pub struct Symbol {
     pub name: String,
     /// What it looks like.
     pub kind: SymbolKind,
+    /// The bodies that it joins; 0 is the frame.
+    pub bodies: [usize; 2],
     /// One of its sides is the frame: hatched.
     pub grounded: bool,
     /// Of a slide: the way belongs to the frame.

@@ -12,6 +12,7 @@ impl Posed<'_> {
             Some(Symbol {
                 name: joint.name.clone(),
                 kind,
+                bodies: [joint.a.body, joint.b.body],
                 grounded: joint.a.body == 0 || joint.b.body == 0,
                 way_grounded: joint.a.body == 0,
                 way_body: joint.a.body,
