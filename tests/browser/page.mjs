@@ -307,3 +307,13 @@ export async function rounding_in_a_list_is_nothing(open) {
   const row = tab.locator('tr', { hasText: 'equilibria.G.position' });
   assert.match(await row.innerText(), /0\.66332,\s+0,\s+−0\.66332/);
 }
+
+export async function parameters_are_those_of_the_run_that_is_shown(open) {
+  const { tab } = await open('swing', { study: 'lengths' });
+  const part = tab.locator('.facts .part', { hasText: 'Parameters' });
+  await part.locator('summary').click();
+  const values = () => part.innerText();
+  assert.match(await values(), /of the run l = 0\.2 m\s+l\s+0\.2 m/);
+  await tab.locator('select[aria-label="run"]').selectOption({ index: 2 });
+  assert.match(await values(), /of the run l = 0\.6 m\s+l\s+0\.6 m/, 'and the part stays open');
+}

@@ -1,9 +1,9 @@
 // What a study has come to beside its rows: scalars, extremes, findings, the certificate, events, lists, matrices.
 
 import { type Child, h } from './dom';
-import { broken, coded, digits, heading, hinted, shownIn, valued } from './numbers';
+import { broken, coded, digits, heading, hinted, pretty, shownIn, valued } from './numbers';
 import { plain } from './table';
-import type { Certificate, Column, Fault, Num, Results, Scalar, Solution, Statistics, Study } from './types';
+import type { Certificate, Column, Fault, Num, Results, Run, Scalar, Solution, Statistics, Study } from './types';
 
 /** Part of the largest number of a list below which another is nothing but rounding. */
 const NOTHING = 1e-14;
@@ -152,8 +152,15 @@ function events(results: Results): HTMLElement | null {
   return results.events.length === 0 ? null : plain('Events', ['event', heading('at', unit)], results.events.map((e) => [e.name, hinted(e.at === null ? null : e.at / size)]));
 }
 
-/** All of it: first what it has come to, then the parts that can be opened. */
-export function facts(study: Study, show: ShowPlace): HTMLElement {
+/** The values of the parameters: of a sweep those of the run that is shown, without one those that all of its runs have. */
+function parameters(study: Study, run: Run | undefined): Child[] {
+  if (run?.results) return [h('p', { class: 'note' }, `of the run ${pretty(run.label)}`), scalars(run.results.parameters)];
+  const given = study.table.columns.slice(0, study.swept?.length ?? 0).map(({ name }) => name);
+  return [scalars(study.parameters.filter(({ name }) => !given.includes(name)))];
+}
+
+/** All of it: first what it has come to, then the parts that can be opened; `run` is the one that is shown of a sweep. */
+export function facts(study: Study, show: ShowPlace, run?: Run): HTMLElement {
   const found = findings(study, show);
   const own = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by !== 'kind') : study.scalars;
   const rest = study.kind === 'modes' ? study.scalars.filter((scalar) => scalar.by === 'kind') : [];
@@ -167,7 +174,7 @@ export function facts(study: Study, show: ShowPlace): HTMLElement {
     part('Extremes', false, extremes(study)),
     part('Events', false, events(study)),
     part('Certificate', false, certificate(study.certificate, study)),
-    part('Parameters', false, scalars(study.parameters)));
+    part('Parameters', false, ...parameters(study, run)));
 }
 
 /** How much of the rows is there, in words. */

@@ -77,11 +77,7 @@ export class StudyView {
     this.study = study;
     if (!this.plots.every((view, k) => view.update(drawn[k]!))) return false;
     this.tellAbout();
-    const open = new Map(parts(this.facts).map((part) => [title(part), part.open]));
-    const next = facts(study, this.show);
-    for (const part of parts(next)) part.open = open.get(title(part)) ?? part.open;
-    this.facts.replaceWith(next);
-    this.facts = next;
+    this.tellFacts();
     this.after(() => this.rest());
     return true;
   }
@@ -104,6 +100,15 @@ export class StudyView {
       if (this.plots.find((plot) => plot.refresh())) this.after(next);
     };
     this.after(next);
+  }
+
+  /** What it has come to, with the parts open that are open. */
+  private tellFacts(): void {
+    const open = new Map(parts(this.facts).map((part) => [title(part), part.open]));
+    const next = facts(this.study, this.show, this.run === null ? undefined : this.study.runs[this.run]);
+    for (const part of parts(next)) part.open = open.get(title(part)) ?? part.open;
+    this.facts.replaceWith(next);
+    this.facts = next;
   }
 
   private tellAbout(): void {
@@ -170,6 +175,7 @@ export class StudyView {
   private choose(run: number): void {
     this.run = run;
     this.plots.forEach((plot) => plot.choose(run));
+    this.tellFacts();
     this.tables(this.study.runs[run]?.results ?? null, this.study.runs[run]?.label);
   }
 
