@@ -38,6 +38,8 @@ pub struct Parameter {
     pub dimension: Dimension,
     /// Its value, an expression of other parameters; acyclic. Overrides (`set`, `--set`) have replaced it already.
     pub value: Id,
+    /// The unit in which it is written, and the size of that in SI; none of an expression.
+    pub unit: Option<(String, f64)>,
     /// Where it stands.
     pub place: Place,
 }

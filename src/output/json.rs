@@ -216,7 +216,7 @@ mod tests {
         let results = Results {
             study: "one-turn".into(),
             parameters: vec![parameter("z", 1.0), parameter("a", f64::NAN)],
-            lists: vec![List { name: "eigenvalues".into(), unit: String::new(), values: vec![0.1, f64::INFINITY] }],
+            lists: vec![List { name: "eigenvalues".into(), values: vec![0.1, f64::INFINITY], ..List::default() }],
             extremes: vec![("theta".into(), Some(Extremes { min: at(-1.0, 2.0), max: at(2.5, 1.0) })), ("none".into(), None)],
             findings: vec![Finding { code: "jump".into(), message: "a jump".into(), path: "forces.load".into() }],
             ..Results::default()

@@ -4,7 +4,7 @@ use super::scalars::{self, ten_digits};
 use crate::results::{By, Finding, Results, Scalar, number};
 
 mod linear;
-mod modes;
+pub(super) mod modes;
 mod runs;
 
 /// Findings of a motion that are shown.
@@ -123,7 +123,8 @@ fn happened(results: &Results) -> String {
     if results.events.is_empty() {
         return String::new();
     }
-    let shown: Vec<String> = results.events.iter().take(EVENTS).map(|e| format!("{} at {}", e.name, place(Some(&e.at)))).collect();
+    let size = results.independent.shown().1;
+    let shown: Vec<String> = results.events.iter().take(EVENTS).map(|e| format!("{} at {}", e.name, place(Some(&(e.at / size))))).collect();
     let more = results.events.len().saturating_sub(EVENTS);
     let more = if more > 0 { format!(", and {more} more") } else { String::new() };
     format!("  happened: {}{more}\n", shown.join(", "))

@@ -166,13 +166,16 @@ pub struct Solution {
 }
 
 /// A named list of numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct List {
     /// Its name: `eigenvalues`.
     pub name: String,
     /// Its unit, SI; empty if it has none.
     pub unit: String,
-    /// The numbers.
+    /// The unit to show them in, if the model asks for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shown_in: Option<ShownIn>,
+    /// The numbers, SI.
     pub values: Vec<f64>,
 }
 

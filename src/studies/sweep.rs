@@ -259,7 +259,7 @@ fn solution(model: &Model, study: &Study, run: &Run) -> Option<Solution> {
     let (solved, solve) = (run.solved.as_ref()?, study.solve.as_ref()?);
     let parameter = &model.parameters[solve.parameter];
     Some(Solution {
-        parameter: named::scalar(model, &parameter.name, parameter.dimension, solved.value, By::File),
+        parameter: named::parameter(model, parameter, solved.value),
         of: solve.target.0.clone(),
         found: solved.found,
         target: solved.target,

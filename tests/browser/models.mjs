@@ -315,6 +315,27 @@ start: { H.angle: 0 deg }
 studies:
   open: { kinematics: { over: 100 deg, samples: 20 }, columns: [H.angle], view: top, at: 37 deg }
 `,
+  // lengths in mm, a parameter in a unit of its own
+  leaf: `grashof: 1
+name: leaf
+space: planar
+gravity: [0, -9.81 m/s^2]
+units: [mm]
+parameters: { k: 2 N/cm, l: 50 cm }
+ground: { W: [0, 0] }
+bodies:
+  block: { mass: 0.5 kg, inertia: 1 kg cm^2 }
+  rod: { bar: { length: l, mass: 0.5 kg } }
+joints:
+  S: { slider: [ground.W, block.origin], axis: [1, 1] }
+  P: { revolute: [block.origin, rod.start] }
+springs: { s: { joint: S, stiffness: k, damping: 3 N s/m } }
+start: { S.position: ~0 mm, P.angle: ~-60 deg }
+studies:
+  rest: { statics: { from: start } }
+  modes: { modes: { at: statics } }
+  damped: { modes: { at: statics, damped: true } }
+`,
 };
 
 /** Files beside these models. */

@@ -317,3 +317,18 @@ export async function parameters_are_those_of_the_run_that_is_shown(open) {
   await tab.locator('select[aria-label="run"]').selectOption({ index: 2 });
   assert.match(await values(), /of the run l = 0\.6 m\s+l\s+0\.6 m/, 'and the part stays open');
 }
+
+export async function shapes_and_equilibria_are_told_as_on_the_terminal(open) {
+  const { tab } = await open('leaf', { study: 'rest' });
+  const facts = tab.locator('.facts');
+  assert.match(await facts.innerText(), /S\.position = -34\.68\d* mm, P\.angle = -90 deg/);
+  assert.match(await tab.locator('tr', { hasText: 'equilibria.S.position' }).innerText(), /\[mm\]\s+−34\.68/);
+  assert.match(await tab.locator('tr', { hasText: 'equilibria.P.angle' }).innerText(), /\[deg\]\s+−90/);
+  await tab.locator('.part', { hasText: 'Parameters' }).locator('summary').click();
+  assert.match(await facts.innerText(), /k\s+2 N\/cm\s+l\s+500 mm/, 'as they are written, or in the units that are asked for');
+  const modes = await open('leaf', { study: 'modes' });
+  const shape = (k) => modes.tab.locator('tr', { hasText: `shape ${k}` }).locator('td').innerText();
+  for (const k of [1, 2]) assert.match(await shape(k), /^\S+ 1, +\S+ −?\d/);
+  const damped = await open('leaf', { study: 'damped' });
+  assert.match(await damped.tab.locator('tr', { hasText: 'shape 1' }).locator('td').innerText(), /^\S+ 1, +\S+ \S+ at \S+ deg$/);
+}

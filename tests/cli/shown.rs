@@ -10,7 +10,7 @@ fn what_has_a_unit_is_told_with_it() {
     place.put("solve.yaml", &(model() + solve).replace("    sweep: { l3: [10 cm, 50 cm, 55 cm, 5 m] }\n", ""));
     let done = place.run(&["run", "solve.yaml", "--study", "lengths", "--no-plots", "-o", "out"]).ends(0);
     let solved = done.stdout.lines().find(|line| line.contains("solved:")).unwrap();
-    assert!(solved.contains(" m (") && solved.ends_with("swing = 0.6981317008 rad"), "{solved}");
+    assert!(solved.contains(" cm (") && solved.ends_with("swing = 0.6981317008 rad"), "{solved}");
     assert!(done.stdout.contains("13 rows over theta from 1.570796 to 7.853982 rad"), "{}", done.stdout);
     place.put(
         "units.yaml",

@@ -130,8 +130,12 @@ function listed(kind: string): string {
 }
 
 function lists(results: Results): Child[] {
-  const all = results.lists.map(({ name, unit, values }) => [heading(name, unit), h('span', {}, ...beside(values).flatMap((text, i) => (i > 0 ? [',  ', text] : [text])))]);
-  const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.map(([name, x]) => `${name} ${digits(x, 4)}`).join(',  ')]);
+  const all = results.lists.map(({ name, unit, shown_in = null, values }) => {
+    const shown = shownIn({ unit, shown_in });
+    const numbers = beside(values.map((v) => (v === null ? null : v / shown.size)));
+    return [heading(name, shown.unit), h('span', {}, ...numbers.flatMap((text, i) => (i > 0 ? [',  ', text] : [text])))];
+  });
+  const shapes = results.shapes.map((shape, k) => [`shape ${k + 1}`, shape.join(',  ').replace(/ -(?=\d)/g, ' −')]);
   return all.length + shapes.length > 0 ? [plain(listed(results.kind), ['', 'values'], [...all, ...shapes], true)] : [];
 }
 

@@ -112,8 +112,9 @@ export interface Results {
   curves: Column[];
   scalars: Scalar[];
   extremes: [string, { min: Extremum; max: Extremum } | null][];
-  lists: { name: string; unit: string; values: Num[] }[];
-  shapes: [string, Num][][];
+  lists: { name: string; unit: string; shown_in?: Column['shown_in']; values: Num[] }[];
+  /** Of each mode its coordinates in words, the largest first. */
+  shapes: string[][];
   linear: LinearSystem | null;
   events: { name: string; at: Num }[];
   expectations: { text: string; found: Num; wanted: Num; tolerance: Num; met: boolean; message: string; place: string }[];

@@ -2,6 +2,7 @@
 
 use super::decoder::{Decoder, Origin};
 use super::order::{in_words, order};
+use super::written::unit_of;
 use crate::expression::{Dimension, Expr, Kind, Lowered};
 use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
@@ -106,10 +107,11 @@ impl<'n> Decoder<'n> {
                 values[i] = lowered.id;
             }
         }
-        for (i, (name, _)) in entries.iter().enumerate() {
+        for (i, (name, node)) in entries.iter().enumerate() {
             let place = self.place(&section.key(*name));
             let dimension = self.name_space.parameters[i].unwrap_or_default();
-            self.name_space.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], place });
+            let unit = node.text().and_then(unit_of);
+            self.name_space.model.parameters.push(Parameter { name: (*name).to_owned(), dimension, value: values[i], unit, place });
         }
     }
 

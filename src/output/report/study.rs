@@ -6,6 +6,7 @@ use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
 use crate::output::json_number;
 use crate::output::posed::{self, forms::faces_of};
 use crate::output::sheet::body_color;
+use crate::output::text::modes;
 use crate::output::view::level;
 use crate::results::scene::Shape;
 use crate::results::{Extremes, Plot, Results, Scene};
@@ -154,6 +155,8 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
     let mut value = json(&page);
     value["scenes"] = scenes.iter().map(|(name, scene)| json!([name, drawing(scene)])).collect();
     value["rows"] = json(&shown);
+    // shapes as the terminal tells them
+    value["shapes"] = results.shapes.iter().map(|shape| json(&modes::words(shape))).collect();
     whole(&mut value);
     value
 }

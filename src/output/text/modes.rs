@@ -1,6 +1,7 @@
 //! Modes in a table, with what the methods have spent and what there is to say.
 
 use crate::results::{Column, Results, number};
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 /// Coordinates that count in the printed shape, of the largest one.
@@ -9,6 +10,8 @@ const PART: f64 = 0.1;
 const PARTS: usize = 4;
 /// Sine of a phase that is rounding.
 const REAL: f64 = 1e-6;
+/// Parts of a shape, of the largest one, that are rounding.
+const ROUND_OFF: f64 = 1e-9;
 /// Columns of the table that are numbers of a mode.
 const NUMBERS: [&str; 5] = ["eigenvalue_real", "eigenvalue_imaginary", "eigenvalue", "frequency", "damping_ratio"];
 
@@ -51,26 +54,43 @@ fn methods(results: &Results) -> String {
     if lines.is_empty() { String::new() } else { format!("  {}\n", lines.join("; ")) }
 }
 
-/// The coordinates that move most in a shape, the largest first, as parts of it: with a sign where all of them are in phase or opposite,
-/// else with the angle, in degrees, by which each is ahead of the largest.
+/// The coordinates that move most in a shape, the largest first.
 fn parts(shape: &[(String, f64)]) -> String {
+    let of = told(shape);
+    let most = of.iter().take(PARTS).take_while(|part| part.size >= PART);
+    most.map(|part| part.text.clone()).collect::<Vec<_>>().join(", ")
+}
+
+/// A coordinate in a shape.
+struct Part {
+    /// Beside the largest one, without sign.
+    size: f64,
+    text: String,
+}
+
+/// All coordinates of a shape in words.
+pub(in crate::output) fn words(shape: &[(String, f64)]) -> Vec<String> {
+    told(shape).into_iter().map(|part| part.text).collect()
+}
+
+/// The coordinates of a shape, the largest first, as parts of it: with a sign where all that count are in phase or opposite, else with the
+/// angle, in degrees, by which each is ahead of the largest.
+fn told(shape: &[(String, f64)]) -> Vec<Part> {
     let mut parts: Vec<&(String, f64)> = shape.iter().filter(|(name, _)| !name.ends_with(".phase")).collect();
     parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-    let Some((first, largest)) = parts.first().copied() else { return String::new() };
-    let phase = |of: &str| shape.iter().find(|(name, _)| name.strip_suffix(".phase") == Some(of)).map_or(0.0, |(_, phase)| *phase);
-    let shown: Vec<(&str, f64, f64)> = parts
-        .iter()
-        .filter(|p| p.1.abs() >= PART * largest.abs())
-        .take(PARTS)
-        .map(|(name, x)| (name.as_str(), x / largest, phase(name) - phase(first)))
-        .collect();
-    let real = shown.iter().all(|(_, _, ahead)| ahead.sin().abs() < REAL);
-    let told = shown.into_iter().enumerate().map(|(i, (name, x, ahead))| match real {
+    let Some((first, largest)) = parts.first().copied() else { return Vec::new() };
+    let largest = if *largest == 0.0 { 1.0 } else { *largest };
+    let phases: HashMap<&str, f64> = shape.iter().filter_map(|(name, phase)| Some((name.strip_suffix(".phase")?, *phase))).collect();
+    let phase = |of: &str| phases.get(of).copied().unwrap_or(0.0);
+    let shown: Vec<(&str, f64, f64)> = parts.iter().map(|(name, x)| (name.as_str(), x / largest, phase(name) - phase(first))).collect();
+    let real = shown.iter().all(|(_, x, ahead)| x.abs() < PART || ahead.sin().abs() < REAL);
+    let in_line = |x: f64, ahead: f64| real && (x.abs() < ROUND_OFF || ahead.sin().abs() < REAL);
+    let text = |i: usize, name: &str, x: f64, ahead: f64| match in_line(x, ahead) {
         true => format!("{name} {}", digits(x * ahead.cos().signum(), 3)),
-        false if i == 0 => format!("{name} {}", digits(x, 3)),
+        false if i == 0 || x == 0.0 => format!("{name} {}", digits(x, 3)),
         false => format!("{name} {} at {} deg", digits(x, 3), digits(degrees(ahead), 3)),
-    });
-    told.collect::<Vec<_>>().join(", ")
+    };
+    shown.into_iter().enumerate().map(|(i, (name, x, ahead))| Part { size: x.abs(), text: text(i, name, x, ahead) }).collect()
 }
 
 /// An angle from −180° (not itself) to 180°; round-off of zero is zero.
@@ -109,6 +129,12 @@ mod tests {
         assert_eq!(parts(&shape(&damped)), "b 1, a 0.5 at 90 deg, c 0.25 at -172 deg, d 0.2 at 180 deg");
         let beyond = [("a", 0.5, Some(3.0)), ("b", 1.0, Some(-3.0))];
         assert_eq!(parts(&shape(&beyond)), "b 1, a 0.5 at -16.2 deg");
+        // what is told of all coordinates has the same scale and phases
+        assert_eq!(words(&shape(&damped)), ["b 1", "a 0.5 at 90 deg", "c 0.25 at -172 deg", "d 0.2 at 180 deg"]);
+        assert_eq!(words(&shape(&undamped)), ["b 1", "a -0.5", "c -0.01"]);
+        let little = [("a", 0.05, Some(1.0)), ("b", 1.0, Some(0.0)), ("c", 1e-12, Some(1.0))];
+        assert_eq!(words(&shape(&little)), ["b 1", "a 0.05 at 57.3 deg", "c 1e-12"]);
+        assert_eq!(words(&shape(&[("a", 0.0, None)])), ["a 0"]);
         let rounded = [("a", 0.5, Some(-4.4e-16)), ("b", 1.0, Some(0.0)), ("c", 0.3, Some(1.0))];
         assert_eq!(parts(&shape(&rounded)), "b 1, a 0.5 at 0 deg, c 0.3 at 57.3 deg");
     }

@@ -17,6 +17,9 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
     let columns_of = |name: &str| table.columns.iter().chain(&curves).find(|c| c.name == name).map(|c| c.values.as_slice());
     outcome.scenes.iter_mut().for_each(|(_, scene)| fill_arrows(study, scene, &outcome.places, &columns_of));
     let unit = shown_in(model, study.independent.unwrap_or(Dimension::NONE));
+    for list in &mut outcome.lists {
+        list.shown_in = parse_unit(&list.unit).and_then(|(_, dimension)| shown_in(model, dimension));
+    }
     outcome.findings.extend(outcome.scenes.first().and_then(|(_, scene)| beyond(study, &outcome.independent, unit, scene)));
     Results {
         model: model.name.clone(),
@@ -82,7 +85,15 @@ pub(crate) fn scalar(model: &Model, name: &str, dimension: Dimension, value: f64
 
 /// Parameters by name.
 pub(crate) fn parameters(model: &Model, values: impl Iterator<Item = f64>) -> Vec<Scalar> {
-    model.parameters.iter().zip(values).map(|(p, x)| scalar(model, &p.name, p.dimension, x, By::File)).collect()
+    model.parameters.iter().zip(values).map(|(p, x)| parameter(model, p, x)).collect()
+}
+
+/// A parameter in the unit that the model asks for, else in that in which the file writes it.
+pub(crate) fn parameter(model: &Model, of: &model::Parameter, value: f64) -> Scalar {
+    let mut shown = scalar(model, &of.name, of.dimension, value, By::File);
+    let written = || of.unit.clone().map(|(unit, size)| ShownIn { unit, size });
+    shown.shown_in = shown.shown_in.or_else(written);
+    shown
 }
 
 /// The figures of a study; the ends of their axes are those for the parameters of the file.

@@ -74,7 +74,7 @@ where
     })?;
     let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values };
+    let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values, ..List::default() };
     let numbers = Sources { case, tables: &mechanism.tables, functionals: &[], results: &[], works: &[] }.numbers(true);
     findings.extend(numbers.findings);
     let mut rows = Rows::new(base.outputs.len());

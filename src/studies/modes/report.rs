@@ -51,7 +51,7 @@ pub(super) struct Undamped {
 
 impl Report<'_> {
     pub(super) fn list(&mut self, name: impl Into<String>, unit: &str, values: Vec<f64>) {
-        self.lists.push(List { name: name.into(), unit: unit.into(), values });
+        self.lists.push(List { name: name.into(), unit: unit.into(), values, ..List::default() });
     }
 
     pub(super) fn finding(&mut self, code: &'static str, message: String) {

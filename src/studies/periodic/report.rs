@@ -126,7 +126,7 @@ impl<'a> Regime<'a> {
             Some((out[value], trajectory.system(piece).dynamics.poses()))
         };
         let scenes = scene::wanted(case, || subject.over(span, &mut at));
-        let one = |name: &str, x: f64| List { name: name.into(), unit: String::new(), values: vec![x] };
+        let one = |name: &str, x: f64| List { name: name.into(), values: vec![x], ..List::default() };
         let mut lists = stability::lists(&multipliers);
         lists.extend([one("closure", closure[0]), one("newton_steps", steps as f64), one("periods_run", periods as f64)]);
         lap.findings.extend(numbers.findings);

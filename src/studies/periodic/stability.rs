@@ -36,8 +36,8 @@ pub(super) enum Neighbours {
 pub(super) fn lists(multipliers: &[Complex<f64>]) -> Vec<List> {
     let list = |part: &str, of: fn(&Complex<f64>) -> f64| List {
         name: format!("multipliers_{part}"),
-        unit: String::new(),
         values: multipliers.iter().map(of).collect(),
+        ..List::default()
     };
     vec![list("real", |m| m.re), list("imaginary", |m| m.im), list("modulus", |m| m.norm())]
 }

@@ -108,7 +108,7 @@ where
         let ends = grip::region(&mut self.rest, pose)?;
         let at = |end: &Option<Pose>| {
             let values = end.as_ref().map(|end| self.values(&independent, pose, end));
-            values.map(|values| place(&self.names.coordinates(&independent), &values))
+            values.map(|values| place(self.case.model, &self.names.coordinates(&independent), &values))
         };
         let message = match [at(&ends[0]), at(&ends[1])] {
             [Some(low), Some(high)] => format!("{what}: it rests anywhere from {low} to {high}"),

@@ -4,6 +4,7 @@ use super::pose::Pose;
 use super::rest::Lost;
 use super::search::{Ended, Found};
 use crate::dynamics::Dynamics;
+use crate::expression::Dimension;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
@@ -13,8 +14,9 @@ use crate::kinematics::partition::{Partition, preferred};
 use crate::kinematics::undefined::{in_state, without_direction};
 use crate::mechanism::{Mechanism, Step};
 use crate::model::Model;
-use crate::results::{Failure, Unsolved, six_digits};
+use crate::results::{Failure, ShownIn, Unsolved, six_digits};
 use crate::studies::common::case::Case;
+use crate::studies::common::named::shown_in;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
@@ -141,11 +143,13 @@ pub(super) fn verdict(negative: usize, zero: usize, motion: &str) -> String {
     }
 }
 
-/// `P.angle = -90 deg, S.position = 0.2 m` of independent coordinates.
-pub(super) fn place(coordinates: &[Coordinate], values: &[f64]) -> String {
+/// `P.angle = -90 deg, S.position = 0.2 m` of independent coordinates, in the units that the model asks for.
+pub(super) fn place(model: &Model, coordinates: &[Coordinate], values: &[f64]) -> String {
     const SHOWN: usize = 4;
-    let value = |turns: bool, x: f64| if turns { format!("{} deg", six(x * 180.0 / PI)) } else { format!("{} m", six(x)) };
-    let of = |(coordinate, x): (&Coordinate, &f64)| format!("{} = {}", coordinate.name, value(coordinate.turns, *x));
+    let unit = |dimension, plain: &str, size: f64| shown_in(model, dimension).unwrap_or_else(|| ShownIn { unit: plain.into(), size });
+    let (angle, length) = (unit(Dimension::ANGLE, "deg", PI / 180.0), unit(Dimension::LENGTH, "m", 1.0));
+    let value = |in_unit: &ShownIn, x: f64| format!("{} {}", six(x / in_unit.size), in_unit.unit);
+    let of = |(c, x): (&Coordinate, &f64)| format!("{} = {}", c.name, value(if c.turns { &angle } else { &length }, *x));
     let shown: Vec<String> = coordinates.iter().zip(values).take(SHOWN).map(of).collect();
     let more = if coordinates.len() > SHOWN { ", ..." } else { "" };
     if shown.is_empty() { "no coordinate is free".into() } else { shown.join(", ") + more }

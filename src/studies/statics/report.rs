@@ -50,13 +50,14 @@ where
             name: format!("equilibria.{}", coordinate.name),
             unit: if coordinate.turns { "rad".into() } else { "m".into() },
             values: all.iter().map(|told| told.values[i]).collect(),
+            ..List::default()
         };
         let mut lists: Vec<List> = self.coordinates.iter().enumerate().map(of_coordinate).collect();
-        lists.push(List { name: "equilibria.stable".into(), unit: String::new(), values: all.iter().map(stable).collect() });
+        lists.push(List { name: "equilibria.stable".into(), values: all.iter().map(stable).collect(), ..List::default() });
         let mut findings: Vec<Finding> = Vec::new();
         for (i, told) in all.iter().enumerate() {
             let code = if i == 0 { "equilibrium" } else { "further-equilibrium" };
-            let place = place(&self.coordinates, &told.values) + if self.by_friction { ", held by friction" } else { "" };
+            let place = place(case.model, &self.coordinates, &told.values) + if self.by_friction { ", held by friction" } else { "" };
             findings.push(Finding { code: code.into(), message: format!("{place}: {}", told.verdict), path: study.place.clone() });
         }
         findings.extend(further);
