@@ -315,6 +315,18 @@ start: { H.angle: 0 deg }
 studies:
   open: { kinematics: { over: 100 deg, samples: 20 }, columns: [H.angle], view: top, at: 37 deg }
 `,
+  // a plate that rests elsewhere than it starts
+  tray: `grashof: 1
+name: tray
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0] }
+bodies: { plate: { mass: 5 kg, com: [20 cm, -10 cm], inertia: 0.5 kg m^2, points: { pa: [40 cm, 20 cm], pb: [60 cm, -20 cm], pc: [10 cm, -30 cm] } } }
+joints: { O: { revolute: [ground.O, plate.origin] } }
+springs: { s: { joint: O, stiffness: 20 N m/rad, rest: 0 deg } }
+start: { O.angle: 60 deg }
+studies: { rest: { statics: { from: start }, columns: [O.angle] } }
+`,
   // lengths in mm, a parameter in a unit of its own
   leaf: `grashof: 1
 name: leaf

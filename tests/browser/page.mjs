@@ -332,3 +332,16 @@ export async function shapes_and_equilibria_are_told_as_on_the_terminal(open) {
   const damped = await open('leaf', { study: 'damped' });
   assert.match(await damped.tab.locator('tr', { hasText: 'shape 1' }).locator('td').innerText(), /^\S+ 1, +\S+ \S+ at \S+ deg$/);
 }
+
+export async function the_start_of_what_rests_is_pale_as_a_whole(open) {
+  const { tab } = await open('tray', { study: 'rest' });
+  await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const through = await tab.locator('.canvas canvas').evaluate((canvas) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    // less pale than what lies behind: something of it is seen through something else
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 110 && data[i] < 170) count++;
+    return count;
+  });
+  assert.ok(through < 1000, `${through} pixels`);
+}

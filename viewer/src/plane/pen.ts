@@ -3,7 +3,10 @@
 export type Point = [number, number];
 
 export class Pen {
-  constructor(readonly on: CanvasRenderingContext2D) {}
+  /** Where what is drawn faintly is drawn first. */
+  private layer: HTMLCanvasElement | null = null;
+
+  constructor(public on: CanvasRenderingContext2D) {}
 
   /** A line through points, closed if it is to be. */
   path(points: Point[], closed = false): this {
@@ -38,6 +41,25 @@ export class Pen {
     this.on.globalAlpha = before * opacity;
     draw();
     this.on.globalAlpha = before;
+  }
+
+  /** The same of a picture as a whole: of what lies over each other in it only the uppermost is seen. */
+  faintlyAll(opacity: number, draw: () => void): void {
+    const { on } = this;
+    const { width, height } = on.canvas;
+    this.layer ??= document.createElement('canvas');
+    Object.assign(this.layer, { width, height });
+    const over = this.layer.getContext('2d');
+    if (!over || width === 0 || height === 0) return;
+    over.setTransform(on.getTransform());
+    this.on = over;
+    draw();
+    this.on = on;
+    on.save();
+    on.setTransform(1, 0, 0, 1, 0, 0);
+    on.globalAlpha *= opacity;
+    on.drawImage(this.layer, 0, 0);
+    on.restore();
   }
 
   /** Text with room around its letters. */

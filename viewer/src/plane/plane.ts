@@ -146,7 +146,7 @@ export class Plane implements Renderer {
     const bodies = [...toothed, ...shapes, ...rods].sort((a, b) => a.depth - b.depth);
     for (const behind of this.motion.behind) {
       this.place = behind;
-      pen.faintly(PALE, () => bodies.forEach((one) => one.draw()));
+      pen.faintlyAll(PALE, () => bodies.forEach((one) => one.draw()));
     }
     this.place = place;
     bodies.forEach((one) => one.draw());

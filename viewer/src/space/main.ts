@@ -142,7 +142,7 @@ class Space implements Renderer {
     const paint = (items: Item[]) => items.sort((a, b) => a.depth - b.depth).forEach((item) => item.draw());
     for (const behind of motion.behind) {
       this.place = behind;
-      pen.faintly(PALE, () => paint(bodies()));
+      pen.faintlyAll(PALE, () => paint(bodies()));
     }
     this.place = place;
     const items = bodies();
