@@ -327,6 +327,36 @@ springs: { s: { joint: O, stiffness: 20 N m/rad, rest: 0 deg } }
 start: { O.angle: 60 deg }
 studies: { rest: { statics: { from: start }, columns: [O.angle] } }
 `,
+  // stops of a slide, and with a variant of a hinge
+  marks: `grashof: 1
+name: marks
+space: planar
+gravity: none
+ground: { W: [0, 0] }
+bodies: { block: { plate: { size: [10 cm, 4 cm], mass: 1 kg } } }
+joints: { W: { slider: [ground.W, block.origin], axis: [1, 0], limits: { from: -6 cm, to: 6 cm, restitution: 0.8 } } }
+start: { W.velocity: 0.5 m/s }
+variants:
+  hinge:
+    bodies: { block: { plate: null, bar: { length: 20 cm, mass: 1 kg } } }
+    joints: { W: { slider: null, axis: null, revolute: [ground.W, block.start], limits: { from: -120 deg, to: 20 deg, restitution: 0.8 } } }
+    start: { W.velocity: null, W.omega: 1 rad/s }
+studies:
+  slide: { dynamics: { until: 1 s, every: 5 ms }, columns: [time, W.position] }
+  hinge: { variant: hinge, dynamics: { until: 1 s, every: 5 ms }, columns: [time] }
+`,
+  // a cylinder that is driven out
+  sleeve: `grashof: 1
+name: sleeve
+space: planar
+gravity: none
+ground: { C: [0, 0] }
+bodies: { barrel: { bar: { length: 70 cm, mass: 12 kg } }, rod: { bar: { length: 70 cm, mass: 6 kg } } }
+joints: { C: { revolute: [ground.C, barrel.start] }, cyl: { slider: [barrel.start, rod.start], axis: [1, 0] } }
+drivers: { pump: { joint: cyl, rise: { by: 45 cm, during: 2 s, law: poly5 } }, hold: { joint: C, angle: 0 deg } }
+start: { cyl.position: 20 cm, C.angle: 0 deg }
+studies: { out: { inverse: { over: 2 s, samples: 50 }, columns: [time, cyl.position] } }
+`,
   // lengths in mm, a parameter in a unit of its own
   leaf: `grashof: 1
 name: leaf

@@ -10,6 +10,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '../../viewer/node_modules/playwright-core/index.mjs';
 import { FILES, MODELS, STOPPED, WITH_FIGURES } from './models.mjs';
+import * as drawing from './drawing.mjs';
 import * as motion from './motion.mjs';
 import * as page from './page.mjs';
 import * as paper from './paper.mjs';
@@ -56,7 +57,7 @@ const open = async (name, { study = '', width = 1280, height = 900, colorScheme 
 };
 
 let [passed, failed] = [0, 0];
-for (const tests of [page, motion, plots, paper]) {
+for (const tests of [page, drawing, motion, plots, paper]) {
   for (const [name, test] of Object.entries(tests)) {
     const opened = [];
     try {

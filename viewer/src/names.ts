@@ -13,8 +13,8 @@ export type Box = [number, number, number, number];
 /** A name that is drawn: where its joint or a place on its body is, and where its text stands. */
 export interface Named { text: string; at: Point; box: Box; of: 'joint' | Other['of'] }
 
-/** Joints that are at one place all the time, by the first of them, or something else; how wide their names are, and where these stand. */
-interface Group { text: string; at(place: number): Vector; width: number; points: Point[]; side: number; other: Other | null }
+/** Joints that are at one place all the time, by the first of them, or something else; how wide their names are, how much room signs take, and where names stand. */
+interface Group { text: string; at(place: number): Vector; width: number; room: number; points: Point[]; side: number; other: Other | null }
 
 /** A body, spring or path with its name and the places where that may stand. */
 interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; color(inks: Inks): string; body?: number }
@@ -36,6 +36,8 @@ const ONE = 4;
 const TOGETHER = 3;
 /** Room around a joint, pixels, which is its sign's. */
 const SIGN = 6;
+/** More of it that the arrow of what drives a joint, or stops, take. */
+const MARKS = 9;
 /** Room that a name needs to come back, pixels, so that one that just fits does not come and go. */
 const BACK = 5;
 /** Where a text begins from its joint: to the right and upwards first, where a name is looked for; then farther away, at the end of a line. */
@@ -64,10 +66,13 @@ const EDGES = 16;
 
 const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room < a[2] && a[1] - room < b[3] && b[1] - room < a[3];
 
-/** The box of a text on one of its sides. */
-function boxOn(side: number, [x, y]: Point, width: number): Box {
+/** The box of a text on one of its sides, where a sign takes more room than that of a joint. */
+function boxOn(side: number, [x, y]: Point, { width, room }: Pick<Group, 'width' | 'room'>): Box {
   if (side === ON) return [x - width / 2, y - 6, x + width / 2, y + 6];
-  const [dx, dy] = (side < NEAR ? near(width) : far(width))[side % NEAR]!;
+  let [dx, dy] = (side < NEAR ? near(width) : far(width))[side % NEAR]!;
+  if (side < NEAR && dx > 0) dx += room;
+  else if (side < NEAR && dx < -width) dx -= room;
+  else if (side < NEAR) dy += Math.sign(dy) * room;
   return [x + dx, y + dy - 10, x + dx + width, y + dy + 2];
 }
 
@@ -138,7 +143,7 @@ export class Names {
   /** What was drawn last. */
   drawn: Named[] = [];
   private groups: Group[] = [];
-  private readonly joints: (Spot & { name: string })[];
+  private readonly joints: (Spot & { name: string; room: number })[];
   private readonly others: Other[];
   /** The names that were left out last. */
   private hidden = new Set<string>();
@@ -154,7 +159,7 @@ export class Names {
     const at = motion.sampled(looks);
     this.looks = at;
     const spot = (of: (place: number) => Vector, wide = false): Spot => ({ at: of, places: at.map(of), wide });
-    this.joints = joints.map(({ name, b }) => ({ name, ...spot((place) => motion.world(b, place)) }));
+    this.joints = joints.map(({ name, b, driven, ends }) => ({ name, room: driven || ends ? MARKS : 0, ...spot((place) => motion.world(b, place)) }));
     this.parts = bodies.flatMap(({ shapes: [shape] }, body): Part[] => {
       if (body === 0 || !shape) return [];
       const { line, closed } = outline(shape);
@@ -196,9 +201,10 @@ export class Names {
     this.drawn = [];
     const hidden = new Set<string>();
     const colors: string[] = [];
-    for (const { text, at: where, width, side, other } of this.groups) {
+    for (const group of this.groups) {
+      const { text, at: where, side, other } = group;
       const at = pixel(where(place), place);
-      const box = within(boxOn(side, at, width), size);
+      const box = within(boxOn(side, at, group), size);
       const room = this.hidden.has(text) ? BACK : 0;
       if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => overlap(box, one.box, room))) {
         hidden.add(text);
@@ -219,7 +225,7 @@ export class Names {
     const before = new Map(this.groups.map(({ text, side }) => [text, side]));
     this.groups = this.together(pen, pixel);
     const taken: Box[][] = [];
-    const take = ({ points, side, width }: Group) => points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(side, at, width), size)));
+    const take = (group: Group) => group.points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(group.side, at, group), size)));
     for (const group of this.groups) {
       this.choose(group, SIDES, before.get(group.text), taken, size);
       take(group);
@@ -233,7 +239,7 @@ export class Names {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
       const groups = all.map(({ at, places, wide }, k) => {
-        const group: Group = { text, at, width, points: this.seen(places, pixel), side: 0, other };
+        const group: Group = { text, at, width, room: 0, points: this.seen(places, pixel), side: 0, other };
         const cost = this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k;
         return { group, cost, all: other.body === undefined ? cost : cost + this.astray(group, other.body, parts, size) };
       });
@@ -266,7 +272,7 @@ export class Names {
     let sum = 0;
     for (let k = 0; k < group.points.length && sum < most; k++) {
       const own = group.points[k]!;
-      const free = boxOn(side, own, group.width);
+      const free = boxOn(side, own, group);
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
       for (const other of taken[k] ?? []) if (overlap(box, other, 1)) sum += COST.name;
@@ -282,12 +288,13 @@ export class Names {
   }
 
   /** How bad it is that a name, or the place where it begins, is nearer to other bodies than to its own, or within a smaller one. */
-  private astray({ points, side, width }: Group, body: number, parts: { body: number; closed: boolean; lines: Point[][] }[], size: Point): number {
+  private astray(group: Group, body: number, parts: { body: number; closed: boolean; lines: Point[][] }[], size: Point): number {
     const own = parts.find((part) => part.body === body);
     if (!own) return 0;
     let wrong = 0;
+    const { points } = group;
     points.forEach((at, k) => {
-      const [left, top, right, bottom] = within(boxOn(side, at, width), size);
+      const [left, top, right, bottom] = within(boxOn(group.side, at, group), size);
       const middle: Point = [(left + right) / 2, (top + bottom) / 2];
       const line = own.lines[k]!;
       const [gap, most] = [away(middle, line, own.closed), extent(line)];
@@ -306,17 +313,19 @@ export class Names {
 
   /** The joints in groups that are at one place all the time. */
   private together(pen: Pen, pixel: Seen): Group[] {
-    const groups: { names: string[]; at: Group['at']; points: Point[] }[] = [];
-    for (const { name, at, places } of this.joints) {
+    const groups: { names: string[]; at: Group['at']; points: Point[]; room: number }[] = [];
+    for (const { name, at, places, room } of this.joints) {
       const points = this.seen(places, pixel);
       const near = (p: Point, k: number) => Math.hypot(p[0] - points[k]![0], p[1] - points[k]![1]) < ONE;
       const known = groups.find((group) => group.points.every(near));
-      if (known) known.names.push(name);
-      else groups.push({ names: [name], at, points });
+      if (known) {
+        known.names.push(name);
+        known.room = Math.max(known.room, room);
+      } else groups.push({ names: [name], at, points, room });
     }
-    return groups.map(({ names, at, points }) => {
+    return groups.map(({ names, at, points, room }) => {
       const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      return { text, at, points, width: pen.width(text), side: 0, other: null };
+      return { text, at, points, room, width: pen.width(text), side: 0, other: null };
     });
   }
 }

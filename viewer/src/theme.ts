@@ -28,6 +28,10 @@ export const rodInks = (inks: Inks): { fill: string; edge: string } => bodyInks(
 /** Of point masses. */
 export const massInk = ({ ink, paper }: Inks): string => mixed(ink, paper, 0.27);
 
+/** Of the arrows of drives, and of stops, as in the figures. */
+export const driveInk = ({ light }: Inks): string => (light ? '#007054' : '#45c8a2');
+export const stopInk = ({ light }: Inks): string => (light ? '#b01428' : '#ff7482');
+
 /** The colours that hold now. */
 export function inks(): Inks {
   const style = getComputedStyle(document.documentElement);

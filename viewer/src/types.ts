@@ -168,6 +168,12 @@ export interface Joint {
   b: Place;
   axis: number[];
   stroke: [number, number] | null;
+  /** Of a slide the places of its stops along the axis from a. */
+  stops: [Num, Num];
+  /** Of a hinge in the plane the directions of its stops in the first body, rad, if it has any. */
+  ends?: [Num, Num];
+  /** Of what is driven the sense in which it moves at first: 0 is none. */
+  sense?: number;
   cut: boolean;
   driven: boolean;
   damped: boolean;

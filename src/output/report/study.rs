@@ -4,6 +4,7 @@ use super::axes::Seen;
 use super::poses::{self, Coded};
 use super::tables::{OF_RUN, OF_STUDY, RowsShown, Thinned};
 use crate::output::json_number;
+use crate::output::pose::SymbolKind;
 use crate::output::posed::{self, forms::faces_of};
 use crate::output::sheet::body_color;
 use crate::output::text::modes;
@@ -191,6 +192,7 @@ fn drawing(scene: &Scene) -> Value {
             }
         }
     }
+    signs(&mut value, scene);
     if scene.dimensions == 3 {
         let [up, first, second] = level(scene.up);
         let [azimuth, elevation] = posed::eye(scene);
@@ -198,6 +200,25 @@ fn drawing(scene: &Scene) -> Value {
         value["view"] = json!({ "level": [first, second], "azimuth": azimuth, "elevation": elevation });
     }
     value
+}
+
+/// Adds to joints what figures make of them: the sense of a drive, and of a hinge with stops their directions in its first body, rad.
+fn signs(value: &mut Value, scene: &Scene) {
+    let Some(first) = scene.frames.at.first() else { return };
+    let drawn = posed::at(scene, *first);
+    let poses = scene.frame(0);
+    for (joint, of) in value["joints"].as_array_mut().into_iter().flatten().zip(&scene.joints) {
+        let Some((symbol, placement)) = drawn.joints.iter().find(|s| s.name == of.name).and_then(|s| Some((s, s.poses.first()?))) else {
+            continue;
+        };
+        if of.driven {
+            joint["sense"] = json(&placement.sense);
+        }
+        if symbol.kind == SymbolKind::Hinge && placement.stops.iter().any(Option::is_some) {
+            let [x, y, _] = scene.direction(poses, of.a.body, &[1.0]);
+            joint["ends"] = json(&placement.stops.map(|stop| stop.map(|[u, v]| v.atan2(u) - y.atan2(x))));
+        }
+    }
 }
 
 /// Whole numbers without `.0`.

@@ -158,6 +158,7 @@ export class Plane implements Renderer {
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing');
     scene.joints.forEach((joint) => this.sign(joint));
     // over the pins of other joints
+    scene.joints.forEach((joint) => this.marks(joint));
     scene.joints.forEach((joint) => this.dashpot(joint));
     for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) signs.pin(pen, 'revolute', this.point(end), false, inks);
     if (options.names) this.names.draw(pen, place, ([x, y], at) => this.pixel(x, y, at), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
@@ -197,7 +198,7 @@ export class Plane implements Renderer {
       signs.spiral(this.pen, from, this.motion.angle(a.body, this.place), this.motion.angle(b.body, this.place), this.inks);
       return;
     }
-    const bearings = this.motion.scene.joints.filter(({ kind, a, b }) => kind === 'revolute' && (a.body === 0 || b.body === 0)).map((joint) => this.point(joint.a));
+    const bearings = this.motion.scene.joints.filter((joint) => signs.seen(joint) && (joint.a.body === 0 || joint.b.body === 0)).map((joint) => this.point(signs.slides(joint) ? joint.b : joint.a));
     for (const [end, other, body] of [[from, to, a.body], [to, from, b.body]] as const) {
       if (body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
     }
@@ -314,10 +315,6 @@ export class Plane implements Renderer {
     inner.stroke(fill, width - 3);
   }
 
-  private slides({ kind }: Joint): boolean {
-    return ['slider', 'prismatic', 'pin-in-slot'].includes(kind);
-  }
-
   /** The ends of the way of a slide. */
   private ends({ a, axis, stroke }: Joint): [Point, Point] {
     const at = this.point(a);
@@ -328,8 +325,8 @@ export class Plane implements Renderer {
 
   private way(joint: Joint): void {
     const { a, b, kind } = joint;
-    if (this.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
-    else if (kind === 'revolute' && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
+    if (signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
+    else if (kind !== 'pin-in-slot' && signs.seen(joint) && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
   }
 
   /** How far the outlines of the body that slides reach from the way to its lower side, pixels. */
@@ -348,23 +345,35 @@ export class Plane implements Renderer {
   }
 
   private slot(joint: Joint): void {
-    if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), this.colors(joint.a.body).edge, this.inks);
+    if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), joint.a.body === 0 ? null : this.colors(joint.a.body).edge, this.inks);
   }
 
   private box(joint: Joint): void {
-    if (joint.kind === 'pin-in-slot' || !this.slides(joint)) return;
+    if (joint.kind === 'pin-in-slot' || !signs.slides(joint)) return;
     const [at, along] = [this.point(joint.b), this.along(joint.a.body, joint.axis)];
     if (joint.b.body === 0) signs.foot(this.pen, at, along, this.inks);
     signs.box(this.pen, at, along, this.inks);
   }
 
   private dashpot(joint: Joint): void {
-    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), this.slides(joint) ? this.along(joint.a.body, joint.axis) : null, this.inks);
+    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), signs.slides(joint) ? this.along(joint.a.body, joint.axis) : null, this.inks);
   }
 
-  private sign({ kind, a, b, driven }: Joint): void {
-    if (kind === 'distance' || kind === 'free') return;
-    signs.pin(this.pen, kind, this.point(a.body === 0 && !['slider', 'prismatic', 'pin-in-slot'].includes(kind) ? a : b), driven, this.inks);
+  /** The stops of a joint, and what drives it. */
+  private marks(joint: Joint): void {
+    if (!signs.seen(joint)) return;
+    const { a, b, axis, stops, ends, driven, sense } = joint;
+    const [along, turned] = [this.along(a.body, axis), this.motion.angle(a.body, this.place)];
+    const slide = signs.slides(joint) ? along : null;
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, this.inks);
+    else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), this.inks);
+    if (driven) signs.drive(this.pen, this.point(slide ? b : a), slide, [[0, 1], [1, 0]], sense ?? 0, this.inks);
+  }
+
+  private sign(joint: Joint): void {
+    if (!signs.seen(joint)) return;
+    const { kind, a, b, driven } = joint;
+    signs.pin(this.pen, kind, this.point(a.body === 0 && !signs.slides(joint) ? a : b), driven, this.inks);
   }
 
   private drawArrows(kind: Kind, pixels: number): void {

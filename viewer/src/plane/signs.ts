@@ -1,8 +1,8 @@
 // Signs of the field: bearings, slides, slots, springs, dampers, gears.
 
 import type { Inks } from '../theme';
-import { mixed } from '../theme';
-import type { LinkKind } from '../types';
+import { driveInk, mixed, stopInk } from '../theme';
+import type { Joint, LinkKind } from '../types';
 import { type Pen, type Point, off, toward } from './pen';
 
 /** Half the length and half the width of the box of a slide. */
@@ -63,9 +63,13 @@ export function box(pen: Pen, at: Point, along: Point, inks: Inks): void {
   pen.path([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)], true).fill(mixed(inks.paper, inks.faint, 0.3)).stroke(inks.ink, 1.6);
 }
 
-/** A slot between two points. */
-export function slot(pen: Pen, a: Point, b: Point, edge: string, inks: Inks): void {
-  pen.path([a, b]).stroke(edge, 12).stroke(inks.paper, 8.5);
+/** A slot between two points, in the ground hatched. */
+export function slot(pen: Pen, a: Point, b: Point, edge: string | null, inks: Inks): void {
+  pen.path([a, b]).stroke(edge ?? inks.ink, 12).stroke(inks.paper, 8.5);
+  if (edge) return;
+  const [from, to] = isBackwards([b[0] - a[0], b[1] - a[1]]) ? [b, a] : [a, b];
+  const { along } = toward(from, to);
+  hatched(pen, off(from, along, 0, 9), off(to, along, 0, 9), inks);
 }
 
 /** The sign at the point of a joint. */
@@ -75,6 +79,59 @@ export function pin(pen: Pen, kind: string, at: Point, driven: boolean, inks: In
   else if (kind === 'pin-in-slot') pen.circle(at, 4).fill(inks.ink);
   else if (kind === 'slider' || kind === 'prismatic') pen.circle(at, 2.4).fill(inks.ink);
   else pen.circle(at, 4.8).fill(inks.paper).stroke(edge, driven ? 2.4 : 1.8);
+}
+
+/** Joints that are no sign in the picture, and those whose second body slides. */
+const UNSEEN = ['distance', 'free', 'point'];
+const SLIDES = ['slider', 'prismatic', 'pin-in-slot'];
+export const seen = ({ kind }: Joint): boolean => !UNSEEN.includes(kind);
+export const slides = ({ kind }: Joint): boolean => SLIDES.includes(kind);
+/** Radius of the arrow of what drives a hinge. */
+export const DRIVE = 15;
+
+/**
+ * What drives a joint: an arrow above the box of a slide that goes along a direction, or about a hinge, whose plane is seen in two
+ * directions across its axis; both ways if it has no sense.
+ */
+export function drive(pen: Pen, at: Point, slide: Point | null, across: [Point, Point], sense: number, inks: Inks): void {
+  const color = driveInk(inks);
+  const ahead = sense || 1;
+  const [from, to] = ahead < 0 ? [2.6, -1.1] : [-1.1, 2.6];
+  const about = (k: number): Point => {
+    const [cos, sin] = [DRIVE * Math.cos(from + ((to - from) * k) / 30), DRIVE * Math.sin(from + ((to - from) * k) / 30)];
+    return [at[0] + cos * across[0][0] + sin * across[1][0], at[1] + cos * across[0][1] + sin * across[1][1]];
+  };
+  const side = slide && slide[0] >= 0 ? -BOX[1] - 8 : BOX[1] + 8;
+  const points = slide ? [-16, 16].map((reach) => off(at, slide, ahead * reach, side)) : Array.from({ length: 31 }, (_, k) => about(k));
+  pen.path(points).stroke(color, 2);
+  const head = (all: Point[]) => {
+    const tip = all[all.length - 1]!;
+    const behind = [...all].reverse().find((p) => Math.hypot(p[0] - tip[0], p[1] - tip[1]) > 5);
+    if (!behind) return;
+    const { along } = toward(behind, tip);
+    const end = off(tip, along, 3, 0);
+    pen.path([end, off(end, along, -8, 3.6), off(end, along, -8, -3.6)], true).fill(color);
+  };
+  head(points);
+  if (sense === 0) head([...points].reverse());
+}
+
+/** The stops of a slide along a direction, at the places where it meets them: bars across the way where the box ends. */
+export function stops(pen: Pen, places: (Point | null)[], along: Point, inks: Inks): void {
+  places.forEach((at, k) => {
+    const beyond = (k === 0 ? -1 : 1) * (BOX[0] + 3);
+    if (at) pen.path([off(at, along, beyond, -BOX[1]), off(at, along, beyond, BOX[1])]).stroke(stopInk(inks), 3.2);
+  });
+}
+
+/** The stops of a hinge in the plane, in the directions in which it meets them: radial bars beside it. */
+export function ends(pen: Pen, at: Point, angles: (number | null)[], inks: Inks): void {
+  angles.forEach((angle, k) => {
+    if (angle === null) return;
+    const along: Point = [Math.cos(angle), -Math.sin(angle)];
+    const aside = k === 0 ? 10.5 : -10.5;
+    pen.path([off(at, along, 10, aside), off(at, along, 28, aside)]).stroke(stopInk(inks), 3.2);
+  });
 }
 
 /**

@@ -5,13 +5,13 @@ import { Followed, LEAST } from '../follow';
 import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
 import { Pen, type Point, toward } from '../plane/pen';
-import { dashpot, link, spiral } from '../plane/signs';
+import * as signs from '../plane/signs';
 import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
-import { type Face, add, dot, scaled, tube, unit } from './vectors';
+import { type Face, across, add, dot, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
 /** How much darker a face is that is turned away. */
@@ -133,6 +133,7 @@ class Space implements Renderer {
     this.look(width, height, width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
     pen.on.clearRect(0, 0, width, height);
     this.ground(inks);
+    motion.scene.joints.filter(signs.seen).forEach((joint) => this.bearing(joint, inks));
     const { all, pins } = this.shapes(inks);
     const bodies = () => {
       const items: Item[] = [];
@@ -153,12 +154,13 @@ class Space implements Renderer {
         this.rod(items, p, q, inks);
         continue;
       }
-      const draw = () => (kind === 'torsion' ? spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : link(pen, kind, this.pixel(p), this.pixel(q), inks));
+      const draw = () => (kind === 'torsion' ? signs.spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : signs.link(pen, kind, this.pixel(p), this.pixel(q), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
     paint(items);
     // over the bodies, as in the figures of the program
+    for (const joint of motion.scene.joints.filter(signs.seen)) this.marks(joint, inks);
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) this.dashpot(joint, inks);
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
@@ -167,12 +169,33 @@ class Space implements Renderer {
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, AXES, [width, height], inks);
   }
 
+  /** The ground below what it holds. */
+  private bearing({ kind, a, b, axis, stroke }: Joint, inks: Inks): void {
+    const at = this.motion.world(a, this.place);
+    if (SLIDES.includes(kind) && a.body === 0) {
+      const along = unit(this.motion.direction(0, axis, this.place));
+      const [from, to] = (stroke ?? [0, 0]).map((s, k) => this.pixel(add(at, along, s + (k - 0.5) * 0.07 * this.size))) as [Point, Point];
+      if (toward(from, to).length > 4) signs.slideway(this.pen, from, to, null, 0, inks);
+    } else if (!SLIDES.includes(kind) && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.pixel(at), inks);
+  }
+
+  /** The stops of a slide, and what drives a joint. */
+  private marks({ kind, a, b, axis, stops, driven, sense }: Joint, inks: Inks): void {
+    const along = unit(this.motion.direction(a.body, axis, this.place));
+    const seen = (v: Vector): Point => [dot(v, this.right), -dot(v, this.above)];
+    const slide = SLIDES.includes(kind) ? toward([0, 0], seen(along)).along : null;
+    const at = this.motion.world(a, this.place);
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, inks);
+    const [u, v] = across(along);
+    if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), slide, [seen(u), seen(v)], sense ?? 0, inks);
+  }
+
   /** The damping of a joint. */
   private dashpot({ kind, a, b, axis }: Joint, inks: Inks): void {
     const at = this.motion.world(b, this.place);
     const along = this.motion.direction(a.body, axis, this.place);
     const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], [dot(along, this.right), -dot(along, this.above)]).along : null;
-    dashpot(this.pen, this.pixel(at), slide, inks);
+    signs.dashpot(this.pen, this.pixel(at), slide, inks);
   }
 
   /** Direction of the x axis of a body in the picture, rad. */

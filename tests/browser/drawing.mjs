@@ -1,0 +1,45 @@
+// The signs of a drawing, as in the figures of the program: stops, drives, ground.
+
+import { assert } from './read.mjs';
+
+/** How many pixels of the drawing have a colour, and the box around them. */
+async function inked(tab, wanted) {
+  await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return tab.locator('.canvas canvas').evaluate((canvas, wanted) => {
+    const { data, width } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] < 255 || wanted.some((value, k) => Math.abs(data[i + k] - value) > 2)) continue;
+      const [x, y] = [(i / 4) % width, Math.floor(i / 4 / width)];
+      box.splice(0, 4, Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y));
+      count++;
+    }
+    return { count, width: box[2] - box[0], height: box[3] - box[1] };
+  }, wanted);
+}
+const STOP = [176, 20, 40];
+const DRIVE = [0, 112, 84];
+
+export async function stops_are_drawn(open) {
+  const { tab } = await open('marks', { study: 'slide' });
+  const found = await inked(tab, STOP);
+  assert.ok(found.count > 80, `stops of ${found.count} pixels`);
+  // two bars across the way of the slide, farther apart than it goes
+  assert.ok(found.width > 80 && found.width > 2 * found.height, JSON.stringify(found));
+  const hinge = await open('marks', { study: 'hinge' });
+  const { count } = await inked(hinge.tab, STOP);
+  assert.ok(count > 30, `stops of ${count} pixels at a hinge`);
+  const none = await open('crank_rocker', { study: 'one-turn' });
+  assert.equal((await inked(none.tab, STOP)).count, 0);
+}
+
+export async function what_drives_a_joint_is_drawn(open) {
+  for (const [model, study] of [['crank_rocker', 'one-turn'], ['sleeve', 'out'], ['door', 'open']]) {
+    const { tab } = await open(model, { study });
+    const { count, width } = await inked(tab, DRIVE);
+    assert.ok(count > 30 && width > 15, `${model}: ${count} pixels, ${width} wide`);
+  }
+  const free = await open('marks', { study: 'slide' });
+  assert.equal((await inked(free.tab, DRIVE)).count, 0);
+}
