@@ -357,6 +357,24 @@ drivers: { pump: { joint: cyl, rise: { by: 45 cm, during: 2 s, law: poly5 } }, h
 start: { cyl.position: 20 cm, C.angle: 0 deg }
 studies: { out: { inverse: { over: 2 s, samples: 50 }, columns: [time, cyl.position] } }
 `,
+  // a sweep of three runs
+  sizes: `grashof: 1
+name: sizes
+space: planar
+gravity: none
+parameters: { l: 10 cm }
+bodies: { bar: { bar: { length: l, mass: 1 kg } } }
+joints: { O: { revolute: [ground, bar.start] } }
+drivers: { turn: { joint: O, speed: 60 rpm } }
+start: { O.angle: 0 deg }
+studies:
+  sizes:
+    kinematics: { over: 90 deg, samples: 10 }
+    sweep: { l: [5 cm, 10 cm, 20 cm] }
+    columns: [O.angle, bar.end.x]
+    scalars: { reach: max(bar.end.x) }
+    plot: { reach: [reach], path: [bar.end.x] }
+`,
   // lengths in mm, a parameter in a unit of its own
   leaf: `grashof: 1
 name: leaf

@@ -335,3 +335,13 @@ export async function axes_of_different_places_fill_their_ranges(open) {
   const line = await plot(truss, 'height').locator('path[stroke-linejoin=round]').first().getAttribute('d');
   assert.equal(line.split('M').length - 1, 2, line);
 }
+
+export async function values_of_few_runs_are_marked(open) {
+  const { tab } = await open('sizes', { study: 'sizes' });
+  const figure = plot(tab, 'reach');
+  await figure.scrollIntoViewIfNeeded();
+  assert.equal(await figure.locator('circle.run').count(), 3);
+  const rows = plot(tab, 'path');
+  await rows.scrollIntoViewIfNeeded();
+  assert.equal(await rows.locator('circle.run').count(), 0, 'curves of rows have none');
+}

@@ -19,6 +19,8 @@ export interface Curve {
   /** Whether it is drawn over the axis on the right, and whether by its points alone. */
   right?: boolean;
   dots?: boolean;
+  /** Whether its points are values of runs, which are marked where they are few. */
+  runs?: boolean;
   /** Whether its study reports a dead point, where values may grow without bound. */
   dead?: boolean;
 }
@@ -250,6 +252,8 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       if (x > left && x < right) svg.append(s('line', { x1: x, x2: x, y1: top, y2: top + height, stroke: 'var(--faint)', 'stroke-dasharray': '2 3' }));
     }
     svg.append(s('path', { d: `M${left} ${top}V${top + height}H${right}`, fill: 'none', stroke: 'var(--line)' }));
+    // whole at the ends of the axis, too
+    const marked: SVGElement[] = [];
     const lines = panel.curves.flatMap((curve) => {
       const own = pieces(curve, out, panel);
       const strong = view.strong?.(figure.curves.indexOf(curve));
@@ -258,9 +262,10 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
       const line = s('path', { d: path(own, curve.dots), fill: 'none', stroke, ...dash, 'stroke-width': width, 'stroke-opacity': opacity, 'stroke-linejoin': 'round', 'stroke-linecap': curve.dots ? 'round' : 'butt' });
       const seen = curve.dots || curve.x.length <= FEW ? [] : heads(inside(own, out, panel), right - left, panel.curves.length);
       const leaves = panel.clipped ? leaving(own, panel).map((corners) => s('polygon', { points: corners.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, class: 'leaving' })) : [];
+      if (curve.runs && !curve.dots && curve.x.length <= FEW) marked.push(...inside(own, out, panel).flat().map(([u, v]) => s('circle', { cx: clamp(u), cy: clamp(v), r: 3, fill: stroke, 'fill-opacity': opacity, class: 'run' })));
       return [line, ...leaves, ...seen.map((head) => s('polygon', { points: head.map(([u, v]) => `${clamp(u)},${clamp(v)}`).join(' '), fill: stroke, opacity }))];
     });
-    svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines));
+    svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines), ...marked);
     const own = panel.curves.filter((curve) => !curve.right);
     const upright = label(said(figure.y || named(own), panel.y, panel.unit), 0, 0, 'middle');
     upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);

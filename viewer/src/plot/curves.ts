@@ -27,7 +27,7 @@ class Later implements Curve {
   shown = true;
   private points: { x: number[]; y: number[] } | null = null;
 
-  constructor(readonly label: string, readonly unit: string, readonly place: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false, readonly dead = false) {}
+  constructor(readonly label: string, readonly unit: string, readonly place: number, readonly quantity: string, private readonly make: () => { x: number[]; y: number[] }, readonly right = false, readonly dots = false, readonly dead = false, readonly runs = false) {}
 
   get x(): number[] {
     return (this.points ??= this.make()).x;
@@ -155,7 +155,7 @@ function ofRuns(study: Study, plot: Plot): Drawable | null {
       const { unit: own, size: high } = unitOf(c, right ? plot.right!.axis : plot.y);
       const at = (of: Column, by: number) => rows.map((row) => (of.values[row] ?? NaN) / by);
       const text = !several ? c.name : shown.length > 1 ? `${c.name}, ${label}` : label;
-      curves.push(new Later(text, own, curves.length, c.quantity, () => broken(at(over, size), at(c, high)), right, dots));
+      curves.push(new Later(text, own, curves.length, c.quantity, () => broken(at(over, size), at(c, high)), right, dots, false, true));
     }
   }
   if (curves.length === 0) return null;
