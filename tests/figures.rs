@@ -337,6 +337,19 @@ studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
     let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
     let (Some([from, to]), Some(([start, end], true))) = (slide.way, slide.carrier) else { panic!("{slide:?}") };
     assert!((to[0] - from[0] - 0.45).abs() < 1e-9 && start == [0.0; 2] && (end[0] - 0.7).abs() < 1e-12, "{slide:?}");
+    // width, begin and end of the strokes; the guide is the widest of all
+    let svg = render_drawing(&drawing).expect("a picture").svg;
+    let after = |line: &str, name: &str| line.split(name).nth(1).map(|rest| rest.split('"').next().unwrap_or_default().to_owned());
+    let stroke = |line: &str| {
+        let points = after(line, "points=\"")?;
+        let x: Vec<f64> = points.split(' ').filter_map(|point| point.split(',').next()?.parse().ok()).collect();
+        Some((after(line, "stroke-width=\"")?.parse::<f64>().ok()?, x[0], *x.get(1)?))
+    };
+    let strokes = svg.lines().filter_map(stroke);
+    let reach = |(width, _, end): (f64, f64, f64)| end + 0.5 * width;
+    let guide = strokes.clone().max_by(|a, b| a.0.total_cmp(&b.0)).expect("strokes");
+    let barrel = strokes.filter(|(width, ..)| *width > 10.0).min_by(|a, b| a.1.total_cmp(&b.1)).expect("the barrel");
+    assert!(guide.0 > barrel.0 && (reach(guide) - reach(barrel)).abs() < 4.0, "{guide:?}, {barrel:?}: {svg}");
 }
 
 #[test]
