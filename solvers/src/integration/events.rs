@@ -262,7 +262,7 @@ impl Integration {
         }
         self.balance(system, true)?;
         self.before.copy_from(&self.node);
-        self.look_back(system, t + 0.5 * theta * h)?;
+        self.look_back(system)?;
         self.crossed.clear();
         self.blows.clear();
         self.engine.counts.events += 1;
@@ -333,23 +333,17 @@ impl Integration {
         Ok(Progress::Event)
     }
 
-    /// Roots just before an event, those that are positive at the time `between` (s) among them: of a short flight from one stop to the next
-    /// the ends may be on the wrong side by round-off.
-    fn look_back(&mut self, system: &mut dyn System, between: f64) -> Result<(), Why> {
-        let Self { node, trial, dense, dense_ready, instant, probe, last, .. } = self;
-        if *dense_ready {
-            trial.state.modes.copy_from_slice(&last.state.modes);
-            trial.state.live.copy_from_slice(&last.state.live);
-            dense.evaluate(between, &mut trial.state);
-            if system.pattern().roots_by_reactions {
-                self.engine.accelerate(system, trial)?;
-            }
-            system.roots(trial.state.at(), &trial.a, &trial.lambda, probe);
-        } else {
-            probe.fill(0.0);
+    /// Roots just before an event at the node, with those that are positive half way to it: of a short flight from one stop to the next the
+    /// ends may be on the wrong side by round-off.
+    fn look_back(&mut self, system: &mut dyn System) -> Result<(), Why> {
+        self.probe.fill(0.0);
+        if self.dense_ready {
+            self.trial.state.modes.copy_from_slice(&self.last.state.modes);
+            self.trial.state.live.copy_from_slice(&self.last.state.live);
+            self.look(system, 0.5)?;
         }
-        system.roots(node.state.at(), &node.a, &node.lambda, instant);
-        instant.iter_mut().zip(probe).for_each(|(at, between)| *at = at.max(*between));
+        system.roots(self.node.state.at(), &self.node.a, &self.node.lambda, &mut self.instant);
+        self.instant.iter_mut().zip(&self.probe).for_each(|(at, between)| *at = at.max(*between));
         Ok(())
     }
 
