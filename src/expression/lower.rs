@@ -9,7 +9,7 @@ use super::pool::{Id, Node, Pool};
 use super::quantity::{near_unit_hint, unit_below, unit_hint};
 use super::scope::{Fault, Lowered, Scope, Unknown};
 use super::switch::Compare;
-use super::unit_text::{PER_ANGLE, angle_instead};
+use super::unit_text::angle_instead;
 use super::units::Dimension;
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -321,10 +321,10 @@ impl Lowerer<'_> {
                 }
                 if let (Some(x), x_at) = &operands[0]
                     && matches!(function.name, "sin" | "cos" | "tan")
-                    && x.dimension.is_per_angle()
+                    && let Err(found) = x.expect(Dimension::ANGLE)
                 {
                     let help = angle_instead(self.slice(x_at));
-                    self.fault(x_at, PER_ANGLE.to_owned(), format!("an angle in `{}`", function.usage), Some(help));
+                    self.fault(x_at, found, format!("an angle in `{}`", function.usage), Some(help));
                     return None;
                 }
                 (Dimension::NONE, false, operands[0].0?.bare)

@@ -46,7 +46,7 @@ pub use scope::{Fault, Lowered, Scope, Symbol, Unknown};
 pub use switch::{Compare, Switch, Test};
 pub use syntax::SyntaxError;
 pub use table::{Between, Beyond, LookupTable, TableError};
-pub use unit_text::{PER_ANGLE, angle_instead, meant_fraction, meant_unit, parse_unit};
+pub use unit_text::{angle_instead, meant_fraction, meant_unit, parse_unit};
 pub use units::Dimension;
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What lowering asks of its surroundings and what it gives back.
 
 use super::pool::{Id, Pool};
+use super::unit_text::PER_ANGLE;
 use super::units::Dimension;
 use std::ops::Range;
 
@@ -60,7 +61,11 @@ impl Lowered {
     /// # Errors
     /// The name of the dimension that was found, if it is another one.
     pub fn expect(&self, wanted: Dimension) -> Result<(), String> {
-        if self.any || self.bare || self.dimension == wanted { Ok(()) } else { Err(self.dimension.name()) }
+        match self.any || self.bare || self.dimension == wanted {
+            true if wanted.is_angle() && self.dimension.is_per_angle() => Err(PER_ANGLE.to_owned()),
+            true => Ok(()),
+            false => Err(self.dimension.name()),
+        }
     }
 }
 

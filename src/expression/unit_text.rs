@@ -34,9 +34,9 @@ pub fn meant_unit(text: &str) -> String {
 }
 
 /// What is found where an angle is wanted and a number is divided by one.
-pub const PER_ANGLE: &str = "a number divided by an angle";
+pub(super) const PER_ANGLE: &str = "a number divided by an angle";
 
-/// What to write instead of a text that is [`PER_ANGLE`].
+/// What to write instead of a text in which a number is divided by an angle, where an angle is wanted.
 #[must_use]
 pub fn angle_instead(text: &str) -> String {
     meant_fraction(text)

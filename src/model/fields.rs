@@ -26,7 +26,7 @@ impl Want {
     /// For messages and the schema: `length (m)`.
     pub(crate) fn name(self) -> String {
         match self {
-            Self::Of(dimension) if dimension == Dimension::NONE => "plain number".to_owned(),
+            Self::Of(dimension) if dimension == Dimension::NONE && !dimension.is_angle() => "plain number".to_owned(),
             Self::Of(dimension) => dimension.name(),
             Self::Angle => "angle (rad)".to_owned(),
             Self::Varies(words) => words.to_owned(),

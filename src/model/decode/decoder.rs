@@ -280,17 +280,16 @@ impl<'n> Decoder<'n> {
     pub(super) fn fits(&mut self, lowered: &Lowered, want: Want, node: Node<'_>, origin: Option<Origin<'_>>, at: &At<'_, '_>) -> bool {
         let dimension = match want {
             Want::Of(dimension) => dimension,
-            Want::Angle => Dimension::NONE,
+            Want::Angle => Dimension::ANGLE,
             Want::Varies(_) | Want::Any => return true,
         };
-        let per_angle = want == Want::Angle && lowered.dimension.is_per_angle();
-        if let Err(found) = if per_angle { Err(expression::PER_ANGLE.to_owned()) } else { lowered.expect(dimension) } {
+        if let Err(found) = lowered.expect(dimension) {
             let place = self.place(at);
             let text = node.text().unwrap_or_default();
             let mut fault = Fault::new("wrong-dimension", place, format!("found {found}"), want.name());
             if let Some(help) = self.unit_missing(text, dimension).or_else(|| expression::meant_fraction(text)) {
                 fault.help = Some(help);
-            } else if per_angle {
+            } else if lowered.dimension.is_per_angle() {
                 fault.help = Some(expression::angle_instead(text));
             } else if lowered.dimension == Dimension::NONE {
                 fault.help = Some(format!("give it a unit: {}", dimension.si()));

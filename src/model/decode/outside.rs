@@ -99,8 +99,7 @@ impl<'n> Decoder<'n> {
         let inner = inner.trim_end();
         let origin = Origin::Outside(&argument.given, argument.value + begin);
         let (lowered, _): (Lowered, _) = self.lower(inner, origin, &At::ROOT, allow, local)?;
-        let per_angle = wanted.is_angle() && lowered.dimension.is_per_angle();
-        match if per_angle { Err(expression::PER_ANGLE.to_owned()) } else { lowered.expect(wanted) } {
+        match lowered.expect(wanted) {
             Ok(()) => {
                 if wanted.is_angle() && inner.parse::<f64>().is_ok_and(|x| x.abs() > std::f64::consts::TAU) {
                     let message = format!("`{name}` is {inner} rad, more than a turn");

@@ -3,7 +3,7 @@
 use super::decoder::{Decoder, Origin};
 use super::order::{in_words, order};
 use super::written::unit_of;
-use crate::expression::{Dimension, Expr, Kind, Lowered};
+use crate::expression::{self, Dimension, Expr, Kind, Lowered};
 use crate::model::entities::{Between, Beyond, Parameter, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANY, Shape, Size};
@@ -146,8 +146,11 @@ impl<'n> Decoder<'n> {
                         Some(first) if !first.any && !first.bare => {
                             if let Err(found) = lowered.expect(first.dimension) {
                                 let expected = format!("{}, as above", first.dimension.name());
-                                self.fault("wrong-dimension", &here, format!("found {found}"), expected).help =
-                                    Some(format!("give all points of a side one unit, here {}", first.dimension.si()));
+                                let fraction = Node::Plain(value).text().and_then(expression::meant_fraction);
+                                self.fault("wrong-dimension", &here, format!("found {found}"), expected).help = Some(
+                                    fraction
+                                        .unwrap_or_else(|| format!("give all points of a side one unit, here {}", first.dimension.si())),
+                                );
                             }
                         }
                         Some(first) if !lowered.any && !lowered.bare && !first.any && lowered.dimension != first.dimension => {

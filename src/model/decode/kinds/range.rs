@@ -88,8 +88,8 @@ impl<'n> Decoder<'n> {
         let coordinate: &'static Coordinate = self.name_space.single(joint)?;
         let dimension = coordinate.dimension(0);
         let want = if coordinate.angle { Want::Angle } else { Want::Of(dimension) };
-        if lowered.expect(dimension).is_err() {
-            let message = format!("found {}", lowered.dimension.name());
+        if let Err(found) = lowered.expect(dimension) {
+            let message = format!("found {found}");
             let of = if coordinate.angle { "such as `1 turn`" } else { "such as `10 cm`" };
             self.fault("wrong-dimension", &over_at, message, format!("{} of the driver, or a time (s)", want.name())).help = Some(
                 over.text()
