@@ -43,18 +43,18 @@ pub struct Joint<G: Space> {
 impl<G: Space> Joint<G> {
     pub(super) fn lift<D: Scalar>(&self) -> Joint<G::Lift<D>> {
         Joint {
-            name: self.name.clone(),
+            name: String::new(),
             kind: self.kind,
             a: (self.a.0, G::lift_vector::<D>(self.a.1)),
             b: (self.b.0, G::lift_vector::<D>(self.b.1)),
             axis: self.axis,
             zero: self.zero,
             tree: self.tree,
-            slots: self.slots.clone(),
+            slots: Vec::new(),
             rows: self.rows.clone(),
             freedom: self.freedom,
-            facing: self.facing.iter().map(|(u, w)| (G::lift_vector::<D>(*u), G::lift_vector::<D>(*w))).collect(),
-            turns: self.turns.map(G::lift_rotation::<D>),
+            facing: Vec::new(),
+            turns: None,
         }
     }
 }

@@ -332,7 +332,8 @@ impl<G: Space> Mechanism<G> {
         }
     }
 
-    /// The same mechanism on another scalar.
+    /// The same mechanism on another scalar, for its equations alone: without names, what only drawings and outputs ask for, and how it
+    /// starts.
     #[must_use]
     pub fn lift<D: Scalar>(&self) -> Mechanism<G::Lift<D>> {
         let c = |x: G::S| D::constant(x.value());
@@ -359,14 +360,14 @@ impl<G: Space> Mechanism<G> {
             above: self.above.clone(),
             joints: self.joints.iter().map(Joint::lift).collect(),
             joint_of_node: self.joint_of_node.clone(),
-            gauges: self.gauges.iter().map(Gauge::lift).collect(),
+            gauges: self.gauges[..self.active_gauges].iter().map(Gauge::lift).collect(),
             active_gauges: self.active_gauges,
             rows: self.rows.iter().map(|r| r.lift(c)).collect(),
             functions: self.functions.clone(),
             drives: self.drives.clone(),
             stretches: self.stretches.iter().map(|s| s.lift(c)).collect(),
-            starts: self.starts.clone(),
-            orientations: self.orientations.clone(),
+            starts: Vec::new(),
+            orientations: Vec::new(),
             efforts: self.efforts.iter().map(|e| e.lift(c)).collect(),
             spring_efforts: self.spring_efforts.clone(),
             motor_efforts: self.motor_efforts.clone(),
@@ -402,13 +403,13 @@ impl<G: Space> Body<G> {
 
     fn lift<D: Scalar>(&self) -> Body<G::Lift<D>> {
         Body {
-            name: self.name.clone(),
+            name: String::new(),
             mass: self.mass.lift(),
             bare: self.bare.lift(),
-            attached: self.attached.iter().map(|a| Attached { name: a.name.clone(), mass: a.mass.lift() }).collect(),
-            points: self.points.iter().map(|(n, p)| (n.clone(), G::lift_vector::<D>(*p))).collect(),
-            drawn: self.drawn.iter().map(|p| G::lift_vector::<D>(*p)).collect(),
-            outline: self.outline,
+            attached: Vec::new(),
+            points: Vec::new(),
+            drawn: Vec::new(),
+            outline: None,
             column: self.column,
         }
     }

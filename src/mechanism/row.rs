@@ -100,7 +100,7 @@ impl<G: Space> Row<G> {
         Row {
             kind: self.kind,
             owner: self.owner,
-            label: self.label.clone(),
+            label: String::new(),
             offset: constant(self.offset),
             anchored: self.anchored,
             angular: self.angular,
