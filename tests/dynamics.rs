@@ -2,6 +2,7 @@
 
 mod agreement;
 mod beyond;
+mod corners;
 mod crank_rocker;
 mod events;
 mod faults;

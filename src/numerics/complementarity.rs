@@ -21,6 +21,8 @@ pub(crate) enum Place {
     Between,
     /// At its upper bound.
     High,
+    /// Zero, since others hold the same and do not need it.
+    Idle,
 }
 
 /// One force: its bounds, its place to begin with, and by how much a force and an acceleration may miss.
@@ -90,7 +92,7 @@ fn forces(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], places: &[Place])
     let mut f = DVector::from_fn(all.len(), |i, _| match places[i] {
         Place::Low => all[i].low,
         Place::High => all[i].high,
-        Place::Between => 0.0,
+        Place::Between | Place::Idle => 0.0,
     });
     let free: Vec<usize> = (0..all.len()).filter(|i| places[*i] == Place::Between).collect();
     if free.is_empty() {
@@ -104,15 +106,40 @@ fn forces(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], places: &[Place])
     Some(f)
 }
 
-/// Moves forces that depend on each other, with the same w, until those between their bounds are independent; which ones were moved to
-/// a bound. The first of `order` stay between.
-pub(crate) fn basic(a: &DMatrix<f64>, all: &[Bounded], f: &mut DVector<f64>, places: &mut [Place], order: &[usize]) -> Vec<usize> {
-    let mut moved = Vec::new();
+/// Moves forces that depend on each other, with the same w, to zero or, where they are needed, to a bound, until those between are
+/// independent, and solves for these without what [`SHARED`] has left. The first of `order` stay between.
+pub(crate) fn basic(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], f: &mut DVector<f64>, places: &mut [Place], order: &[usize]) {
+    make_independent(a, all, f, places, order);
+    while let Some(exact) = forces(a, b, all, places) {
+        *f = exact;
+        let beyond = (0..all.len()).find_map(|i| Some((i, elsewhere(&all[i], places[i], f[i], 0.0)?)));
+        let Some((i, place)) = beyond else { return };
+        places[i] = place;
+    }
+}
+
+/// Forces at a bound or idle that those between could take over or give up: what they share is not determined.
+pub(crate) fn shared(a: &DMatrix<f64>, places: &[Place]) -> Vec<usize> {
+    let free: Vec<usize> = (0..places.len()).filter(|i| places[*i] == Place::Between).collect();
+    let with = |i: usize| free.iter().copied().chain([i]).collect::<Vec<usize>>();
+    (0..places.len())
+        .filter(|&i| places[i] != Place::Between && split(a, &with(i)).1.is_some_and(|(dependent, _)| dependent == i))
+        .collect()
+}
+
+fn make_independent(a: &DMatrix<f64>, all: &[Bounded], f: &mut DVector<f64>, places: &mut [Place], order: &[usize]) {
     loop {
         let free: Vec<usize> = order.iter().copied().filter(|i| places[*i] == Place::Between).collect();
-        let (kept, Some((dependent, by))) = split(a, &free) else { return moved };
+        let (kept, Some((dependent, by))) = split(a, &free) else { return };
         // A n = 0
         let way: Vec<(usize, f64)> = kept.iter().copied().zip(by.iter().map(|x| -x)).chain([(dependent, 1.0)]).collect();
+        let without = |(i, n): &(usize, f64)| f[*i] - f[dependent] * n;
+        if all[dependent].low < 0.0 && way.iter().all(|x| all[x.0].low < without(x) && without(x) < all[x.0].high) {
+            let idle = f[dependent];
+            way.iter().for_each(|(k, n)| f[*k] -= idle * n);
+            places[dependent] = Place::Idle;
+            continue;
+        }
         let end = |sense: f64| {
             let reaches = way.iter().filter(|(_, n)| n.abs() > NOTHING).map(|&(i, n)| {
                 let place = if sense * n > 0.0 { Place::High } else { Place::Low };
@@ -122,10 +149,9 @@ pub(crate) fn basic(a: &DMatrix<f64>, all: &[Bounded], f: &mut DVector<f64>, pla
             reaches.min_by(|x, y| x.0.abs().total_cmp(&y.0.abs()))
         };
         let nearest = [end(1.0), end(-1.0)].into_iter().flatten().min_by(|x, y| x.0.abs().total_cmp(&y.0.abs()));
-        let Some((length, i, place)) = nearest.filter(|(length, ..)| length.is_finite()) else { return moved };
+        let Some((length, i, place)) = nearest.filter(|(length, ..)| length.is_finite()) else { return };
         way.iter().for_each(|(k, n)| f[*k] += length * n);
         places[i] = place;
-        moved.push(i);
     }
 }
 
@@ -188,8 +214,14 @@ mod tests {
         let (mut f, mut places) = solve(&a, &DVector::from_element(2, -3.0), &all).unwrap();
         assert!((f[0] - 1.5).abs() < 1e-3 && (f[1] - 1.5).abs() < 1e-3 && places == [Place::Between; 2]);
         // the first of the order is held by what the other leaves at its bound
-        assert_eq!(basic(&a, &all, &mut f, &mut places, &[1, 0]).len(), 1);
-        assert!((f[0] + f[1] - 3.0).abs() < 1e-6 && places.contains(&Place::High) && places.contains(&Place::Between));
+        basic(&a, &DVector::from_element(2, -3.0), &all, &mut f, &mut places, &[1, 0]);
+        assert!((f[0] + f[1] - 3.0).abs() < 1e-14 && places.contains(&Place::High) && places.contains(&Place::Between));
+        assert_eq!(shared(&a, &places).len(), 1);
+        let (mut f, mut places) = solve(&a, &DVector::from_element(2, -1.0), &all).unwrap();
+        basic(&a, &DVector::from_element(2, -1.0), &all, &mut f, &mut places, &[1, 0]);
+        assert_eq!((f.as_slice(), &places[..], shared(&a, &places)), (&[0.0, 1.0][..], &[Place::Idle, Place::Between][..], vec![0]));
+        // one that slides on is not held by the other
+        assert!(shared(&DMatrix::identity(2, 2), &places).is_empty());
     }
 
     #[test]
@@ -208,13 +240,14 @@ mod tests {
             let b = -(&a * &inside);
             let (mut f, mut places) = (inside, vec![Place::Between; n]);
             let order: Vec<usize> = (0..n).rev().collect();
-            basic(&a, &all, &mut f, &mut places, &order);
+            basic(&a, &b, &all, &mut f, &mut places, &order);
             assert!((&a * &f + &b).amax() < 1e-9, "case {case}");
             assert!(places.iter().filter(|p| **p == Place::Between).count() <= rank, "case {case}: {places:?}");
             for (i, x) in all.iter().enumerate() {
                 let at = match places[i] {
                     Place::Low => f[i] - x.low,
                     Place::High => f[i] - x.high,
+                    Place::Idle => f[i],
                     Place::Between => 0.0,
                 };
                 assert!(at.abs() < 1e-9 && f[i] > x.low - 1e-9 && f[i] < x.high + 1e-9, "case {case}: {f} {places:?}");

@@ -68,6 +68,13 @@ pub struct Assembled {
 }
 
 impl Assembled {
+    /// The same start with contacts that slide in these senses; 0 where one sticks.
+    pub(crate) fn sliding<G: Space>(&self, mechanism: &Mechanism<G>, senses: &[i32]) -> Self {
+        let mut start = self.clone();
+        mechanism.slide(senses, &mut start.modes);
+        start
+    }
+
     /// What a reader should know of the start.
     pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
         let finding = |code: &'static str, message: String| Finding { code: code.into(), message, path: "start".into() };

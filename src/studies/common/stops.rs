@@ -6,7 +6,7 @@ use super::clock::{Variable, told_coordinate};
 use super::motion::Motion;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
-use crate::mechanism::{Mechanism, Stop};
+use crate::mechanism::{Contact, Mechanism, Stop};
 use crate::model::{Kind, Model, Study};
 use crate::numerics::continuous::Curve;
 use crate::numerics::extremum::Extremes;
@@ -109,6 +109,20 @@ pub(crate) fn dwells<G: Space<S = f64>>(
         });
     }
     findings
+}
+
+/// Contacts at rest whose motion other contacts, stops or drivers hold as well: what each of them carries is open.
+pub(crate) fn shared_by_contacts<G: Space<S = f64>>(mechanism: &Mechanism<G>, open: &[usize]) -> Vec<Finding> {
+    let contacts = mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
+    let finding = |(_, contact): (usize, &Contact)| Finding {
+        code: "friction-not-unique".into(),
+        message: format!(
+            "while it sticks {} is not unique: drivers, a rigid stop or other friction hold the same motion; what is printed is 0 or one of the values, of a stop and of drivers the rest",
+            contact.name
+        ),
+        path: contact.place.clone(),
+    };
+    contacts.map(finding).collect()
 }
 
 /// What a driven motion cannot pass.

@@ -243,6 +243,9 @@ impl<'a> Course<'a> {
 
     /// A run that was stopped by events: ended by one of them, or to go on with other parameters.
     pub(super) fn stopped_by<G: Space<S = f64>>(&mut self, chart: &mut Charted<'_, G>, before: &Node, counted: &[usize]) -> After {
+        if let Some((row, height)) = chart.mechanical().step() {
+            return After::Stopped(explain::step(chart.mechanical().dynamics.mechanism, row, height, before.state.t));
+        }
         if let Some(event) = chart.mechanical().restless() {
             return After::Stopped(explain::restless(self.model, event, before.state.t));
         }

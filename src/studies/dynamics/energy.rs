@@ -45,6 +45,8 @@ pub(super) struct Balance {
     kinks: f64,
     /// What one-way clutches took that blows have closed.
     closings: f64,
+    /// Corners of couplings: when the first was passed, s, whose it is, and how many there were.
+    corners: Option<(f64, String, usize)>,
     drift: f64,
     scale: f64,
     /// Largest |E|: what round-off is a part of.
@@ -137,7 +139,11 @@ impl Balance {
         if before.state.v != after.state.v {
             let [_, e0] = energy(system, before);
             let [_, e1] = energy(system, after);
-            let driven = system.driven_work([&before.state, &after.state], crossed);
+            let corner = system.take_corner();
+            if let Some((row, _)) = corner {
+                self.corners.get_or_insert_with(|| (before.state.t, system.dynamics.mechanism.name_of_row(row), 0)).2 += 1;
+            }
+            let driven = corner.map_or_else(|| system.driven_work([&before.state, &after.state], crossed), |(_, work)| work);
             let own = || crossed.iter().filter(|root| **root < system.roots.len());
             let impacts = own().any(|&root| matches!(system.roots[root], Root::Event(_)) && system.strikes(root));
             let stops = own().any(|&root| matches!(system.roots[root], Root::Stop(_)));
@@ -148,7 +154,7 @@ impl Balance {
                 // a clutch that takes part has no slip while it carries
                 (false, true) => self.blows += e1 - e0 - driven,
                 (false, false) if closes => self.closings += e1 - e0 - driven,
-                // the law of a driver or coupling has a kink; else it is the drift of a correction
+                // the law of a driver or a coupling has a kink; else it is the drift of a correction
                 (false, false) => {}
             }
         }
@@ -207,8 +213,25 @@ impl Balance {
             message: format!("a singular position was crossed near t = {t:.6} s"),
             path: "joints".into(),
         });
-        let findings = crossed.chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
+        let corners = self.corners.map(|(t, of, count)| passed_corners(t, &of, count, place));
+        let findings = crossed.chain(corners).chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
         (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings)
+    }
+}
+
+/// That velocities have jumped at kinks of couplings.
+fn passed_corners(t: f64, of: &str, count: usize, place: &str) -> Finding {
+    let others = match count {
+        1 => String::new(),
+        2 => " and once more".into(),
+        _ => format!(" and {} more times", count - 1),
+    };
+    Finding {
+        code: "velocity-jump".into(),
+        message: format!(
+            "velocities jump at t = {t:.6} s{others}: the law of {of} has a kink; they go on as over a corner that is rounded, without loss, and the forces there are impulses, which no row or extreme holds; a law without kinks has none, as a table `between: cubic`"
+        ),
+        path: place.into(),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
 use crate::kinematics::mobility::mobility;
 use crate::kinematics::undefined::{Gap, meeting};
-use crate::mechanism::{BuildFault, Contact, Mechanism, Stop};
+use crate::mechanism::{BuildFault, Mechanism, Stop};
 use crate::model::{Model, Parameter, Study};
 use crate::results::{Failure, Finding, Happened, Undefined};
 use grashof_solvers::minimal::Refused;
@@ -151,20 +151,6 @@ pub(super) fn hunts(events: &[Happened], t: f64) -> String {
     )
 }
 
-/// Contacts at rest that other joints or drivers hold as well.
-pub(super) fn not_unique<G: Space<S = f64>>(phases: &Phases<G>, open: &[usize]) -> Vec<Finding> {
-    let contacts = phases.mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
-    let finding = |(_, contact): (usize, &Contact)| Finding {
-        code: "friction-not-unique".into(),
-        message: format!(
-            "while it sticks {} is not unique: drivers, a rigid stop or other friction hold the same motion; what is printed is 0 or one of the values, of a stop and of drivers the rest",
-            contact.name
-        ),
-        path: contact.place.clone(),
-    };
-    contacts.map(finding).collect()
-}
-
 /// What redundant rows leave open in a motion in time: friction that follows from reactions, and with it the motion; efforts of drivers
 /// that hold the same motion.
 pub(super) fn shared<G: Space<S = f64>>(phases: &Phases<G>) -> Vec<Finding> {
@@ -247,6 +233,16 @@ pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
     let name = &model.events[event].name;
     format!(
         "at t = {t:.6} s the blows of the event `{name}` have become so weak that its joint would rest there, but its `when` holds more than positions, so that nothing is known of how it rests: write `when` with positions alone, or give the joint `limits` with a `restitution`"
+    )
+}
+
+/// That the law of a coupling jumps.
+pub(super) fn step<G: Space<S = f64>>(mechanism: &Mechanism<G>, row: usize, height: f64, t: f64) -> String {
+    let unit = if mechanism.rows[row].angular { "rad" } else { "m" };
+    format!(
+        "at t = {t:.6} s the law of {} jumps, by {:.6e} {unit}: no rigid body follows a step; lead it up a short flank (a table with two points beside each other)",
+        mechanism.name_of_row(row),
+        height.abs()
     )
 }
 

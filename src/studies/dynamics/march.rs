@@ -21,6 +21,7 @@ use crate::kinematics::undefined::in_state;
 use crate::model::{Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::studies::common::case::Case;
+use crate::studies::common::stops::shared_by_contacts;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
@@ -85,7 +86,7 @@ pub(crate) fn march<'m, G: Space<S = f64>>(
             After::Changed => flow.sound = 0.0,
         }
     };
-    flow.findings.extend(explain::not_unique(phases, &flow.course.open));
+    flow.findings.extend(shared_by_contacts(&phases.mechanism, &flow.course.open));
     flow.findings.extend(explain::shared(phases));
     let Flow { course: Course { events, ended, .. }, balance, undefined, findings: mut unresolved, .. } = flow;
     let (certificate, mut findings) = balance.finish(plan, &study.place);

@@ -3,6 +3,7 @@
 //! | root | positive | behind it |
 //! |---|---|---|
 //! | switch of a load, spring, driver, state | inside its mode | the neighbouring mode; the scheme starts afresh |
+//! | switch of a coupling | the same | the same, with the velocities behind the corner of its law; a step ends the run |
 //! | switch of a column alone | the same | the same mode number, without effect on the motion |
 //! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
 //! | side on which a joint with friction by reactions presses | its force points there | the other side |
@@ -19,6 +20,7 @@
 mod ahead;
 mod blow;
 mod contact;
+mod corner;
 mod decided;
 mod direct;
 mod evaluate;
@@ -39,6 +41,7 @@ use ahead::Timed;
 use decided::Decided;
 use direct::Source;
 use grashof_solvers::{Ahead, At, Block, Dims, Effect, Friction, Kkt, Pattern, Span, Stage, State, System, Tangent, Terms};
+use root::Corners;
 pub(crate) use root::{Met, Root, Watched};
 use seen::Seen;
 pub(super) use works::WORKS;
@@ -77,6 +80,8 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>> {
     /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction holds.
     met: Vec<Met>,
     loosened: bool,
+    /// What was met at switches of couplings.
+    corners: Corners,
     /// Velocities that rows decide wherever the mechanism stands.
     decided: Decided,
     /// The state evaluated last.
@@ -110,6 +115,12 @@ where
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
         &modes[..m.switches + m.windings]
+    }
+
+    /// Whether a program is that of functions of positions.
+    fn is_of_position(&self, program: usize) -> bool {
+        let m = self.dynamics.mechanism;
+        std::ptr::eq(m.programs()[program], &raw const m.position_program)
     }
 
     /// Runs a program of the mechanism at the state evaluated last: `run` gets its inputs and registers.
@@ -295,12 +306,13 @@ where
         self.look(&state.at(), None);
         match self.roots[root] {
             Root::Force { program, k } => {
+                let before = self.is_of_position(program).then(|| state.modes.clone());
                 let modes = &mut state.modes;
                 self.with_program(program, |p, inputs, registers, roots| {
                     p.roots(inputs, modes, registers, &mut roots[..p.switches().len()]);
                     modes[p.switches()[k] as usize] = p.neighbour(k, modes, registers);
                 });
-                Effect::Restart
+                before.map_or(Effect::Restart, |before| self.turn_corner(&before, state))
             }
             Root::Column { k } => {
                 let count = self.observer.program().switches().len();

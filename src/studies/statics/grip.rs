@@ -20,6 +20,10 @@ pub(super) struct Gripped<G: Space<S = f64>> {
     pub(super) live: Vec<f64>,
     /// The pose.
     pub(super) pose: Pose,
+    /// The senses of contacts that give all they can beside those.
+    pub(super) senses: Vec<i32>,
+    /// Contacts of which it is open how much they carry.
+    pub(super) open: Vec<usize>,
 }
 
 /// The mechanism held by friction at a pose; none where it would move.
@@ -31,11 +35,11 @@ where
         return None;
     }
     let state = rest.state(&pose.position);
-    let held = rest.system.gripped(&state)?;
+    let found = rest.system.gripped(&state)?;
     let live = rest.system.extents(&state);
     let mut mechanism = rest.system.dynamics.mechanism.clone();
-    held.iter().for_each(|contact| mechanism.hold(*contact));
-    (!held.is_empty()).then_some(Gripped { mechanism, live, pose })
+    found.held.iter().for_each(|contact| mechanism.hold(*contact));
+    (!found.held.is_empty()).then_some(Gripped { mechanism, live, pose, senses: found.senses, open: found.open })
 }
 
 /// The ends of the region around a pose, at which friction holds a mechanism with one degree of freedom; none at an end where it holds

@@ -39,6 +39,7 @@ use crate::mechanism::Coordinates;
 use crate::results::Failure;
 use crate::studies::common::indeterminate::open;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::stops::shared_by_contacts;
 use bench::{Bench, Settled};
 use grip::Gripped;
 pub(crate) use many::equilibrium as equilibrium_of_many;
@@ -64,14 +65,16 @@ where
         return Ok(still);
     }
     let mut bench = Bench::new(case, mechanism, start, &[]);
-    if let Some(Gripped { mechanism, live, pose }) = bench.grip(start) {
+    if let Some(Gripped { mechanism, live, pose, senses, open }) = bench.grip(start) {
         let mechanism = Differentiable::new(mechanism);
         let mut held = Bench::new(case, &mechanism, start, &[]);
         held.rest.hold(&live);
-        let found = held.settle(start, stop)?.found;
+        let found = held.settle(&start.sliding(&mechanism, &senses), stop)?.found;
         let shared = held.shared(&mut bench, &found.pose);
+        let shared = shared.into_iter().chain(shared_by_contacts(&mechanism, &open));
         let findings = held.findings(&found).into_iter().chain(bench.region(&pose)).chain(shared).collect();
         let Position { q, z, mut modes, .. } = found.pose.position;
+        mechanism.slide(&vec![0; senses.len()], &mut modes);
         modes.truncate(start.modes.len());
         return Ok(Still { q, z, modes, findings });
     }
@@ -98,16 +101,17 @@ where
     let mechanism = Differentiable::new(mechanism);
     let watched = Watched::of(case.study);
     let mut bench = Bench::new(case, &mechanism, &start, &watched.ids);
-    if let Some(Gripped { mechanism, live, pose }) = bench.grip(&start) {
+    if let Some(Gripped { mechanism, live, pose, senses, open: contacts }) = bench.grip(&start) {
         let mechanism = Differentiable::new(mechanism);
         let mut held = Bench::new(case, &mechanism, &start, &watched.ids);
         held.rest.hold(&live);
         held.held = Some(bench.partition(&pose).independent);
-        let Settled { begin, found, .. } = held.settle(&start, stop)?;
+        let Settled { begin, found, .. } = held.settle(&start.sliding(&mechanism, &senses), stop)?;
         let shared = held.shared(&mut bench, &found.pose);
         let mut outcome = held.outcome(&watched, &begin, &[found])?;
         outcome.findings.extend(bench.region(&pose));
         outcome.findings.extend(shared);
+        outcome.findings.extend(shared_by_contacts(&mechanism, &contacts));
         outcome.findings.extend(open(case, &watched, &mechanism, &start));
         return Ok(outcome);
     }

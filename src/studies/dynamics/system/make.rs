@@ -1,7 +1,7 @@
 //! A mechanism as a system of the integrators: its roots, its patterns and its scales.
 
 use super::decided::Decided;
-use super::root::Root;
+use super::root::{Corners, Root};
 use super::seen::Seen;
 use super::works::{self, WORKS};
 use super::{Mechanical, Watched, ahead, direct};
@@ -143,6 +143,7 @@ where
             restless: None,
             met: Vec::with_capacity(mechanism.contacts.len()),
             loosened: false,
+            corners: Corners::default(),
             seen: Seen::nothing(),
             dynamics,
             observer,

@@ -48,3 +48,11 @@ pub(crate) struct Met {
     /// The sense of its row's multiplier in which it gave way, −1 or 1; 0 if it stopped.
     pub(crate) sense: i32,
 }
+
+/// What was met at switches of couplings: a corner that was passed, with the work there, and a step, over which no rigid body goes, with its
+/// height; each by its row.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Corners {
+    pub(super) passed: Option<(usize, f64)>,
+    pub(super) step: Option<(usize, f64)>,
+}

@@ -10,7 +10,7 @@ use super::root::{Met, Root};
 use crate::dynamics::slack;
 use crate::geometry::Space;
 use crate::mechanism::{Contact, ContactLaw, EffortLaw, StretchOf};
-use crate::numerics::complementarity::{Bounded, Place, basic, solve};
+use crate::numerics::complementarity::{Bounded, Place, basic, shared, solve};
 use grashof_solvers::{At, Effect, Kkt, State};
 use nalgebra::{DMatrix, DVector};
 
@@ -159,7 +159,7 @@ where
             _ => Place::Between,
         };
         let found = self.balance_of(&At { modes: &modes, ..state.at() }, true, &resting, held, begins)?;
-        let mut out = Decided { senses, open: found.moved.iter().map(|i| resting[*i]).collect(), ..Decided::default() };
+        let mut out = Decided { senses, open: found.shared.iter().map(|i| resting[*i]).collect(), ..Decided::default() };
         for (i, &c) in resting.iter().enumerate() {
             match (m.contacts[c].is_one_way(), found.determined[i], found.places[i]) {
                 // one that has just given way carries no more than it can, to round-off: it is not held once more
@@ -167,7 +167,7 @@ where
                     out.senses[c] = found.spent[i];
                 }
                 (_, None, Place::Between) => out.held.push(c),
-                (true, ..) => {}
+                (true, ..) | (_, None, Place::Idle) => {}
                 (_, Some(sense), _) => {
                     out.senses[c] = sense;
                     if sense == 0 {
@@ -181,15 +181,34 @@ where
         Some(out)
     }
 
-    /// Contacts that friction holds where the whole mechanism stands still in a state without velocity; none where it would move.
-    pub(crate) fn gripped(&mut self, state: &State) -> Option<Vec<usize>> {
+    /// Contacts that friction holds where the whole mechanism stands still in a state without velocity, and the senses of those that give
+    /// all they can beside them; none where it would move.
+    pub(crate) fn gripped(&mut self, state: &State) -> Option<Decided> {
         let m = self.dynamics.mechanism;
         let all: Vec<usize> = (0..m.contacts.len()).collect();
         let mut modes = state.modes.clone();
         m.slide(&vec![0; m.contacts.len()], &mut modes);
         let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &all, &[], |_| Place::Between)?;
-        let held = all.into_iter().filter(|c| found.determined[*c].is_none() && found.places[*c] == Place::Between);
-        found.rests.then(|| held.collect())
+        if !found.rests {
+            return None;
+        }
+        let sense = |c: &usize| match (found.determined[*c], found.places[*c], m.contacts[*c].is_one_way()) {
+            (None, Place::Low, false) => 1,
+            (None, Place::High, false) => -1,
+            _ => 0,
+        };
+        let senses: Vec<i32> = all.iter().map(sense).collect();
+        let held: Vec<usize> = all.into_iter().filter(|c| found.determined[*c].is_none() && found.places[*c] == Place::Between).collect();
+        let open = found.shared;
+        if senses.iter().any(|sense| *sense != 0) {
+            // what they give is the force of one that slides
+            m.slide(&senses, &mut modes);
+            let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &held, &[], |_| Place::Between)?;
+            if !found.rests {
+                return None;
+            }
+        }
+        Some(Decided { held, senses, open })
     }
 
     /// Solves for the forces of resting contacts. Drivers are `driven` on, or stand still; `first` are held rather than others where
@@ -269,7 +288,7 @@ where
             let (mut f, mut found) = solve(&block, &side, &bounded)?;
             let mut order: Vec<usize> = (0..movable.len()).collect();
             order.sort_by_key(|i| !first.contains(&resting[movable[*i]]));
-            let moved = basic(&block, &bounded, &mut f, &mut found, &order);
+            basic(&block, &side, &bounded, &mut f, &mut found, &order);
             forces.fill(0.0);
             for (k, &i) in movable.iter().enumerate() {
                 (forces[i], places[i]) = (f[k], found[k]);
@@ -304,10 +323,11 @@ where
                     accelerations.iter_mut().zip(&response.a).for_each(|(x, r)| *x += f * r);
                 }
                 let inertial = accelerations.iter().zip(&self.pattern.metric).fold(0.0, |m, (x, d)| f64::max(m, (x * d).abs()));
-                let moved = moved.into_iter().map(|k| movable[k]).collect();
+                let found: Vec<Place> = movable.iter().map(|i| places[*i]).collect();
+                let shared = shared(&block, &found).into_iter().map(|k| movable[k]).collect();
                 let spent = |i: usize| i32::from(forces[i] <= -caps[i]) - i32::from(forces[i] >= caps[i]);
                 let spent = (0..n).map(spent).collect();
-                return Some(Balanced { places, moved, spent, determined, rests: inertial <= STILL * largest });
+                return Some(Balanced { places, shared, spent, determined, rests: inertial <= STILL * largest });
             }
             last = now;
         }
@@ -373,8 +393,8 @@ where
 /// Forces of resting contacts as found.
 struct Balanced {
     places: Vec<Place>,
-    /// Those that others hold as well: they were set to a bound.
-    moved: Vec<usize>,
+    /// Those at a bound whose motion others hold as well.
+    shared: Vec<usize>,
     /// The sense in which a contact begins to slide whose force has reached what it can carry, else 0.
     spent: Vec<i32>,
     /// The sense in which a contact begins to move whatever its force, 0 if it does not.
