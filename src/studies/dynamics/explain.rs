@@ -238,9 +238,8 @@ pub(super) fn restless(model: &Model, event: usize, t: f64) -> String {
 
 /// That the law of a coupling jumps.
 pub(super) fn step<G: Space<S = f64>>(mechanism: &Mechanism<G>, row: usize, height: f64, t: f64) -> String {
-    let unit = if mechanism.rows[row].angular { "rad" } else { "m" };
     format!(
-        "at t = {t:.6} s the law of {} jumps, by {:.6e} {unit}: no rigid body follows a step; lead it up a short flank (a table with two points beside each other)",
+        "at t = {t:.6} s the law of {} jumps, by {:.6e} in SI units: no rigid body follows a step; lead it up a short flank (a table with two points beside each other)",
         mechanism.name_of_row(row),
         height.abs()
     )
