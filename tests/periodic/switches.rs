@@ -151,3 +151,35 @@ studies:
     near("multiplier", found.results[FLOQUET], slope.abs(), 1e-8);
     near("mean speed", found.results[1], TAU / found.results[PERIOD], 1e-9);
 }
+
+/// A cam with straight flanks carries a mass on a spring, which moves the follower too: velocities of both jump at each corner.
+#[test]
+fn neighbours_pass_the_corners_of_a_coupling() {
+    let text = |[omega, x, v]: [f64; 3], study: &str| {
+        format!(
+            "grashof: 1
+name: cam under a mass on a spring
+space: planar
+gravity: none
+tables: {{ lift: {{ points: [[0 deg, 0 mm], [90 deg, 0 mm], [180 deg, 10 mm], [270 deg, 10 mm], [360 deg, 0 mm]], beyond: periodic }} }}
+bodies: {{ cam: {{ mass: 1 kg, inertia: 1e-3 kg m^2 }}, follower: {{ mass: 20 kg }}, load: {{ mass: 5 kg }} }}
+joints:
+  O: {{ revolute: [ground, cam.origin] }}
+  F: {{ slider: [ground, follower.origin], axis: [0, 1] }}
+  L: {{ slider: [ground, load.origin], axis: [0, 1] }}
+couplings: {{ c: {{ zero: F.position - lift(O.angle) - 0.2*L.position }} }}
+springs: {{ s: {{ joint: L, stiffness: 2000 N/m, damping: 20 N s/m }} }}
+measures: {{ theta: O.angle, omega: O.omega }}
+loads: {{ push: {{ joint: O, torque: 0.02 N m }}, brake: {{ joint: O, torque: -0.001 N m s*omega }} }}
+{}start: {{ O.angle: 10 deg, O.omega: {omega:?} rad/s, L.position: {x:?} m, L.velocity: {v:?} m/s }}
+studies: {{ {study}, columns: [omega, L.position, L.velocity] }} }}
+",
+            if study.starts_with("lap") { "events: { turned: { when: theta - 370 deg, action: stop } }\n" } else { "" }
+        )
+    };
+    let found = regime(&text([17.0, -0.0035, -0.094], "regime: { periodic: { over: theta, by: 1 turn, of: omega, tolerance: 1e-11 }"));
+    let x = &found.rows[0];
+    let map = |x: &[f64]| end(&text([x[0], x[1], x[2]], "lap: { dynamics: { until: 2 s, tolerance: 1e-13 }"));
+    map(x).iter().zip(x).for_each(|(next, x)| near("a turn later", *next, *x, 1e-8));
+    same_multipliers(&found, &derivative(map, x, &[1e-2, 1e-5, 1e-3]), 1e-6);
+}

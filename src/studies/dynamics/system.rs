@@ -117,6 +117,29 @@ where
         &modes[..m.switches + m.windings]
     }
 
+    /// Gives a switch of a program its neighbouring mode at the state looked at last; the modes before.
+    fn take_neighbour(&mut self, program: usize, k: usize, state: &mut State) -> Vec<i32> {
+        let before = state.modes.clone();
+        let modes = &mut state.modes;
+        self.with_program(program, |p, inputs, registers, roots| {
+            p.roots(inputs, modes, registers, &mut roots[..p.switches().len()]);
+            modes[p.switches()[k] as usize] = p.neighbour(k, modes, registers);
+        });
+        before
+    }
+
+    /// [`System::cross`] for a state beside the surface of a root, where both sides of a law have other values without a jump.
+    pub(crate) fn cross_beside(&mut self, root: usize, state: &mut State, row: &mut [f64]) -> Effect {
+        match self.roots[root] {
+            Root::Force { program, k } if self.is_of_position(program) => {
+                self.look(&state.at(), None);
+                let before = self.take_neighbour(program, k, state);
+                self.turn_corner(&before, state, false)
+            }
+            _ => self.cross(root, state, row),
+        }
+    }
+
     /// Whether a program is that of functions of positions.
     fn is_of_position(&self, program: usize) -> bool {
         let m = self.dynamics.mechanism;
@@ -306,13 +329,8 @@ where
         self.look(&state.at(), None);
         match self.roots[root] {
             Root::Force { program, k } => {
-                let before = self.is_of_position(program).then(|| state.modes.clone());
-                let modes = &mut state.modes;
-                self.with_program(program, |p, inputs, registers, roots| {
-                    p.roots(inputs, modes, registers, &mut roots[..p.switches().len()]);
-                    modes[p.switches()[k] as usize] = p.neighbour(k, modes, registers);
-                });
-                before.map_or(Effect::Restart, |before| self.turn_corner(&before, state))
+                let before = self.take_neighbour(program, k, state);
+                if self.is_of_position(program) { self.turn_corner(&before, state, true) } else { Effect::Restart }
             }
             Root::Column { k } => {
                 let count = self.observer.program().switches().len();

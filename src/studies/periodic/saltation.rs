@@ -8,7 +8,7 @@
 //! ```
 //!
 //! (Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, equation
-//! 7.64). Where neither state nor rate jumps S is the identity, as at a kink of a force. At the end of a period that lies on a surface
+//! 7.64). J is a blow, or the corner of a coupling. Where neither state nor rate jumps S is the identity, as at a kink of a force. At the end of a period that lies on a surface
 //! g = 0 a neighbour is taken to the surface along the motion, δ − f ∇g·δ/ġ, which is Poincaré's map.
 //!
 //! ∇g·δ and DJ δ are differences of fourth order along δ, the modes held: their step of 1e-3 of a size leaves errors of about 1e-12
@@ -144,17 +144,21 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
 
     /// The state behind roots that are crossed together, and whether its velocities jump.
     pub(super) fn crossed(&mut self, roots: &[usize], state: &mut State) -> Option<bool> {
-        let mut blows = Vec::new();
+        let (mut blows, before) = (Vec::new(), state.v.clone());
         for &root in roots {
             let mut row = vec![0.0; state.v.len()];
-            if let Effect::Impulse { restitution, .. } | Effect::Bounce { restitution, .. } = self.system.cross(root, state, &mut row) {
+            if let Effect::Impulse { restitution, .. } | Effect::Bounce { restitution, .. } =
+                self.system.cross_beside(root, state, &mut row)
+            {
                 blows.push(Blow { root, row, restitution, closing: None });
             }
         }
+        // of a neighbour, not of the motion
+        self.system.take_corner();
         if !blows.is_empty() {
             self.engine.impulses(self.system, state, &blows).ok()?;
         }
-        Some(!blows.is_empty())
+        Some(!blows.is_empty() || state.v != before)
     }
 
     /// The slope of a column at a node along neighbours (columns of `psi`).

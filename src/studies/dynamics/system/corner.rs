@@ -18,7 +18,7 @@ use grashof_solvers::{At, Effect, Kkt, Stage, State, System, Terms};
 /// Steps of the classical Runge-Kutta method over a corner.
 const STEPS: usize = 64;
 
-/// Part of the largest velocity by which rows may miss the old one where there is no corner.
+/// Part of the largest rate of a row by which rows may miss the velocities before where there is no corner.
 const SMOOTH: f64 = 1e-12;
 
 /// A jump of a row, in radians or sizes of the mechanism, that is no rounding of the place of the switch.
@@ -39,8 +39,8 @@ where
     G: Space<S = f64>,
 {
     /// Leads the velocities of a state over a switch of a function of positions that has taken its new mode; `before` are the modes on the
-    /// near side. A step is not passed: the state keeps these.
-    pub(super) fn turn_corner(&mut self, before: &[i32], state: &mut State) -> Effect {
+    /// near side. A step is not passed: the state keeps these; it is one only if the state is on the surface of the switch.
+    pub(super) fn turn_corner(&mut self, before: &[i32], state: &mut State, on_surface: bool) -> Effect {
         let m = self.dynamics.mechanism;
         if !m.rows.iter().any(|row| matches!(row.kind, RowKind::Function(_))) {
             return Effect::Restart;
@@ -51,38 +51,39 @@ where
         let rows = &m.rows;
         let heights = near.phi.iter().zip(&far.phi).map(|(near, far)| far - near);
         let high = |(i, height): &(usize, f64)| height.abs() > STEP * if rows[*i].angular { 1.0 } else { self.size };
-        if let Some(step) = heights.enumerate().find(high) {
+        if let Some(step) = heights.enumerate().find(high).filter(|_| on_surface) {
             self.corners.step = Some(step);
             state.modes.copy_from_slice(before);
             return Effect::Stop;
         }
         let mut corner = Corner::new([&near, &far]);
         let Some(row) = corner.turns(&state.v) else { return Effect::Restart };
-        if let Some(work) = self.over(&mut corner, &mut state.v) {
+        if let Some((v, work)) = self.over(&mut corner, &state.v) {
+            state.v = v;
             let before = self.corners.passed.map_or(0.0, |(_, work)| work);
             self.corners.passed = Some((row, before + work));
         }
         Effect::Restart
     }
 
-    /// Integrates v over a corner; the work of rows that move with time, or none where the equations are singular.
-    fn over(&mut self, corner: &mut Corner<'_>, v: &mut [f64]) -> Option<f64> {
+    /// Integrates velocities over a corner; them and the work of rows that move with time, or none where the equations are singular.
+    fn over(&mut self, corner: &mut Corner<'_>, before: &[f64]) -> Option<(Vec<f64>, f64)> {
         const PARTS: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
         const WEIGHTS: [f64; 4] = [1.0, 2.0, 2.0, 1.0];
         let h = 1.0 / STEPS as f64;
-        let mut work = 0.0;
-        let (mut rate, mut at) = (vec![0.0; v.len()], v.to_vec());
+        let (mut v, mut work) = (before.to_vec(), 0.0);
+        let (mut rate, mut at) = (vec![0.0; v.len()], v.clone());
         for step in 0..STEPS {
             let (mut sum, mut power) = (vec![0.0; v.len()], 0.0);
             for (part, weight) in PARTS.iter().zip(WEIGHTS) {
-                at.iter_mut().zip(&*v).zip(&rate).for_each(|((at, v), rate)| *at = v + h * part * rate);
+                at.iter_mut().zip(&v).zip(&rate).for_each(|((at, v), rate)| *at = v + h * part * rate);
                 power += weight * self.rate_within(corner, (step as f64 + part) * h, &at, &mut rate)?;
                 sum.iter_mut().zip(&rate).for_each(|(sum, rate)| *sum += weight * rate);
             }
             v.iter_mut().zip(&sum).for_each(|(v, sum)| *v += h / 6.0 * sum);
             work += h / 6.0 * power;
         }
-        Some(work)
+        Some((v, work))
     }
 
     /// dv/ds and dW/ds at a place of a corner.
@@ -105,7 +106,7 @@ where
         self.corners.passed.take()
     }
 
-    /// The row with the step that the last crossing has met, if it has met one, and its height, m or rad.
+    /// The row with the step that the last crossing has met, if it has met one, and its height in SI units.
     pub(crate) fn step(&self) -> Option<(usize, f64)> {
         self.corners.step
     }
