@@ -7,6 +7,7 @@ mod crank_rocker;
 mod events;
 mod faults;
 mod hits;
+mod observed;
 mod resting;
 mod switches;
 

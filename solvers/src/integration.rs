@@ -23,6 +23,7 @@ mod bridge;
 mod events;
 mod foresee;
 mod foresight;
+mod observed;
 mod repeat;
 mod resolve;
 mod work;
@@ -130,6 +131,10 @@ pub struct Integration {
     halvings: usize,
     work: Vec<f64>,
     zeno: Zeno,
+    /// For each root that is only read one more than its crossings, else 0; the last of their events; those that are given up.
+    observing: Vec<usize>,
+    observed: Zeno,
+    given_up: Vec<usize>,
     /// Why there is no motion beyond the node.
     halted: Option<Why>,
     /// The last number that was not finite, or friction without a solution, and when.
@@ -209,6 +214,9 @@ impl Integration {
             halvings: 0,
             work: vec![0.0; dims.work],
             zeno: Zeno::default(),
+            observing: (0..dims.roots).map(|root| usize::from(system.pattern().observing.contains(&root))).collect(),
+            observed: Zeno::default(),
+            given_up: Vec::with_capacity(dims.roots),
             halted: None,
             spoiled: None,
         };
@@ -368,6 +376,7 @@ impl Integration {
                 if !self.settings.locate {
                     self.march_across(system)?;
                 }
+                self.follow_given_up(system);
                 self.balance(system, false)?;
                 Ok(if ends { Progress::End } else { Progress::Step })
             }

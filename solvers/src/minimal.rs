@@ -123,6 +123,7 @@ impl<S: System> Minimal<S> {
         p.closing = inner.closing.clone();
         p.forceful = inner.forceful.clone();
         p.timed = inner.timed.clone();
+        p.observing = inner.observing.clone();
         p.rough = inner.rough.clone();
         let own = [self.inner.roots, self.inner.roots + 1];
         p.rough.extend(own);

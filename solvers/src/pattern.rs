@@ -71,6 +71,9 @@ pub struct Pattern {
     pub forceful: Vec<usize>,
     /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
     pub timed: Vec<usize>,
+    /// Roots that are only read, as the switches of columns: crossing them is an [`Effect::Record`](crate::Effect::Record), and where they
+    /// cannot be located the run goes on without them.
+    pub observing: Vec<usize>,
     /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
     pub rough: Vec<usize>,
 }
@@ -103,6 +106,7 @@ impl Pattern {
             closing: Vec::new(),
             forceful: Vec::new(),
             timed: Vec::new(),
+            observing: Vec::new(),
             rough: Vec::new(),
         }
     }

@@ -73,6 +73,28 @@ impl Program {
         })
     }
 
+    /// The pool's numbers of the switches on which some of the outputs depend, also by other switches.
+    #[must_use]
+    pub fn switches_of(&self, outputs: &[usize]) -> Vec<u32> {
+        let mut wanted: Vec<u32> = outputs.iter().filter_map(|k| self.outputs.get(*k).copied()).collect();
+        let mut found = Vec::new();
+        loop {
+            let (needed, known) = (self.needed(&self.ops, &wanted), found.len());
+            for switch in self.ops.iter().zip(needed).filter(|(_, n)| n.is_some()).filter_map(|(op, _)| op.switch()) {
+                if found.contains(&switch) {
+                    continue;
+                }
+                found.push(switch);
+                if let Some(k) = self.switches.iter().position(|known| *known == switch) {
+                    self.decisions[k].test.map(|register| wanted.push(register));
+                }
+            }
+            if found.len() == known {
+                return found;
+            }
+        }
+    }
+
     /// The instructions, those that only ask whether something is defined which depends on other inputs than `on` without it.
     fn without_guards_by_others(&self, on: &[u32]) -> Vec<Op> {
         let mut by_others: Vec<bool> = Vec::with_capacity(self.registers);
@@ -172,6 +194,22 @@ impl Op {
         }
     }
 
+    /// The switch whose mode it reads.
+    fn switch(self) -> Option<u32> {
+        match self {
+            Self::Compare(_, switch, ..)
+            | Self::Signed(_, switch)
+            | Self::Sign(_, switch)
+            | Self::Floor(_, switch)
+            | Self::Select(_, _, switch)
+            | Self::Choose(_, _, switch)
+            | Self::Holds(_, switch)
+            | Self::Mode(switch)
+            | Self::Table(_, _, _, switch) => Some(switch),
+            _ => None,
+        }
+    }
+
     /// The input that it reads.
     fn input(self) -> Option<u32> {
         if let Self::Input(i) = self { Some(i) } else { None }
@@ -219,6 +257,18 @@ mod tests {
         assert_eq!([1, 0].map(|mode| part.value(0.2, &[mode])), [(3.0_f64 * 0.2).sin(), (3.0_f64 * 0.2).cos()]);
         assert!(part.bounds(Interval::between(0.2, 0.3), &[1]).0.holds(0.75_f64.sin()));
         assert!(program.part(Wanted::Switch(0), &[0]).is_none());
+    }
+
+    #[test]
+    fn switches_of_an_output_are_those_of_its_conditions_too() {
+        let mut p = Pool::new();
+        let (x, y) = (p.input(0), p.input(1));
+        let (size, other) = (p.abs(x, "x"), p.abs(y, "y"));
+        let less = p.compare(Compare::Less, size, other, "less");
+        let choice = p.choose(less, x, y);
+        let program = p.program(&[choice, other, y], &[], &Arc::from([]));
+        let count = |outputs: &[usize]| program.switches_of(outputs).len();
+        assert_eq!([count(&[0]), count(&[1]), count(&[2]), count(&[1, 2]), count(&[0, 1])], [3, 1, 0, 1, 3]);
     }
 
     #[test]

@@ -36,6 +36,8 @@ enum Part {
     Across(f64, usize),
     /// One is not resolved.
     Open,
+    /// One that is only read could not be resolved, and is given up.
+    Without,
 }
 
 impl Integration {
@@ -75,6 +77,7 @@ impl Integration {
             let last = width <= NARROWEST || looks > MOST_LOOKS;
             match self.first_in(system, [from, to], last)? {
                 Part::Open => width *= 0.25,
+                Part::Without => (width, looks) = (end - from, 0),
                 Part::Across(theta, root) => {
                     self.remember(width, h);
                     return Ok(Some((theta, root)));
@@ -159,10 +162,12 @@ impl Integration {
                 Some(theta) if first.is_none_or(|(x, _)| theta < x) => first = Some((theta, root)),
                 Some(_) => {}
                 None if !(rough || last) => return Ok(Part::Open),
+                None if self.observes(root) && !self.falls(root) => {
+                    self.give_up(root, self.last.state.t);
+                    return Ok(Part::Without);
+                }
                 None => {
-                    // what falls from zero, as a joint that begins on its stop, is seen whole
-                    let falls = g[1..].iter().all(|g| *g < 0.0) && self.samples[NODES][root] < 0.0;
-                    if !rough && !falls {
+                    if !rough && !self.falls(root) {
                         self.engine.counts.unresolved += 1;
                         self.unresolved.get_or_insert((root, self.last.state.t));
                         self.noisy[root] = NOISY;
@@ -179,6 +184,11 @@ impl Integration {
             self.roots.copy_from_slice(&self.samples[0]);
         }
         Ok(first.map_or(Part::Clear, |(theta, root)| Part::Across(theta, root)))
+    }
+
+    /// Whether a root falls from zero in a part of the step, as that of a joint which begins on its stop: then it is seen whole.
+    fn falls(&self, root: usize) -> bool {
+        self.samples[1..].iter().all(|sample| sample[root] < 0.0)
     }
 
     /// Where a root is seen to leave its positive side, by the signs at the nodes of a part alone.
@@ -305,7 +315,10 @@ impl Integration {
             Ok(changed) => restart |= changed,
             Err(why) => return self.ends_before(why),
         }
-        if let Some(&root) = self.crossed.first()
+        let only_read = !restart && !stop && self.crossed.iter().all(|root| self.observes(*root));
+        if only_read {
+            self.count_observed();
+        } else if let Some(&root) = self.crossed.first()
             && !bounces
             && self.zeno.pile_up(self.node.state.t, self.start)
         {

@@ -32,7 +32,10 @@ impl Integration {
             match system.ahead(at, to, &foresight.roots) {
                 Ahead::Clear => (foresight.until, foresight.unknown) = (to, false),
                 Ahead::Crossing(t, root) => (foresight.until, foresight.next) = (t, Some((t, root))),
-                Ahead::Unknown(t, root) if t <= foresight.until => return Err(Why::Unresolved(root)),
+                Ahead::Unknown(t, root) if t <= foresight.until => {
+                    self.unbounded(root, from)?;
+                    return self.foresee(system, from, to);
+                }
                 Ahead::Unknown(t, _) => (foresight.until, foresight.unknown) = (t, true),
             }
         }

@@ -193,6 +193,9 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
             if node.state.t <= last.state.t && !happened {
                 break After::Done;
             }
+            for &root in run.given_up() {
+                chart.mechanical().switch_of(root).into_iter().for_each(|switch| self.trajectory.loosen(switch));
+            }
             if let Err(halt) = self.record(&mut chart, &mut run, &mut inner, &mut dense, [&last, &node]) {
                 break After::Stopped(self.explain(phase, &mut chart, &mut run, (&last.state, &halt)));
             }

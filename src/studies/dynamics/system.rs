@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | switch of a load, spring, driver, state | inside its mode | the neighbouring mode; the scheme starts afresh |
 //! | switch of a coupling | the same | the same, with the velocities behind the corner of its law; a step ends the run |
-//! | switch of a column alone | the same | the same mode number, without effect on the motion |
+//! | switch of a column alone | the same | the same mode number, without effect on the motion; given up where it cannot be located |
 //! | winding of a cut hinge's angle | within a quarter turn and a half of its centre | the next half turn is counted |
 //! | side on which a joint with friction by reactions presses | its force points there | the other side |
 //! | rigid stop | before the stop | a blow; a weak one ends in rest on the stop, which ends the phase |

@@ -80,6 +80,9 @@ pub(crate) struct Trajectory<'m, G: Space<S = f64>> {
     out: Vec<f64>,
     /// Whether modes are taken from each state: the integrator has marched across switches.
     follow: bool,
+    /// Switches of columns that the integrator has given up, which follow their values, each with the first step in which they do.
+    loose: Vec<(usize, usize)>,
+    followed: Vec<i32>,
     /// How far a state may be off the constraints where columns are followed between rows, as part of its size.
     pub(crate) near_enough: f64,
     /// Below what each column is zero but for round-off.
@@ -111,6 +114,8 @@ where
             columns,
             out: vec![0.0; outputs],
             follow,
+            loose: Vec::new(),
+            followed: vec![0; dims.modes],
             near_enough: 0.0,
             floors: Vec::new(),
             ended_by_event: false,
@@ -147,6 +152,13 @@ where
         self.modes.push(node.state.modes[..self.node.state.modes.len()].to_vec());
         if let Some(step) = self.steps.last_mut() {
             step.whole = false;
+        }
+    }
+
+    /// Lets a switch of columns follow its values from the next step on.
+    pub(crate) fn loosen(&mut self, switch: usize) {
+        if self.loose.iter().all(|(_, known)| *known != switch) {
+            self.loose.push((self.steps.len(), switch));
         }
     }
 
@@ -350,6 +362,13 @@ where
     /// All outputs of the observer at the state evaluated last.
     pub(crate) fn outputs(&mut self, piece: usize) -> &[f64] {
         let phase = self.pieces[piece].phase;
+        if self.loose.iter().any(|(first, _)| self.near >= *first) {
+            let modes = &mut self.node.state.modes;
+            self.followed.copy_from_slice(modes);
+            self.phases[phase].system.observer.set_modes(&mut self.followed);
+            let loose = self.loose.iter().filter(|(first, _)| self.near >= *first);
+            loose.for_each(|&(_, switch)| modes[switch] = self.followed[switch]);
+        }
         self.phases[phase].system.columns(&self.node.state.modes, &mut self.out);
         &self.out
     }

@@ -1,15 +1,31 @@
 //! Events of the model: on which side of zero their functions are, which crossings count, what they do.
 
 use super::Mechanical;
-use super::root::Root;
+use super::root::{Root, Watched};
 use crate::geometry::Space;
 use crate::model::Crossing;
+use crate::studies::common::observe::Observer;
 use grashof_solvers::{Effect, State};
 
 impl<G> Mechanical<'_, G>
 where
     G: Space<S = f64>,
 {
+    /// Roots of switches that nothing but columns and scalars read: neither forces nor events.
+    pub(super) fn observing(observer: &Observer<G>, roots: &[Root], events: &[Watched]) -> Vec<usize> {
+        let program = observer.program();
+        let outputs: Vec<usize> = events.iter().flat_map(|event| [Some(event.output), event.impact]).flatten().collect();
+        let acting = program.switches_of(&outputs);
+        let only_read = |root: &Root| matches!(root, Root::Column { k } if !acting.contains(&program.switches()[*k]));
+        roots.iter().enumerate().filter(|(_, root)| only_read(root)).map(|(i, _)| i).collect()
+    }
+
+    /// The number of the switch of a column, as modes count it.
+    pub(in crate::studies::dynamics) fn switch_of(&self, root: usize) -> Option<usize> {
+        let Some(&Root::Column { k }) = self.roots.get(root) else { return None };
+        self.observer.program().switches().get(k).map(|switch| *switch as usize)
+    }
+
     /// The direction that counts for an event that has left `side`.
     fn counts(&self, event: usize, side: i32) -> bool {
         match self.events[event].crossing {

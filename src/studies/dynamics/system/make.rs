@@ -116,6 +116,7 @@ where
             closing: Self::closing(mechanism, &roots),
             forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
+            observing: Self::observing(&observer, &roots, &events),
             rough: Vec::new(),
             weakest: 1.0,
         };
