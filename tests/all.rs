@@ -51,6 +51,7 @@ mod scenes;
 mod singular;
 mod solve;
 mod statics;
+mod stored;
 mod sweep;
 mod undefined;
 mod underconstrained;

@@ -17,7 +17,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("mechanism/force.rs", &["geometry", "scalar", "expression"]),
     ("mechanism/parts.rs", &["geometry", "scalar", "expression"]),
     ("mechanism", &["geometry", "scalar"]),
-    ("dynamics", &["mechanism", "geometry", "scalar"]),
+    ("dynamics", &["mechanism", "geometry", "scalar", "expression::Integral", "expression::Integrand"]),
     ("numerics", &[]),
     ("results", &["mechanism::BuildFault", "model::WORKS", "expression::nearest", "numerics::extremum", "numerics::resolve::Resolution"]),
     ("kinematics", &["numerics", "dynamics", "mechanism", "geometry", "scalar", "expression", "model", "results"]),

@@ -1,8 +1,9 @@
 //! Energies, momenta and the centre of mass of the state evaluated last.
 
 use super::Dynamics;
+use crate::expression::Integrand;
 use crate::geometry::{Force, Motion, Space};
-use crate::mechanism::EffortLaw;
+use crate::mechanism::{EffortLaw, Leaf};
 use crate::scalar::Scalar;
 
 impl<G: Space> Dynamics<'_, G> {
@@ -60,19 +61,6 @@ impl<G: Space> Dynamics<'_, G> {
         sum
     }
 
-    /// Potential energy of gravity, springs and end stops that give way, J.
-    #[must_use]
-    pub fn potential_energy(&mut self, modes: &mut [i32]) -> G::S {
-        let mut sum = self.gravity_energy() + self.field_energy(modes);
-        for spring in 0..self.mechanism.stretches.len() {
-            sum += self.spring_energy(spring, modes);
-        }
-        for buffer in &self.mechanism.buffers {
-            sum += buffer.energy(self.work.readings[buffer.gauge].x).0;
-        }
-        sum
-    }
-
     /// Power of the effort of each end stop that gives way, and the rate of what it stores, W: the rest is that of a damper. After
     /// [`Dynamics::loads`].
     pub fn buffer_powers(&self) -> impl Iterator<Item = [G::S; 2]> {
@@ -80,61 +68,6 @@ impl<G: Space> Dynamics<'_, G> {
             let reading = &self.work.readings[buffer.gauge];
             [self.work.efforts[buffer.effort] * reading.rate, buffer.energy(reading.x).1 * reading.rate]
         })
-    }
-
-    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫₀ˢ F ds by Gauss-Legendre on 32 panels for a law, at fixed time.
-    #[must_use]
-    pub fn spring_energy(&mut self, spring: usize, modes: &mut [i32]) -> G::S {
-        let m = self.mechanism;
-        let s = self.stretch(spring);
-        match m.efforts[m.spring_efforts[spring]].law {
-            EffortLaw::Linear { stiffness, preload, .. } => (stiffness * s).scale(0.5) * s + preload * s,
-            EffortLaw::Law { output, .. } => self.over_stretch(spring, output, modes),
-            EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => G::S::default(),
-        }
-    }
-
-    /// Power that time puts in through a spring, W: its force works on what moves by time alone, and what it stores changes where its
-    /// law does, −τ ∂s/∂t + ∂U/∂t. After [`Dynamics::loads`].
-    #[must_use]
-    pub fn spring_power(&mut self, spring: usize, modes: &mut [i32]) -> G::S {
-        let effort = self.mechanism.spring_efforts[spring];
-        let by_time = self.extent_by_time(self.mechanism.stretches[spring].of) - self.moving_rest(spring, 1);
-        let power = -(self.work.efforts[effort] * by_time);
-        match self.mechanism.efforts[effort].law {
-            EffortLaw::Law { output, timed: true, .. } => power + self.over_stretch(spring, output + 2, modes),
-            _ => power,
-        }
-    }
-
-    /// ∫₀ˢ of an output of the force program over the stretch s of a spring.
-    fn over_stretch(&mut self, spring: usize, output: usize, modes: &mut [i32]) -> G::S {
-        let s = self.stretch(spring);
-        const NODES: [(f64, f64); 3] = [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
-        const PANELS: usize = 32;
-        let program = &self.mechanism.force_program;
-        self.fill(program);
-        let input = program.fills.iter().find(|(_, l)| *l == crate::mechanism::Leaf::Stretch { spring, order: 0 });
-        let Some(&(input, _)) = input else { return self.work.force_outputs[output] * s };
-        let w = &mut self.work;
-        w.saved.copy_from_slice(modes);
-        let mut sum = G::S::default();
-        for panel in 0..PANELS {
-            for (node, weight) in NODES {
-                let place = (panel as f64 + 0.5 * (1.0 + node)) / PANELS as f64;
-                w.inputs[input] = s.scale(place);
-                for (value, x) in w.values.iter_mut().zip(&w.inputs) {
-                    *value = x.value();
-                }
-                program.program.set_modes(&w.values, &mut w.numbers, modes);
-                program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
-                sum += w.force_outputs[output].scale(weight / PANELS as f64);
-            }
-        }
-        modes.copy_from_slice(&w.saved);
-        w.inputs[input] = s;
-        program.program.eval(&w.inputs, modes, &mut w.registers, &mut w.force_outputs);
-        sum * s
     }
 
     /// Total mass, kg, and first moment Σ m c, kg m.
@@ -163,5 +96,73 @@ impl<G: Space> Dynamics<'_, G> {
     #[must_use]
     pub fn inertial(&self, body: usize, a: Motion<G>) -> Force<G> {
         self.work.inertias[body].momentum_rate(a, self.work.twists[body])
+    }
+}
+
+impl<G: Space<S = f64>> Dynamics<'_, G> {
+    /// Potential energy of gravity, springs and end stops that give way, J.
+    #[must_use]
+    pub fn potential_energy(&mut self, modes: &[i32]) -> f64 {
+        let mut sum = self.gravity_energy() + self.field_energy(modes);
+        for spring in 0..self.mechanism.stretches.len() {
+            sum += self.spring_energy(spring);
+        }
+        for buffer in &self.mechanism.buffers {
+            sum += buffer.energy(self.work.readings[buffer.gauge].x).0;
+        }
+        sum
+    }
+
+    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫₀ˢ F ds for a law, at fixed time, to round-off.
+    #[must_use]
+    pub fn spring_energy(&mut self, spring: usize) -> f64 {
+        let m = self.mechanism;
+        let s = self.stretch(spring);
+        match m.efforts[m.spring_efforts[spring]].law {
+            EffortLaw::Linear { stiffness, preload, .. } => 0.5 * stiffness * s * s + preload * s,
+            EffortLaw::Law { .. } => self.over_stretch(spring, 0),
+            EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => 0.0,
+        }
+    }
+
+    /// Power that time puts in through a spring, W: its force works on what moves by time alone, and what it stores changes where its
+    /// law does, −τ ∂s/∂t + ∂U/∂t. After [`Dynamics::loads`].
+    #[must_use]
+    pub fn spring_power(&mut self, spring: usize) -> f64 {
+        let effort = self.mechanism.spring_efforts[spring];
+        let by_time = self.extent_by_time(self.mechanism.stretches[spring].of) - self.moving_rest(spring, 1);
+        let power = -(self.work.efforts[effort] * by_time);
+        match self.mechanism.efforts[effort].law {
+            EffortLaw::Law { timed: true, .. } => power + self.over_stretch(spring, 1),
+            _ => power,
+        }
+    }
+
+    /// A spring whose stored energy was not resolved, since its law changes at too many places.
+    #[must_use]
+    pub fn unresolved_spring(&self) -> Option<usize> {
+        self.work.unresolved_spring
+    }
+
+    /// ∫₀ˢ of the law of a spring (`output` 0: what it stores, J) or of its derivative by time with what its jumps add (1: W).
+    fn over_stretch(&mut self, spring: usize, output: usize) -> f64 {
+        let way = self.stretch(spring);
+        let Some(law) = self.mechanism.spring_laws.get(spring).and_then(Option::as_ref) else { return 0.0 };
+        self.fill(law);
+        let of = |leaf: Leaf| law.fills.iter().find(|(_, l)| *l == leaf).map(|(input, _)| *input);
+        let (stretch, time) = (of(Leaf::Stretch { spring, order: 0 }), of(Leaf::Time));
+        let mut outputs = [0.0; 2];
+        let w = &mut self.work;
+        let Some(over) = stretch else {
+            law.program.eval(&w.inputs, &[], &mut w.registers, &mut outputs);
+            return outputs[output] * way;
+        };
+        let (inputs, registers) = (w.inputs.as_mut_slice(), w.registers.as_mut_slice());
+        let jumping = time.filter(|_| output == 1).map(|time| [0, time]);
+        let mut integrand = Integrand { program: &law.program, inputs, registers, outputs: &mut outputs, over, output, jumping };
+        w.integral.to(way, &mut integrand).unwrap_or_else(|seen| {
+            w.unresolved_spring = Some(spring);
+            seen
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! The scratch of one evaluator, grouped by the stage that fills it. Sized once; no evaluation allocates.
 
 use super::patterns::{mass_pattern, row_pattern};
+use crate::expression::Integral;
 use crate::geometry::{Force, Inertia, Motion, Pose, Quaternion, Space};
 use crate::mechanism::{Measured, Mechanism, Reading, StagedProgram};
 use crate::scalar::Scalar;
@@ -87,10 +88,10 @@ pub struct Workspace<G: Space> {
     pub(super) line: Vec<G::S>,
     pub(super) inputs: Vec<G::S>,
     pub(super) registers: Vec<G::S>,
-    /// Inputs, registers and modes as plain numbers, where modes are set anew.
-    pub(super) values: Vec<f64>,
-    pub(super) numbers: Vec<f64>,
-    pub(super) saved: Vec<i32>,
+    /// Of the integrals over the laws of springs.
+    pub(super) integral: Integral,
+    /// A spring whose energy was not resolved.
+    pub(super) unresolved_spring: Option<usize>,
 }
 
 impl<G: Space> Workspace<G> {
@@ -109,8 +110,8 @@ impl<G: Space> Workspace<G> {
     fn with(mechanism: &Mechanism<G>, of_mass: &Sparsity) -> Self {
         let (bodies, nv, rows) = (mechanism.bodies.len(), mechanism.nv, mechanism.rows.len());
         let zeros = |n: usize| vec![G::S::constant(0.0); n];
-        let programs = mechanism.programs();
-        let most = |f: fn(&StagedProgram) -> usize| programs.iter().map(|p| f(p)).max().unwrap_or(0);
+        let laws = mechanism.spring_laws.iter().flatten();
+        let most = |f: fn(&StagedProgram) -> usize| mechanism.programs().into_iter().chain(laws.clone()).map(f).max().unwrap_or(0);
         let needs_quaternions = mechanism.gauges.iter().any(|g| matches!(g.measured, Measured::Quaternion { .. }));
         let turned = mechanism.nodes.iter().filter(|_| needs_quaternions).map(|node| {
             let after = node.after.map_or_else(Quaternion::identity, |pose| Quaternion::of_rotation::<G>(pose.r));
@@ -153,9 +154,8 @@ impl<G: Space> Workspace<G> {
             line: zeros(nv),
             inputs: zeros(most(|p| p.inputs)),
             registers: zeros(most(|p| p.program.registers())),
-            values: vec![0.0; mechanism.force_program.inputs],
-            numbers: vec![0.0; mechanism.force_program.program.registers()],
-            saved: mechanism.modes(),
+            integral: Integral::new(laws.clone().map(|law| &law.program), mechanism.force_program.inputs, mechanism.switches),
+            unresolved_spring: None,
         }
     }
 }

@@ -324,6 +324,18 @@ impl Program {
         }
     }
 
+    /// What the switch number `k` of [`Self::switches`] compares with constants: the difference of two operands, or the only one. Where its
+    /// mode ends that has a fixed value, whatever the other inputs.
+    #[must_use]
+    pub fn operand<S: Scalar>(&self, k: usize, inputs: &[S], modes: &[i32], registers: &mut [S]) -> S {
+        self.run(inputs, modes, registers);
+        let at = |i: u32| registers[i as usize];
+        match self.decisions[k].test {
+            Test::Compare(_, a, b) | Test::Order(a, b) => at(a) - at(b),
+            Test::Sign(a) | Test::Whole(a) | Test::Segment { x: a, .. } => at(a),
+        }
+    }
+
     /// Distances from the lower and the upper end of the present segment for switch number `k` of [`Self::switches`], if it is that of
     /// a table; smooth where the nearer of them, which [`Self::roots`] gives, has a kink.
     ///

@@ -131,6 +131,8 @@ pub struct Mechanism<G: Space> {
     pub time_program: StagedProgram,
     /// Forces of loads, springs with laws and motors.
     pub force_program: StagedProgram,
+    /// The law of each spring that has one by a program, alone: F, and ∂F/∂t where time is in it, by the stretch and time.
+    pub spring_laws: Vec<Option<StagedProgram>>,
     /// ż of the first-order states.
     pub state_program: StagedProgram,
     /// First-order states at the start.
@@ -332,8 +334,8 @@ impl<G: Space> Mechanism<G> {
         }
     }
 
-    /// The same mechanism on another scalar, for its equations alone: without names, what only drawings and outputs ask for, and how it
-    /// starts.
+    /// The same mechanism on another scalar, for its equations alone: without names, what only drawings, outputs and energies ask for, and
+    /// how it starts.
     #[must_use]
     pub fn lift<D: Scalar>(&self) -> Mechanism<G::Lift<D>> {
         let c = |x: G::S| D::constant(x.value());
@@ -389,6 +391,7 @@ impl<G: Space> Mechanism<G> {
             tables: Arc::clone(&self.tables),
             gravity: G::lift_vector::<D>(self.gravity),
             switches: self.switches,
+            spring_laws: Vec::new(),
             windings: self.windings,
         }
     }

@@ -10,7 +10,7 @@ use super::common::numbers::Sources;
 use super::common::observe::Observer;
 use super::common::recorder::{Recorded, Recorder};
 use super::common::watched::{Watched, in_variable, unresolved};
-use super::common::{indeterminate, scene, stops};
+use super::common::{energies, indeterminate, scene, stops};
 use super::full_turn::turns_fully;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -274,6 +274,7 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     Ok(Seen { resolved, extremes, rows, functionals, findings })
 }
 
+    findings.extend(motion.driven.dynamics.unresolved_spring().map(|spring| energies::unresolved(case.model, spring)));
 fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
     mechanism.drives.first().is_some_and(|d| d.turns)
 }

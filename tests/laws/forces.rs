@@ -48,15 +48,13 @@ fn gravity_and_springs_take_from_their_energies() {
         let potential = |s: &State| -> Vec<f64> {
             let mut d = Dynamics::new(m);
             s.evaluate(&mut d);
-            let mut modes = s.modes.clone();
             let mut all = vec![d.gravity_energy()];
-            all.extend((0..m.stretches.len()).map(|i| d.spring_energy(i, &mut modes)));
+            all.extend((0..m.stretches.len()).map(|i| d.spring_energy(i)));
             all
         };
         let mut d = Dynamics::new(m);
         s.evaluate(&mut d);
-        let mut modes = s.modes.clone();
-        let by_time: Vec<f64> = (0..m.stretches.len()).map(|i| d.spring_power(i, &mut modes)).collect();
+        let by_time: Vec<f64> = (0..m.stretches.len()).map(|i| d.spring_power(i)).collect();
         let w = &d.work;
         let mut power = vec![0.0];
         for b in 1..m.bodies.len() {

@@ -1,6 +1,6 @@
 //! Expressions as programs: which gauge or rate each input is, derivatives of functions and drivers, and the final assembly.
 
-use super::super::force::{Leaf, Output, StagedProgram};
+use super::super::force::{EffortLaw, Leaf, Output, StagedProgram};
 use super::super::gauge::Measured;
 use super::super::{Function, Mechanism};
 use super::builder::Builder;
@@ -58,6 +58,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 velocity_program: none(),
                 time_program: none(),
                 force_program: none(),
+                spring_laws: vec![],
                 state_program: none(),
                 state_starts: vec![],
                 tables: Arc::from([]),
@@ -96,6 +97,7 @@ impl<'m, G: Space> Builder<'m, G> {
     /// Programs and counts; the mechanism is complete.
     pub(super) fn finish(mut self) -> Result<Mechanism<G>, Vec<super::fault::BuildFault>> {
         let outputs = [&self.position, &self.velocity, &self.time, &self.force, &self.states].map(Clone::clone);
+        let laws: Vec<_> = self.mechanism.spring_efforts.iter().map(|e| self.alone(self.mechanism.efforts[*e].law)).collect();
         let mut programs = outputs.map(|of| self.program(of)).into_iter();
         if !self.faults.is_empty() {
             return Err(self.faults);
@@ -111,6 +113,7 @@ impl<'m, G: Space> Builder<'m, G> {
                 *slot = program;
             }
         }
+        self.mechanism.spring_laws = laws.into_iter().map(|law| law.map(|of| self.program(of))).collect();
         // the drift of a function reads the same input vector, extended by rates: sizes are known only now
         self.mechanism.tables = self.tables;
         self.mechanism.switches = self.pool.switches().len();
@@ -132,6 +135,13 @@ impl<'m, G: Space> Builder<'m, G> {
         }
         self.mechanism.group();
         Ok(self.mechanism)
+    }
+
+    /// The force of a spring, and its derivative by time, if a program gives it.
+    fn alone(&self, law: EffortLaw<G>) -> Option<Vec<Output>> {
+        let EffortLaw::Law { output, timed, .. } = law else { return None };
+        let outputs = [Some(output), timed.then_some(output + 2)];
+        Some(outputs.into_iter().flatten().map(|k| self.force[k].clone()).collect())
     }
 
     fn program(&mut self, outputs: Vec<Output>) -> StagedProgram {

@@ -6,6 +6,7 @@
 
 use crate::expression::{Dimension, Id, Node};
 use crate::model::{Functional, FunctionalKind, Model, Quantity, Study, coordinates_of};
+use crate::results::Finding;
 use std::collections::HashMap;
 
 /// How often energies and angles are factors.
@@ -63,5 +64,17 @@ fn of_quantity(model: &Model, study: &Study, quantity: Quantity) -> Degrees {
             }
         }
         _ => (0, 0),
+    }
+}
+
+/// That the energy of a spring was not resolved.
+pub(crate) fn unresolved(model: &Model, spring: usize) -> Finding {
+    let name = model.springs.get(spring).map_or("", |spring| spring.name.as_str());
+    Finding {
+        code: "unresolved".into(),
+        message: format!(
+            "the energy of the spring `{name}` is not resolved: between its rest and where it stands its law has more kinks and jumps than are followed (some thousand): energies and their balance may be wrong; give it a law with fewer of them, or a smooth one"
+        ),
+        path: format!("springs.{name}.force"),
     }
 }

@@ -2,7 +2,7 @@
 
 pub mod case;
 pub mod clock;
-mod energies;
+pub(crate) mod energies;
 pub(crate) mod functional;
 pub(crate) mod grain;
 pub(crate) mod indeterminate;

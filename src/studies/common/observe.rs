@@ -335,7 +335,7 @@ impl<G: Space<S = f64>> Source<G> {
                 _ => d.stretch_acceleration(spring, a),
             },
             Self::SpringForce(effort) => -w.efforts[effort],
-            Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
+            Self::SpringEnergy(spring) => d.spring_energy(spring),
             Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),
             Self::Stop { effort, row } => effort.map_or(0.0, |effort| w.efforts[effort]) + row.map_or(0.0, |row| r.rests[row]),
             Self::Effort(effort) => {

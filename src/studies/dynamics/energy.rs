@@ -71,7 +71,7 @@ where
     let kinetic = d.kinetic_energy();
     let mut modes = node.state.modes.clone();
     modes.truncate(d.mechanism.switches + d.mechanism.windings);
-    [kinetic, kinetic + d.potential_energy(&mut modes)]
+    [kinetic, kinetic + d.potential_energy(&modes)]
 }
 
 impl Balance {

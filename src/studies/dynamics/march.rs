@@ -21,6 +21,7 @@ use crate::kinematics::undefined::in_state;
 use crate::model::{Model, Study};
 use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::studies::common::case::Case;
+use crate::studies::common::energies;
 use crate::studies::common::stops::shared_by_contacts;
 use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
 
@@ -242,6 +243,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
         if let Some((root, t)) = run.unresolved() {
             self.findings.push(explain::unresolved(self.model, chart.mechanical(), root, t));
         }
+        let spring = chart.mechanical().dynamics.unresolved_spring();
+        self.findings.extend(spring.map(|spring| energies::unresolved(self.model, spring)));
         state.copy_from(&node.state);
         Ok(ended)
     }
