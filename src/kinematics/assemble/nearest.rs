@@ -4,16 +4,18 @@
 //! Whole turns do not count: a pose does not know of them.
 //!
 //! The least squares are found by Gauss-Newton steps within the motions that the rows leave, with Levenberg's damping where a step
-//! does not help; after each step the rows are closed again.
+//! does not help; after each step the rows are closed again. A closing keeps to one assembly, so that others are looked for from the
+//! mirrored position and from places around the drawn one.
 
 use super::close::{CONVERGED, Held, System, Target};
 use super::metric::norm;
 use super::rotation;
 use super::rotation::spin;
+use super::shake::Shake;
 use crate::geometry::Space;
-use crate::mechanism::{Asked, Measured, Step};
+use crate::mechanism::{Asked, Measured, RowOwner, Step};
 use crate::numerics::least_squares::{Rows, Within};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// What a position is to be near to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,16 @@ enum Near {
 
 /// Most steps of one search.
 const STEPS: usize = 200;
+
+/// Distance from the drawn pose, rad and sizes, from which on other assemblies are looked for.
+const FAR: f64 = 0.1;
+
+/// Part by which another assembly must be nearer to count.
+const NEARER: f64 = 1e-3;
+
+/// Places from which other assemblies are looked for, and the coordinates up to which they are.
+const LOOKS: u32 = 16;
+const MOST: usize = 300;
 
 impl<G: Space<S = f64>> System<'_, G> {
     /// Moves a closed position on its branch as near to the guesses as can be, and among such positions to the drawn pose.
@@ -36,6 +48,61 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         self.approach(q, Near::Drawn);
         self.held = Held::Exact;
+    }
+
+    /// Looks for an assembly that misses the guesses as little as the settled position `q`, and is nearer to the drawn pose; `from` is where
+    /// the search began, `targets` what is asked for. Where each loop has a guess, it has been chosen.
+    pub(super) fn look_nearer(&mut self, from: &[f64], targets: &[Target], q: &mut Vec<f64>) {
+        let m = self.dynamics.mechanism;
+        if m.nv > MOST || self.guessed() >= self.closings() {
+            return;
+        }
+        let settled = std::mem::replace(&mut self.targets, targets.to_vec());
+        let missed = self.miss(q);
+        let mut best = (norm(&self.off(q, Near::Drawn).0), q.clone(), settled, self.modes.clone());
+        let mut shake = Shake(5);
+        for look in 0..LOOKS {
+            if best.0 < FAR {
+                break;
+            }
+            let mut trial = if look == 0 { self.mirrored(q) } else { from.to_vec() };
+            if look > 0 {
+                let way = self.shaken(&mut shake, PI);
+                m.retract(&mut trial, &way);
+            }
+            self.held = Held::Exact;
+            self.targets.copy_from_slice(targets);
+            if !(self.close(&mut trial) && self.faces()) {
+                continue;
+            }
+            self.settle(&mut trial);
+            let settled = std::mem::replace(&mut self.targets, targets.to_vec());
+            let distance = norm(&self.off(&trial, Near::Drawn).0);
+            if self.miss(&trial) <= missed + CONVERGED && distance < (1.0 - NEARER) * best.0 {
+                best = (distance, trial, settled, self.modes.clone());
+            }
+        }
+        (*q, self.targets, self.modes) = (best.1, best.2, best.3);
+        self.evaluate(q);
+    }
+
+    /// Loops and couplings, of which each may have several assemblies.
+    fn closings(&self) -> usize {
+        let m = self.dynamics.mechanism;
+        let couplings = m.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
+        m.joints.iter().filter(|joint| joint.tree.is_none()).count() + couplings.count()
+    }
+
+    /// A position with its axes on the other side of how they are drawn.
+    fn mirrored(&self, q: &[f64]) -> Vec<f64> {
+        let mut mirrored = q.to_vec();
+        for step in &self.dynamics.mechanism.steps {
+            match *step {
+                Step::Axis { q: k, .. } => mirrored[k] = -mirrored[k],
+                Step::Ball { q: k, .. } => mirrored[k + 1..k + 4].iter_mut().for_each(|x| *x = -*x),
+            }
+        }
+        mirrored
     }
 
     /// Moves a closed position as near to all asked values as can be where none of them is held.

@@ -9,7 +9,7 @@ use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, RowKind, RowOwner, Step};
 use crate::numerics::least_squares::{Rows, step};
 use nalgebra::Matrix3;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Part by which another closing must come nearer to the guesses to count.
 const NEARER: f64 = 1e-3;
@@ -19,6 +19,12 @@ const FAR: f64 = 0.1;
 
 /// Places around the guesses from which other branches are looked for.
 const LOOKS: u32 = 8;
+
+/// Places near the guesses, and in mechanisms of up to so many coordinates everywhere, from which a position is looked for where none is
+/// found at once.
+const NEAR: u32 = 8;
+const EVERYWHERE: u32 = 24;
+const MOST: usize = 300;
 
 /// Coordinates and modes of the start.
 ///
@@ -37,18 +43,19 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
     // a guess in a singular position (a straight linkage) has no direction to go: look around it
     let mut shake = Shake(1);
     let mut open = (system.gap(&q), q.clone());
-    for attempt in 0..8 {
+    for attempt in 1..=if mechanism.nv > MOST { NEAR } else { NEAR + EVERYWHERE } {
         if closed && system.faces() {
             break;
         }
         let mut trial = guessed.clone();
-        mechanism.retract(&mut trial, &system.shaken(&mut shake, 0.05 * f64::from(attempt + 1)));
+        let size = if attempt <= NEAR { 0.05 * f64::from(attempt) } else { PI * f64::from(attempt - NEAR) / f64::from(EVERYWHERE) };
+        mechanism.retract(&mut trial, &system.shaken(&mut shake, size));
         closed = system.close(&mut trial);
         if closed {
             q = trial;
         } else {
             let gap = system.gap(&trial);
-            if gap < open.0 {
+            if gap < (1.0 - NEARER) * open.0 {
                 open = (gap, trial);
             }
         }
@@ -74,6 +81,7 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
     system.look_around(&guessed, &mut q);
     let targets = system.targets.clone();
     system.settle(&mut q);
+    system.look_nearer(&guessed, &targets, &mut q);
     system.unturn(&guessed, &targets, &mut q);
     system.sharpen(&mut q);
     snap(mechanism, &mut q);
@@ -219,8 +227,13 @@ impl<G: Space<S = f64>> System<'_, G> {
 
     /// Whether a position is guessed.
     pub(super) fn guesses(&self) -> bool {
+        self.guessed() > 0
+    }
+
+    /// How many positions are guessed.
+    pub(super) fn guessed(&self) -> usize {
         let of_position = |asked| matches!(asked, Asked::Gauge { order: 0, .. } | Asked::Orientation(_));
-        self.dynamics.mechanism.starts.iter().any(|s| s.guess && of_position(s.asked))
+        self.dynamics.mechanism.starts.iter().filter(|s| s.guess && of_position(s.asked)).count()
     }
 
     /// How far a position is from all asked values.
