@@ -55,7 +55,18 @@ fn a_motion_ends_on_the_near_side_of_a_jump() {
 
 #[test]
 fn a_coupling_that_jumps_is_no_dead_point() {
-    for (law, jump) in [("if(t < 0.5 s, 0 m, 0.3 m)", "0.3"), ("if(A.position < 0.5 m, 0 m, -0.2 m)", "0.2")] {
+    let laws = [
+        ("if(t < 0.5 s, 0 m, 0.3 m)", "0.3"),
+        ("if(A.position < 0.5 m, 0 m, -0.2 m)", "0.2"),
+        // so low that a step of the path leaps over it
+        ("if(t < 0.5 s, 0 m, 3 mm)", "by -0.003 (SI)"),
+        ("if(A.position < 0.5 m, 0 m, -3 mm)", "by 0.003 (SI)"),
+        ("if(A.position >= 0.5 m and A.position < 0.500001 m, 1 um, 0 m)", "by -1e-6 (SI)"),
+        ("1 m*floor(A.position/0.5 m)/100", "by -0.01 (SI)"),
+        ("0.02*(mod(A.position, 0.5 m) - A.position)", "by 0.01 (SI)"),
+        ("0.5 um*(1 + sign(A.position - 0.5 m))", "by -1e-6 (SI)"),
+    ];
+    for (law, jump) in laws {
         let text = format!(
             "grashof: 1
 name: two slides
@@ -67,15 +78,18 @@ drivers: {{ d: {{ joint: A, speed: 1 m/s }} }}
 couplings: {{ c: {{ zero: \"B.position - 2*A.position - {law}\" }} }}
 studies:
   k: {{ kinematics: {{ over: 1 s, samples: 2 }}, columns: [time, A.position, B.position], scalars: {{ most: max(B.position) }} }}
+  i: {{ inverse: {{ over: 1 s, samples: 2 }}, columns: [time, A.position, B.position], scalars: {{ most: max(B.position) }} }}
 "
         );
-        let outcome = study(&text, "k").unwrap();
-        let stopped = outcome.stopped.as_deref().unwrap_or_default();
-        assert!(stopped.contains("what the coupling `c` holds jumps") && stopped.contains(jump), "{law}: {stopped}");
-        let rows: Vec<f64> = outcome.rows.iter().flat_map(<[f64]>::to_vec).collect();
-        close(law, &rows, &[0.0, 0.0, 0.0, 0.5, 0.5, 1.0], 1e-12);
-        close(law, &outcome.scalars, &[1.0], 1e-12);
-        assert!(outcome.findings.iter().all(|f| f.code != "dead-point"), "{law}: {:?}", outcome.findings);
+        for name in ["k", "i"] {
+            let outcome = study(&text, name).unwrap();
+            let stopped = outcome.stopped.as_deref().unwrap_or_default();
+            assert!(stopped.contains("what the coupling `c` holds jumps") && stopped.contains(jump), "{law}: {stopped}");
+            let rows: Vec<f64> = outcome.rows.iter().flat_map(<[f64]>::to_vec).collect();
+            close(law, &rows, &[0.0, 0.0, 0.0, 0.5, 0.5, 1.0], 1e-12);
+            close(law, &outcome.scalars, &[1.0], 1e-12);
+            assert!(outcome.findings.iter().all(|f| f.code != "dead-point"), "{law}: {:?}", outcome.findings);
+        }
     }
 }
 

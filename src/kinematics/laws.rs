@@ -42,7 +42,9 @@ impl Jump {
             );
         }
         let off = six_digits(self.sides[1] - self.sides[0]);
-        format!("what the {name} holds jumps at {at}, by {off} (SI): what is coupled has to get from one place to the other")
+        format!(
+            "what the {name} holds jumps at {at}, by {off} (SI): what is coupled has to get from one place to the other; lead it up a short flank (a table with two points beside each other)"
+        )
     }
 }
 
@@ -90,6 +92,22 @@ fn coupling<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], la
         let jumps = (after[row] - before[row]).abs() > 1e3 * steady + MET / unit[row];
         jumps.then(|| Jump { name: m.name_of_row(row), sides: [before[row], after[row]], driver: false })
     })
+}
+
+/// The coupling that jumps where a driven motion goes over from `modes` to `far` ones at the position evaluated last, if one does.
+pub(crate) fn across<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &[i32], far: &[i32]) -> Option<Jump> {
+    let m = driven.dynamics.mechanism;
+    let q = driven.q.clone();
+    let mut beyond = modes.to_vec();
+    beyond[..far.len()].copy_from_slice(far);
+    let [after, before] = [&beyond[..], modes].map(|modes| {
+        driven.dynamics.position(&q, modes);
+        driven.dynamics.work.phi.clone()
+    });
+    let unit = driven.row_unit();
+    let couplings = (0..m.rows.len()).filter(|&row| matches!(m.rows[row].kind, RowKind::Function(_)));
+    let jumps = |row: &usize| (after[*row] - before[*row]).abs() * unit[*row] > MET;
+    couplings.into_iter().find(jumps).map(|row| Jump { name: m.name_of_row(row), sides: [before[row], after[row]], driver: false })
 }
 
 /// The first jump of a law between times that ascend (s), and a time just before it: laws jump where their modes change.

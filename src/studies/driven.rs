@@ -262,7 +262,10 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     variable: Variable<'a>,
 ) -> Result<Seen<'a>, Lost> {
     motion.take_floors(case, &watched.ids);
-    let resolved = motion.resolve()?;
+    let mut resolved = motion.resolve()?;
+    if motion.end_before_leaps()? {
+        resolved = motion.resolve()?;
+    }
     motion.all_defined(&resolved)?;
     let (breaks, clock, ends) = (motion.breaks.clone(), motion.clock, motion.ends);
     let extremes = extrema(motion, resolved.samples(), &breaks);

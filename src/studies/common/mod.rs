@@ -6,6 +6,7 @@ pub(crate) mod energies;
 pub(crate) mod functional;
 pub(crate) mod grain;
 pub(crate) mod indeterminate;
+mod leaps;
 pub mod motion;
 pub mod named;
 pub(crate) mod numbers;

@@ -156,7 +156,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
     }
 
     /// Places the mechanism at progress `s` with the modes of a piece, or with modes from the state itself; whether rates are open.
-    fn reach(&mut self, s: f64, piece: Option<usize>) -> Result<bool, Lost> {
+    pub(super) fn reach(&mut self, s: f64, piece: Option<usize>) -> Result<bool, Lost> {
         let mut lost = Lost { at: self.clock.value(s), gap: None };
         let t = self.time(s);
         let m = self.driven.dynamics.mechanism;
