@@ -6,6 +6,7 @@ mod closed_forms;
 mod clutches;
 mod equivalence;
 mod jumps;
+mod one_sided;
 mod sharing;
 mod sticking;
 mod stops;

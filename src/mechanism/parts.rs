@@ -202,6 +202,11 @@ impl<G: Space> Mechanism<G> {
         self.rows.push(Row { kind, owner, label: String::new(), offset: G::S::constant(at), anchored: false, angular });
     }
 
+    /// One-way clutches, in file order.
+    pub fn one_way(&self) -> impl Iterator<Item = &Contact> {
+        self.contacts.iter().filter(|contact| contact.is_one_way())
+    }
+
     /// Sets the senses in which contacts slide, and the switches that follow them: 0 where one of several sticks.
     pub fn slide(&self, senses: &[i32], modes: &mut [i32]) {
         for (contact, sense) in self.contacts.iter().zip(senses) {
@@ -386,12 +391,12 @@ impl<G: Space> Mechanism<G> {
             velocity_program: self.velocity_program.clone(),
             time_program: self.time_program.clone(),
             force_program: self.force_program.clone(),
+            spring_laws: Vec::new(),
             state_program: self.state_program.clone(),
             state_starts: self.state_starts.clone(),
             tables: Arc::clone(&self.tables),
             gravity: G::lift_vector::<D>(self.gravity),
             switches: self.switches,
-            spring_laws: Vec::new(),
             windings: self.windings,
         }
     }

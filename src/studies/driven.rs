@@ -163,8 +163,8 @@ fn observe<G: Space<S = f64>>(
     let seen = loop {
         match see(&mut motion, case, &watched, range.samples, variable) {
             Ok(seen) => {
-                let gaps = &seen.extremes[watched.ids.len()..];
-                let Some(found) = stops::barrier(case, variable, &mut motion, &seen.resolved, gaps, start.size)? else { break seen };
+                let margins = &seen.extremes[watched.ids.len()..];
+                let Some(found) = stops::barrier(case, variable, &mut motion, &seen.resolved, margins, start.size)? else { break seen };
                 if found.at > 0.0 {
                     undefined = None;
                 }
@@ -274,10 +274,10 @@ pub(crate) fn see<'a, G: Space<S = f64>>(
     let mut findings = unresolved(case.model, case.study, watched, &resolved, &motion.lost_switches, variable, clock);
     let mut all = Functionals { clock, ends, curve: motion, resolved: &resolved, extremes: &extremes, breaks: &breaks };
     let functionals = all.all(case, &watched.functionals, &mut findings)?;
+    findings.extend(motion.driven.dynamics.unresolved_spring().map(|spring| energies::unresolved(case.model, spring)));
     Ok(Seen { resolved, extremes, rows, functionals, findings })
 }
 
-    findings.extend(motion.driven.dynamics.unresolved_spring().map(|spring| energies::unresolved(case.model, spring)));
 fn drives_angle<G: Space>(mechanism: &Mechanism<G>) -> bool {
     mechanism.drives.first().is_some_and(|d| d.turns)
 }

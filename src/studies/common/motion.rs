@@ -393,7 +393,7 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         }
     }
 
-    /// Columns of the state evaluated last, at progress `s`, then the gaps of rigid stops.
+    /// Columns of the state evaluated last, at progress `s`, then the gaps of rigid stops and the rates of one-way clutches.
     ///
     /// # Errors
     /// A law or an expression that has no value by its own fault; then no column has one.
@@ -401,8 +401,12 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         let (columns, gaps) = out.split_at_mut(self.columns);
         self.observer.columns(&self.modes, columns);
         let d = &self.driven.dynamics;
+        let (gaps, rates) = gaps.split_at_mut(d.mechanism.stops.len());
         for (gap, stop) in gaps.iter_mut().zip(&d.mechanism.stops) {
             *gap = stop.gap(d.work.readings[stop.gauge].x);
+        }
+        for (rate, clutch) in rates.iter_mut().zip(d.mechanism.one_way()) {
+            *rate = d.extent_rate(clutch.along);
         }
         let law = self.driven.dynamics.undefined(&self.modes).map(Gap::Law);
         let Some(gap) = law.or_else(|| self.observer.undefined(&self.modes, columns)) else { return Ok(()) };
@@ -438,7 +442,8 @@ impl<G: Space<S = f64>> Curve for Motion<'_, G> {
     type Error = Lost;
 
     fn columns(&self) -> usize {
-        self.columns + self.driven.dynamics.mechanism.stops.len()
+        let m = self.driven.dynamics.mechanism;
+        self.columns + m.stops.len() + m.one_way().count()
     }
 
     fn floor(&self, column: usize) -> f64 {

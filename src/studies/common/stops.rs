@@ -125,6 +125,44 @@ pub(crate) fn shared_by_contacts<G: Space<S = f64>>(mechanism: &Mechanism<G>, op
     contacts.map(finding).collect()
 }
 
+/// What a study of small deviations from a state [q, v] takes as free, though it may hold there: rigid stops that joints touch, and one-way
+/// clutches that do not run free.
+pub(crate) fn taken_as_free<G: Space<S = f64>>(
+    model: &Model,
+    mechanism: &Mechanism<G>,
+    [q, v]: [&[f64]; 2],
+    modes: &[i32],
+    size: f64,
+) -> Vec<Finding> {
+    if mechanism.stops.is_empty() && mechanism.one_way().next().is_none() {
+        return Vec::new();
+    }
+    let mut dynamics = crate::dynamics::Dynamics::without_mass(mechanism);
+    dynamics.time(0.0, modes);
+    dynamics.position(q, modes);
+    dynamics.velocity(v, modes);
+    let finding = |message: String, path: String| Finding { code: "taken-as-free".into(), message, path };
+    let touched = |stop: &&Stop| stop.event.is_none() && stop.gap(dynamics.work.readings[stop.gauge].x) <= PASSED * stop.size(size);
+    let stops = mechanism.stops.iter().filter(touched).map(|stop| {
+        let joint = &model.joints[stop.joint];
+        let message = format!(
+            "joint `{}` stands on its {}, which lets it move one way only: it is taken as free to move both ways; where the stop holds it, drive the joint at rest in a variant",
+            joint.name,
+            stop.word()
+        );
+        finding(message, format!("{}.limits", joint.place))
+    });
+    let closed = |contact: &&Contact| dynamics.extent_rate(contact.along) <= PASSED * contact.unit(size);
+    let clutches = mechanism.one_way().filter(closed).map(|contact| {
+        let message = format!(
+            "{} lets its parts turn one way only: it is taken as open; where it holds them, couple the joints by `gear` in a variant",
+            contact.name
+        );
+        finding(message, contact.place.clone())
+    });
+    stops.chain(clutches).collect()
+}
+
 /// What a driven motion cannot pass.
 pub(crate) struct Barrier {
     /// The last place before it, in progress.
@@ -133,9 +171,10 @@ pub(crate) struct Barrier {
     pub(crate) message: String,
 }
 
-/// Where a driven motion first meets a rigid stop or, where forces are asked for, jams by friction, on its way from the start.
+/// Where a driven motion first meets a rigid stop, turns against a one-way clutch or, where forces are asked for, jams by friction, on its
+/// way from the start.
 ///
-/// `gaps` are the extremes of the gaps of the stops over the motion.
+/// `margins` are the extremes of the gaps of the stops and of the rates of one-way clutches over the motion.
 ///
 /// # Errors
 /// If that is at the start, so that there is no motion.
@@ -144,7 +183,7 @@ pub(crate) fn barrier<G: Space<S = f64>>(
     variable: Variable<'_>,
     motion: &mut Motion<'_, G>,
     resolved: &Resolved,
-    gaps: &[Option<Extremes>],
+    margins: &[Option<Extremes>],
     size: f64,
 ) -> Result<Option<Barrier>, Failure> {
     let mechanism = motion.driven.dynamics.mechanism;
@@ -156,10 +195,12 @@ pub(crate) fn barrier<G: Space<S = f64>>(
             first = Some((Barrier { at, message }, help));
         }
     };
+    let (gaps, rates) = margins.split_at(mechanism.stops.len());
+    let first_margin = motion.columns() - margins.len();
     for (k, (stop, gap)) in mechanism.stops.iter().zip(gaps).enumerate() {
         let passed = |gap: f64| gap < -PASSED * stop.size(size);
         let Some(least) = gap.map(|e| e.min).filter(|least| stop.event.is_none() && passed(least.value)) else { continue };
-        let column = known.column(motion.columns() - mechanism.stops.len() + k);
+        let column = known.column(first_margin + k);
         let beyond = column.iter().zip(known.places).filter(|(gap, _)| passed(**gap)).map(|(_, s)| *s).chain([least.at]);
         let Some([before, behind]) = nearest(beyond, known.places) else { continue };
         // what only touches before it passes has no gap to close
@@ -173,6 +214,18 @@ pub(crate) fn barrier<G: Space<S = f64>>(
             told_coordinate(stop.at, stop.angular)
         );
         offer(at, message, "drive it less far, or give the stop a `stiffness`");
+    }
+    let speed = motion.path.nodes.iter().map(|node| motion.driven.measure(&node.v)).fold(0.0, f64::max);
+    for (k, (clutch, rate)) in mechanism.one_way().zip(rates).enumerate() {
+        let back = |rate: f64| rate < -PASSED * clutch.unit(size) * speed;
+        let Some(least) = rate.map(|e| e.min).filter(|least| back(least.value)) else { continue };
+        let column = known.column(first_margin + gaps.len() + k);
+        let turned = column.iter().zip(known.places).filter(|(rate, _)| back(**rate)).map(|(_, s)| *s).chain([least.at]);
+        let Some([before, behind]) = nearest(turned, known.places) else { continue };
+        let at = last(before, behind, |s| rate_at(motion, s, clutch) >= 0.0);
+        let message =
+            format!("at {} the drivers turn back against {}, which locks there", variable.at(motion.clock.value(at)), clutch.name);
+        offer(at, message, "drive one of its sides alone, or take the clutch away in a variant");
     }
     if matches!(case.study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty() {
         // where a joint changes its side it presses by nothing, on either
@@ -220,6 +273,13 @@ fn gap_at<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64, stop: &Stop) ->
     let piece = motion.piece_at(s);
     let reached = motion.solve(s, Some(piece));
     reached.map_or(f64::NAN, |()| stop.gap(motion.driven.dynamics.work.readings[stop.gauge].x))
+}
+
+/// How fast a one-way clutch runs free; not a number where that is not known.
+fn rate_at<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64, clutch: &Contact) -> f64 {
+    let piece = motion.piece_at(s);
+    let reached = motion.solve(s, Some(piece));
+    reached.map_or(f64::NAN, |()| motion.driven.dynamics.extent_rate(clutch.along))
 }
 
 fn jams<G: Space<S = f64>>(motion: &mut Motion<'_, G>, s: f64, piece: usize) -> bool {

@@ -28,6 +28,7 @@ use crate::numerics::eigenvalues::eigenvalues;
 use crate::numerics::slope::slope;
 use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::stops::taken_as_free;
 use nalgebra::{DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
 
@@ -58,6 +59,7 @@ where
         let modes = settled(&mechanism, [&start.q, &start.v, &z], &start.modes);
         Whole { q: start.q.clone(), v: start.v.clone(), z, modes }
     };
+    findings.extend(taken_as_free(model, &mechanism, [&at.q, &at.v], &at.modes, start.size));
     let ids: Vec<Id> = study.columns.iter().map(|c| c.value).collect();
     let scenes = scene::wanted(case, || pose(case, &mechanism, &at));
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };

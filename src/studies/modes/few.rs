@@ -17,6 +17,7 @@ use crate::model::{Eigensolver, Modes};
 use crate::results::Failure;
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium};
 use nalgebra::{DMatrix, DVector};
 
@@ -35,7 +36,8 @@ where
     let (mechanism, start) = assembled::<G>(model, parameters, Coordinates::Joint)?;
     let mechanism = Differentiable::new(mechanism);
     let rest = if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &start, stop)? } else { held_start(&mechanism, &start) };
-    let Still { q, z, modes, findings } = rest;
+    let Still { q, z, modes, mut findings } = rest;
+    findings.extend(taken_as_free(model, &mechanism, [&q, &vec![0.0; mechanism.nv]], &modes, start.size));
     let pose = Pose { q: &q, z: &z, modes: &modes };
     let held = Held::new(&mechanism, &mut Linearizer::new(&mechanism), pose, &start.metric, &preferred(&mechanism))
         .map_err(|_| not_finite(model, &mechanism, pose))?;

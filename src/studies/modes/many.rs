@@ -18,6 +18,7 @@ use crate::model::{Eigensolver, Model, Modes};
 use crate::results::Failure;
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium_of_many};
 use nalgebra::DVector;
 
@@ -56,7 +57,8 @@ where
     } else {
         held_start(&mechanism, &start)
     };
-    let Still { q, z, modes, findings } = rest;
+    let Still { q, z, modes, mut findings } = rest;
+    findings.extend(taken_as_free(model, &mechanism, [&q, &vec![0.0; mechanism.nv]], &modes, start.size));
     let pose = Pose { q: &q, z: &z, modes: &modes };
     let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| not_finite(model, &mechanism, pose))?;
     let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();

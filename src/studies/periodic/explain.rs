@@ -6,6 +6,7 @@ use super::settle::{Restless, Settled};
 use super::shooting::Lost;
 use super::timed::timed;
 use crate::geometry::Space;
+use crate::model::{ClutchLaw, Friction, Model};
 use crate::results::Failure;
 use crate::studies::dynamics::phases::Phases;
 
@@ -110,10 +111,13 @@ pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
                 "change a parameter a little, so that they are met one after the other, or smooth the switches"
             },
         ),
-        Rough::Rests => Failure::numerical(
-            "a joint rests on a rigid stop, or is held by friction, in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank",
-            "give the stop a `stiffness` instead of a `restitution`, the friction a `stick_speed`",
-        ),
+        Rough::Rests => {
+            let (held, help) = holding(&search.model);
+            let message = format!(
+                "a joint {held} in a part of the period, where the motion has fewer degrees of freedom than in the others: the map of a period has no derivative of full rank"
+            );
+            Failure::numerical(message, help)
+        }
         Rough::Singular(t) => Failure::Study {
             code: "singular-mass",
             message: format!(
@@ -123,6 +127,29 @@ pub(super) fn rough(search: &Search<'_>, why: Rough) -> Failure {
             help: "give every moving body a mass and an inertia".into(),
         },
     }
+}
+
+/// What may hold a joint for a part of a period, and what to put in its place.
+fn holding(model: &Model) -> (String, String) {
+    let one_way = model.clutches.iter().any(|clutch| clutch.law == ClutchLaw::OneWay);
+    let sticks = |friction: &Friction| friction.sticking.is_some();
+    let friction = model.joints.iter().any(|joint| joint.friction.as_ref().is_some_and(sticks))
+        || model.clutches.iter().any(|clutch| matches!(clutch.law, ClutchLaw::Friction { sticking: Some(_), .. }));
+    // events with a restitution are stops as well
+    let stops = model.joints.iter().any(|joint| joint.stops.is_some()) || !(friction || one_way);
+    let kinds = [
+        (stops, "rests on a rigid stop", "give the stop a `stiffness` instead of a `restitution`"),
+        (friction, "is held by friction", "give the friction a `stick_speed`"),
+        (
+            one_way,
+            "is held by a one-way clutch",
+            "put a damper in the place of the one-way clutch that is strong against its sense alone, as a load `torque: -d*min(0 rad/s, A.omega)`",
+        ),
+    ];
+    let words = |of: fn(&(bool, &'static str, &'static str)) -> &'static str, between: &str| {
+        kinds.iter().filter(|kind| kind.0).map(of).collect::<Vec<_>>().join(between)
+    };
+    (words(|kind| kind.1, ", or "), words(|kind| kind.2, "; "))
 }
 
 /// A search without success.

@@ -76,10 +76,16 @@ where
             searched = Ok((found, None));
         }
         match searched {
-            Ok((found, passed)) => match self.rest.beyond(self.case, &found.pose.position) {
-                Some(joint) => Err(self.names.beyond(&self.case.model.joints[joint].name, &self.case.study.place)),
-                None => Ok(Settled { begin, found, passed }),
-            },
+            Ok((found, passed)) => {
+                let (model, place) = (self.case.model, &self.case.study.place);
+                if let Some(joint) = self.rest.beyond(self.case, &found.pose.position) {
+                    return Err(self.names.beyond(&model.joints[joint].name, place));
+                }
+                if let Some(clutch) = self.rest.back(&begin.position, &found.pose.position) {
+                    return Err(self.names.locked(&self.rest.system.dynamics.mechanism.contacts[clutch].name, place));
+                }
+                Ok(Settled { begin, found, passed })
+            }
             Err(ended) => match *ended {
                 (_, Ended::Stopped) => Err(Failure::interrupted()),
                 (_, Ended::Lost(lost)) => Err(self.lost(lost, start)),

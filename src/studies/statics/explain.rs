@@ -111,6 +111,12 @@ impl Names {
         unsolved(message, place, "give `limits` a `stiffness` in the place of `restitution`; or hold the joint in a variant")
     }
 
+    /// The failure of a search that has turned against a one-way clutch.
+    pub(super) fn locked(&self, clutch: &str, place: &str) -> Failure {
+        let message = format!("the mechanism is held on its way by {clutch}, which `statics` does not know");
+        unsolved(message, place, "see with `dynamics` where it stays; or hold the joint, or take the clutch away, in a variant")
+    }
+
     /// Why the start cannot be evaluated.
     pub(super) fn lost(&self, lost: Lost, place: &str) -> Failure {
         let (message, help) = match lost {

@@ -4,6 +4,7 @@ use super::explain::place;
 use super::rest::{Position, Rest};
 use crate::geometry::Space;
 use crate::kinematics::coordinates::Coordinate;
+use crate::mechanism::Contact;
 use crate::model::FunctionalKind;
 use crate::numerics::extremum::{Extremes, Extremum};
 use crate::results::{Certificate, Failure, Finding, List, Rows, Scene};
@@ -29,7 +30,7 @@ pub(super) struct Report<'r, 'a, 'm, G: Space<S = f64>> {
     pub(super) rest: &'r mut Rest<'m, G>,
     /// The independent coordinates.
     pub(super) coordinates: Vec<Coordinate>,
-    /// Whether friction holds the mechanism.
+    /// Whether friction or a one-way clutch holds the mechanism.
     pub(super) by_friction: bool,
 }
 
@@ -57,7 +58,13 @@ where
         let mut findings: Vec<Finding> = Vec::new();
         for (i, told) in all.iter().enumerate() {
             let code = if i == 0 { "equilibrium" } else { "further-equilibrium" };
-            let place = place(case.model, &self.coordinates, &told.values) + if self.by_friction { ", held by friction" } else { "" };
+            let contacts = &self.rest.system.dynamics.mechanism.contacts;
+            let by = match self.by_friction {
+                true if contacts.iter().all(Contact::is_one_way) => ", held by a one-way clutch",
+                true => ", held by friction",
+                false => "",
+            };
+            let place = place(case.model, &self.coordinates, &told.values) + by;
             findings.push(Finding { code: code.into(), message: format!("{place}: {}", told.verdict), path: study.place.clone() });
         }
         findings.extend(further);

@@ -146,6 +146,20 @@ where
         })
     }
 
+    /// The one-way clutch against which the mechanism has moved from one position to another, by its place among the contacts.
+    pub(super) fn back(&mut self, from: &Position, to: &Position) -> Option<usize> {
+        let m = self.system.dynamics.mechanism;
+        if m.one_way().next().is_none() {
+            return None;
+        }
+        let [before, after] = [from, to].map(|position| {
+            self.show(position);
+            m.contacts.iter().map(|contact| self.system.dynamics.extent(contact.along)).collect::<Vec<_>>()
+        });
+        let back = |c: &usize| after[*c] < before[*c] - 1e-9 * m.contacts[*c].unit(self.size).max(before[*c].abs());
+        (0..m.contacts.len()).filter(|c| m.contacts[*c].is_one_way()).find(back)
+    }
+
     /// How far the quaternions of a pose are turned from those of another, as rotation vectors in the turned body (nv), rad;
     /// 0 for other velocities.
     pub(super) fn turned(&self, from: &Position, to: &Position) -> Vec<f64> {

@@ -327,6 +327,8 @@ where
                 let shared = shared(&block, &found).into_iter().map(|k| movable[k]).collect();
                 let spent = |i: usize| i32::from(forces[i] <= -caps[i]) - i32::from(forces[i] >= caps[i]);
                 let spent = (0..n).map(spent).collect();
+                // what a one-way clutch holds has no bound, so that it is not among these
+                let largest = forces.iter().fold(largest, |m, x| m.max(x.abs()));
                 return Some(Balanced { places, shared, spent, determined, rests: inertial <= STILL * largest });
             }
             last = now;
