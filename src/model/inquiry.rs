@@ -227,7 +227,9 @@ impl<'d, 's> Inquiry<'d, 's> {
 
     /// What is given from outside, but for sweeps.
     fn without_sweep<'o>(&'o self, set: &'o [(usize, Id)]) -> Outside<'o> {
-        Outside { caller: self.selection.caller, set, over: &[], samples: None, files: &self.document.data }
+        let Selection { variants, over, caller, .. } = self.selection;
+        let changes = !(set.is_empty() && variants.is_empty() && over.is_empty());
+        Outside { caller: *caller, set, over: &[], samples: None, changes, files: &self.document.data }
     }
 
     /// Scalars of a study, if it was decoded.

@@ -60,6 +60,12 @@ impl<'n> Decoder<'n> {
         self.checks.len()
     }
 
+    /// Makes checks from the `from`-th on those of the file's own values: none if these are changed, and none of the runs of a sweep.
+    pub(crate) fn check_at_own_values(&mut self, from: usize, changed: bool) {
+        self.checks.truncate(if changed { from } else { self.checks.len() });
+        self.checks[from..].iter_mut().for_each(|check| check.once = true);
+    }
+
     /// The checks of a study, which are forgotten.
     pub(crate) fn checks_from(&mut self, from: usize) -> Vec<Check<'n>> {
         self.checks.split_off(from)

@@ -25,6 +25,8 @@ pub(crate) struct Outside<'o> {
     pub(crate) over: &'o [(String, String)],
     /// How many points are drawn from their distributions.
     pub(crate) samples: Option<Samples>,
+    /// Whether it changes what the file computes, of which nothing is expected then.
+    pub(crate) changes: bool,
     /// Measured data of figures.
     pub(crate) files: &'o DataFiles,
 }

@@ -141,7 +141,9 @@ impl<'n> Decoder<'n> {
         let view = self.view(keys.view, &at);
         let forces = self.forces(keys.show, &at, &frame);
         let shown_at = self.shown_at(keys.at, &at, &mut frame);
+        let first_expected = self.checks_so_far();
         let expect = self.expectations(keys.expect, &at, &mut frame);
+        self.check_at_own_values(first_expected, outside.changes);
         let undefined = self.may_be_undefined(keys.undefined, &at, &mut frame, &columns, &plots);
         let before = self.faults.len();
         let values = self.evaluate(&all, &waiting);

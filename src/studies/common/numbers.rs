@@ -64,15 +64,20 @@ impl Sources<'_> {
                 Tolerance::Within(id) | Tolerance::Relative(id) => id,
             };
             let (x, causes) = self.evaluate(&[e.value, e.is, tolerance_id]);
-            for cause in causes.into_iter().flatten() {
+            if let Some(cause) = causes[0] {
                 missing(&e.text, &e.place, cause);
             }
+            let open = causes[1..].iter().flatten().next().map(|cause| self.case.model.why_undefined(*cause));
             let tolerance = match e.tolerance {
                 Tolerance::Within(_) => x[2],
                 Tolerance::Relative(_) => x[2] * x[1].abs(),
             };
             let met = (x[0] - x[1]).abs() <= tolerance;
-            let message = if met { String::new() } else { unmet(self.case.model, e, [x[0], x[1], tolerance]) };
+            let message = match open {
+                Some(why) => format!("what `{}` is expected to be is not defined: {why}", e.text),
+                None if met => String::new(),
+                None => unmet(self.case.model, e, [x[0], x[1], tolerance]),
+            };
             let (text, place) = (e.text.clone(), e.place.clone());
             expectations.push(Checked { text, found: x[0], wanted: x[1], tolerance, met, message, place });
         }
