@@ -45,9 +45,14 @@ pub(super) fn unreadable(file: &str, error: &std::io::Error, what: &str, missing
 /// A model file without faults, with the selection that `--set` and `--variant` make and what there is to say of it, which
 /// has been printed.
 pub(super) fn sound(model: &str, common: &Common) -> Option<(Document, Selection<'static>, Report)> {
+    sound_for(model, common, &[])
+}
+
+/// The same where studies are named: changes are for these alone, and may not suit others.
+pub(super) fn sound_for(model: &str, common: &Common, studies: &[String]) -> Option<(Document, Selection<'static>, Report)> {
     let document = document(model, common)?;
     let selection = selection(common, None)?;
-    let report = document.check_all(&selection);
+    let report = document.check_studies(&selection, if common.changes().is_some() { studies } else { &[] });
     print(&report, common);
     (!report.failed()).then_some((document, selection, report))
 }

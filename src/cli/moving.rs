@@ -82,7 +82,7 @@ impl Moving {
 /// Computes the motion of a study; what is wrong was reported.
 pub(super) fn moving(chosen: &Chosen, common: &Common) -> Result<Moving, u8> {
     watch_interrupts();
-    let (document, selection, told) = files::sound(&chosen.model, common).ok_or(code::INPUT)?;
+    let (document, selection, told) = files::sound_for(&chosen.model, common, chosen.study.as_slice()).ok_or(code::INPUT)?;
     files::print_notes(&document, common);
     let known = document.study_names();
     let name = named(chosen.study.as_deref(), &known).ok_or(code::INPUT)?;

@@ -84,7 +84,7 @@ pub(super) fn run(arguments: &Arguments, common: &Common) -> u8 {
 
 /// Runs the studies one after the other; for JSON, their reports or why there is none.
 fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) -> u8 {
-    let Some((document, _, told)) = files::sound(&arguments.model, common) else { return code::INPUT };
+    let Some((document, _, told)) = files::sound_for(&arguments.model, common, &arguments.study) else { return code::INPUT };
     files::print_notes(&document, common);
     let known = document.study_names();
     if known.is_empty() {

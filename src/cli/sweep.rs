@@ -85,7 +85,8 @@ pub(super) fn sweep(arguments: &Arguments, common: &Common) -> u8 {
 /// Computes a sweep, or a part of it, or gathers its parts.
 pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     watch_interrupts();
-    let Some((document, selection, told)) = files::sound(asked.model, common) else { return code::INPUT };
+    let named: Vec<String> = asked.study.map(str::to_owned).into_iter().collect();
+    let Some((document, selection, told)) = files::sound_for(asked.model, common, &named) else { return code::INPUT };
     files::print_notes(&document, common);
     let known = document.study_names();
     let (Some(study), Some(over)) = (chosen(asked.study, &known), over(asked.over)) else { return code::INPUT };

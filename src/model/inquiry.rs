@@ -135,8 +135,9 @@ impl<'d, 's> Inquiry<'d, 's> {
         names
     }
 
-    /// The studies in an order in which those that are taken from come first; `only`: that one and what it needs.
-    fn arrange(&mut self, only: Option<&str>) {
+    /// The studies in an order in which those that are taken from come first; `only`: those and what they need, or all if there
+    /// are none.
+    fn arrange(&mut self, only: &[&str]) {
         let all: Vec<(&'d str, Node<'d>)> = self.document.named("studies").into_iter().filter(|(_, node)| node.is_map()).collect();
         let index: HashMap<&str, usize> = all.iter().enumerate().map(|(i, (name, _))| (*name, i)).collect();
         let needs: Vec<Vec<usize>> = all
@@ -155,19 +156,13 @@ impl<'d, 's> Inquiry<'d, 's> {
                 self.faults.push(Fault::new("cycle", place, message, "studies that do not need themselves").at(Spot::Key));
             }
         }
-        let wanted: Vec<bool> = match only.and_then(|name| index.get(name)) {
-            None => vec![only.is_none(); all.len()],
-            Some(root) => {
-                let mut wanted = vec![false; all.len()];
-                let mut open = vec![*root];
-                while let Some(i) = open.pop() {
-                    if !std::mem::replace(&mut wanted[i], true) {
-                        open.extend(&needs[i]);
-                    }
-                }
-                wanted
+        let mut wanted = vec![only.is_empty(); all.len()];
+        let mut open: Vec<usize> = only.iter().filter_map(|name| index.get(name).copied()).collect();
+        while let Some(i) = open.pop() {
+            if !std::mem::replace(&mut wanted[i], true) {
+                open.extend(&needs[i]);
             }
-        };
+        }
         for i in order.into_iter().filter(|i| wanted[*i]) {
             let variants = self.variants(Some(all[i]));
             self.studies.push((all[i].0, all[i].1, variants));
@@ -200,10 +195,10 @@ impl<'d, 's> Inquiry<'d, 's> {
         (bases, base_of)
     }
 
-    /// Faults of meaning of the model as it stands and of every study.
-    pub(super) fn meaning(&mut self) -> Vec<Fault> {
+    /// Faults of meaning of the model as it stands and of every study, or of some.
+    pub(super) fn meaning(&mut self, only: &[String]) -> Vec<Fault> {
         let plain = self.variants(None);
-        self.arrange(None);
+        self.arrange(&only.iter().map(String::as_str).collect::<Vec<_>>());
         let (bases, base_of) = self.bases(vec![self.base(&plain)]);
         let mut faults = std::mem::take(&mut self.faults);
         let mut scalars: HashMap<&str, Scalars> = HashMap::new();
@@ -268,7 +263,7 @@ impl<'d, 's> Inquiry<'d, 's> {
     /// The model for one study, or for none.
     pub(super) fn model_for(&mut self, study: Option<&str>) -> Result<Model, Report> {
         match study {
-            Some(_) => self.arrange(study),
+            Some(study) => self.arrange(&[study]),
             None => {
                 let variants = self.variants(None);
                 self.studies.push(("", Node::Plain(&Value::Null), variants));

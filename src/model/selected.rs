@@ -30,9 +30,15 @@ impl Document {
     /// Each finding once.
     #[must_use]
     pub fn check_all(&self, selection: &Selection<'_>) -> Report {
+        self.check_studies(selection, &[])
+    }
+
+    /// As [`Self::check_all`], of some studies and what they take from others; without any, of all.
+    #[must_use]
+    pub fn check_studies(&self, selection: &Selection<'_>, studies: &[String]) -> Report {
         let mut inquiry = Inquiry::new(self, selection);
         let mut faults = inquiry.form();
-        let meaning = inquiry.meaning();
+        let meaning = inquiry.meaning(studies);
         // what follows from a fault of form is not said again; a misspelt key says nothing against its value
         let headless = faults.iter().any(|fault| fault.code == "unknown-key" && !fault.place.contains('.'));
         let form: HashSet<String> = faults.iter().filter(|fault| fault.code != "unknown-key").map(Fault::cause).collect();

@@ -51,6 +51,40 @@ fn expectations_are_those_of_the_file_s_own_values() {
     assert!(judged.contains("not 1 rad within 1e-3 rad") && !judged.contains("note:"), "{judged}");
 }
 
+/// Changes are for the studies that are asked for; others may not be able to take them.
+#[test]
+fn changes_are_judged_for_the_studies_that_are_named() {
+    let place = Place::new("named-studies");
+    let text = with("").replace("variants:\n", "variants:\n  bare: { drivers: { drive: null }, start: { O.omega: 1 rad/s } }\n");
+    assert!(text.contains("bare"), "{text}");
+    let free = "  free: { dynamics: { until: 0.1 s, every: 0.1 s }, columns: [phi3] }\n";
+    place.put("model.yaml", &format!("{text}{free}"));
+    place.run(&["run", "model.yaml", "--study", "free", "--variant", "bare", "--no-plots"]).ends(0);
+    // all studies are asked for, and some need the driver
+    assert!(place.run(&["run", "model.yaml", "--variant", "bare", "--no-plots"]).ends(2).stderr.contains("drive"));
+}
+
+/// A formula of what is expected that ends at other values keeps none of their results back.
+#[test]
+fn what_is_expected_needs_a_value_only_where_it_is_judged() {
+    let place = Place::new("expected-formula");
+    let lines = "    expect: { swing: { is: asin(l1/15 cm)/asin(1)*swing1, relative: 1 } }";
+    let text = with(lines).replace("parameters: {", "parameters: { swing1: 1 rad,");
+    place.put("model.yaml", &text);
+    let turn = ["run", "model.yaml", "--study", "turn", "--no-plots"];
+    place.run(&turn).ends(0);
+    let longer = ["--set", "l1=16 cm"];
+    place.run(&[&turn[..], &longer].concat()).ends(0);
+    let judged = place.run(&[&turn[..], &longer, &["--expect"]].concat()).ends(1).stderr;
+    assert!(judged.contains("what `swing` is expected to be is not defined") && judged.contains("asin"), "{judged}");
+    // in the file itself it is an error, and in a sweep of the file that of its run
+    place.put("model.yaml", &text.replace("asin(l1/15 cm)", "asin(l1/14 cm)"));
+    assert!(place.run(&turn).ends(2).stderr.contains("a finite number"));
+    place.put("model.yaml", &text.replace(lines, &format!("{lines}\n    sweep: {{ l1: [15 cm, 16 cm] }}")));
+    let swept = place.run(&turn).ends(1).stderr;
+    assert!(swept.contains("what `swing` is expected to be is not defined"), "{swept}");
+}
+
 #[test]
 fn what_was_expected_is_told_in_the_units_of_the_model() {
     let place = Place::new("expected-units");
