@@ -145,7 +145,11 @@ impl Parser<'_> {
         if self.token(1) != Token::Sign("(")
             && let Some(units) = meant(word)
         {
-            return error("a unit or an operator", format!("write `{text} {units}`"));
+            let power = match (self.token(1), self.token(2)) {
+                (Token::Sign("^"), Token::Number(power)) => format!("^{power}"),
+                _ => String::new(),
+            };
+            return error("a unit or an operator", format!("write `{text} {units}{power}`"));
         }
         let call = if self.token(1) == Token::Sign("(") { "(..)" } else { "" };
         let near = nearest_unit(word).filter(|_| call.is_empty());
@@ -267,7 +271,8 @@ pub(super) fn meant(word: &str) -> Option<String> {
     (1..letters.len()).rev().find_map(|i| {
         let (first, rest) = letters.split_at(i);
         let [one, other] = [first, rest].map(|word| unit(word).map(|(_, dimension)| dimension));
-        (matches!(first, "N" | "kN" | "MN" | "kg" | "W" | "V" | "A") && other.is_some() && one != other)
+        let grams = first == "g" && matches!(rest, "cm" | "mm");
+        (grams || matches!(first, "N" | "kN" | "MN" | "kg" | "W" | "V" | "A") && other.is_some() && one != other)
             .then(|| format!("{first} {rest}{power}"))
     })
 }
@@ -314,6 +319,9 @@ mod tests {
         for (text, help) in [
             ("4 Nm", "write `4 N m`"),
             ("4 Nms", "write `4 N ms`"),
+            ("0.015 kgm^2", "write `0.015 kg m^2`"),
+            ("0.015 kgm2", "write `0.015 kg m^2`"),
+            ("3 gcm^2", "write `3 g cm^2`"),
             ("2 KG", "write `2 kg`"),
             ("2 mm2", "write `2 mm^2`"),
             ("30 degrees", "write `30 deg`"),

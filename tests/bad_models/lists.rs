@@ -32,6 +32,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "two-drivers-of-one-freedom",
             "unknown-quantity",
             "unknown-column",
+            "expected-of-a-scalar",
             "unknown-parameter-in-sweep",
             "unknown-space",
             "unknown-variant-of-study",

@@ -116,7 +116,9 @@ impl<'n> Decoder<'n> {
             let Some((value, dimension)) = value else { continue };
             let want = Want::Of(dimension);
             let keys = ExpectKeys::of(inner);
+            let before = self.faults.len();
             let is = self.read_as(keys.is, &here, want);
+            self.blame_scalar(before, frame);
             let tolerance = if keys.within.given() {
                 self.size_as(keys.within.node, &here.key(keys.within), Want::Of(dimension), "the tolerance").map(Tolerance::Within)
             } else {
@@ -128,6 +130,18 @@ impl<'n> Decoder<'n> {
             }
         }
         all
+    }
+
+    /// Tells of unknown names among the latest faults, which are those of scalars, how scalars are compared.
+    fn blame_scalar(&mut self, from: usize, frame: &Frame<'n>) {
+        let scalars = || frame.scalars.iter().map(|(name, _)| name).chain(frame.results.iter().map(|(name, _)| name));
+        for fault in self.faults[from..].iter_mut().filter(|fault| fault.code == "unknown-name") {
+            if let Some(name) = scalars().find(|name| fault.message == format!("unknown name `{name}`")) {
+                fault.message = format!("`{name}` is a number of the study");
+                "a number of parameters".clone_into(&mut fault.expected);
+                fault.help = Some(format!("expect of a difference that it is 0, as `x - {name}: {{ is: 0, within: .. }}`"));
+            }
+        }
     }
 
     /// The value that a key of `expect` stands for.
