@@ -25,8 +25,8 @@ pub struct Reactions<G: Space> {
     pub drives: Vec<G::S>,
     /// Torque or force by which each contact is held where it sticks, on the second body; 0 while it slides.
     pub held: Vec<G::S>,
-    /// Torque or force on the second body of each row that holds a joint on a rigid stop (rows); 0 in the others.
-    pub rests: Vec<G::S>,
+    /// Torque or force of each row along its gauge or function, of a ratio along its second gauge (rows).
+    pub rows: Vec<G::S>,
     sums: Vec<Force<G>>,
     /// What belongs to each group, about its reference point.
     of_group: Vec<Force<G>>,
@@ -45,7 +45,7 @@ impl<G: Space> Dynamics<'_, G> {
             frame: Force::default(),
             drives: vec![G::S::default(); m.drives.len()],
             held: vec![G::S::default(); m.contacts.len()],
-            rests: vec![G::S::default(); m.rows.len()],
+            rows: vec![G::S::default(); m.rows.len()],
             sums: vec![Force::default(); m.bodies.len()],
             of_group: vec![Force::default(); m.groups.len()],
             along: vec![G::S::default(); m.gauges.len()],
@@ -152,9 +152,9 @@ impl<G: Space> Dynamics<'_, G> {
                     _ => {}
                 },
                 RowOwner::Contact(c) => out.held[c] = -l,
-                RowOwner::Stop(_) => out.rests[index] = -l,
-                RowOwner::Coupling => {}
+                RowOwner::Stop(_) | RowOwner::Coupling => {}
             }
+            out.rows[index] = -l;
         }
         for (effort, &size) in m.efforts.iter().zip(&w.efforts) {
             match effort.along {

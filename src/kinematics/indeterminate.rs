@@ -16,7 +16,7 @@ use super::assemble::{Assembled, ChangePoint};
 use super::freedom::rows;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, RowOwner};
 use grashof_solvers::kkt::Kkt;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 use grashof_solvers::{Block, Sparsity};
@@ -24,8 +24,13 @@ use grashof_solvers::{Block, Sparsity};
 /// Part of the largest change of a force, or of a moment by the size, below which a component stays what it is.
 const STAYS: f64 = 1e-4;
 
-/// For each joint: which components of its force, and of its moment about its place, are open.
-pub(crate) type Open = Vec<[[bool; 3]; 2]>;
+/// What redundant rows leave open.
+pub(crate) struct Open {
+    /// For each joint: which components of its force, and of its moment about its place.
+    pub(crate) joints: Vec<[[bool; 3]; 2]>,
+    /// Which couplings, in file order.
+    pub(crate) couplings: Vec<bool>,
+}
 
 /// The reactions that are open at a start; none if no rows are redundant.
 pub(crate) fn open_reactions<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assembled) -> Option<Open> {
@@ -55,9 +60,14 @@ pub(crate) fn open_reactions<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assemb
             [force, std::array::from_fn(|i| if axes.contains(&i) { G::spin_component(moment, i) / start.size } else { 0.0 })]
         })
         .collect();
-    let largest = changes.iter().flatten().flatten().fold(0.0, |m, x| f64::max(m, x.abs()));
+    let rows = m.rows.iter().zip(&reactions.rows).filter(|(row, _)| row.owner == RowOwner::Coupling);
+    let couplings: Vec<f64> = rows.map(|(row, effort)| if row.angular { effort / start.size } else { *effort }).collect();
+    let largest = changes.iter().flatten().flatten().chain(&couplings).fold(0.0, |m, x| f64::max(m, x.abs()));
     let moved = |x: f64| x.abs() > STAYS * largest;
-    Some(changes.into_iter().map(|change| change.map(|part| part.map(moved))).collect())
+    Some(Open {
+        joints: changes.into_iter().map(|change| change.map(|part| part.map(moved))).collect(),
+        couplings: couplings.into_iter().map(moved).collect(),
+    })
 }
 
 /// Multipliers (rows) that are in balance by themselves.

@@ -1,6 +1,6 @@
-//! Quantities of what acts on a mechanism: drivers, springs, motors, clutches.
+//! Quantities of what acts on a mechanism: drivers, couplings, springs, motors, clutches.
 
-use super::entities::SpringOn;
+use super::entities::{CouplingKind, SpringOn};
 use super::needs::Needs;
 use super::quantities::{Found, NameSpace, silent};
 use super::vocabulary::Quantity;
@@ -57,6 +57,25 @@ impl NameSpace<'_> {
             }
             _ if rest == effort => Ok(Found::Leaf(Quantity::ClutchEffort { clutch }, coordinate.effort())),
             _ => Err(self.wrong(name, rest, &["slip".to_owned(), effort.to_owned()])),
+        }
+    }
+
+    /// What a coupling exerts along its second coordinate or its expression, and what it carries over to the former.
+    pub(super) fn of_coupling(&mut self, pool: &mut Pool, coupling: usize, name: &str, rest: &str) -> Result<Found, Unknown> {
+        let (along, effort) = (self.model.couplings[coupling].along, self.model.couplings[coupling].effort_word());
+        let second = match self.model.couplings[coupling].kind {
+            CouplingKind::Gear { b, .. } => Some(b),
+            CouplingKind::Rack { slide, .. } => Some(slide),
+            CouplingKind::Zero(_) => None,
+        };
+        let quantity = Quantity::CouplingEffort { coupling };
+        match (rest, second) {
+            ("power", Some(joint)) => {
+                let (effort, rate) = (self.input(pool, quantity), self.input(pool, Quantity::Joint { joint, slot: 0, order: 1 }));
+                Ok(Found::Made(Symbol { id: pool.mul(effort, rate), dimension: Dimension::POWER }, Needs::of(quantity)))
+            }
+            _ if rest == effort => Ok(Found::Leaf(quantity, Dimension::ENERGY.div(along))),
+            _ => Err(self.wrong(name, rest, &[effort, "power"].map(str::to_owned)[..if second.is_some() { 2 } else { 1 }])),
         }
     }
 

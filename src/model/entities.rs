@@ -141,8 +141,18 @@ pub struct Coupling {
     pub name: String,
     /// The relation.
     pub kind: CouplingKind,
+    /// Dimension of the second coordinate, or of the expression.
+    pub along: Dimension,
     /// Where it stands.
     pub place: Place,
+}
+
+impl Coupling {
+    /// What its effort is called: `torque` or `force`.
+    #[must_use]
+    pub fn effort_word(&self) -> &'static str {
+        if self.along == Dimension::ANGLE { "torque" } else { "force" }
+    }
 }
 
 /// Kinds of couplings.

@@ -53,6 +53,7 @@ pub(crate) struct NameSpace<'a> {
 pub(crate) struct Renumbered {
     pub(crate) joints: Vec<Option<usize>>,
     pub(crate) drivers: Vec<Option<usize>>,
+    pub(crate) couplings: Vec<Option<usize>>,
     pub(crate) springs: Vec<Option<usize>>,
     pub(crate) motors: Vec<Option<usize>>,
     pub(crate) clutches: Vec<Option<usize>>,
@@ -167,6 +168,10 @@ impl<'a> NameSpace<'a> {
                 Some(driver) => self.of_driver(driver, head, rest),
                 None => Err(silent()),
             },
+            Entity::Coupling(coupling) => match self.renumbered.couplings.get(coupling).copied().flatten() {
+                Some(coupling) => self.of_coupling(pool, coupling, head, rest),
+                None => Err(silent()),
+            },
             Entity::Spring(spring) => match self.renumbered.springs.get(spring).copied().flatten() {
                 Some(spring) => self.of_spring(spring, head, rest),
                 None => Err(silent()),
@@ -190,7 +195,7 @@ impl<'a> NameSpace<'a> {
             )),
             _ => Err(unknown(
                 format!("`{path}`: `{head}` is {}", entity.what()),
-                "a quantity of a body, joint, driver, spring, motor or clutch",
+                "a quantity of a body, joint, coupling, driver, spring, motor or clutch",
                 (!rest.is_empty()).then(|| format!("{} has no quantities", entity.what())),
             )),
         }

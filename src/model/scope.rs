@@ -106,6 +106,7 @@ impl View<'_, '_, '_> {
         let (renumbered, head) = (&self.name_space.renumbered, path.split('.').next().unwrap_or(path));
         match self.name_space.names.get(head) {
             Some(Entity::Driver(i)) => *i >= renumbered.drivers.len(),
+            Some(Entity::Coupling(i)) => *i >= renumbered.couplings.len(),
             Some(Entity::Motor(i)) => *i >= renumbered.motors.len(),
             Some(Entity::Clutch(i)) => *i >= renumbered.clutches.len(),
             Some(Entity::Spring(i)) => *i >= renumbered.springs.len(),

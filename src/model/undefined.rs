@@ -73,6 +73,9 @@ impl Model {
             Quantity::Bristle { joint: k } => format!("{}.bristle", joint(k)),
             Quantity::DriverEffort { driver: k } => format!("{}.{}", driver(k), self.effort_word(k)),
             Quantity::DriverPower { driver: k } => format!("{}.power", driver(k)),
+            Quantity::CouplingEffort { coupling: k } => {
+                self.couplings.get(k).map_or_else(|| "?".into(), |c| format!("{}.{}", c.name, c.effort_word()))
+            }
             Quantity::Stretch { spring: k, order: 0 } => format!("{}.stretch", spring(k)),
             Quantity::Stretch { spring: k, .. } => format!("rate({}.stretch)", spring(k)),
             Quantity::SpringForce { spring: k } => format!("{}.force", spring(k)),

@@ -34,6 +34,8 @@ pub enum Quantity {
     DriverEffort { driver: usize },
     /// Power that a driver puts in, W.
     DriverPower { driver: usize },
+    /// Torque or force of a coupling, on the second body of its second joint or along its expression, N m or N.
+    CouplingEffort { coupling: usize },
     /// Stretch of a spring (`order` 0) or its rate (1) and second rate (2).
     Stretch { spring: usize, order: usize },
     /// Force of a spring, positive pulls together.
@@ -130,6 +132,7 @@ impl Quantity {
             | Self::Stop { .. }
             | Self::DriverEffort { .. }
             | Self::DriverPower { .. }
+            | Self::CouplingEffort { .. }
             | Self::Frame { .. }
             | Self::FrameMoment { .. } => Known::Acceleration,
             Self::Functional(_) | Self::Result(_) | Self::Work(_) | Self::Taken(_) => Known::Study,
@@ -148,6 +151,7 @@ impl Quantity {
                 | Self::Stop { .. }
                 | Self::DriverEffort { .. }
                 | Self::DriverPower { .. }
+                | Self::CouplingEffort { .. }
                 | Self::Frame { .. }
                 | Self::FrameMoment { .. }
         )

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::plots::{AXIS, COLUMN, DATA, RIGHT};
 use crate::expression::{Dimension, Id};
 use crate::model::data::DataFiles;
+use crate::model::entities::Coupling;
 use crate::model::fault::At;
 use crate::model::fields::{Keys, Shape, Size};
 use crate::model::figure::{Plot, Shown, ShownWhat};
@@ -149,6 +150,11 @@ impl<'n> Decoder<'n> {
                     self.name_space.renumbered.drivers.get(*i).copied().flatten().and_then(|i| self.name_space.model.drivers.get(i));
                 let angle = driver.and_then(|d| self.name_space.single(d.joint)).is_none_or(|c| c.angle);
                 with(&[if angle { "torque" } else { "force" }, "power"])
+            }
+            Some(Entity::Coupling(i)) if rest.is_empty() => {
+                let couplings = &self.name_space.model.couplings;
+                let coupling = self.name_space.renumbered.couplings.get(*i).copied().flatten().and_then(|i| couplings.get(i));
+                with(&[coupling.map_or("torque", Coupling::effort_word)])
             }
             entity => {
                 let body = match entity {

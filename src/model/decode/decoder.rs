@@ -122,10 +122,10 @@ impl<'n> Decoder<'n> {
         decoder.motors();
         decoder.springs_by_name();
         decoder.clutches_by_name();
+        decoder.couplings();
         decoder.states_by_name();
         decoder.measures();
         decoder.springs();
-        decoder.couplings();
         decoder.loads();
         decoder.clutches();
         decoder.start();

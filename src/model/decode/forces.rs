@@ -1,6 +1,7 @@
 //! Couplings, drivers, motors and loads.
 
 use super::decoder::Decoder;
+use super::values::Draft;
 use crate::expression::{Dimension, Id};
 use crate::model::coordinates::wanted_of;
 use crate::model::entities::{Coupling, CouplingKind, Driver, Law, Load, LoadOn, Motion, Motor};
@@ -11,7 +12,7 @@ use crate::model::merge::Node;
 use crate::model::names::Entity;
 use crate::model::place::PointRef;
 use crate::model::rules::Rule;
-use crate::model::scope::Allow;
+use crate::model::scope::{Allow, Local};
 use crate::model::suggest;
 use crate::model::suggest::clip;
 use crate::model::vocabulary::{Known, Quantity};
@@ -106,33 +107,48 @@ impl<'n> Decoder<'n> {
         fault.help = Some(format!("add `{key}:`"));
     }
 
+    /// Enters couplings, so that everything may name them; expressions that stay 0 are filled in with the measures ([`Self::zero`]).
     pub(super) fn couplings(&mut self) {
         let section = At::ROOT.key("couplings");
         for (name, node) in self.section("couplings") {
             let at = section.key(name);
-            if let Some(kind) = self.coupling(node, &at) {
+            let zero = CouplingKeys::of(node).zero.given();
+            let index = self.coupling(node, &at).map(|(kind, along)| {
                 let place = self.place(&at);
-                self.name_space.model.couplings.push(Coupling { name: name.to_owned(), kind, place });
-            }
+                self.name_space.model.couplings.push(Coupling { name: name.to_owned(), kind, along, place });
+                self.name_space.model.couplings.len() - 1
+            });
+            self.name_space.renumbered.couplings.push(index.filter(|_| !zero));
         }
     }
 
-    fn coupling(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<CouplingKind> {
+    /// Fills in the expression of the coupling number `file` in the file.
+    pub(super) fn zero(&mut self, file: usize, name: &str, draft: &Draft<'n>) {
+        let section = At::ROOT.key("couplings");
+        let coupling_at = section.key(name);
+        let at = coupling_at.key("zero");
+        let allow = Allow { what: "a coupling", ..Allow::POSITION };
+        let Some((lowered, reach)) = self.finish(draft, &at, allow, &mut Local::default()) else { return };
+        if reach.level < Known::Position {
+            self.fault(
+                "no-coordinate",
+                &at,
+                "an expression without a quantity of the mechanism",
+                "an expression of positions that stays 0",
+            );
+        }
+        let couplings = &mut self.name_space.model.couplings;
+        let Some(index) = couplings.iter().position(|coupling| coupling.name == name) else { return };
+        (couplings[index].kind, couplings[index].along) = (CouplingKind::Zero(lowered.id), lowered.dimension);
+        self.name_space.renumbered.couplings[file] = Some(index);
+    }
+
+    /// The kind of a coupling, and the dimension of its second coordinate or of its expression.
+    fn coupling(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<(CouplingKind, Dimension)> {
         let keys = CouplingKeys::of(node);
-        if let Some(zero) = keys.zero.node {
+        if keys.zero.given() {
             self.refuse_keys(at, &[keys.ratio, keys.radius], keys.zero);
-            let allow = Allow { what: "a coupling", ..Allow::POSITION };
-            let here = at.key(keys.zero);
-            let (id, reach) = self.value(Some(zero), &here, Want::Any, allow)?;
-            if reach.level < Known::Position {
-                self.fault(
-                    "no-coordinate",
-                    &here,
-                    "an expression without a quantity of the mechanism",
-                    "an expression of positions that stays 0",
-                );
-            }
-            return Some(CouplingKind::Zero(id));
+            return Some((CouplingKind::Zero(self.pool.constant(0.0)), Dimension::NONE));
         }
         let gear = keys.gear.given();
         let rope = keys.rope.given();
@@ -168,7 +184,9 @@ impl<'n> Decoder<'n> {
             self.fault("wrong-joint", &here, "the wrong kinds of joints", "first a joint that turns, then one that slides");
         }
         let value = value?;
-        Some(if gear { CouplingKind::Gear { a, b, ratio: value } } else { CouplingKind::Rack { pinion: a, slide: b, radius: value, rope } })
+        let kind =
+            if gear { CouplingKind::Gear { a, b, ratio: value } } else { CouplingKind::Rack { pinion: a, slide: b, radius: value, rope } };
+        Some((kind, of_b.dimension(0)))
     }
 
     pub(super) fn drivers(&mut self) {

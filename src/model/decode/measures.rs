@@ -1,4 +1,4 @@
-//! Measures, first-order states, and the stretches of springs that are expressions: they may name one another in any order.
+//! Measures, first-order states, stretches of springs and couplings that are expressions: they may name one another in any order.
 //!
 //! A state is a leaf: naming it needs nothing, so that its own rate may name it. `rate(..)` of a state is its rate
 //! expression, which must be known first. So that there is always an order, the rate of a state may not need the rate of
@@ -23,11 +23,13 @@ use serde_yaml::Value;
 /// The rate of a state may use what a load may.
 const RATE: Allow = Allow { what: "the rate of a state", ..Allow::LOAD };
 
-/// Entries that may need one another, in this order: measures, stretches of springs, rates of states.
+/// Entries that may need one another, in this order: measures, stretches of springs, couplings that stay 0, rates of states.
 struct Entries<'n> {
     measures: Vec<(&'n str, Node<'n>)>,
     /// Springs with a `stretch` that is an expression: index in the file, name, and where it stands.
     stretched: Vec<(usize, &'n str, Entry<'n>)>,
+    /// Couplings by an expression: index in the file, and name.
+    zeros: Vec<(usize, &'n str)>,
     states: Vec<(&'n str, Node<'n>)>,
     drafts: Vec<Draft<'n>>,
 }
@@ -35,6 +37,11 @@ struct Entries<'n> {
 impl<'n> Entries<'n> {
     /// Number of the rate of the first state.
     fn rates(&self) -> usize {
+        self.first_zero() + self.zeros.len()
+    }
+
+    /// Number of the first coupling.
+    fn first_zero(&self) -> usize {
         self.measures.len() + self.stretched.len()
     }
 
@@ -43,15 +50,18 @@ impl<'n> Entries<'n> {
         match entity {
             Entity::Measure(i) => Some(i),
             Entity::Spring(i) => self.stretched.iter().position(|(s, ..)| *s == i).map(|k| self.measures.len() + k),
+            Entity::Coupling(i) => self.zeros.iter().position(|(c, _)| *c == i).map(|k| self.first_zero() + k),
             _ => None,
         }
     }
 
     /// Name and section of an entry.
     fn name(&self, i: usize) -> (&'n str, &'static str) {
-        match (i.checked_sub(self.measures.len()), i.checked_sub(self.rates())) {
-            (_, Some(k)) => (self.states[k].0, "states"),
-            (Some(k), _) => (self.stretched[k].1, "springs"),
+        let behind = |first: usize| i.checked_sub(first);
+        match (behind(self.measures.len()), behind(self.first_zero()), behind(self.rates())) {
+            (.., Some(k)) => (self.states[k].0, "states"),
+            (_, Some(k), _) => (self.zeros[k].1, "couplings"),
+            (Some(k), ..) => (self.stretched[k].1, "springs"),
             _ => (self.measures[i].0, "measures"),
         }
     }
@@ -102,8 +112,11 @@ impl<'n> Decoder<'n> {
         for i in self.arranged(&entries) {
             if i < entries.measures.len() {
                 self.measure(&entries, i);
-            } else if i < entries.rates() {
+            } else if i < entries.first_zero() {
                 self.stretch(&entries, i);
+            } else if i < entries.rates() {
+                let (file, name) = entries.zeros[i - entries.first_zero()];
+                self.zero(file, name, &entries.drafts[i]);
             } else {
                 self.state_rate(&entries, i - entries.rates());
             }
@@ -119,7 +132,7 @@ impl<'n> Decoder<'n> {
 
     fn entries(&mut self) -> Entries<'n> {
         let (measures, states) = (self.section("measures"), self.section("states"));
-        let sections = ["measures", "springs", "states"].map(|key| At::ROOT.key(key));
+        let sections = ["measures", "springs", "states", "couplings"].map(|key| At::ROOT.key(key));
         let mut drafts: Vec<Draft<'n>> = measures.iter().map(|(name, node)| self.draft(Some(*node), &sections[0].key(*name))).collect();
         let mut stretched = Vec::new();
         for (i, (name, node)) in self.section("springs").into_iter().enumerate() {
@@ -129,11 +142,18 @@ impl<'n> Decoder<'n> {
                 stretched.push((i, name, stretch));
             }
         }
+        let mut zeros = Vec::new();
+        for (i, (name, node)) in self.section("couplings").into_iter().enumerate() {
+            if let Some(zero) = node.get("zero") {
+                drafts.push(self.draft(Some(zero), &sections[3].key(name).key("zero")));
+                zeros.push((i, name));
+            }
+        }
         for (name, node) in &states {
             let rate = StateKeys::of(*node).rate;
             drafts.push(self.draft(rate.node, &sections[2].key(*name).key(rate)));
         }
-        Entries { measures, stretched, states, drafts }
+        Entries { measures, stretched, zeros, states, drafts }
     }
 
     /// The entries in an order in which what they need comes first; those that need themselves are reported and left out.

@@ -17,23 +17,24 @@ pub(crate) fn open<G: Space<S = f64>>(case: Case<'_>, watched: &Watched, m: &Mec
     let model = case.model;
     let inputs = model.pool.inputs_of(&watched.ids);
     let asked = inputs.iter().map(|&i| model.inputs[i as usize]);
-    let parts: Vec<(Quantity, [usize; 3])> = asked
-        .filter_map(|quantity| match quantity {
-            Quantity::Force { joint, axis } => Some((quantity, [joint, 0, axis])),
-            Quantity::Moment { joint, axis } => Some((quantity, [joint, 1, axis])),
-            _ => None,
-        })
-        .collect();
+    let is_part = |q: &Quantity| matches!(q, Quantity::Force { .. } | Quantity::Moment { .. } | Quantity::CouplingEffort { .. });
+    let parts: Vec<Quantity> = asked.filter(is_part).collect();
     if parts.is_empty() {
         return None;
     }
     let open = open_reactions(m, start)?;
+    let is_open = |quantity: &&Quantity| match **quantity {
+        Quantity::Force { joint, axis } => open.joints[joint][0][axis],
+        Quantity::Moment { joint, axis } => open.joints[joint][1][axis],
+        Quantity::CouplingEffort { coupling } => open.couplings.get(coupling) == Some(&true),
+        _ => false,
+    };
     // in the plane a moment has no axis
     let name = |quantity: Quantity| match quantity {
         Quantity::Moment { joint, .. } if G::SPIN == 1 => format!("`{}.m`", model.joints[joint].name),
         other => format!("`{}`", model.name_of(other)),
     };
-    let names: Vec<String> = parts.iter().filter(|(_, [joint, part, axis])| open[*joint][*part][*axis]).map(|(q, _)| name(*q)).collect();
+    let names: Vec<String> = parts.iter().filter(is_open).map(|quantity| name(*quantity)).collect();
     if names.is_empty() {
         return None;
     }

@@ -68,6 +68,8 @@ enum Source<G: Space> {
     },
     DriverEffort(usize),
     DriverPower(usize),
+    /// Torque or force of a row.
+    Row(usize),
     Stretch {
         spring: usize,
         order: usize,
@@ -246,6 +248,10 @@ fn source<G: Space<S = f64>>(m: &Mechanism<G>, quantity: Quantity) -> Source<G> 
         Quantity::Moment { joint, axis } => Source::Moment { joint, axis },
         Quantity::DriverEffort { driver } => Source::DriverEffort(driver),
         Quantity::DriverPower { driver } => Source::DriverPower(driver),
+        Quantity::CouplingEffort { coupling } => {
+            let mut rows = (0..m.rows.len()).filter(|&row| m.rows[row].owner == RowOwner::Coupling);
+            rows.nth(coupling).map_or(Source::Given(f64::NAN), Source::Row)
+        }
         Quantity::Stretch { spring, order } => Source::Stretch { spring, order },
         Quantity::SpringForce { spring } => Source::SpringForce(m.spring_efforts[spring]),
         Quantity::SpringEnergy { spring } => Source::SpringEnergy(spring),
@@ -334,10 +340,11 @@ impl<G: Space<S = f64>> Source<G> {
                 1 => d.stretch_rate(spring),
                 _ => d.stretch_acceleration(spring, a),
             },
+            Self::Row(row) => r.rows[row],
             Self::SpringForce(effort) => -w.efforts[effort],
             Self::SpringEnergy(spring) => d.spring_energy(spring),
             Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),
-            Self::Stop { effort, row } => effort.map_or(0.0, |effort| w.efforts[effort]) + row.map_or(0.0, |row| r.rests[row]),
+            Self::Stop { effort, row } => effort.map_or(0.0, |effort| w.efforts[effort]) + row.map_or(0.0, |row| r.rows[row]),
             Self::Effort(effort) => {
                 debug_assert!(matches!(m.efforts[effort].law, EffortLaw::Drive { .. }));
                 w.efforts[effort]

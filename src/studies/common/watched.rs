@@ -22,7 +22,7 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// The scalars or expectations for which a column is watched, in words.
+    /// What a column is that is watched for scalars or expectations, or for a figure, in words.
     fn asked(&self, model: &Model, study: &Study, column: usize) -> String {
         let functional = |&k: &usize| self.functionals[k] == column;
         let takes = |id: Id| {
@@ -31,7 +31,11 @@ impl Watched {
         };
         let scalars = study.scalars.iter().filter(|s| takes(s.value)).map(|s| format!("`{}`", s.name));
         let names: Vec<String> = scalars.chain(study.expect.iter().filter(|e| takes(e.value)).map(|e| format!("`{}`", e.text))).collect();
-        if names.is_empty() { "a figure".into() } else { names.join(", ") }
+        if !names.is_empty() {
+            return format!("what {} is taken of", names.join(", "));
+        }
+        let shown = of_pictures(study).find(|shown| shown.what == ShownWhat::Column(self.ids[column]));
+        shown.map_or_else(|| "what a figure shows".into(), |shown| format!("`{}`", shown.name))
     }
 
     /// What is not resolved and counts, with the name of each column that shows it: equal expressions are watched once.
@@ -135,7 +139,7 @@ pub(crate) fn unresolved(
     let open = watched.open(study, resolved).map(|(open, column)| {
         let what = match column {
             Some(name) => format!("`{name}`"),
-            None => format!("what {} is taken of", watched.asked(model, study, open.column)),
+            None => watched.asked(model, study, open.column),
         };
         // a place is told as well as it is known
         let told = NEAR * clock.length;
