@@ -40,15 +40,17 @@ pub(super) struct Scales {
     torque: f64,
 }
 
-/// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m, the same
-/// for both kinds.
+/// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m, one for
+/// each kind: loads may be specks beside reactions.
 pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
-    let open = drawing.forces.iter().filter(|force| force.scale.is_none());
-    let most = open.map(length).filter(|x| x.is_finite()).fold(0.0, f64::max);
-    let suits = if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 };
+    let suits = |kind| {
+        let own = drawing.forces.iter().filter(|force| force.kind == kind);
+        let most = own.map(length).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 }
+    };
     let asked = |kind| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale);
     let torques = drawing.forces.iter().filter_map(|force| force.turning).map(f64::abs).filter(|x| x.is_finite());
-    Scales { force: KINDS.map(|(kind, _)| asked(kind).unwrap_or(suits)), torque: torques.fold(0.0, f64::max) }
+    Scales { force: KINDS.map(|(kind, _)| asked(kind).unwrap_or_else(|| suits(kind))), torque: torques.fold(0.0, f64::max) }
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a number.
@@ -207,10 +209,12 @@ mod tests {
         let force = |kind, along, scale| Force { kind, along, scale, ..Force::default() };
         let forces = vec![force(ForceKind::Load, [0.0, -300.0], None), force(ForceKind::Reaction, [400.0, 300.0], None)];
         let mut drawing = Drawing { forces, ..Drawing::default() };
-        // 500 N are at most a quarter of 2 m long
+        // 500 N are at most a quarter of 2 m long, and so are loads beside them
         assert_eq!(scales(&drawing, 2.0).force, [1000.0, 1000.0]);
+        drawing.forces[0].along = [0.0, -3.0];
+        assert_eq!(scales(&drawing, 2.0).force, [10.0, 1000.0]);
         drawing.forces[1].scale = Some(50.0);
-        assert_eq!(scales(&drawing, 2.0).force, [1000.0, 50.0]);
+        assert_eq!(scales(&drawing, 2.0).force, [10.0, 50.0]);
         assert_eq!(tips(&drawing, scales(&drawing, 2.0)).last(), Some([8.0, 6.0]));
         assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: 0.0 });
     }
