@@ -152,3 +152,14 @@ export async function names_of_values_have_room_until_these_are_moved(browser, p
     assert.equal(after.height, before.height);
   });
 }
+
+export async function a_narrow_page_is_not_wider_with_errors(browser, program) {
+  await watched(browser, program, async ({ open, save, text }) => {
+    const tab = await open();
+    await tab.setViewportSize({ width: 390, height: 844 });
+    save(text().replace('name: pendulum', 'name: Whitworth pendulum').replace('ground, rod.start', 'ground, rod.begin'));
+    await until(tab, () => document.querySelector('.status')?.textContent?.includes('errors'));
+    const [own, window] = await tab.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    assert.ok(own <= window, `${own} in ${window}`);
+  });
+}
