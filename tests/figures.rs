@@ -353,24 +353,42 @@ studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
 }
 
 #[test]
-fn a_disc_does_not_hide_the_bearing_that_it_turns_on() {
-    let text = |shape: &str| {
-        format!(
+fn no_outline_hides_a_bearing() {
+    // on the disc itself, on another body with an outline, and behind a body that only passes
+    let passing = "other: { drawn: [[-1 m, -1 m], [1 m, -1 m], [1 m, 1 m], [-1 m, 1 m]], mass: 1 kg, inertia: 1 kg m^2 }";
+    let disc = "wheel: { disc: { radius: 20 cm, mass: 2 kg } }";
+    let outline = "wheel: { drawn: [[-1 m, -1 m], [1 m, -1 m], [1 m, 1 m], [-1 m, 1 m]], mass: 1 kg, inertia: 1 kg m^2 }";
+    let bar = "wheel: { bar: { length: 2 m, mass: 1 kg } }";
+    for bodies in [disc.to_owned(), outline.to_owned(), format!("{disc}, {passing}"), format!("{bar}, {passing}")] {
+        let more = if bodies.contains("other") { "W: { slider: [ground, other.origin], axis: [1, 0] }" } else { "" };
+        let point = if bodies.contains("bar") { "start" } else { "origin" };
+        let text = format!(
             "grashof: 1
 name: wheel
 space: planar
 gravity: none
-bodies: {{ wheel: {{ {shape} }} }}
-joints: {{ O: {{ revolute: [ground, wheel.origin] }} }}
+bodies: {{ {bodies} }}
+joints: {{ O: {{ revolute: [ground, wheel.{point}] }}, {more} }}
 start: {{ O.omega: 1 rad/s }}
 studies: {{ go: {{ dynamics: {{ until: 1 s, every: 0.5 s }} }} }}
 "
-        )
-    };
-    let svg = render_drawing(&drawn(&text("disc: { radius: 20 cm, mass: 2 kg }"), "go").1).expect("a picture").svg;
-    let lines: Vec<&str> = svg.lines().collect();
-    let radius = |line: &str| line.split(" r=\"").nth(1).and_then(|of| of.split('"').next()?.parse::<f64>().ok()).unwrap_or(0.0);
-    let disc = lines.iter().rposition(|line| line.starts_with("<circle") && radius(line) > 100.0).expect("a disc");
-    let bearing = lines.iter().position(|line| line.contains("#eeeeee")).expect("a bearing");
-    assert!(bearing > disc, "{svg}");
+        );
+        let svg = render_drawing(&drawn(&text, "go").1).expect("a picture").svg;
+        let lines: Vec<&str> = svg.lines().collect();
+        // the last disc or area, and no sign
+        let value = |line: &str, key: &str| line.split(&format!(" {key}=\"")).nth(1).and_then(|of| of.split('"').next()).map(str::to_owned);
+        let wide = |line: &&str| {
+            let corners = value(line, "points").filter(|_| line.starts_with("<polygon")).unwrap_or_default();
+            let numbers: Vec<f64> = corners.split([' ', ',']).filter_map(|x| x.parse().ok()).collect();
+            let span = |k: usize| {
+                let of = numbers.iter().skip(k).step_by(2);
+                of.clone().copied().fold(f64::NEG_INFINITY, f64::max) - of.copied().fold(f64::INFINITY, f64::min)
+            };
+            let radius = value(line, "r").filter(|_| line.starts_with("<circle")).and_then(|r| r.parse::<f64>().ok());
+            radius.is_some_and(|r| r > 40.0) || (span(0) > 100.0 && span(1) > 100.0)
+        };
+        let outline = lines.iter().rposition(wide).expect("an outline");
+        let bearing = lines.iter().position(|line| line.contains("#eeeeee")).expect("a bearing");
+        assert!(bearing > outline, "{bodies}: {bearing}, {outline}: {svg}");
+    }
 }

@@ -155,7 +155,7 @@ impl Pen<'_> {
         let placed = |symbol: &Symbol| symbol.poses.get(pose).and_then(|placement| self.sheet.placement(placement));
         let joints: Vec<_> = self.drawing.joints.iter().filter_map(|symbol| Some((symbol, placed(symbol)?))).collect();
         for (symbol, placement) in &joints {
-            self.below(symbol, placement, &ink, pose);
+            self.below(symbol, placement, &ink);
         }
         self.forms(pose, strength, &joints);
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.kind == SymbolKind::Slot) {
@@ -190,7 +190,7 @@ impl Pen<'_> {
     }
 
     /// What lies under the bodies at a joint: bearings, ways, boxes.
-    fn below(&mut self, symbol: &Symbol, placement: &Placement, ink: &Looks, pose: usize) {
+    fn below(&mut self, symbol: &Symbol, placement: &Placement, ink: &Looks) {
         let size = self.signs.size;
         if symbol.kind == SymbolKind::Slide {
             let more = self.signs.slide_box()[0] + 14.0 * size;
@@ -216,20 +216,20 @@ impl Pen<'_> {
             }
             self.signs.slider(&mut self.scene, placement, ink);
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
-            if self.disc(symbol, pose).is_none() {
+            // in the plane it stands in front of bodies with an outline
+            if self.drawing.axes.is_some() {
                 self.signs.ground(&mut self.scene, placement.at);
             }
             self.letters.avoid(placement.at, [28.0 * size, 22.0 * size], [0.0, 22.0 * size]);
         }
     }
 
-    /// The disc in the plane, as body and number of its shape, before which the bearing of a joint stands: that would not be seen behind it.
-    fn disc(&self, symbol: &Symbol, pose: usize) -> Option<(usize, usize)> {
-        let slides = matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
-        let body = symbol.bodies.into_iter().find(|body| *body != 0).filter(|_| symbol.grounded && !slides)?;
-        let forms = self.drawing.bodies.get(body)?.poses.get(pose)?;
-        let shape = forms.iter().rposition(|form| matches!(form.kind, FormKind::Disc { spoke: Some(_), .. }))?;
-        Some((body, shape))
+    /// The bearings of hinges in the plane, which stand in front of all bodies with an outline: behind one they would not be seen.
+    fn bearings(&mut self, joints: &[(&Symbol, Placement)]) {
+        let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
+        for (_, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
+            self.signs.ground(&mut self.scene, placement.at);
+        }
     }
 
     /// The shapes of all bodies, those farther from the eye first.
@@ -238,15 +238,22 @@ impl Pen<'_> {
         let rods = self.drawing.links.iter().filter(|link| link.kind == LinkKind::Rod).filter_map(|link| {
             let [from, to] = *link.poses.get(pose)?;
             let kind = FormKind::Bar { from, to, width: None };
-            Some((ROD, 0.0, None, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
+            Some((ROD, 0.0, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
             let forms = body.poses.get(pose).map_or(&[][..], Vec::as_slice);
-            forms.iter().enumerate().filter_map(move |(k, form)| Some((body_color(index), form.depth, Some((index, k)), sheet.form(form)?)))
+            forms.iter().filter_map(move |form| Some((body_color(index), form.depth, sheet.form(form)?)))
         });
         let mut all: Vec<_> = bodies.chain(rods).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
-        for (color, _, shape, form) in all {
+        // in the plane what has an outline lies below 0
+        let outlines = all.partition_point(|(_, depth, _)| *depth < 0.0);
+        let front = (pose == 0 && self.drawing.axes.is_none()).then_some(outlines);
+        let end = all.len();
+        for (k, (color, _, form)) in all.into_iter().enumerate() {
+            if front == Some(k) {
+                self.bearings(joints);
+            }
             // A body of one point is shown by the joint there, if there is one.
             let single = match &form {
                 FormKind::Plate { points } if points.len() == 1 => Some(points[0]),
@@ -257,10 +264,9 @@ impl Pen<'_> {
             }
             let outline = self.signs.form(&mut self.scene, &form, &Self::looks(color, strength));
             self.letters.avoid_line(&outline, if strength == 1.0 { Obstacle::Body } else { Obstacle::Shade });
-            if pose == 0 && shape.is_some() {
-                let bearings: Vec<_> = joints.iter().filter(|(symbol, _)| self.disc(symbol, pose) == shape).collect();
-                bearings.iter().for_each(|(_, placement)| self.signs.ground(&mut self.scene, placement.at));
-            }
+        }
+        if front == Some(end) {
+            self.bearings(joints);
         }
     }
 

@@ -20,6 +20,8 @@ async function inked(tab, wanted) {
 }
 const STOP = [176, 20, 40];
 const DRIVE = [0, 112, 84];
+/** Of bearings: a quarter of --faint on --paper. */
+const BEARING = [229, 232, 234];
 
 export async function stops_are_drawn(open) {
   const { tab } = await open('marks', { study: 'slide' });
@@ -42,4 +44,10 @@ export async function what_drives_a_joint_is_drawn(open) {
   }
   const free = await open('marks', { study: 'slide' });
   assert.equal((await inked(free.tab, DRIVE)).count, 0);
+}
+
+export async function no_outline_hides_a_bearing(open) {
+  const { tab } = await open('covered', { study: 'turn' });
+  const { count } = await inked(tab, BEARING);
+  assert.ok(count > 100, `${count} pixels`);
 }

@@ -128,6 +128,18 @@ drivers: { drive: { joint: O, speed: 60 rpm } }
 start: { O.angle: 0 deg, C.angle: ~100 deg }
 studies: { turn: { kinematics: { over: 1 turn, samples: 90 }, columns: [time, O.angle, C.angle] } }
 `,
+  // a hinge of the ground that an outline and a disc cover
+  covered: `grashof: 1
+name: covered
+space: planar
+gravity: none
+bodies:
+  wheel: { disc: { radius: 20 cm, mass: 1 kg } }
+  plate: { plate: { size: [50 cm, 60 cm], mass: 1 kg } }
+joints: { O: { revolute: [ground, wheel.origin] }, W: { slider: [ground, plate.origin], axis: [1, 0] } }
+drivers: { turn: { joint: O, speed: 60 rpm }, hold: { joint: W, position: 0 m } }
+studies: { turn: { kinematics: { over: 1 s, samples: 36 }, columns: [O.angle] } }
+`,
   // a pinion between a wheel and a rack, with numbers of teeth as 4 to 11, and two wheels without such numbers
   train: `grashof: 1
 name: train

@@ -113,7 +113,9 @@ impl Posed<'_> {
                 depth: if self.scene.dimensions == 2 { 0.0 } else { self.depth(places) },
             };
         }
-        Form { kind: FormKind::Plate { points }, depth: self.depth(places) }
+        // on one line they are a bar, too
+        let bar = self.scene.dimensions == 2 && crate::output::outlines::hull(&points).len() < 3;
+        Form { kind: FormKind::Plate { points }, depth: if bar { 0.0 } else { self.depth(places) } }
     }
 
     fn area(&self, places: &[[f64; 3]], shade: f64) -> Form {

@@ -31,9 +31,12 @@ function depth(shape: Shape): number {
   switch (shape.kind) {
     case 'mass': return Number.MAX_VALUE;
     case 'disc': case 'sphere': return -Math.sqrt(8) * shape.radius;
+    case 'box': return -Math.hypot(shape.size[0] ?? 0, shape.size[1] ?? 0);
     case 'hull': case 'polygon': {
       const span = (i: number) => Math.max(...shape.points.map((p) => p[i]!)) - Math.min(...shape.points.map((p) => p[i]!));
-      return shape.points.length > 2 ? -Math.hypot(span(0), span(1)) : 0;
+      const size = Math.hypot(span(0), span(1));
+      // points on one line are a bar
+      return shape.kind === 'polygon' || hull(shape.points.map(([x, y]) => [x! / size, y! / size])).length > 2 ? -size : 0;
     }
     default: return 0;
   }
@@ -134,7 +137,6 @@ export class Plane implements Renderer {
     if (scales > BELOW) fit(scales);
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
-    for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) if (end.body === 0) signs.bearing(pen, this.point(end), inks);
     scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
@@ -149,7 +151,8 @@ export class Plane implements Renderer {
       pen.faintlyAll(PALE, () => bodies.forEach((one) => one.draw()));
     }
     this.place = place;
-    bodies.forEach((one) => one.draw());
+    // bearings stand in front of all that has an outline, and behind bars
+    [...bodies, { depth: -Number.MIN_VALUE, draw: () => this.bearings() }].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
     this.gears.racks.forEach((rack) => signs.rack(pen, this.rackLine(rack), inks));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
@@ -324,9 +327,15 @@ export class Plane implements Renderer {
   }
 
   private way(joint: Joint): void {
-    const { a, b, kind } = joint;
+    const { a, kind } = joint;
     if (signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
-    else if (kind !== 'pin-in-slot' && signs.seen(joint) && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.point(a.body === 0 ? a : b), this.inks);
+  }
+
+  /** Those of hinges on the ground, and of rods without mass. */
+  private bearings(): void {
+    const { joints, links } = this.motion.scene;
+    const hinges = joints.filter((joint) => signs.seen(joint) && !signs.slides(joint));
+    for (const { a, b } of [...hinges, ...links.filter(({ kind }) => kind === 'rod')]) for (const end of [a, b]) if (end.body === 0) signs.bearing(this.pen, this.point(end), this.inks);
   }
 
   /** How far the outlines of the body that slides reach from the way to its lower side, pixels. */
