@@ -13,6 +13,14 @@ pub(super) fn hull(points: &[Point]) -> Vec<Point> {
     // round-off of a set of this size
     let size = sorted.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
     let flat = 1e-12 * size * size;
+    // points above each other but for round-off go from below upwards, too
+    let mut from = 0;
+    for k in 1..=sorted.len() {
+        if k == sorted.len() || sorted[k][0] - sorted[from][0] > 1e-12 * size {
+            sorted[from..k].sort_by(|a, b| a[1].total_cmp(&b[1]));
+            from = k;
+        }
+    }
     let half = |points: &mut dyn Iterator<Item = &Point>| {
         let mut chain: Vec<Point> = Vec::new();
         for p in points {
@@ -41,5 +49,15 @@ mod tests {
         let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 2.0], [1.0, 0.0], [0.0, 0.0]];
         assert_eq!(hull(&points), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
         assert_eq!(hull(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]), [[0.0, 0.0], [2.0, 2.0]]);
+    }
+
+    #[test]
+    fn corners_above_each_other_but_for_round_off_are_kept() {
+        // a disc seen edge-on: two upright rows of points
+        let ring = |x: f64| (0..12).map(move |k| (x, f64::from(k) * std::f64::consts::TAU / 12.0));
+        let points: Vec<Point> = ring(-0.1).chain(ring(0.1)).map(|(x, a)| [x + 1e-17 * (7.0 * a).sin(), a.sin()]).collect();
+        let corners = hull(&points);
+        assert_eq!(corners.len(), 4, "{corners:?}");
+        assert!(corners.iter().all(|p| (p[0].abs() - 0.1).abs() < 1e-12 && (p[1].abs() - 1.0).abs() < 1e-12), "{corners:?}");
     }
 }

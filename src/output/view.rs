@@ -51,6 +51,18 @@ impl View {
         dot(self.toward, p)
     }
 
+    /// Two unit directions across an axis, counter-clockwise about it, of which the one at an angle from the first to the second is that
+    /// towards the eye: what goes round is seen on its near side. Any two where the axis points to the eye.
+    pub(super) fn facing(&self, axis: [f64; 3], angle: f64) -> [[f64; 3]; 2] {
+        let [u, v] = across(axis);
+        let (x, y) = (self.depth(u), self.depth(v));
+        if x.hypot(y) < 0.1 {
+            return [u, v];
+        }
+        let (s, c) = (y.atan2(x) - angle).sin_cos();
+        [std::array::from_fn(|i| c * u[i] + s * v[i]), std::array::from_fn(|i| c * v[i] - s * u[i])]
+    }
+
     /// Length in the picture of what is 1 m long across the line of sight, m.
     pub(super) fn stretch(&self) -> f64 {
         dot(self.right, self.right).sqrt()
@@ -123,6 +135,19 @@ mod tests {
         let [x, z] = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]].map(|e| view.flat(e));
         assert!((x[0] - 1.0).abs() < 1e-12 && x[1].abs() < 1e-12 && (z[1] - 1.0).abs() < 1e-12, "{x:?} {z:?}");
         assert!((view.depth([0.0, -1.0, 0.0]) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_goes_round_is_seen_on_its_near_side() {
+        // from the front and from behind, edge-on: the near side is in the direction of the eye
+        for azimuth in [-0.25, 0.25, 0.1] {
+            let view = View::from([0.0, 0.0, 1.0], azimuth * std::f64::consts::TAU, 0.0);
+            let (s, c) = 0.75_f64.sin_cos();
+            let [u, v] = view.facing([2.0, 0.0, 0.0], 0.75);
+            let near: [f64; 3] = std::array::from_fn(|i| c * u[i] + s * v[i]);
+            assert!(near[1].abs() > 1.0 - 1e-12 && view.depth(near) > 0.5, "{near:?}");
+            assert!((dot(cross(u, v), [1.0, 0.0, 0.0]) - 1.0).abs() < 1e-12, "{u:?} {v:?}");
+        }
     }
 
     #[test]

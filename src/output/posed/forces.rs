@@ -2,8 +2,9 @@
 
 use super::Posed;
 use crate::output::pose::{Force, ForceKind};
-use crate::output::view::{across, dot};
+use crate::output::view::dot;
 use crate::results::scene::{Arrow, ArrowKind, Place};
+use std::f64::consts::TAU;
 
 impl Posed<'_> {
     /// The forces whose values are known, in the first position, at a place of the independent variable; one that is not finite is 0.
@@ -34,7 +35,7 @@ impl Posed<'_> {
         }
         let (turning, across) = match values[..] {
             [turning] => (if turning.is_finite() { turning } else { 0.0 }, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
-            _ => (dot(vector, vector).sqrt(), across(vector)),
+            _ => (dot(vector, vector).sqrt(), self.view.facing(vector, 0.75 * TAU)),
         };
         Some(Force { kind, at, turning: Some(turning), across: across.map(|e| self.view.flat(e)), scale: arrow.scale, ..Force::default() })
     }

@@ -2,7 +2,6 @@
 
 use super::Posed;
 use crate::output::pose::{Placement, Symbol, SymbolKind};
-use crate::output::view::across;
 use crate::results::scene::{Joint, Place, Shape};
 
 impl Posed<'_> {
@@ -35,7 +34,8 @@ impl Posed<'_> {
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
             way: joint.stroke.filter(|_| slides).map(|ends| ends.map(on_way)),
             carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
-            across: across(about).map(|e| self.view.flat(e)),
+            // the middle of the arrow of what drives
+            across: self.view.facing(about, 0.75).map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
             sense: joint.sense,
             stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),

@@ -11,7 +11,7 @@ import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
-import { type Face, across, add, dot, scaled, tube, unit } from './vectors';
+import { type Face, add, dot, facing, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
 /** How much darker a face is that is turned away. */
@@ -186,7 +186,7 @@ class Space implements Renderer {
     const slide = SLIDES.includes(kind) ? toward([0, 0], seen(along)).along : null;
     const at = this.motion.world(a, this.place);
     if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, inks);
-    const [u, v] = across(along);
+    const [u, v] = facing(along, this.toEye, 0.75);
     if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), slide, [seen(u), seen(v)], sense ?? 0, inks);
   }
 

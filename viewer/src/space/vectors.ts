@@ -18,6 +18,15 @@ export function across(axis: Vector): [Vector, Vector] {
   return [u, cross(axis, u)];
 }
 
+/** The same, so that the direction at an angle from the first to the second is that towards the eye, unless the axis points there. */
+export function facing(axis: Vector, eye: Vector, angle: number): [Vector, Vector] {
+  const [u, v] = across(axis);
+  const [x, y] = [dot(u, eye), dot(v, eye)];
+  if (Math.hypot(x, y) < 0.1) return [u, v];
+  const turn = Math.atan2(y, x) - angle;
+  return [add(scaled(u, Math.cos(turn)), v, Math.sin(turn)), add(scaled(v, Math.cos(turn)), u, -Math.sin(turn))];
+}
+
 /** A plane face of a body, in the frame of the body, around its outward normal; one that is clear lets through what is behind it. */
 export interface Face { points: Vector[]; normal: Vector; color: string; edged: boolean; clear?: boolean }
 
