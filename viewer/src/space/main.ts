@@ -11,7 +11,7 @@ import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
-import { type Face, add, dot, facing, scaled, tube, unit } from './vectors';
+import { type Face, add, ball, dot, facing, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
 /** How much darker a face is that is turned away. */
@@ -270,7 +270,7 @@ class Space implements Renderer {
     const at: Vector = [a.at[0] ?? 0, a.at[1] ?? 0, a.at[2] ?? 0];
     const color = driven ? inks.accent : mixed(inks.ink, inks.paper, 0.35);
     const r = 0.017 * this.size;
-    if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return tube(add(at, [0, 0, -r]), add(at, [0, 0, r]), 1.15 * r, 1.15 * r, 10, color);
+    if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return ball(at, 1.35 * r, color);
     const along = unit([axis[0]!, axis[1]!, axis[2]!]);
     if (!SLIDES.includes(kind)) return tube(add(at, along, -1.9 * r), add(at, along, 1.9 * r), r, r, 12, color);
     // a guide in the colour of the body that it belongs to
