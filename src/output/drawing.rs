@@ -125,12 +125,12 @@ fn poses(drawing: &Drawing) -> usize {
     bodies.chain(joints).chain(drawing.links.iter().map(|link| link.poses.len())).max().unwrap_or(0)
 }
 
-/// Colour and dashes of a path; no two of 42 are alike, and those that are near each other differ in both.
+/// Colour and dashes of a path; no two of 30 are alike, those that are near each other differ in both, and none has a colour of arrows.
 pub(super) fn path_stroke(index: usize) -> (Color, &'static [f64]) {
+    const COLORS: [usize; 5] = [3, 2, 4, 5, 6];
     const DASHES: [&[f64]; 6] =
         [&[9.0, 5.0], &[18.0, 6.0], &[3.0, 6.0], &[16.0, 5.0, 3.0, 5.0], &[26.0, 8.0], &[12.0, 4.0, 3.0, 4.0, 3.0, 4.0]];
-    // Vermilion first: it stands out most from the muted bodies.
-    (PALETTE[(index + 1) % PALETTE.len()], DASHES[index % DASHES.len()])
+    (PALETTE[COLORS[index % COLORS.len()]], DASHES[index % DASHES.len()])
 }
 
 /// The sheet while it is drawn on.
@@ -445,8 +445,10 @@ mod tests {
 
     #[test]
     fn paths_are_told_apart() {
-        let all: Vec<_> = (0..42).map(path_stroke).collect();
-        assert!((0..42).all(|i| !all[..i].contains(&all[i])));
+        let all: Vec<_> = (0..30).map(path_stroke).collect();
+        assert!((0..30).all(|i| !all[..i].contains(&all[i])));
+        let arrows = [super::super::pose::ForceKind::Load, super::super::pose::ForceKind::Reaction].map(forces::color);
+        assert!(all.iter().all(|(color, _)| !arrows.contains(color)));
     }
 
     #[test]

@@ -23,7 +23,7 @@ const HEAD: f64 = 13.0;
 
 const KINDS: [(ForceKind, &str); 2] = [(ForceKind::Load, "loads"), (ForceKind::Reaction, "reactions")];
 
-fn color(kind: ForceKind) -> Color {
+pub(super) fn color(kind: ForceKind) -> Color {
     PALETTE[if kind == ForceKind::Load { 1 } else { 0 }]
 }
 

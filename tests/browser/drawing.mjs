@@ -22,6 +22,7 @@ const STOP = [176, 20, 40];
 const DRIVE = [0, 112, 84];
 /** Of bearings: a quarter of --faint on --paper. */
 const BEARING = [229, 232, 234];
+const LOADS = [213, 94, 0];
 
 export async function stops_are_drawn(open) {
   const { tab } = await open('marks', { study: 'slide' });
@@ -50,4 +51,12 @@ export async function no_outline_hides_a_bearing(open) {
   const { tab } = await open('covered', { study: 'turn' });
   const { count } = await inked(tab, BEARING);
   assert.ok(count > 100, `${count} pixels`);
+}
+
+export async function paths_have_none_of_the_colours_of_loads_and_reactions(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  const names = await tab.evaluate(() => window.grashof.names().filter(({ of }) => of === 'path').length);
+  assert.equal(names, 2);
+  // in their lines and their names
+  assert.equal((await inked(tab, LOADS)).count, 0);
 }

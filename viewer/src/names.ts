@@ -4,7 +4,7 @@
 
 import type { Motion, Vector } from './motion';
 import { type Pen, type Point, off } from './plane/pen';
-import { type Inks, bodyInks } from './theme';
+import { type Inks, bodyInks, pathInk } from './theme';
 import type { Shape } from './types';
 
 /** Left, top, right, bottom. */
@@ -183,7 +183,7 @@ export class Names {
     traces.forEach(({ name, body, at: own }, k) => {
       if (known.has(name) && traces.length === 1) return;
       const text = known.has(name) ? `path of ${name}` : name;
-      this.others.push({ name: text, of: 'path', spots: [spot((place) => motion.world({ body, at: own }, place))], color: (inks) => inks.curves[(k + 1) % 7]! });
+      this.others.push({ name: text, of: 'path', spots: [spot((place) => motion.world({ body, at: own }, place))], color: (inks) => pathInk(k, inks) });
     });
   }
 

@@ -28,6 +28,11 @@ export const rodInks = (inks: Inks): { fill: string; edge: string } => bodyInks(
 /** Of point masses. */
 export const massInk = ({ ink, paper }: Inks): string => mixed(ink, paper, 0.27);
 
+/** Of paths, as in the figures: none that loads or reactions have. */
+const OF_PATHS = [3, 2, 4, 5, 6];
+export const PATHS = OF_PATHS.length;
+export const pathInk = (k: number, { curves }: Inks): string => curves[OF_PATHS[k % PATHS]!]!;
+
 /** Of the arrows of drives, and of stops, as in the figures. */
 export const driveInk = ({ light }: Inks): string => (light ? '#007054' : '#45c8a2');
 export const stopInk = ({ light }: Inks): string => (light ? '#b01428' : '#ff7482');

@@ -6,7 +6,7 @@ import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
 import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
-import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
+import { type Inks, PATHS, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
 import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
@@ -23,7 +23,7 @@ const LOOKS = 72;
 const PATH = 400;
 /** Teeth that are closer are not drawn, pixels. */
 const CLOSE = 4;
-/** Dashes of the first seven paths, the next seven, and so on. */
+/** Dashes of the first five paths, the next five, and so on. */
 const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
 
 /** Large plates lie under small ones and under bars; a disc is as large as the square around it. */
@@ -252,7 +252,7 @@ export class Plane implements Renderer {
   private drawPaths(growing: boolean): void {
     const { pen, inks } = this;
     this.paths.forEach(({ trace, at, points }, k) => {
-      const [color, dash] = [inks.curves[(k + 1) % 7]!, DASHES[Math.floor(k / 7) % DASHES.length]!];
+      const [color, dash] = [pathInk(k, inks), DASHES[Math.floor(k / PATHS) % DASHES.length]!];
       const all = points.map(([x, y]) => this.pixel(x, y));
       pen.path(all).stroke(growing ? mixed(inks.paper, color, 0.45) : color, growing ? 1.2 : 1.6, dash);
       if (!growing) return;

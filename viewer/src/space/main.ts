@@ -8,7 +8,7 @@ import { Pen, type Point, toward } from '../plane/pen';
 import * as signs from '../plane/signs';
 import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
-import { type Inks, bodyInks, massInk, mixed, rodInks } from '../theme';
+import { type Inks, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
 import { type Face, add, ball, dot, facing, scaled, tube, unit } from './vectors';
@@ -346,7 +346,7 @@ class Space implements Renderer {
 
   private drawPaths(growing: boolean, inks: Inks): void {
     this.paths.forEach(({ at, points }, k) => {
-      const color = inks.curves[(k + 1) % 7]!;
+      const color = pathInk(k, inks);
       points.slice(1).forEach((point, i) => {
         const done = !growing || (this.motion.falls ? at[i]! >= this.place : at[i + 1]! <= this.place);
         const ink = done ? color : mixed(inks.paper, color, 0.3);
