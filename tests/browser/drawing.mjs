@@ -6,7 +6,9 @@ import { assert } from './read.mjs';
 async function inked(tab, wanted) {
   await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return tab.locator('.canvas canvas').evaluate((canvas, wanted) => {
-    const { data, width } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height }).getContext('2d', { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const { data, width } = copy.getImageData(0, 0, canvas.width, canvas.height);
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
@@ -15,7 +17,7 @@ async function inked(tab, wanted) {
       box.splice(0, 4, Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y));
       count++;
     }
-    return { count, width: box[2] - box[0], height: box[3] - box[1] };
+    return { count, box, width: box[2] - box[0], height: box[3] - box[1], size: [width, canvas.height] };
   }, wanted);
 }
 const STOP = [176, 20, 40];
@@ -59,4 +61,15 @@ export async function paths_have_none_of_the_colours_of_loads_and_reactions(open
   assert.equal(names, 2);
   // in their lines and their names
   assert.equal((await inked(tab, LOADS)).count, 0);
+}
+
+export async function arrows_have_room(open) {
+  for (const width of [1280, 390]) {
+    const { tab } = await open('pushed', { width });
+    for (const part of ['0', '5000', '10000']) {
+      await tab.locator('.scrub').fill(part);
+      const { count, box: [left, top, right], size } = await inked(tab, LOADS);
+      assert.ok(count > 100 && left > 3 && top > 3 && right < size[0] - 4, `${width}, ${part}: from ${left}, ${top} to ${right} of ${size}`);
+    }
+  }
 }

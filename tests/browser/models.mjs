@@ -140,6 +140,19 @@ joints: { O: { revolute: [ground, wheel.origin] }, W: { slider: [ground, plate.o
 drivers: { turn: { joint: O, speed: 60 rpm }, hold: { joint: W, position: 0 m } }
 studies: { turn: { kinematics: { over: 1 s, samples: 36 }, columns: [O.angle] } }
 `,
+  // a force upwards at the highest place, beside small ones
+  pushed: `grashof: 1
+name: pushed
+space: planar
+gravity: none
+bodies:
+  lever: { bar: { length: 1 m, mass: 1 kg } }
+joints: { O: { revolute: [ground, lever.start] } }
+drivers: { turn: { joint: O, speed: 15 rpm } }
+start: { O.angle: 60 deg }
+loads: { push: { at: lever.end, force: [20 N, 100 N] } }
+studies: { turn: { inverse: { over: 1 s, samples: 36 }, show: [loads, reactions], columns: [O.angle] } }
+`,
   // a pinion between a wheel and a rack, with numbers of teeth as 4 to 11, and two wheels without such numbers
   train: `grashof: 1
 name: train

@@ -4,10 +4,11 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
-import { type Options, PALE, type Renderer } from '../renderer';
+import { FIRST, type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, PATHS, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
+import { type Bounds, type Fitted, type Tip, fitted } from './fit';
 import { Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
 import { type Rack, type Toothed, rackLine, toothed } from './teeth';
@@ -21,6 +22,8 @@ const BAR_ROOM = 200;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
+/** Sizes of the picture, with what it shows, of which the room is kept. */
+const FITS = 8;
 /** Teeth that are closer are not drawn, pixels. */
 const CLOSE = 4;
 /** Dashes of the first five paths, the next five, and so on. */
@@ -45,7 +48,7 @@ function depth(shape: Shape): number {
 export class Plane implements Renderer {
   private readonly pen: Pen;
   private readonly followed: Followed;
-  private bounds: { low: Point; high: Point };
+  private bounds: Bounds;
   /** The least size of what is seen, m. */
   private least = 1e-9;
   private readonly paths: { trace: Trace; at: number[]; points: Point[] }[];
@@ -53,6 +56,7 @@ export class Plane implements Renderer {
   private zoomed = 1;
   private shift: Point = [0, 0];
   private middle: Point = [0, 0];
+  private readonly fits = new Map<string, Fitted>();
   private place = 0;
   private readonly names: Names;
   private inks!: Inks;
@@ -74,6 +78,7 @@ export class Plane implements Renderer {
   follow(name: string | null): void {
     if (!this.followed.take(name)) return;
     this.bounds = this.measure();
+    this.fits.clear();
     this.fit();
   }
 
@@ -123,14 +128,12 @@ export class Plane implements Renderer {
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.inks = inks;
-    const { low, high } = this.bounds;
-    const room = 34;
     const { pen } = this;
-    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
+    const short = Math.min(width, height);
+    const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, short, this.scale);
     const fit = (below: number) => {
-      const tall = height - below;
-      this.scale = Math.min((width - 2 * room) / (high[0] - low[0] || 1), (tall - 2 * room) / (high[1] - low[1] || 1)) * this.zoomed;
-      this.middle = [width / 2, tall / 2];
+      const { scale, middle } = this.fitted(options.arrows, [width, height - below], short);
+      [this.scale, this.middle] = [scale * this.zoomed, middle];
     };
     fit(BELOW);
     const scales = scalesHeight(pen, this.arrows, options.arrows, pixels, BAR_ROOM, [width, height]);
@@ -167,6 +170,29 @@ export class Plane implements Renderer {
     if (options.names) this.names.draw(pen, place, ([x, y], at) => this.pixel(x, y, at), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
+  }
+
+  /** How the mechanism and the arrows that are shown have room over the whole motion; the slider of their length moves nothing else. */
+  private fitted(arrows: Set<Kind>, size: Point, short: number): Fitted {
+    const key = [...arrows, ...size, short].join();
+    if (this.fits.get(key)) return this.fits.get(key)!;
+    const tips = [...arrows].map((kind) => ({ kind, all: this.tips(kind) }));
+    const at = (metre: number): Tip[] => tips.flatMap(({ kind, all }) => {
+      const pixels = this.arrows.pixels(kind, FIRST, short, metre);
+      return all.map(({ at, reach }) => ({ at, reach: [reach[0] * pixels, reach[1] * pixels] }));
+    });
+    const found = fitted(this.bounds, at, size);
+    if (this.fits.size > FITS) this.fits.clear();
+    this.fits.set(key, found);
+    return found;
+  }
+
+  /** Forces and rates over the motion, in their own unit, with the places at which they are drawn. */
+  private tips(kind: Kind): Tip[] {
+    return this.motion.sampled(LOOKS).flatMap((place) => {
+      const [x, y] = this.followed.base(place);
+      return this.arrows.at(kind, place).filter(({ torque }) => !torque).map(({ from, along }): Tip => ({ at: [from[0] - x, from[1] - y], reach: [along[0], along[1]] }));
+    });
   }
 
   /** A wheel with its teeth, which takes the place of its disc. */
@@ -229,7 +255,7 @@ export class Plane implements Renderer {
   }
 
   /** Bounds of all that is drawn over the whole motion; of the ground the joints alone. */
-  private measure(): { low: Point; high: Point } {
+  private measure(): Bounds {
     const [low, high]: [Point, Point] = [[Infinity, Infinity], [-Infinity, -Infinity]];
     for (const place of this.motion.sampled(LOOKS)) {
       for (const at of this.followed.seen(place)) {
