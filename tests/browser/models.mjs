@@ -233,10 +233,11 @@ start: { O.angle: 60 deg, coupler.angle: ~0 deg, rocker.angle: ~90 deg }
 studies:
   turn:
     kinematics: { over: 1 turn, samples: 360 }
-    columns: [O.angle, rocker.alpha, crank.omega]
+    columns: [O.angle, rocker.alpha, crank.omega, coupler.end.x, coupler.end.y]
     plot:
       alpha: { show: [rocker.alpha] }
       speed: { show: [crank.omega] }
+      path: { show: [coupler.end.y], over: coupler.end.x }
 `,
   // forces that grow without bound towards dead points at both ends
   slant: `grashof: 1

@@ -282,6 +282,24 @@ export async function poles_at_dead_points_leave_the_axis_with_a_word(open) {
   assert.equal(await plot(tab, 'speed').locator('.note').isVisible(), false);
 }
 
+export async function paths_reach_dead_points_where_rates_have_no_value(open) {
+  const { tab, directory } = await open('stuck');
+  const { 'rocker.alpha': rates, 'coupler.end.x': x } = csv(`${directory}/turn.csv`);
+  const last = x.length - 1;
+  assert.ok([0, last].every((row) => !Number.isFinite(rates[row]) && Number.isFinite(x[row])), 'no rate in the first and the last row');
+  const line = await plot(tab, 'path').locator('svg.chart g[clip-path] path').first().getAttribute('d');
+  assert.equal(line.split('M').length, 2, 'one line without a gap');
+  // from the first place to the last one, as told by the axis
+  const points = line.slice(1).split('L').map((pair) => Number(pair.split(' ')[0]));
+  const [low, high] = [Math.min(...x), Math.max(...x)];
+  const across = (row) => (x[row] - low) / (high - low);
+  const ends = [Math.min(...points), Math.max(...points)];
+  for (const [row, at] of [[0, points[0]], [last, points[points.length - 1]]]) near((at - ends[0]) / (ends[1] - ends[0]), across(row), 5e-3, `row ${row}`);
+  // between the last two rows the cursor finds a value, too
+  await seek(tab, (csv(`${directory}/turn.csv`)['O.angle'][last] + csv(`${directory}/turn.csv`)['O.angle'][last - 1]) / 2);
+  assert.ok(Number.isFinite(await value(tab, 'path')));
+}
+
 export async function curves_beside_poles_are_those_of_the_rows(open) {
   const { tab, directory } = await open('slant');
   const { 'O.angle': angle, 'drive.torque': torque } = csv(`${directory}/turn.csv`);

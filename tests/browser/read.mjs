@@ -8,7 +8,7 @@ export { assert };
 /** The columns of a CSV file by name. */
 export function csv(file) {
   const [head, ...rows] = readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
-  return Object.fromEntries(head.map((name, k) => [name, rows.map((row) => Number(row[k]))]));
+  return Object.fromEntries(head.map((name, k) => [name, rows.map((row) => (row[k] === '' ? NaN : Number(row[k])))]));
 }
 
 /** Whether two numbers are one to a tolerance. */

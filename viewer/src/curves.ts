@@ -19,8 +19,12 @@ export function pieces(results: Results): [number, number][] {
   return ends.map((end, i) => [ends[i - 1] ?? 0, end]);
 }
 
-/** A smooth piece: its rows, the places at which it is drawn, and for each of these the first row that counts and the weights of it and those behind. */
-interface Piece { from: number; to: number; at: number[]; first: Int32Array; weights: Float64Array }
+/**
+ * A smooth piece: its rows, the places at which it is drawn, and for each of these the first row that counts and the weights of it and
+ * those behind; and whether a straight line leads on to the next one, which begins at another place only because a column has no values
+ * there.
+ */
+interface Piece { from: number; to: number; at: number[]; first: Int32Array; weights: Float64Array; leads: boolean }
 
 /** Places of the independent variable where curves are drawn, piece by piece. */
 export interface Fine { x: number[]; pieces: Piece[] }
@@ -38,7 +42,8 @@ function fine(results: Results): Fine {
         const steps = i + 1 < to ? Math.min(FINEST, (kept[i + 1] ?? i + 1) - (kept[i] ?? i)) : 1;
         for (let k = 1; k < steps; k++) at.push(x[i]! + ((x[i + 1]! - x[i]!) * k) / steps);
       }
-      return { from, to, at, ...weighed(x, from, to, at) };
+      const leads = x[to] !== undefined && x[to] !== x[to - 1] && !results.table.switches.includes(to - 1);
+      return { from, to, at, ...weighed(x, from, to, at), leads };
     }),
   };
 }
@@ -85,11 +90,11 @@ function along(values: Num[], { first, weights: w }: Pick<Piece, 'first' | 'weig
   });
 }
 
-/** A column at the fine places; pieces are parted by NaN. */
+/** A column at the fine places; pieces are parted by NaN unless they lead on. */
 export function drawn(values: Num[], { pieces: parts }: Fine): number[] {
   return parts.flatMap((piece, i) => {
     const y = along(values, piece);
-    return i + 1 < parts.length ? [...y, NaN] : y;
+    return i + 1 < parts.length ? [...y, piece.leads && Number.isFinite(values[piece.to] ?? NaN) ? y[y.length - 1]! : NaN] : y;
   });
 }
 
@@ -110,8 +115,12 @@ export function valueAt({ x, pieces: parts }: Fine, values: Num[], at: number): 
   const ends = [x[0] ?? NaN, x[x.length - 1] ?? NaN].sort((a, b) => a - b) as [number, number];
   const near = 1e-9 * (ends[1] - ends[0]);
   const place = ends.find((end) => Math.abs(at - end) < near) ?? at;
-  for (const { from, to } of parts) {
-    const [a, b] = [x[from]!, x[to - 1]!];
+  for (const { from, to, leads } of parts) {
+    const [a, b, next] = [x[from]!, x[to - 1]!, x[to]!];
+    if (leads && (place - b) * (place - next) < 0) {
+      const part = (place - b) / (next - b);
+      return (1 - part) * (values[to - 1] ?? NaN) + part * (values[to] ?? NaN);
+    }
     if ((place - a) * (place - b) > 0) continue;
     const { first, weights: w } = b < a ? turned(x, place, from, to) : weights(x, place, from, to);
     return w.reduce((sum, weight, k) => (weight === 0 ? sum : sum + weight * (values[first + k] ?? NaN)), 0);
