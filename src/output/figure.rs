@@ -157,6 +157,7 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         legend: Legend::Inside(Vec::new(), [0.0; 2]),
         marks,
         clipped: bounds.map(|bounds| bounds.is_some()),
+        dead: curves().any(|curve| curve.poles.contains(&true)),
         label: 0.0,
         side: 0.0,
     }
@@ -249,6 +250,36 @@ mod tests {
         assert_eq!(svg.lines().filter(|line| line.starts_with("<circle")).count(), 14, "{svg}");
         assert_eq!(lines(&svg)[0].matches(',').count(), 15, "{svg}");
         assert!(svg.contains(">arrows: without bound<") && svg.contains(">towards a dead point<"), "{svg}");
+    }
+
+    #[test]
+    fn numbers_of_runs_without_bound_leave_the_axis_where_they_begin() {
+        let at = |k: i32| {
+            (
+                f64::from(k),
+                if k < 8 {
+                    -1e30
+                } else if k > 32 {
+                    1e30
+                } else {
+                    f64::from(k).sin()
+                },
+            )
+        };
+        let curves = vec![Curve { runs: true, ..curve("torque", Some("N m"), (0..=40).map(at).collect()) }];
+        let svg = svg(&Figure { x: axis("a", ""), curves, ..Figure::default() });
+        let arrows: Vec<[f64; 2]> =
+            svg.lines().filter(|line| line.starts_with("<polygon") && line.contains("fill=\"#0072b2\"")).map(tip).collect();
+        let [[x, y], [u, v]] = arrows[..] else { panic!("{arrows:?}: {svg}") };
+        assert!(x < 300.0 && u > 700.0 && y > 500.0 && v < 50.0, "{arrows:?}");
+        assert!(svg.contains(">arrows: without bound<") && !svg.contains("dead point"), "{svg}");
+    }
+
+    /// The first corner of a polygon.
+    fn tip(line: &str) -> [f64; 2] {
+        let corners = line.split("points=\"").nth(1).and_then(|of| of.split('"').next()).expect("corners");
+        let mut numbers = corners.split([' ', ',']).map(|x| x.parse().expect("a number"));
+        [(); 2].map(|()| numbers.next().expect("a corner"))
     }
 
     #[test]

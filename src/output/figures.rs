@@ -1,7 +1,7 @@
 //! Figures that a study asks for, laid out from its results.
 
 use super::units::pretty;
-use super::{Axis, Curve, Figure, Scale};
+use super::{Axis, Curve, Figure, Scale, poles};
 use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results};
 
 /// Switches that are marked by lines in a figure, at most.
@@ -112,7 +112,7 @@ fn of_runs(results: &Results, plot: &Plot) -> Option<Figure> {
             _ => name.clone(),
         };
         let points = broken(family.rows.iter().map(|row| (over.values[*row], column.values[*row])).collect());
-        Curve { dots, ..curve(label, column, points, plot, on_right) }
+        Curve { dots, runs: true, ..curve(label, column, points, plot, on_right) }
     };
     let mut curves: Vec<Curve> = families.iter().flat_map(|family| names.iter().map(|name| shown(name, family))).collect();
     curves.extend(plot.beside.iter().filter_map(|beside| self::beside(beside, results.table.column(&beside.of)?, plot)));
@@ -144,19 +144,22 @@ fn joined(x: &[f64], y: &[f64], switches: &[usize], path: bool) -> Vec<(f64, f64
 }
 
 /// Points of whole runs with a gap where a quantity jumps from one run to the next, as where a mechanism is assembled otherwise from
-/// there on: where its slope is [`STEEP`] times those on both sides, over more than a tenth of its range.
+/// there on: where its slope is [`STEEP`] times those on both sides, over more than a tenth of its range; and with one at a pole. Lines
+/// lead to values without bound.
 fn broken(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let slope = |k: usize| ((points[k + 1].1 - points[k].1) / (points[k + 1].0 - points[k].0)).abs();
-    let values = points.iter().map(|point| point.1).filter(|y| y.is_finite());
+    let bound = poles::bound(&points);
+    let values = points.iter().map(|point| point.1).filter(|y| y.abs() < bound);
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
     let jumps = |k: usize| {
         let far = (points[k + 1].1 - points[k].1).abs() > 0.1 * (high - low);
-        far && k > 0 && k + 2 < points.len() && slope(k) > STEEP * slope(k - 1).max(slope(k + 1))
+        let bounded = [k, k + 1].iter().all(|k| points[*k].1.abs() < bound);
+        far && bounded && k > 0 && k + 2 < points.len() && slope(k) > STEEP * slope(k - 1).max(slope(k + 1))
     };
     let mut out = Vec::with_capacity(points.len());
     for (k, point) in points.iter().enumerate() {
         out.push(*point);
-        if k + 1 < points.len() && jumps(k) {
+        if k + 1 < points.len() && (jumps(k) || poles::is_pole(&points, k)) {
             out.push((point.0, f64::NAN));
         }
     }

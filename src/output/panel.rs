@@ -222,6 +222,8 @@ impl Line {
 /// What arrows at an edge mean, and the size of these words.
 const LEAVES: [&str; 2] = ["arrows: without bound", "towards a dead point"];
 const NOTE: f64 = 0.8 * TICK;
+/// What is farther out of the picture, in pixels, is here.
+const FAR: f64 = 1e7;
 
 /// One panel of a figure.
 #[derive(Clone, Debug)]
@@ -235,8 +237,10 @@ pub(super) struct Panel {
     pub(super) entries: Vec<Entry>,
     pub(super) legend: Legend,
     pub(super) marks: Vec<Mark>,
-    /// Whether values near poles leave the axis on the left, and that on the right.
+    /// Whether values without bound leave the axis on the left, and that on the right.
     pub(super) clipped: [bool; 2],
+    /// Whether they do so towards a dead point.
+    pub(super) dead: bool,
     /// The base line of the label of y, in pixels; the same for all panels.
     pub(super) label: f64,
     /// What the axis on the right takes, in pixels.
@@ -264,7 +268,9 @@ impl Panel {
         };
         let points: Vec<_> = line.points.iter().map(shown).collect();
         let pieces = thin::pieces(&points, line.ordered, breaks).into_iter();
-        let pixels = pieces.map(|piece| piece.into_iter().map(|at| self.point(x, y, at)).collect::<Vec<Point>>());
+        // where a line to a value without bound leaves the panel would be lost in round-off
+        let pixel = |at| self.point(x, y, at).map(|x| x.clamp(-FAR, FAR));
+        let pixels = pieces.map(|piece| piece.into_iter().map(pixel).collect::<Vec<Point>>());
         // an axis whose ends are given may end within its curves
         let area = self.rect.grown(0.5);
         let inside = pixels.flat_map(|piece| if line.dots { clip::points(&piece, area) } else { clip::line(&piece, area) });
@@ -318,8 +324,13 @@ impl Panel {
         }
         if self.clipped.contains(&true) {
             // beside the name of the axis there is room for half of it
-            let lines: &[(&str, f64)] = if lowest { &[(LEAVES[0], 47.0), (LEAVES[1], 66.0)] } else { &[(&LEAVES.join(" "), 22.0)] };
-            lines.iter().for_each(|(text, below)| scene.text([right, bottom + below], *text, NOTE, Anchor::End));
+            let words = &LEAVES[..if self.dead { 2 } else { 1 }];
+            let lines: &[(&str, f64)] =
+                if lowest { &[(words[0], 47.0), (words.get(1).unwrap_or(&""), 66.0)] } else { &[(&words.join(" "), 22.0)] };
+            lines
+                .iter()
+                .filter(|(text, _)| !text.is_empty())
+                .for_each(|(text, below)| scene.text([right, bottom + below], *text, NOTE, Anchor::End));
         }
         if empty {
             let [x, y] = self.rect.center();

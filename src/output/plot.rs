@@ -86,6 +86,8 @@ pub struct Curve {
     pub dots: bool,
     /// Whether a dead point is where it begins, and where it ends: values that grow without bound towards it may leave the axis.
     pub poles: [bool; 2],
+    /// Whether its points are numbers of whole runs: those without bound, and those near a pole between two runs, may leave the axis.
+    pub runs: bool,
 }
 
 /// A point of interest on a curve.

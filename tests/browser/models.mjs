@@ -239,6 +239,28 @@ studies:
       speed: { show: [crank.omega] }
       path: { show: [coupler.end.y], over: coupler.end.x }
 `,
+  // numbers of runs that have a pole or stand for no bound
+  poles: `grashof: 1
+name: poles
+space: planar
+gravity: none
+parameters: { a: 1 }
+bodies: { crank: { bar: { length: 50 cm, mass: 1 kg } } }
+joints: { O: { revolute: [ground, crank.start] } }
+drivers: { drive: { joint: O, speed: 60 rpm } }
+start: { O.angle: 60 deg }
+studies:
+  turn:
+    kinematics: { over: 1 turn, samples: 4 }
+    sweep: { a: { from: 0, to: 10, count: 41 } }
+    columns: [O.angle]
+    scalars:
+      pole: 1/(a - 5.1)
+      both: if(a < 2, -1e30, if(a > 8, 1e30, sin(a)))
+      one: if(abs(a - 4) < 0.01, 1e30, sin(a))
+      plain: sin(a)
+    plot: { pole: { show: [pole] }, both: { show: [both] }, one: { show: [one] }, plain: { show: [plain] } }
+`,
   // forces that grow without bound towards dead points at both ends
   slant: `grashof: 1
 name: slant
@@ -431,4 +453,4 @@ export const FILES = { swing: { 'seen.csv': 'time,A.angle\n0.1,-35\n0.3,-60\n0.5
 export const STOPPED = ['short_arm', 'stuck', 'slant'];
 
 /** Models that are run with their figures. */
-export const WITH_FIGURES = ['swing', 'digits'];
+export const WITH_FIGURES = ['swing', 'digits', 'poles'];

@@ -282,6 +282,23 @@ export async function poles_at_dead_points_leave_the_axis_with_a_word(open) {
   assert.equal(await plot(tab, 'speed').locator('.note').isVisible(), false);
 }
 
+export async function numbers_of_runs_without_bound_leave_the_axis(open) {
+  const { tab, directory } = await open('poles');
+  for (const [name, inView, count] of [['pole', 2, 2], ['one', 1, 2], ['both', 1, 2], ['plain', 1, 0]]) {
+    const figure = plot(tab, name);
+    const ticks = (await figure.locator('text').allTextContents()).map((text) => Number(text.replace('−', '-'))).filter(Number.isFinite);
+    assert.ok(Math.max(...ticks) <= 10, `${name}: ${ticks}`);
+    const ways = (of) => of.map((points) => points.split(' ').map((pair) => pair.split(',').map(Number))).map(([tip, left]) => Math.sign(left[1] - tip[1])).sort();
+    const onPage = ways(await figure.locator('.leaving').evaluateAll((all) => all.map((one) => one.getAttribute('points'))));
+    const inFile = ways([...readFileSync(`${directory}/turn-${name}.svg`, 'utf8').matchAll(/<polygon points="([^"]+)" fill="#0072b2"/g)].map(([, points]) => points));
+    assert.equal(onPage.length, count, name);
+    assert.deepEqual(onPage, inFile, name);
+    assert.equal(await figure.locator('.note').isVisible() && (await figure.locator('.note').innerText()), count > 0 && 'arrows: without bound', name);
+    const line = await figure.locator('svg.chart g[clip-path] path').first().getAttribute('d');
+    assert.equal(line.split('M').length - 1, inView, `${name}: ${line}`);
+  }
+}
+
 export async function paths_reach_dead_points_where_rates_have_no_value(open) {
   const { tab, directory } = await open('stuck');
   const { 'rocker.alpha': rates, 'coupler.end.x': x } = csv(`${directory}/turn.csv`);

@@ -2,6 +2,7 @@
 
 import { digits, pretty, shownIn } from '../numbers';
 import type { Column, Study } from '../types';
+import { bound, isPole } from './poles';
 
 /** Digits of values in names of curves, and all that a number has. */
 const IN_NAMES = 6;
@@ -43,18 +44,20 @@ export function families(study: Study, over: string | null): { families: Family[
 
 /**
  * A curve of whole runs with a gap where it jumps from one run to the next, as in the figures of the program: where its slope is STEEP
- * times those on both sides, over more than a tenth of its range.
+ * times those on both sides, over more than a tenth of its range; and at a pole. Lines lead to values without bound.
  */
 export function broken(x: number[], y: number[]): { x: number[]; y: number[] } {
   const slope = (k: number) => Math.abs((y[k + 1]! - y[k]!) / (x[k + 1]! - x[k]!));
-  const known = y.filter(Number.isFinite);
+  const most = bound(y);
+  const known = y.filter((value) => Math.abs(value) < most);
   const range = known.reduce((most, v) => Math.max(most, v), -Infinity) - known.reduce((least, v) => Math.min(least, v), Infinity);
-  const jumps = (k: number) => Math.abs(y[k + 1]! - y[k]!) > 0.1 * range && k > 0 && k + 2 < y.length && slope(k) > STEEP * Math.max(slope(k - 1), slope(k + 1));
+  const bounds = (k: number) => Math.abs(y[k]!) < most && Math.abs(y[k + 1]!) < most;
+  const jumps = (k: number) => bounds(k) && Math.abs(y[k + 1]! - y[k]!) > 0.1 * range && k > 0 && k + 2 < y.length && slope(k) > STEEP * Math.max(slope(k - 1), slope(k + 1));
   const [u, v]: [number[], number[]] = [[], []];
   y.forEach((value, k) => {
     u.push(x[k]!);
     v.push(value);
-    if (!jumps(k)) return;
+    if (!jumps(k) && !isPole(x, y, k)) return;
     u.push(x[k]!);
     v.push(NaN);
   });

@@ -118,8 +118,9 @@ export class PlotView {
   private tellBelow(): void {
     const count = this.view.log ? below(this.of.figure, this.place) : 0;
     const clipped = this.place.panels.some((panel) => panel.clipped);
+    const { curves } = this.of.figure;
     this.note.hidden = count === 0 && !clipped;
-    this.note.textContent = count === 0 ? (clipped ? 'arrows: without bound towards a dead point' : '') : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
+    this.note.textContent = count === 0 ? (clipped ? `arrows: without bound${curves.some(({ dead }) => dead) ? ' towards a dead point' : ''}` : '') : `${count} ${count === 1 ? 'value' : 'values'} ≤ 0 ${count === 1 ? 'is' : 'are'} not shown on the logarithmic axis`;
   }
 
   private title(): string {
