@@ -1,10 +1,13 @@
-// The signs of a drawing, as in the figures of the program: stops, drives, ground.
+// The signs of a drawing, as in the figures of the program: stops, drives, ground; and its arrows.
 
 import { assert } from './read.mjs';
 
+/** Waits until the page has drawn what it is to show. */
+const seen = (tab) => tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 /** How many pixels of the drawing have a colour, and the box around them. */
 async function inked(tab, wanted) {
-  await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await seen(tab);
   return tab.locator('.canvas canvas').evaluate((canvas, wanted) => {
     const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height }).getContext('2d', { willReadFrequently: true });
     copy.drawImage(canvas, 0, 0);
@@ -72,4 +75,17 @@ export async function arrows_have_room(open) {
       assert.ok(count > 100 && left > 3 && top > 3 && right < size[0] - 4, `${width}, ${part}: from ${left}, ${top} to ${right} of ${size}`);
     }
   }
+}
+
+export async function the_largest_torque_of_the_loads_is_told(open) {
+  const texts = async (tab) => {
+    await seen(tab);
+    return (await tab.evaluate(() => grashof.scales())).map(({ kind, text }) => [kind, text]);
+  };
+  const { tab } = await open('winch');
+  assert.deepEqual((await texts(tab))[1], ['torques', 'at most 1 N m']);
+  await tab.getByRole('checkbox', { name: 'loads' }).uncheck();
+  assert.deepEqual((await texts(tab)).map(([kind]) => kind), ['reactions']);
+  const { tab: pushed } = await open('pushed');
+  assert.deepEqual((await texts(pushed)).map(([kind]) => kind), ['loads', 'reactions'], 'no torque, no word');
 }

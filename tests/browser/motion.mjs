@@ -275,7 +275,7 @@ export async function paths_lie_over_bodies(open) {
 /** Force, velocity or acceleration to the pixel of each kind of arrow, of what the drawing tells. */
 const told = async (tab) => {
   await picture(tab);
-  return new Map((await tab.evaluate(() => grashof.scales())).map(({ kind, text, length }) => {
+  return new Map((await tab.evaluate(() => grashof.scales())).filter(({ kind }) => kind !== 'torques').map(({ kind, text, length }) => {
     const [, number, prefix, unit] = /^= ([\d.]+) ([km]?)(N|m\/s|m\/s²)$/.exec(text) ?? assert.fail(text);
     assert.match(number, /^(0\.0*)?[125]0*$/);
     assert.ok(length > 20 && length <= 60.001, `${kind}: ${length} pixels`);

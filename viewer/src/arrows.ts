@@ -14,11 +14,14 @@ export const COLOR: Record<Kind, number> = { velocities: 2, accelerations: 4, lo
 /** Of a torque `along` is its vector, N m, and it turns about it. */
 export interface Arrow { kind: Kind; from: Vector; along: Vector; torque: boolean }
 
+/** Radius of the largest torque, pixels. */
+export const ROUND = 18;
+
 /** Places at which the largest arrow is looked for. */
 const LOOKS = 90;
 
 export class Arrows {
-  private readonly largest = new Map<Kind, number>();
+  private readonly largest = new Map<Kind | 'torques', number>();
   private readonly moving: Place[];
   /** Those of the scene, and of joints whose reactions are columns of the table. */
   private readonly forces: Scene['arrows'];
@@ -70,10 +73,11 @@ export class Arrows {
   }
 
   /** The unit of a kind, and its size in SI: of forces that of their columns, if the model asks for one. */
-  unit(kind: Kind): { unit: string; size: number } {
+  unit(kind: Kind | 'torques'): { unit: string; size: number } {
     if (kind === 'velocities' || kind === 'accelerations') return { unit: kind === 'velocities' ? 'm/s' : 'm/s^2', size: 1 };
-    const own = this.forces.filter((arrow) => arrow.kind !== 'torque' && (arrow.kind === 'reaction') === (kind === 'reactions')).flatMap(({ columns }) => columns);
-    return own.map((name) => column(this.results, name)?.shown_in).find((asked) => asked) ?? { unit: 'N', size: 1 };
+    const of = { torques: 'torque', loads: 'load', reactions: 'reaction' }[kind];
+    const own = this.forces.filter((arrow) => arrow.kind === of).flatMap(({ columns }) => columns);
+    return own.map((name) => column(this.results, name)?.shown_in).find((asked) => asked) ?? { unit: kind === 'torques' ? 'N m' : 'N', size: 1 };
   }
 
   /** Pixels to one unit of a kind, with the slider at `part`, in a picture of some width and so many pixels to the metre. */
@@ -84,11 +88,18 @@ export class Arrows {
     return most > 0 ? (part * room) / most : 0;
   }
 
-  /** The length of the largest one over the motion. */
-  most(kind: Kind): number {
+  /** Radius of a torque of the loads, pixels. */
+  radius(torque: number): number {
+    const most = this.most('torques');
+    return most > 0 ? ROUND * Math.min(Math.abs(torque) / most, 1) : 0;
+  }
+
+  /** The length of the largest one over the motion; of the torques among the loads, N m. */
+  most(kind: Kind | 'torques'): number {
     const known = this.largest.get(kind);
     if (known !== undefined) return known;
-    const lengths = this.motion.sampled(LOOKS).flatMap((place) => this.at(kind, place).map(({ along, torque }) => (torque ? 0 : Math.hypot(...along))));
+    const [own, turns] = kind === 'torques' ? ['loads' as const, true] : [kind, false];
+    const lengths = this.motion.sampled(LOOKS).flatMap((place) => this.at(own, place).map(({ along, torque }) => (torque === turns ? Math.hypot(...along) : 0)));
     const most = Math.max(0, ...lengths.filter(Number.isFinite));
     this.largest.set(kind, most);
     return most;

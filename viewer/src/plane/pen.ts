@@ -78,12 +78,14 @@ export class Pen {
     return this.on.measureText(text).width;
   }
 
-  /** A torque about a place: an arrow that turns. */
-  turn(at: Point, torque: number, color: string): void {
-    if (torque === 0) return;
-    const arc = turning(at, torque);
-    this.path(arc.slice(0, -3)).stroke(color, 2);
-    this.arrow(arc[arc.length - 4]!, arc[arc.length - 1]!, color);
+  /** A torque about a place: an arrow that turns from the first to the second of two directions, of a radius. */
+  turn(at: Point, across: [Point, Point], sense: number, radius: number, color: string): void {
+    if (sense === 0 || radius < 2) return;
+    const arc = turning(at, across, sense, radius);
+    // a head of 8 pixels where there is room for it
+    const head = Math.min(Math.ceil(54 / radius), 10);
+    this.path(arc.slice(0, -head)).stroke(color, 2);
+    this.arrow(arc[arc.length - 1 - head]!, arc[arc.length - 1]!, color);
   }
 
   /** An arrow with a slender head. */
@@ -98,12 +100,15 @@ export class Pen {
   }
 }
 
-/** The points of the arc of a torque about a place: seven tenths of a turn, counter-clockwise if it is positive. */
-export function turning(at: Point, torque: number): Point[] {
-  const radius = 18;
+/** To the right and upwards. */
+export const LEVEL: [Point, Point] = [[1, 0], [0, -1]];
+
+/** The points of the arc of a torque about a place: seven tenths of a turn, from the first to the second direction if it is positive. */
+function turning(at: Point, [u, v]: [Point, Point], sense: number, radius: number): Point[] {
   return Array.from({ length: 31 }, (_, k): Point => {
-    const angle = 0.6 * 2 * Math.PI - Math.sign(torque) * 0.7 * 2 * Math.PI * (k / 30);
-    return off(at, [Math.cos(angle), Math.sin(angle)], radius, 0);
+    const angle = 0.4 * 2 * Math.PI + Math.sign(sense) * 0.7 * 2 * Math.PI * (k / 30);
+    const [cos, sin] = [radius * Math.cos(angle), radius * Math.sin(angle)];
+    return [at[0] + cos * u[0] + sin * v[0], at[1] + cos * u[1] + sin * v[1]];
   });
 }
 
