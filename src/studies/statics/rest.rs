@@ -149,9 +149,7 @@ where
     /// The one-way clutch against which the mechanism has moved from one position to another, by its place among the contacts.
     pub(super) fn back(&mut self, from: &Position, to: &Position) -> Option<usize> {
         let m = self.system.dynamics.mechanism;
-        if m.one_way().next().is_none() {
-            return None;
-        }
+        m.one_way().next()?;
         let [before, after] = [from, to].map(|position| {
             self.show(position);
             m.contacts.iter().map(|contact| self.system.dynamics.extent(contact.along)).collect::<Vec<_>>()
