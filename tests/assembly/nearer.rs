@@ -52,6 +52,7 @@ fn hold(text: &str, mut assemblies: Vec<Vec<f64>>) -> bool {
     d.watch(&start.q, &start.v, &start.modes);
     let found: Vec<f64> = m.joints.iter().map(|joint| d.work.readings[joint.slots[0]].x).collect();
     assert_eq!(found.len(), assemblies[0].len());
+    assert!(found.iter().all(|x| x.abs() < 1.5 * TAU), "whole turns in {found:?} in\n{text}");
     let off = found.iter().zip(&assemblies[0]).map(|(x, right)| apart(*x, *right).abs()).fold(0.0, f64::max);
     assert!(off < 1e-9, "{found:?} for {assemblies:?} in\n{text}");
     true

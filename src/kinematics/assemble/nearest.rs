@@ -33,6 +33,9 @@ const FAR: f64 = 0.1;
 /// Part by which another assembly must be nearer to count.
 const NEARER: f64 = 1e-3;
 
+/// Residual of a closed position, rad and sizes, from which whole turns have been taken.
+const CLOSED: f64 = 1e-9;
+
 /// Places from which other assemblies are looked for, and the coordinates up to which they are.
 const LOOKS: u32 = 16;
 const MOST: usize = 300;
@@ -76,7 +79,11 @@ impl<G: Space<S = f64>> System<'_, G> {
                 continue;
             }
             self.settle(&mut trial);
+            let turned_more = self.unwind(&mut trial, &best.1);
             let settled = std::mem::replace(&mut self.targets, targets.to_vec());
+            if turned_more {
+                continue;
+            }
             let distance = norm(&self.off(&trial, Near::Drawn).0);
             if self.miss(&trial) <= missed + CONVERGED && distance < (1.0 - NEARER) * best.0 {
                 best = (distance, trial, settled, self.modes.clone());
@@ -84,6 +91,33 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         (*q, self.targets, self.modes) = (best.1, best.2, best.3);
         self.evaluate(q);
+    }
+
+    /// Takes whole turns from the hinges of a closed position where that keeps it closed, in the plane so that bodies stand within half a
+    /// turn of how they are drawn; whether it is left with more of them than another one.
+    fn unwind(&mut self, q: &mut [f64], other: &[f64]) -> bool {
+        let m = self.dynamics.mechanism;
+        let turns = |x: f64| (x / TAU).round();
+        let mut more = false;
+        let mut angles = vec![0.0; m.bodies.len()];
+        for node in &m.nodes {
+            angles[node.body] = angles[node.parent];
+            for step in &m.steps[node.steps.clone()] {
+                let Step::Axis { u, turns: true, slides: false, q: k, v, .. } = *step else { continue };
+                let (sense, parent) = if G::SPIN == 1 { (G::spin_component(u, 2).signum(), angles[node.body]) } else { (1.0, 0.0) };
+                let whole = turns(parent + sense * q[k]);
+                if whole != 0.0 && !self.is_named(v) {
+                    let wound = q[k];
+                    q[k] -= sense * whole * TAU;
+                    if self.gap(q) > CLOSED {
+                        q[k] = wound;
+                        more |= turns(wound).abs() > turns(other[k]).abs();
+                    }
+                }
+                angles[node.body] += sense * q[k];
+            }
+        }
+        more
     }
 
     /// Loops and couplings, of which each may have several assemblies.

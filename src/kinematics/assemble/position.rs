@@ -250,7 +250,7 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// Size of the residuals that hold, rad and sizes.
-    fn gap(&mut self, q: &[f64]) -> f64 {
+    pub(super) fn gap(&mut self, q: &[f64]) -> f64 {
         self.evaluate(q);
         let (mut r, mut jacobian) = (Vec::new(), Rows::default());
         self.hard(&mut r, &mut jacobian);
