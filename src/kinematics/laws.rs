@@ -33,6 +33,11 @@ pub struct Jump {
 }
 
 impl Jump {
+    /// How high a step of a coupling is, SI.
+    pub(crate) fn height(&self) -> f64 {
+        self.sides[1] - self.sides[0]
+    }
+
     /// What is told of it; `at` is the place, as `time = 0.5`.
     pub(crate) fn told(&self, at: &str) -> String {
         let (name, [before, after]) = (&self.name, self.sides.map(six_digits));
@@ -41,7 +46,7 @@ impl Jump {
                 "the law of the {name} jumps at {at}, from {before} to {after} (SI): what is driven has to get from one place to the other"
             );
         }
-        let off = six_digits(self.sides[1] - self.sides[0]);
+        let off = six_digits(self.height());
         format!(
             "what the {name} holds jumps at {at}, by {off} (SI): what is coupled has to get from one place to the other; lead it up a short flank (a table with two points beside each other)"
         )

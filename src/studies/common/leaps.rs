@@ -8,6 +8,10 @@ use crate::kinematics::laws::{Jump, across};
 /// Halvings of a piece, at the end of which a law may jump.
 const HALVINGS: usize = 60;
 
+/// Part of the range to which the place of a switch is known, and part of a piece over which the slope beside it is taken.
+const PLACE: f64 = 1e-12;
+const BESIDE: f64 = 1e-3;
+
 impl<G: Space<S = f64>> Motion<'_, G> {
     /// Lets a resolved motion end just before the first coupling that jumps, ahead or, where it has been followed backwards, behind; whether
     /// there is one.
@@ -49,12 +53,18 @@ impl<G: Space<S = f64>> Motion<'_, G> {
         let place = self.breaks[piece];
         jump(self, place).ok()??;
         // a place that is located beside the switch sees a slope as a step: nearer
-        let (mut good, mut bad) = (0.5 * (self.breaks[piece] + self.breaks[if inwards < 0 { piece - 1 } else { piece + 1 }]), place);
+        let middle = 0.5 * (place + self.breaks[if inwards < 0 { piece - 1 } else { piece + 1 }]);
+        let (mut good, mut bad) = (middle, place);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (good + bad);
             let there = self.reach(middle, None).is_ok() && changed.iter().all(|k| self.modes[*k] == near_modes[*k]);
             *(if there { &mut good } else { &mut bad }) = middle;
         }
-        Some((good, jump(self, good).ok()??))
+        let found = jump(self, good).ok()??;
+        let beside = good + BESIDE * (middle - good);
+        let height = jump(self, beside).ok()?.map_or(0.0, |jump| jump.height());
+        let slope = (height - found.height()) / (beside - good);
+        let by_slope = (slope * PLACE * self.clock.length).abs();
+        (found.height().abs() > by_slope || by_slope.is_nan()).then_some((good, found))
     }
 }
