@@ -78,6 +78,8 @@ fn laws_of_several_pieces_store_what_their_closed_forms_say() {
         let part = x * 1e3 - (x * 1e3).floor();
         0.5e-3 * ((x * 1e3).floor() + part * part)
     });
+    // of time alone
+    hold("if(t > -1e6 s, 5 N, 0 N)", 0.1, 1e-15, |x| 5.0 * x);
     // a root, and a kink that no switch tells but by its magnitude
     hold("1 N*sqrt(abs(stretch)/1 m)", 0.1, 1e-13, |x| x.signum() * x.abs().powf(1.5) / 1.5);
 }

@@ -150,13 +150,9 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let Some(law) = self.mechanism.spring_laws.get(spring).and_then(Option::as_ref) else { return 0.0 };
         self.fill(law);
         let of = |leaf: Leaf| law.fills.iter().find(|(_, l)| *l == leaf).map(|(input, _)| *input);
-        let (stretch, time) = (of(Leaf::Stretch { spring, order: 0 }), of(Leaf::Time));
+        let (over, time) = (of(Leaf::Stretch { spring, order: 0 }), of(Leaf::Time));
         let mut outputs = [0.0; 2];
         let w = &mut self.work;
-        let Some(over) = stretch else {
-            law.program.eval(&w.inputs, &[], &mut w.registers, &mut outputs);
-            return outputs[output] * way;
-        };
         let (inputs, registers) = (w.inputs.as_mut_slice(), w.registers.as_mut_slice());
         let jumping = time.filter(|_| output == 1).map(|time| [0, time]);
         let mut integrand = Integrand { program: &law.program, inputs, registers, outputs: &mut outputs, over, output, jumping };

@@ -84,12 +84,20 @@ pub struct Integrand<'a> {
     pub registers: &'a mut [f64],
     /// Outputs; written.
     pub outputs: &'a mut [f64],
-    /// The input that is integrated over.
-    pub over: usize,
+    /// The input that is integrated over; none if the program does not read it.
+    pub over: Option<usize>,
     /// The output that is integrated.
     pub output: usize,
     /// Where `output` is the derivative by time of another output that may jump: that one, and the input that is time.
     pub jumping: Option<[usize; 2]>,
+}
+
+impl Integrand<'_> {
+    fn go_to(&mut self, x: f64) {
+        if let Some(over) = self.over {
+            self.inputs[over] = x;
+        }
+    }
 }
 
 impl Integral {
@@ -250,7 +258,7 @@ impl Integral {
 
     /// Evaluates at `x`, the place number `j` of a piece, in the modes that belong to it; whether they are those of the place 0.
     fn at(&mut self, f: &mut Integrand<'_>, x: f64, j: usize) -> bool {
-        f.inputs[f.over] = x;
+        f.go_to(x);
         let switches = f.program.switches();
         if !switches.is_empty() {
             f.program.set_modes(f.inputs, f.registers, &mut self.there);
@@ -298,7 +306,7 @@ impl Integral {
 
     /// Whether a switch is another one at `x` than inside of the piece (1, else −1), and its root function in those modes.
     fn beside(&mut self, f: &mut Integrand<'_>, x: f64, switch: usize) -> [f64; 2] {
-        f.inputs[f.over] = x;
+        f.go_to(x);
         let switches = f.program.switches();
         f.program.set_modes(f.inputs, f.registers, &mut self.there);
         f.program.roots(f.inputs, &self.inside, f.registers, &mut self.edges[..switches.len()]);
@@ -308,17 +316,17 @@ impl Integral {
 
     /// What a jump of `jumping` adds to ∂U/∂t where its place moves with `time`.
     fn jump(&mut self, f: &mut Integrand<'_>, cut: Cut, [jumping, time]: [usize; 2]) -> f64 {
-        f.inputs[f.over] = cut.near;
+        f.go_to(cut.near);
         f.program.eval(f.inputs, &self.inside, f.registers, f.outputs);
         let before = f.outputs[jumping];
-        f.inputs[f.over] = cut.far;
+        f.go_to(cut.far);
         f.program.set_modes(f.inputs, f.registers, &mut self.there);
         f.program.eval(f.inputs, &self.there, f.registers, f.outputs);
         let after = f.outputs[jumping];
         for (slope, input) in self.slopes.iter_mut().zip(f.inputs.iter()) {
             *slope = Dual { x: *input, d: [0.0; 2] };
         }
-        self.slopes[f.over].d[0] = 1.0;
+        f.over.into_iter().for_each(|over| self.slopes[over].d[0] = 1.0);
         self.slopes[time].d[1] = 1.0;
         let [by_way, by_time] = f.program.operand(cut.switch, &self.slopes, &self.inside, &mut self.moving).d;
         // an edge that does not move is none of time
