@@ -155,7 +155,7 @@ pub(crate) fn taken_as_free<G: Space<S = f64>>(
     let closed = |contact: &&Contact| dynamics.extent_rate(contact.along) <= PASSED * contact.unit(size);
     let clutches = mechanism.one_way().filter(closed).map(|contact| {
         let message = format!(
-            "{} lets its parts turn one way only: it is taken as open; where it holds them, couple the joints by `gear` in a variant",
+            "{} lets its parts turn one way only: it is taken as open; where it holds them, put a driver at rest or a `gear` of ratio 1 in its place in a variant",
             contact.name
         );
         finding(message, contact.place.clone())
@@ -225,7 +225,7 @@ pub(crate) fn barrier<G: Space<S = f64>>(
         let at = last(before, behind, |s| rate_at(motion, s, clutch) >= 0.0);
         let message =
             format!("at {} the drivers turn back against {}, which locks there", variable.at(motion.clock.value(at)), clutch.name);
-        offer(at, message, "drive one of its sides alone, or take the clutch away in a variant");
+        offer(at, message, "drive it as the clutch lets it turn, drive one of its sides alone, or take the clutch away in a variant");
     }
     if matches!(case.study.kind, Kind::Inverse(_)) && !mechanism.pressings.is_empty() {
         // where a joint changes its side it presses by nothing, on either

@@ -169,10 +169,6 @@ where
         if let Some(joint) = self.sinking.rest.beyond(self.case, &found.stand.position) {
             return Err(self.names.beyond(&self.case.model.joints[joint].name, &self.case.study.place));
         }
-        if let Some(clutch) = self.sinking.rest.back(&begin.position, &found.stand.position) {
-            let clutch = &self.sinking.rest.system.dynamics.mechanism.contacts[clutch].name;
-            return Err(self.names.locked(clutch, &self.case.study.place));
-        }
         Ok(Some(Settled { begin: begin.position, found, passed }))
     }
 
