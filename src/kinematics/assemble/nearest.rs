@@ -36,9 +36,11 @@ const NEARER: f64 = 1e-3;
 /// Residual of a closed position, rad and sizes, from which whole turns have been taken.
 const CLOSED: f64 = 1e-9;
 
-/// Places from which other assemblies are looked for, and the coordinates up to which they are.
+/// Places from which other assemblies are looked for.
 const LOOKS: u32 = 16;
-const MOST: usize = 300;
+
+/// Coordinates up to which positions are looked for all around.
+pub(super) const MOST: usize = 300;
 
 impl<G: Space<S = f64>> System<'_, G> {
     /// Moves a closed position on its branch as near to the guesses as can be, and among such positions to the drawn pose.

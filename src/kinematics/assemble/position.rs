@@ -3,6 +3,7 @@
 use super::close::{CONVERGED, Held, System};
 use super::fault::AssemblyFault;
 use super::metric::norm;
+use super::nearest::MOST;
 use super::rotation;
 use super::shake::Shake;
 use crate::geometry::Space;
@@ -20,11 +21,10 @@ const FAR: f64 = 0.1;
 /// Places around the guesses from which other branches are looked for.
 const LOOKS: u32 = 8;
 
-/// Places near the guesses, and in mechanisms of up to so many coordinates everywhere, from which a position is looked for where none is
+/// Places near the guesses, and in mechanisms of up to [`MOST`] coordinates everywhere, from which a position is looked for where none is
 /// found at once.
 const NEAR: u32 = 8;
 const EVERYWHERE: u32 = 24;
-const MOST: usize = 300;
 
 /// Coordinates and modes of the start.
 ///
