@@ -117,6 +117,55 @@ studies: {{ k: {{ kinematics: {{ over: 100 turn, samples: 10 }}, columns: [A.ang
     }
 }
 
+/// Two bars side by side, the second of them moved by a law of the angle of the first, which turns at 1 rad/s.
+fn moved_by(law: &str, start: &str, over: &str, samples: usize) -> Outcome {
+    let text = format!(
+        "grashof: 1
+name: kinks
+space: planar
+gravity: none
+ground: {{ A: [0, 0], B: [1 m, 0] }}
+bodies:
+  a: {{ mass: 1 kg, inertia: 0.1 kg m^2 }}
+  b: {{ mass: 1 kg, inertia: 0.2 kg m^2 }}
+joints: {{ A: {{ revolute: [ground.A, a.origin] }}, B: {{ revolute: [ground.B, b.origin] }} }}
+drivers: {{ drive: {{ joint: A, speed: 1 rad/s }} }}
+start: {start}
+couplings: {{ law: {{ zero: \"B.angle - {law}\" }} }}
+studies: {{ s: {{ kinematics: {{ over: {over}, samples: {samples} }}, columns: [A.angle, B.angle, B.omega] }} }}
+"
+    );
+    study(&text, "s").unwrap()
+}
+
+#[test]
+fn a_coupling_may_have_kinks_on_many_turns_and_of_any_slope() {
+    for (slope, turns) in [(1.0, 120), (3.0, 8), (12.0, 8), (30.0, 120)] {
+        let outcome =
+            moved_by(&format!("{slope}*abs(mod(A.angle, 1) - 0.5)"), "{ A.angle: 0.25 rad }", &format!("{turns} turn"), 8 * turns);
+        assert_eq!(outcome.stopped, None);
+        // behind the start a kink at each half of a radian
+        let range = f64::from(turns as u32) * std::f64::consts::TAU;
+        assert_eq!(outcome.switches.len() as f64, (2.0 * (range + 0.25)).floor(), "{slope}, {turns}");
+        assert!(outcome.findings.iter().all(|f| f.code == "velocity-jump"), "{:?}", outcome.findings);
+        for row in outcome.rows.iter() {
+            let past = row[0].rem_euclid(1.0) - 0.5;
+            assert!((row[1] - slope * past.abs()).abs() < 1e-11 * (1.0 + slope) * range, "{slope}: {row:?}");
+            let corner = past.abs().min(0.5 - past.abs()) < 1e-9;
+            assert!(corner || (row[2] - slope * past.signum()).abs() < 1e-9 * slope, "{slope}: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn a_motion_keeps_its_rows_up_to_where_no_velocity_leads_on() {
+    let outcome = moved_by("sqrt(abs(A.angle - 2))", "{ A.angle: 1 rad }", "1 turn", 60);
+    assert!(outcome.stopped.as_deref().is_some_and(|why| why.contains("A.angle = 114.592 deg")), "{:?}", outcome.stopped);
+    let last = outcome.rows.iter().last().unwrap();
+    assert!((last[0] - 2.0).abs() < 1e-6 && last[1].abs() < 1e-3, "{last:?}");
+    assert!(outcome.rows.iter().all(|row| (row[1] - (row[0] - 2.0).abs().sqrt()).abs() < 1e-6));
+}
+
 #[test]
 fn a_jump_just_behind_the_start_leaves_no_motion() {
     for name in ["k", "i", "d"] {

@@ -22,5 +22,6 @@ pub mod pencil;
 mod remaining;
 pub(crate) mod saddle;
 pub(crate) mod standing;
+mod steps;
 pub mod survey;
 pub mod undefined;

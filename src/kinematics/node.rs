@@ -1,5 +1,9 @@
 //! A solution on the path of a driven motion.
 
+use super::driven::Driven;
+use crate::geometry::Space;
+use crate::mechanism::Measured;
+
 /// A solution on the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPoint {
@@ -13,9 +17,43 @@ pub struct PathPoint {
     pub a: Vec<f64>,
     /// Unwrapped angles of cut hinges, by winding number.
     pub turns: Vec<f64>,
-    /// How regular the constraints are: [`Driven::regularity`](super::driven::Driven::regularity).
+    /// How regular the constraints are: [`Driven::regularity`].
     pub regularity: f64,
 }
 
 /// Pivot ratio below which a position counts as singular: rates would keep fewer than half of their digits.
 pub const SINGULAR: f64 = 1e-7;
+
+impl<G: Space<S = f64>> Driven<'_, G> {
+    /// The solution found last as a node.
+    #[must_use]
+    pub fn node(&mut self, t: f64, modes: &[i32]) -> PathPoint {
+        let mut turns = vec![0.0; self.dynamics.mechanism.windings];
+        if !turns.is_empty() {
+            self.dynamics.watch(&self.q, &self.v, modes);
+            for (gauge, reading) in self.dynamics.mechanism.gauges.iter().zip(&self.dynamics.work.readings) {
+                if let Measured::Turn { winding, .. } = gauge.measured {
+                    turns[winding] = reading.x;
+                }
+            }
+        }
+        let regularity = self.regularity();
+        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity }
+    }
+
+    /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.
+    pub fn wind(&mut self, modes: &mut [i32], expected: &[f64]) {
+        if expected.is_empty() {
+            return;
+        }
+        let m = self.dynamics.mechanism;
+        self.dynamics.position(&self.q, modes);
+        self.dynamics.watch(&self.q, &self.v, modes);
+        for (gauge, reading) in m.gauges.iter().zip(&self.dynamics.work.readings) {
+            if let Measured::Turn { winding, .. } = gauge.measured {
+                let off = (expected[winding] - reading.x) / std::f64::consts::TAU;
+                modes[m.switches + winding] += 2 * off.round() as i32;
+            }
+        }
+    }
+}

@@ -10,9 +10,10 @@ use super::fold::fold;
 use super::laws::{Jump, first_jump, jump_beside};
 pub use super::node::{PathPoint, SINGULAR};
 use super::standing::Standing;
+use super::steps::{over_kink, step};
 use super::undefined::Gap;
 use crate::geometry::Space;
-use crate::mechanism::{Measured, Step};
+use crate::mechanism::Step;
 use crate::numerics::hermite::Hermite;
 
 /// The path from the earliest to the latest node.
@@ -53,10 +54,6 @@ pub const MOST_NODES: usize = 2_000_000;
 
 /// Steps below this part of the range mean that the path has ended.
 const SHORTEST: f64 = 1e-13;
-/// A correction beyond this part of the move is not trusted.
-const TRUSTED: f64 = 0.1;
-/// Largest predicted move of one step, rad or sizes of the mechanism.
-const FARTHEST: f64 = 0.3;
 /// Part of the range, and move in rad or sizes, at which a path begins beside a start in a change point.
 const AROUND: f64 = 4e-3;
 /// See [`AROUND`].
@@ -226,6 +223,10 @@ fn march<G: Space<S = f64>>(
                 h = if (1.6 * h).abs() < longest.abs() { 1.6 * h } else { longest };
             }
             Err(NotReached) => {
+                if let Some([before, behind]) = over_kink(driven, modes, last, t, &mut delta) {
+                    nodes.extend((before.t != last.t).then_some(before).into_iter().chain([behind]));
+                    continue;
+                }
                 // a range that ends in a change point is followed to beyond it
                 if h == left
                     && let Ok(node) = step(driven, modes, last, to + around_reach(driven, &last.v, to), &mut delta)
@@ -266,73 +267,4 @@ fn leapt<G: Space<S = f64>>(driven: &mut Driven<'_, G>, modes: &mut [i32], mut n
         nodes.push(node);
     }
     (nodes, End::Jump(law))
-}
-
-/// One trusted step to time `t`.
-fn step<G: Space<S = f64>>(
-    driven: &mut Driven<'_, G>,
-    modes: &mut [i32],
-    last: &PathPoint,
-    t: f64,
-    delta: &mut [f64],
-) -> Result<PathPoint, NotReached> {
-    let h = t - last.t;
-    for (d, (v, a)) in delta.iter_mut().zip(last.v.iter().zip(&last.a)) {
-        *d = h * (v + 0.5 * h * a);
-    }
-    let size = driven.measure(delta);
-    if size.is_nan() || size > FARTHEST {
-        return Err(NotReached);
-    }
-    driven.q.copy_from_slice(&last.q);
-    driven.dynamics.mechanism.retract(&mut driven.q, delta);
-    driven.wind(modes, &last.turns);
-    driven.follow(t, modes)?;
-    if driven.correction > TRUSTED * size + 1e-9 {
-        return Err(NotReached);
-    }
-    driven.rates(modes);
-    // the velocity must go on smoothly: |v − (v₀ + h a₀)| against the velocities themselves
-    for ((d, v), (v0, a0)) in delta.iter_mut().zip(&driven.v).zip(last.v.iter().zip(&last.a)) {
-        *d = v - (v0 + h * a0);
-    }
-    let (jump, speed) = (driven.measure(delta), driven.measure(&last.v) + driven.measure(&driven.v));
-    if jump.is_nan() || jump > 0.2 * speed + 1e-9 / h.abs() {
-        return Err(NotReached);
-    }
-    Ok(driven.node(t, modes))
-}
-
-impl<G: Space<S = f64>> Driven<'_, G> {
-    /// The solution found last as a node.
-    #[must_use]
-    pub fn node(&mut self, t: f64, modes: &[i32]) -> PathPoint {
-        let mut turns = vec![0.0; self.dynamics.mechanism.windings];
-        if !turns.is_empty() {
-            self.dynamics.watch(&self.q, &self.v, modes);
-            for (gauge, reading) in self.dynamics.mechanism.gauges.iter().zip(&self.dynamics.work.readings) {
-                if let Measured::Turn { winding, .. } = gauge.measured {
-                    turns[winding] = reading.x;
-                }
-            }
-        }
-        let regularity = self.regularity();
-        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity }
-    }
-
-    /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.
-    pub fn wind(&mut self, modes: &mut [i32], expected: &[f64]) {
-        if expected.is_empty() {
-            return;
-        }
-        let m = self.dynamics.mechanism;
-        self.dynamics.position(&self.q, modes);
-        self.dynamics.watch(&self.q, &self.v, modes);
-        for (gauge, reading) in m.gauges.iter().zip(&self.dynamics.work.readings) {
-            if let Measured::Turn { winding, .. } = gauge.measured {
-                let off = (expected[winding] - reading.x) / std::f64::consts::TAU;
-                modes[m.switches + winding] += 2 * off.round() as i32;
-            }
-        }
-    }
 }

@@ -29,6 +29,9 @@ use crate::studies::common::outcome::Outcome;
 /// Part of the size of a mechanism by which its centre of mass may move when it counts as balanced.
 const STILL: f64 = 1e-9;
 
+/// How often a motion is cut where a position could not be reached.
+const MOST_CUTS: usize = 8;
+
 /// A study of a motion that its drivers prescribe.
 pub(crate) fn run<G: Space<S = f64>>(case: Case<'_>, range: &Range, coordinates: Coordinates) -> Result<Outcome, Failure> {
     let Case { model, study, parameters, .. } = case;
@@ -159,7 +162,7 @@ fn observe<G: Space<S = f64>>(
     let variable = Variable { name: &name, unit };
     let explain = |gap: &Gap, at: f64| gap.explain(model, study, &variable.at(at));
     let mut undefined = motion.path.gap.take().map(|gap| explain(&gap, clock.value(motion.ends[1])));
-    let mut barrier: Option<String> = None;
+    let (mut barrier, mut cuts): (Option<String>, usize) = (None, 0);
     let seen = loop {
         match see(&mut motion, case, &watched, range.samples, variable) {
             Ok(seen) => {
@@ -173,7 +176,11 @@ fn observe<G: Space<S = f64>>(
             }
             Err(Lost { at, gap: None }) => {
                 let message = format!("the position at {} could not be reached", variable.at(at));
-                return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
+                cuts += 1;
+                if cuts > MOST_CUTS || motion.end_before(at).is_none() {
+                    return Err(Failure::numerical(message, "start elsewhere, change the lengths, or give a shorter range"));
+                }
+                barrier = Some(message);
             }
             Err(Lost { at, gap: Some(gap) }) => {
                 let Some(Lost { at, gap: behind }) = motion.end_before(at) else { return Err(Failure::Undefined(explain(&gap, at))) };

@@ -16,6 +16,7 @@ mod passage;
 mod passing;
 pub(crate) mod pieces;
 pub(crate) mod recorder;
+mod rows;
 pub(crate) mod scene;
 mod selection;
 pub mod settings;

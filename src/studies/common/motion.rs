@@ -259,8 +259,11 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                 Err(why) => (bad, lost) = (middle, why),
             }
         }
-        self.ends[usize::from(s > 0.0)] = good;
-        (good != 0.0).then_some(lost)
+        if good == 0.0 {
+            return None;
+        }
+        self.end_at(good);
+        Some(lost)
     }
 
     /// Whether all is defined at progress `s`.

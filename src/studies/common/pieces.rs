@@ -7,7 +7,6 @@
 //! behind it is looked at in the new modes.
 
 use super::motion::{Lost, Motion};
-use super::recorder::Recorder;
 use super::switching::Distance;
 use crate::geometry::Space;
 use crate::numerics::continuous::Curve;
@@ -38,8 +37,8 @@ const NEARER_BY: f64 = 0.25;
 /// Nodes of the path to a first stretch.
 const NODES_TO_A_STRETCH: usize = 4;
 
-/// Most looks for switches, some 25 for each that is found.
-const MOST_LOOKS: usize = 300_000;
+/// Most looks for switches, some 25 for each that is found: in all, and for each node of the path.
+const MOST_LOOKS: [usize; 2] = [300_000, 300];
 
 /// A lowest place beyond this part of the half-width of a stretch is the end where the distance is known to be zero.
 const NEAR_END: f64 = 0.999;
@@ -120,7 +119,7 @@ impl<G: Space<S = f64>> Curve for Distances<'_, '_, G> {
     }
 }
 
-impl<'m, G: Space<S = f64>> Motion<'m, G> {
+impl<G: Space<S = f64>> Motion<'_, G> {
     /// Finds the pieces, and resolves the columns on them to `WIDTH` of their size.
     ///
     /// # Errors
@@ -160,35 +159,6 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.note_lines(&mut found);
         Ok(found)
     }
-
-    /// Rows on the grid of `samples` equal intervals of the whole range, with both sides of every switch.
-    ///
-    /// # Errors
-    /// If a place cannot be reached.
-    pub(crate) fn rows(&mut self, samples: usize, recorder: &mut Recorder<'_>) -> Result<(), Lost> {
-        let spacing = self.clock.length / samples as f64;
-        let at = |k: i64| if k == samples as i64 { self.clock.length } else { k as f64 * spacing };
-        // a switch that stands on the grid but for rounding is written there
-        let written = |s: f64| {
-            let near = at((s / spacing).round() as i64);
-            if (near - s).abs() < 1e-9 * spacing { near } else { s }
-        };
-        let (breaks, [low, high]) = (self.breaks.clone(), self.ends);
-        let mut places = Vec::new();
-        for (piece, ends) in breaks.windows(2).enumerate() {
-            let [from, to] = [ends[0], ends[1]].map(|s| if s == low || s == high { s } else { written(s) });
-            let inside = (from / spacing).floor() as i64..=(to / spacing).ceil() as i64;
-            let near = 1e-9 * spacing;
-            let grid = inside.map(at).filter(|s| *s > from + near && *s < to - near);
-            places.extend(std::iter::once(from).chain(grid).chain([to]).map(|s| (s, piece)));
-        }
-        let mut out = vec![0.0; self.columns()];
-        for (s, piece) in places {
-            self.row(s, piece, &mut out)?;
-            recorder.row(s, piece, &out);
-        }
-        Ok(())
-    }
 }
 
 impl<G: Space<S = f64>> Front<'_, '_, G> {
@@ -218,7 +188,7 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
             let Stretch { from, to, closed, .. } = stretch;
             // up to a switch so near there is nothing to be seen; and effort has an end
             let short = !closed.is_empty() && to - from <= NARROWEST * self.range();
-            let exhausted = self.looks > MOST_LOOKS;
+            let exhausted = self.looks > MOST_LOOKS[0].max(MOST_LOOKS[1] * self.motion.path.nodes.len());
             if short || exhausted {
                 if exhausted {
                     let switch = self.fresh.first().copied().unwrap_or(self.distances(to)?[0].switch);
@@ -275,6 +245,13 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
             self.flips = 0;
             self.motion.breaks.push(at);
             self.motion.pieces.push(next);
+            // of several switches at one place the first alone may lead to where there is no position
+            let beside = (at + BEHIND * range).min(self.motion.ends[1]);
+            if self.motion.distances(at, piece + 1).is_err() && self.motion.solve(beside, None).is_ok() {
+                let switches = self.motion.pieces[piece].len();
+                self.motion.pieces[piece + 1] = self.motion.modes[..switches].to_vec();
+                self.fresh = changed(&self.motion.pieces[piece], &self.motion.pieces[piece + 1]);
+            }
             return Ok(());
         }
         // at the same place as the last one: the piece between them is empty
