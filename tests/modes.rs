@@ -180,7 +180,7 @@ fn a_four_bar_in_balance_has_one_frequency_in_all_coordinates() {
 fn potential<S: Space<S = f64>>(m: &Mechanism<S>, q: &[f64], modes: &[i32]) -> f64 {
     let mut d = Dynamics::new(m);
     d.terms(0.0, q, &vec![0.0; m.nv], modes);
-    d.gravity_energy() + (0..m.stretches.len()).map(|i| d.spring_energy(i)).sum::<f64>()
+    d.gravity_energy() + (0..m.stretches.len()).map(|i| d.spring_energy(i, modes)).sum::<f64>()
 }
 
 /// The second derivatives of the energy along independent coordinates, by differences, the loops closed at each place.

@@ -1,6 +1,6 @@
 //! What springs store by laws of several pieces, against closed forms.
 
-use crate::common::{State, mechanism, study};
+use crate::common::{State, close, mechanism, study};
 use allocation_counter::measure;
 use grashof::dynamics::Dynamics;
 use grashof::geometry::Planar;
@@ -38,7 +38,7 @@ fn energies(law: &str, places: &[f64]) -> Vec<[f64; 2]> {
         d.terms(s.t, &s.q, &s.v, &s.modes);
         let mut energy = f64::NAN;
         let before = d.work.force_outputs.clone();
-        let info = measure(|| energy = d.spring_energy(0));
+        let info = measure(|| energy = d.spring_energy(0, &s.modes));
         assert_eq!(info.count_total, 0, "an energy allocates");
         assert_eq!(d.work.force_outputs, before);
         assert_eq!(d.unresolved_spring(), None, "{law} at {x}");
@@ -158,6 +158,47 @@ fn a_jump_of_a_law_that_time_moves_does_work() {
     let march = outcome.certificate.march.as_ref().unwrap();
     assert!(march.drivers.abs() > 0.1, "{}", march.drivers);
     assert!(march.energy_drift < 1e-8, "{:e} of {:e}", march.energy_drift, march.energy_scale);
+}
+
+#[test]
+fn a_law_that_jumps_at_an_instant_does_work_at_once() {
+    // in each the spring holds another energy behind 0.5 s at the same stretch
+    let springs = [
+        "force: \"20 N/m*stretch + if(t > 0.5 s, 5 N, 0 N)\"",
+        "force: \"if(t > 0.5 s, 20 N/m*stretch, 60 N/m*stretch) + if(t > 0.7 s and stretch > 1 cm, 3 N, 0 N)\"",
+        "stiffness: 20 N/m, rest: \"if(t > 0.5 s, 3 cm, 0 m)\"",
+        "stiffness: \"if(t > 0.5 s, 20 N/m, 60 N/m)\", preload: \"if(t > 0.7 s, 1 N, 0 N)\"",
+    ];
+    for spring in springs {
+        let text = format!(
+            "grashof: 1
+name: slide
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+springs: {{ k: {{ joint: A, {spring} }} }}
+start: {{ A.position: 0.4 m }}
+studies:
+  run:
+    dynamics: {{ until: 1.2 s, every: 0.1 s, tolerance: 1e-11 }}
+    columns: [A.position, A.velocity, k.energy, energy.total]
+    scalars: {{ most: max(k.energy) }}
+"
+        );
+        let outcome = study(&text, "run", Coordinates::Joint);
+        let march = outcome.certificate.march.as_ref().unwrap();
+        assert!(march.energy_drift < 1e-8, "{spring}: {:e} of {:e}", march.energy_drift, march.energy_scale);
+        let (first, last) = (&outcome.rows[0], outcome.rows.iter().last().unwrap());
+        close(spring, &[last[3] - first[3]], &[march.drivers], 1e-8);
+        // both rows of the instant: at the same place and speed, with another energy
+        let at = *outcome.switches.iter().find(|row| (outcome.places[**row] - 0.5).abs() < 1e-9).unwrap();
+        let [before, behind] = [0, 1].map(|side| &outcome.rows[at + side]);
+        close(spring, &[before[0], before[1]], &[behind[0], behind[1]], 1e-12);
+        assert!((before[2] - behind[2]).abs() > 0.01, "{spring}: {before:?} {behind:?}");
+        let unchanged = (0..=at).all(|row| (outcome.rows[row][3] - first[3]).abs() < 1e-8);
+        assert!(unchanged, "{spring}");
+    }
 }
 
 #[test]

@@ -105,7 +105,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
     pub fn potential_energy(&mut self, modes: &[i32]) -> f64 {
         let mut sum = self.gravity_energy() + self.field_energy(modes);
         for spring in 0..self.mechanism.stretches.len() {
-            sum += self.spring_energy(spring);
+            sum += self.spring_energy(spring, modes);
         }
         for buffer in &self.mechanism.buffers {
             sum += buffer.energy(self.work.readings[buffer.gauge].x).0;
@@ -113,27 +113,28 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         sum
     }
 
-    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫₀ˢ F ds for a law, at fixed time, to round-off.
+    /// Energy stored in a spring: ½ k s² + F₀ s for a linear one; ∫₀ˢ F ds for a law, at fixed time, to round-off. Switches of time alone
+    /// have their `modes` (switches).
     #[must_use]
-    pub fn spring_energy(&mut self, spring: usize) -> f64 {
+    pub fn spring_energy(&mut self, spring: usize, modes: &[i32]) -> f64 {
         let m = self.mechanism;
         let s = self.stretch(spring);
         match m.efforts[m.spring_efforts[spring]].law {
             EffortLaw::Linear { stiffness, preload, .. } => 0.5 * stiffness * s * s + preload * s,
-            EffortLaw::Law { .. } => self.over_stretch(spring, 0),
+            EffortLaw::Law { .. } => self.over_stretch(spring, 0, modes),
             EffortLaw::Drive { .. } | EffortLaw::Friction { .. } => 0.0,
         }
     }
 
     /// Power that time puts in through a spring, W: its force works on what moves by time alone, and what it stores changes where its
-    /// law does, −τ ∂s/∂t + ∂U/∂t. After [`Dynamics::loads`].
+    /// law does, −τ ∂s/∂t + ∂U/∂t, in the `modes` of [`Dynamics::spring_energy`]. After [`Dynamics::loads`].
     #[must_use]
-    pub fn spring_power(&mut self, spring: usize) -> f64 {
+    pub fn spring_power(&mut self, spring: usize, modes: &[i32]) -> f64 {
         let effort = self.mechanism.spring_efforts[spring];
         let by_time = self.extent_by_time(self.mechanism.stretches[spring].of) - self.moving_rest(spring, 1);
         let power = -(self.work.efforts[effort] * by_time);
         match self.mechanism.efforts[effort].law {
-            EffortLaw::Law { timed: true, .. } => power + self.over_stretch(spring, 1),
+            EffortLaw::Law { timed: true, .. } => power + self.over_stretch(spring, 1, modes),
             _ => power,
         }
     }
@@ -145,7 +146,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
     }
 
     /// ∫₀ˢ of the law of a spring (`output` 0: what it stores, J) or of its derivative by time with what its jumps add (1: W).
-    fn over_stretch(&mut self, spring: usize, output: usize) -> f64 {
+    fn over_stretch(&mut self, spring: usize, output: usize, modes: &[i32]) -> f64 {
         let way = self.stretch(spring);
         let Some(law) = self.mechanism.spring_laws.get(spring).and_then(Option::as_ref) else { return 0.0 };
         self.fill(law);
@@ -155,7 +156,7 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let w = &mut self.work;
         let (inputs, registers) = (w.inputs.as_mut_slice(), w.registers.as_mut_slice());
         let jumping = time.filter(|_| output == 1).map(|time| [0, time]);
-        let mut integrand = Integrand { program: &law.program, inputs, registers, outputs: &mut outputs, over, output, jumping };
+        let mut integrand = Integrand { program: &law.program, inputs, registers, outputs: &mut outputs, modes, over, output, jumping };
         w.integral.to(way, &mut integrand).unwrap_or_else(|seen| {
             w.unresolved_spring = Some(spring);
             seen

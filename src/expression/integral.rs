@@ -84,6 +84,8 @@ pub struct Integrand<'a> {
     pub registers: &'a mut [f64],
     /// Outputs; written.
     pub outputs: &'a mut [f64],
+    /// Modes of all switches, of which those count that are [given](Program::decided_by); shape of the pool.
+    pub modes: &'a [i32],
     /// The input that is integrated over; none if the program does not read it.
     pub over: Option<usize>,
     /// The output that is integrated.
@@ -176,6 +178,9 @@ impl Integral {
     /// What is seen of it, if it takes too many pieces.
     pub fn to(&mut self, way: f64, f: &mut Integrand<'_>) -> Result<f64, f64> {
         let narrowest = NARROWEST * way.abs();
+        let switches = self.there.len();
+        self.there.copy_from_slice(&f.modes[..switches]);
+        self.inside.copy_from_slice(&self.there);
         let (mut from, mut width) = (0.0, way / FIRST);
         let (mut sum, mut size, mut halvings) = (0.0, 0.0, 0);
         let mut cut: Option<Cut> = None;

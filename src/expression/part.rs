@@ -76,11 +76,32 @@ impl Program {
     /// The pool's numbers of the switches on which some of the outputs depend, also by other switches.
     #[must_use]
     pub fn switches_of(&self, outputs: &[usize]) -> Vec<u32> {
-        let mut wanted: Vec<u32> = outputs.iter().filter_map(|k| self.outputs.get(*k).copied()).collect();
+        self.reach(outputs.iter().filter_map(|k| self.outputs.get(*k).copied()).collect()).1
+    }
+
+    /// The same with those switches given that do not depend on one of its inputs: [`Self::set_modes`] leaves their modes as they are.
+    #[must_use]
+    pub fn decided_by(&self, input: u32) -> Self {
+        let depends = |k: &usize| {
+            let mut wanted = Vec::new();
+            self.decisions[*k].test.map(|register| wanted.push(register));
+            self.reach(wanted).0.iter().any(|op| op.input() == Some(input))
+        };
+        let kept: Vec<usize> = (0..self.switches.len()).filter(depends).collect();
+        Self {
+            switches: kept.iter().map(|k| self.switches[*k]).collect(),
+            decisions: kept.iter().map(|k| self.decisions[*k]).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The instructions that lead to some registers, also by the switches of others, and the pool's numbers of those switches.
+    fn reach(&self, mut wanted: Vec<u32>) -> (Vec<Op>, Vec<u32>) {
         let mut found = Vec::new();
         loop {
             let (needed, known) = (self.needed(&self.ops, &wanted), found.len());
-            for switch in self.ops.iter().zip(needed).filter(|(_, n)| n.is_some()).filter_map(|(op, _)| op.switch()) {
+            let ops: Vec<Op> = self.ops.iter().zip(needed).filter(|(_, n)| n.is_some()).map(|(op, _)| *op).collect();
+            for switch in ops.iter().filter_map(|op| op.switch()) {
                 if found.contains(&switch) {
                     continue;
                 }
@@ -90,7 +111,7 @@ impl Program {
                 }
             }
             if found.len() == known {
-                return found;
+                return (ops, found);
             }
         }
     }

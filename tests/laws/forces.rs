@@ -49,12 +49,12 @@ fn gravity_and_springs_take_from_their_energies() {
             let mut d = Dynamics::new(m);
             s.evaluate(&mut d);
             let mut all = vec![d.gravity_energy()];
-            all.extend((0..m.stretches.len()).map(|i| d.spring_energy(i)));
+            all.extend((0..m.stretches.len()).map(|i| d.spring_energy(i, &s.modes)));
             all
         };
         let mut d = Dynamics::new(m);
         s.evaluate(&mut d);
-        let by_time: Vec<f64> = (0..m.stretches.len()).map(|i| d.spring_power(i)).collect();
+        let by_time: Vec<f64> = (0..m.stretches.len()).map(|i| d.spring_power(i, &s.modes)).collect();
         let w = &d.work;
         let mut power = vec![0.0];
         for b in 1..m.bodies.len() {

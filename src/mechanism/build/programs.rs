@@ -113,7 +113,8 @@ impl<'m, G: Space> Builder<'m, G> {
                 *slot = program;
             }
         }
-        self.mechanism.spring_laws = laws.into_iter().map(|law| law.map(|of| self.program(of))).collect();
+        self.mechanism.spring_laws =
+            laws.into_iter().enumerate().map(|(spring, law)| law.map(|of| self.over_stretch(of, spring))).collect();
         // the drift of a function reads the same input vector, extended by rates: sizes are known only now
         self.mechanism.tables = self.tables;
         self.mechanism.switches = self.pool.switches().len();
@@ -142,6 +143,14 @@ impl<'m, G: Space> Builder<'m, G> {
         let EffortLaw::Law { output, timed, .. } = law else { return None };
         let outputs = [Some(output), timed.then_some(output + 2)];
         Some(outputs.into_iter().flatten().map(|k| self.force[k].clone()).collect())
+    }
+
+    /// A program whose switches are decided along the stretch of a spring, the others given.
+    fn over_stretch(&mut self, outputs: Vec<Output>, spring: usize) -> StagedProgram {
+        let staged = self.program(outputs);
+        let over = staged.fills.iter().find(|(_, leaf)| *leaf == Leaf::Stretch { spring, order: 0 });
+        let program = staged.program.decided_by(over.map_or(u32::MAX, |(input, _)| *input as u32));
+        StagedProgram { program, ..staged }
     }
 
     fn program(&mut self, outputs: Vec<Output>) -> StagedProgram {

@@ -342,7 +342,7 @@ impl<G: Space<S = f64>> Source<G> {
             },
             Self::Row(row) => r.rows[row],
             Self::SpringForce(effort) => -w.efforts[effort],
-            Self::SpringEnergy(spring) => d.spring_energy(spring),
+            Self::SpringEnergy(spring) => d.spring_energy(spring, modes),
             Self::Friction(effort, contact) => w.efforts[effort] + contact.map_or(0.0, |contact| r.held[contact]),
             Self::Stop { effort, row } => effort.map_or(0.0, |effort| w.efforts[effort]) + row.map_or(0.0, |row| r.rows[row]),
             Self::Effort(effort) => {

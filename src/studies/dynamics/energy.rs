@@ -41,7 +41,7 @@ pub(super) struct Balance {
     impacts: f64,
     /// What blows at rigid end stops took.
     blows: f64,
-    /// What drivers did by impulses: at blows, and where their law has a kink.
+    /// What drivers did at once: by impulses at blows and where their law has a kink, and where the law or the rest of a spring jumps with time.
     kinks: f64,
     /// What one-way clutches took that blows have closed.
     closings: f64,
@@ -72,6 +72,27 @@ where
     let mut modes = node.state.modes.clone();
     modes.truncate(d.mechanism.switches + d.mechanism.windings);
     [kinetic, kinetic + d.potential_energy(&modes)]
+}
+
+/// What springs store more in the modes behind a switch than in those before it: their laws or rests jump with time there.
+fn switched<G>(system: &mut Mechanical<'_, G>, [before, after]: [&Node; 2]) -> f64
+where
+    G: Space<S = f64>,
+{
+    let m = system.dynamics.mechanism;
+    let changed = |switch: &u32| before.state.modes[*switch as usize] != after.state.modes[*switch as usize];
+    let programs = [&m.time_program, &m.force_program].map(|staged| staged.program.switches());
+    if m.stretches.is_empty() || !programs.into_iter().flatten().any(changed) {
+        return 0.0;
+    }
+    let mut state = before.state.clone();
+    let [stored, more] = [before, after].map(|side| {
+        state.modes[..m.switches].copy_from_slice(&side.state.modes[..m.switches]);
+        system.observe(&state.at(), &before.a, &before.lambda);
+        (0..m.stretches.len()).map(|spring| system.dynamics.spring_energy(spring, &state.modes)).sum::<f64>()
+    });
+    system.observe(&after.state.at(), &after.a, &after.lambda);
+    more - stored
 }
 
 impl Balance {
@@ -136,9 +157,11 @@ impl Balance {
     where
         G: Space<S = f64>,
     {
+        let switched = switched(system, [before, after]);
+        self.kinks += switched;
         if before.state.v != after.state.v {
             let [_, e0] = energy(system, before);
-            let [_, e1] = energy(system, after);
+            let e1 = energy(system, after)[1] - switched;
             let corner = system.take_corner();
             if let Some((row, _)) = corner {
                 self.corners.get_or_insert_with(|| (before.state.t, system.dynamics.mechanism.name_of_row(row), 0)).2 += 1;

@@ -17,7 +17,7 @@ where
         self.dynamics.apply_friction(lambda);
         let m = self.dynamics.mechanism;
         self.modes.copy_from_slice(&at.modes[..m.switches + m.windings]);
-        let by_springs: f64 = (0..m.stretches.len()).map(|spring| self.dynamics.spring_power(spring)).sum();
+        let by_springs: f64 = (0..m.stretches.len()).map(|spring| self.dynamics.spring_power(spring, &self.modes)).sum();
         let work = &self.dynamics.work;
         w[0] = by_springs - work.nu.iter().zip(lambda).map(|(nu, l)| nu * l).sum::<f64>();
         w[1..].fill(0.0);
