@@ -18,7 +18,8 @@ use grashof_solvers::{At, Effect, Kkt, Stage, State, System, Terms};
 /// Steps of the classical Runge-Kutta method over a corner.
 const STEPS: usize = 64;
 
-/// Part of the largest rate of a row by which rows may miss the velocities before where there is no corner.
+/// Part of the largest rate of a row, or of what the fastest motion would give one, by which rows may miss the velocities before where there
+/// is no corner.
 const SMOOTH: f64 = 1e-12;
 
 /// A jump of a row, in radians or sizes of the mechanism, that is no rounding of the place of the switch.
@@ -57,7 +58,9 @@ where
             return Effect::Stop;
         }
         let mut corner = Corner::new([&near, &far]);
-        let Some(row) = corner.turns(&state.v) else { return Effect::Restart };
+        let speed = state.v.iter().zip(&self.pattern.size_v).fold(0.0, |m: f64, (v, size)| m.max((v / size).abs()));
+        let fast = |row: usize| speed * if rows[row].angular { 1.0 } else { self.size };
+        let Some(row) = corner.turns(&state.v, fast) else { return Effect::Restart };
         if let Some((v, work)) = self.over(&mut corner, &state.v) {
             state.v = v;
             let before = self.corners.passed.map_or(0.0, |(_, work)| work);
@@ -127,8 +130,8 @@ impl<'a> Corner<'a> {
         }
     }
 
-    /// The row whose velocity would change most, if one does.
-    fn turns(&mut self, v: &[f64]) -> Option<usize> {
+    /// The row whose velocity would change most, if one does; `fast` is the rate of a row by the fastest motion.
+    fn turns(&mut self, v: &[f64], fast: impl Fn(usize) -> f64) -> Option<usize> {
         self.miss(v);
         let [_, far] = self.sides;
         let size = |i: usize| {
@@ -137,7 +140,7 @@ impl<'a> Corner<'a> {
             size
         };
         let largest = (0..self.rhs.len()).max_by(|i, k| self.rhs[*i].abs().total_cmp(&self.rhs[*k].abs()))?;
-        let reach = (0..self.rhs.len()).map(size).fold(0.0, f64::max);
+        let reach = (0..self.rhs.len()).map(size).fold(fast(largest), f64::max);
         (self.rhs[largest].abs() > SMOOTH * reach).then_some(largest)
     }
 }
