@@ -153,15 +153,18 @@ studies:
 }
 
 /// A cam with straight flanks carries a mass on a spring, which moves the follower too: velocities of both jump at each corner.
-#[test]
-fn neighbours_pass_the_corners_of_a_coupling() {
-    let text = |[omega, x, v]: [f64; 3], study: &str| {
-        format!(
-            "grashof: 1
+/// A cam by a table under a mass on a spring, from an angle in degrees; the study.
+fn cam(between: &str, [angle, omega, x, v]: [f64; 4], study: &str) -> String {
+    format!(
+        "grashof: 1
 name: cam under a mass on a spring
 space: planar
 gravity: none
-tables: {{ lift: {{ points: [[0 deg, 0 mm], [90 deg, 0 mm], [180 deg, 10 mm], [270 deg, 10 mm], [360 deg, 0 mm]], beyond: periodic }} }}
+tables:
+  lift:
+    points: [[0 deg, 0 mm], [90 deg, 0 mm], [180 deg, 10 mm], [270 deg, 10 mm], [360 deg, 0 mm]]
+    between: {between}
+    beyond: periodic
 bodies: {{ cam: {{ mass: 1 kg, inertia: 1e-3 kg m^2 }}, follower: {{ mass: 20 kg }}, load: {{ mass: 5 kg }} }}
 joints:
   O: {{ revolute: [ground, cam.origin] }}
@@ -171,15 +174,39 @@ couplings: {{ c: {{ zero: F.position - lift(O.angle) - 0.2*L.position }} }}
 springs: {{ s: {{ joint: L, stiffness: 2000 N/m, damping: 20 N s/m }} }}
 measures: {{ theta: O.angle, omega: O.omega }}
 loads: {{ push: {{ joint: O, torque: 0.02 N m }}, brake: {{ joint: O, torque: -0.001 N m s*omega }} }}
-{}start: {{ O.angle: 10 deg, O.omega: {omega:?} rad/s, L.position: {x:?} m, L.velocity: {v:?} m/s }}
+{}start: {{ O.angle: {angle:?} deg, O.omega: {omega:?} rad/s, L.position: {x:?} m, L.velocity: {v:?} m/s }}
 studies: {{ {study}, columns: [omega, L.position, L.velocity] }} }}
 ",
-            if study.starts_with("lap") { "events: { turned: { when: theta - 370 deg, action: stop } }\n" } else { "" }
-        )
-    };
-    let found = regime(&text([17.0, -0.0035, -0.094], "regime: { periodic: { over: theta, by: 1 turn, of: omega, tolerance: 1e-11 }"));
-    let x = &found.rows[0];
-    let map = |x: &[f64]| end(&text([x[0], x[1], x[2]], "lap: { dynamics: { until: 2 s, tolerance: 1e-13 }"));
-    map(x).iter().zip(x).for_each(|(next, x)| near("a turn later", *next, *x, 1e-8));
-    same_multipliers(&found, &derivative(map, x, &[1e-2, 1e-5, 1e-3]), 1e-6);
+        if study.starts_with("lap") {
+            format!("events: {{ turned: {{ when: theta - {} deg, action: stop }} }}\n", angle + 360.0)
+        } else {
+            String::new()
+        }
+    )
+}
+
+const TURN: &str = "regime: { periodic: { over: theta, by: 1 turn, of: omega, tolerance: 1e-11 }";
+
+#[test]
+fn neighbours_pass_the_corners_of_a_coupling() {
+    for between in ["linear", "cubic"] {
+        let found = regime(&cam(between, [10.0, 17.0, -0.0035, -0.094], TURN));
+        let x = &found.rows[0];
+        let map = |x: &[f64]| end(&cam(between, [10.0, x[0], x[1], x[2]], "lap: { dynamics: { until: 2 s, tolerance: 1e-13 }"));
+        map(x).iter().zip(x).for_each(|(next, x)| near("a turn later", *next, *x, 1e-8));
+        same_multipliers(&found, &derivative(map, x, &[1e-2, 1e-5, 1e-3]), 1e-6);
+    }
+}
+
+#[test]
+fn a_regime_is_the_same_wherever_its_turn_begins() {
+    for between in ["linear", "cubic"] {
+        let of = |angle: f64| regime(&cam(between, [angle, 17.0, -0.0035, -0.094], TURN));
+        let [first, others @ ..] = [10.0, 0.0, 90.0, 200.0, 270.0].map(of);
+        for other in others {
+            near("period", other.results[PERIOD], first.results[PERIOD], 1e-9);
+            let all = |found: &grashof::studies::common::outcome::Outcome| multipliers(found).as_flattened().to_vec();
+            all(&other).iter().zip(all(&first)).for_each(|(other, first)| near("multiplier", *other, first, 1e-6));
+        }
+    }
 }

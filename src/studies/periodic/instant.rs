@@ -7,19 +7,11 @@
 
 use super::lap::{Lap, Search, tools};
 use super::rough::Rough;
-use super::saltation::{GRAZING, Side, rate};
+use super::saltation::{GRAZING, STRUCK, Side, instant, rate};
 use crate::geometry::Space;
 use crate::studies::dynamics::explain::root_name;
-use crate::studies::dynamics::system::Root;
 use grashof_solvers::{Node, System};
 use nalgebra::{DMatrix, DVector};
-
-/// Part of a velocity by which a blow changes it at least.
-const STRUCK: f64 = 1e-9;
-
-/// Part of a period within which what is met is met at one instant; so many tolerances of the integration at least.
-const INSTANT: f64 = 1e-9;
-const TOLERANCES: f64 = 10.0;
 
 /// Part by which times of arrival may differ that are the same: that of differences.
 const SAME_TIME: f64 = 1e-8;
@@ -37,7 +29,7 @@ pub(super) fn pass<G: Space<S = f64>>(
     piece: usize,
     psi: &DMatrix<f64>,
 ) -> Result<DMatrix<f64>, Rough> {
-    let within = lap.period() * INSTANT.max(TOLERANCES * search.tolerance);
+    let within = instant(lap.period(), search.tolerance);
     let nodes = sides(lap, piece, within)?;
     let mut side = Side::from(tools(&mut lap.trajectory));
     let [before, after] = &nodes[0];
@@ -90,16 +82,6 @@ enum Why {
 }
 
 impl<G: Space<S = f64>> Side<'_, '_, G> {
-    /// Place of the mode that a root leaves.
-    fn mode(&self, root: usize) -> Option<usize> {
-        let m = self.system.dynamics.mechanism;
-        match self.system.roots[root] {
-            Root::Force { program, k } => Some(m.programs()[program].program.switches()[k] as usize),
-            Root::Slides(contact) => Some(m.contacts[contact].mode),
-            _ => None,
-        }
-    }
-
     /// Roots that lead to other modes of forces. What is only counted or recorded leaves the motion as it is, and reactions change their
     /// side without a jump.
     fn changed(&self, [before, after]: [&Node; 2]) -> Vec<usize> {
@@ -124,19 +106,6 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         }
         met.extend(struck);
         met
-    }
-
-    /// Whether velocities differ by more than a part.
-    fn jumps(&self, [before, after]: [&Node; 2], part: f64) -> bool {
-        let sizes = self.engine.size_v.iter().zip(&before.state.v).map(|(s, v)| s + v.abs());
-        let mut changes = before.state.v.iter().zip(&after.state.v).zip(sizes);
-        changes.any(|((a, b), size)| (a - b).abs() > part * size)
-    }
-
-    /// Whether the motion meets a root within a time before or behind a node.
-    fn is_near(&mut self, root: usize, node: &Node, within: f64) -> bool {
-        let Some(g) = self.root(root, &mut node.clone()) else { return false };
-        self.pace_of_root(root, node).is_some_and(|pace| pace < 0.0 && g[0].abs() <= -within * pace)
     }
 
     /// Neighbours behind roots that were met together.

@@ -1,5 +1,6 @@
 //! One period of the motion: from a state to where the period ends.
 
+use super::saltation::{Side, instant};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::Coordinates;
@@ -62,7 +63,10 @@ pub(super) struct Lap<'e, G: Space<S = f64>> {
     pub(super) events: Vec<Happened>,
     pub(super) findings: Vec<Finding>,
     pub(super) start: Node,
+    /// Behind the corner of a law at which it ends, if it ends at one, as the start is.
     pub(super) end: Node,
+    /// The switches of that corner, and the node before it.
+    pub(super) corner: Option<(Vec<usize>, Box<Node>)>,
 }
 
 impl<G: Space<S = f64>> Lap<'_, G> {
@@ -181,7 +185,13 @@ impl Search<'_> {
             _ => events.pop_if(|e| e.name == ENDS).is_some(),
         };
         if ended && !exhausted {
-            return Ok(Lap { trajectory, certificate, events, findings, start, end });
+            let within = instant(end.state.t - start.state.t, self.tolerance);
+            let beyond = Side::<G>::from(tools(&mut trajectory)).beyond(&end, within);
+            let (end, corner) = match beyond {
+                Some((met, behind)) => (behind, Some((met, Box::new(end)))),
+                None => (end, None),
+            };
+            return Ok(Lap { trajectory, certificate, events, findings, start, end, corner });
         }
         match events.last() {
             Some(event) if !exhausted && last < until => {
@@ -211,6 +221,18 @@ impl Search<'_> {
         let mut out = [0.0];
         system.columns(&at.modes, &mut out);
         out[0]
+    }
+
+    /// Takes the modes of the switches of a state, as those of a table that counts turns, from its values a short time later.
+    pub(super) fn take_modes<G: Space<S = f64>>(&self, phases: &Phases<G>, state: &mut State, short: f64) {
+        let m = &phases.mechanism;
+        let mut system = self.alone(phases, &[]);
+        let mut at = with_modes(state, m.switches + m.windings, system.dims().modes);
+        m.retract(&mut at.q, &at.v.iter().map(|v| short * v).collect::<Vec<_>>());
+        at.t += short;
+        let from = at.clone();
+        system.modes(from.at(), &mut at.modes);
+        state.modes[..m.switches].copy_from_slice(&at.modes[..m.switches]);
     }
 
     /// The mechanism with columns and without events.

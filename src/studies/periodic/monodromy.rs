@@ -93,6 +93,10 @@ impl<G: Space<S = f64>> Lap<'_, G> {
                 psi = pass(self, search, piece, &psi)?;
             }
         }
+        if let Some((met, before)) = &self.corner {
+            let behind = Side::<G>::from(tools(&mut self.trajectory)).cross(met, [before, &self.end], &psi);
+            psi = behind.ok_or(Rough::Touched(before.state.t))?;
+        }
         Ok(psi)
     }
 }

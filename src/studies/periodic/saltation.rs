@@ -16,7 +16,7 @@
 
 use crate::geometry::Space;
 use crate::kinematics::linear::spin;
-use crate::studies::dynamics::system::Mechanical;
+use crate::studies::dynamics::system::{Mechanical, Root};
 use crate::studies::dynamics::trajectory::PhaseSystem;
 use grashof_solvers::{Blow, Effect, Engine, Node, Span, State, System};
 use nalgebra::{DMatrix, DVector};
@@ -27,8 +27,20 @@ const STEP: f64 = 1e-3;
 /// Part of the largest rate below which two rates are one.
 const SAME: f64 = 1e-13;
 
+/// Part of a velocity by which a blow changes it at least.
+pub(super) const STRUCK: f64 = 1e-9;
+
+/// Part of a period within which what is met is met at one instant; so many tolerances of the integration at least.
+const INSTANT: f64 = 1e-9;
+const TOLERANCES: f64 = 10.0;
+
 /// Part of ∇g's largest change in a typical time below which a surface is only touched.
 pub(super) const GRAZING: f64 = 1e-9;
+
+/// Time within which what is met in a period is met at one instant.
+pub(super) fn instant(period: f64, tolerance: f64) -> f64 {
+    period * INSTANT.max(TOLERANCES * tolerance)
+}
 
 /// A neighbouring state: δt, then (δq, δv, δz) with δq along velocities.
 struct Neighbour<'a> {
@@ -131,6 +143,43 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         let mut roots = vec![0.0; self.system.dims().roots];
         self.system.roots(node.state.at(), &node.a, &node.lambda, &mut roots);
         Some(vec![roots[root]])
+    }
+
+    /// Place of the mode that a root leaves.
+    pub(super) fn mode(&self, root: usize) -> Option<usize> {
+        let m = self.system.dynamics.mechanism;
+        match self.system.roots[root] {
+            Root::Force { program, k } => Some(m.programs()[program].program.switches()[k] as usize),
+            Root::Slides(contact) => Some(m.contacts[contact].mode),
+            _ => None,
+        }
+    }
+
+    /// Whether the motion meets a root within a time before or behind a node.
+    pub(super) fn is_near(&mut self, root: usize, node: &Node, within: f64) -> bool {
+        let Some(g) = self.root(root, &mut node.clone()) else { return false };
+        self.pace_of_root(root, node).is_some_and(|pace| pace < 0.0 && g[0].abs() <= -within * pace)
+    }
+
+    /// Whether velocities differ by more than a part.
+    pub(super) fn jumps(&self, [before, after]: [&Node; 2], part: f64) -> bool {
+        let sizes = self.engine.size_v.iter().zip(&before.state.v).map(|(s, v)| s + v.abs());
+        let mut changes = before.state.v.iter().zip(&after.state.v).zip(sizes);
+        changes.any(|((a, b), size)| (a - b).abs() > part * size)
+    }
+
+    /// The switches that a motion meets within a time of a node, and the node behind them, if its velocities jump there.
+    pub(super) fn beyond(&mut self, node: &Node, within: f64) -> Option<(Vec<usize>, Node)> {
+        let all = 0..self.system.roots.len();
+        let met: Vec<usize> = all.filter(|root| self.mode(*root).is_some() && self.is_near(*root, node, within)).collect();
+        if met.is_empty() {
+            return None;
+        }
+        let mut behind = node.clone();
+        self.crossed(&met, &mut behind.state)?;
+        self.engine.settle(self.system, &mut behind).ok()?;
+        self.engine.accelerate(self.system, &mut behind).ok()?;
+        self.jumps([node, &behind], STRUCK).then_some((met, behind))
     }
 
     /// A column in a state.

@@ -1,6 +1,7 @@
 //! The run before the search: period after period, until two of them are alike.
 
 use super::lap::{Broken, Lap, Search, Section};
+use super::saltation::instant;
 use super::states::{Scale, between, largest, unwind};
 use crate::geometry::Space;
 use crate::studies::dynamics::phases::Phases;
@@ -73,6 +74,8 @@ pub(super) fn settle<G: Space<S = f64>>(
         if settled {
             if let Some(lap) = &before {
                 unwind(&phases.mechanism, [&lap.start.state, &lap.end.state], periods, &mut state);
+                state.t = 0.0;
+                search.take_modes(phases, &mut state, instant(lap.period(), search.tolerance));
             }
             state.t = 0.0;
             return Ok(Settled { state, periods, keeps_energy, restless });
