@@ -6,6 +6,7 @@ mod closed_forms;
 mod clutches;
 mod equivalence;
 mod jumps;
+mod on_stops;
 mod one_sided;
 mod sharing;
 mod sticking;

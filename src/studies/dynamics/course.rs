@@ -18,6 +18,9 @@ use grashof_solvers::{Integration, Node, State, Zeno};
 /// Part of the time within which an event before a blow and one behind it are of the same instant.
 const INSTANT: f64 = 1e-9;
 
+/// Changes at one time, for each stop and contact, behind which there is no end of them.
+const CHANGES: usize = 50;
+
 /// How a phase has ended.
 pub(super) enum After {
     Done,
@@ -69,6 +72,8 @@ pub(super) struct Course<'a> {
     loosened: bool,
     /// Whether the phase before has ended at such contacts.
     piles: bool,
+    /// Time of the last change, s, and how many there were at it.
+    at_once: (f64, usize),
     /// Contacts whose friction was not determined at some time.
     pub(super) open: Vec<usize>,
     pub(super) begins: Begins,
@@ -97,6 +102,7 @@ impl<'a> Course<'a> {
             met: Vec::new(),
             loosened: false,
             piles: false,
+            at_once: (f64::NEG_INFINITY, 0),
             open: Vec::new(),
             begins: Begins::Run,
             blow: f64::NEG_INFINITY,
@@ -140,6 +146,13 @@ impl<'a> Course<'a> {
     /// If there is none.
     pub(super) fn next<'m, G: Space<S = f64>>(&mut self, phases: &'m Phases<G>, state: &mut State) -> Result<&'m Phases<G>, Lost> {
         let began = self.begins == Begins::Run;
+        let goes_on = self.begins == Begins::Rests && self.at_once.0 == state.t;
+        let before = if goes_on { self.at_once.1 } else { 0 };
+        self.at_once = (state.t, before + 1);
+        let m = &phases.mechanism;
+        if before > CHANGES * (1 + m.stops.len() + m.contacts.len()) {
+            return Err(Lost::Stopped(explain::changes(state.t)));
+        }
         if let Some(why) = self.moved_stops(phases, state) {
             return Err(Lost::Stopped(why));
         }
@@ -177,30 +190,64 @@ impl<'a> Course<'a> {
         None
     }
 
-    /// The mechanism to go on with, once it is decided which contacts stick from the state on; none where no accelerations obey the
-    /// laws of friction.
+    /// The mechanism to go on with, once it is decided which contacts stick from the state on, and on which of the stops that they touch
+    /// joints rest; none where no accelerations obey the laws of friction.
     fn choose<'m, G: Space<S = f64>>(&mut self, phases: &'m Phases<G>, state: &mut State) -> Result<Option<&'m Phases<G>>, Failure> {
-        let coordinates = self.plan.coordinates;
-        let free = Holds { held: Vec::new(), ..self.holds.clone() };
-        let base = phases.with(self.model, &self.parameters, coordinates, &free)?;
-        if base.mechanism.contacts.is_empty() {
-            return Ok(Some(base));
-        }
         if self.loosened {
             self.holds.held.clear();
+            return self.phase(phases, &self.holds).map(Some);
+        }
+        let open = self.phase(phases, &Holds::default())?;
+        let contacts = open.mechanism.contacts.len();
+        if self.begins == Begins::Run {
+            open.mechanism.slide(&vec![0; contacts], &mut state.modes);
+        }
+        let mut together = None;
+        let mut touched = Vec::new();
+        if !open.mechanism.stops.is_empty() {
+            let mut system = self.machine(open);
+            touched = system.touched(state, &self.holds.resting);
+            let stops = [&touched[..], &self.holds.resting];
+            together = if touched.is_empty() { None } else { system.decide(state, &self.holds.held, &self.met, stops) };
+            if let Some(decided) = &together {
+                self.holds.resting.clone_from(&decided.resting);
+                system.leave(&touched, &decided.resting, state);
+            }
+        }
+        let free = Holds { held: Vec::new(), ..self.holds.clone() };
+        let base = self.phase(phases, &free)?;
+        if contacts == 0 {
             return Ok(Some(base));
         }
-        let mut system = self.machine(base);
-        let contacts = &base.mechanism.contacts;
-        if self.begins == Begins::Run {
-            base.mechanism.slide(&vec![0; contacts.len()], &mut state.modes);
+        // beside stops that hold, what friction does is decided anew: where both could hold the same, stops do
+        let beside = self.machine(base).decide(state, &self.holds.held, &self.met, [&[], &[]]);
+        let holds = |course: &mut Self, held: Vec<usize>, senses: &[i32], state: &mut State| {
+            base.mechanism.slide(senses, &mut state.modes);
+            course.holds.held = held;
+            course.phase(phases, &course.holds)
+        };
+        let (before, held) = (state.modes.clone(), self.holds.held.clone());
+        let mut open_friction = beside.as_ref().map(|decided| decided.open.clone()).unwrap_or_default();
+        let mut phase = match beside {
+            Some(decided) => Some(holds(self, decided.held, &decided.senses, state)?),
+            None => None,
+        };
+        if let Some(decided) = together
+            && phase.is_none_or(|phase| !self.machine(phase).stops_hold(state, &touched))
+        {
+            (state.modes, self.holds.held) = (before, held);
+            open_friction.clone_from(&decided.open);
+            phase = Some(holds(self, decided.held, &decided.senses, state)?);
         }
-        let Some(decided) = system.decide(state, &self.holds.held, &self.met) else { return Ok(None) };
-        base.mechanism.slide(&decided.senses, &mut state.modes);
-        state.live = system.extents(state);
-        self.open.extend(decided.open);
-        self.holds.held = decided.held;
-        phases.with(self.model, &self.parameters, coordinates, &self.holds).map(Some)
+        let Some(phase) = phase else { return Ok(None) };
+        state.live = self.machine(base).extents(state);
+        self.open.extend(open_friction);
+        Ok(Some(phase))
+    }
+
+    /// The mechanism at the present parameters with given holds.
+    fn phase<'m, G: Space<S = f64>>(&self, phases: &'m Phases<G>, holds: &Holds) -> Result<&'m Phases<G>, Failure> {
+        phases.with(self.model, &self.parameters, self.plan.coordinates, holds)
     }
 
     /// Notes the events of the model that the last step has ended at; their numbers.

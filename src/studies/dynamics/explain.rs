@@ -143,6 +143,13 @@ pub(super) fn chatters<G: Space<S = f64>>(phases: &Phases<G>, met: &[Met], t: f6
     )
 }
 
+/// Why a run ends where stops and contacts change without end at one time.
+pub(super) fn changes(t: f64) -> String {
+    format!(
+        "at t = {t:.6} s joints on rigid stops, and what sticks, change without end: no place of theirs lasts; give the stops a `stiffness`, or friction a `stick_speed`"
+    )
+}
+
 /// Why a run ends where events set parameters without end.
 pub(super) fn hunts(events: &[Happened], t: f64) -> String {
     let name = events.last().map_or("", |event| &event.name);

@@ -31,6 +31,7 @@ mod root;
 mod seen;
 mod states;
 mod sticking;
+mod touching;
 mod works;
 
 use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point, Reactions};
@@ -77,7 +78,7 @@ pub(crate) struct Mechanical<'m, G: Space<S = f64>> {
     /// Events with impacts that were met in the event crossed last, and the one that cannot rest.
     struck: Vec<usize>,
     restless: Option<usize>,
-    /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction holds.
+    /// Contacts that stopped or gave way in the event crossed last, and whether a blow must first let go what friction or a stop holds.
     met: Vec<Met>,
     loosened: bool,
     /// What was met at switches of couplings.

@@ -7,6 +7,9 @@ use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Stop, StretchOf};
 use grashof_solvers::{At, Effect, Kkt, Stage, State, System};
 
+/// By so many times what counts as near a joint that leaves a stop may stand beyond it at most.
+pub(super) const MOST_PASSED: f64 = 30.0;
+
 impl Root {
     /// Whether its crossing acts on the motion as a kink does not: by a blow, or by what an event of the model does or notes.
     pub(super) fn acts(self) -> bool {
@@ -73,7 +76,7 @@ where
     }
 
     /// Place of the mode of a stop.
-    fn mode_of_stop(&self, stop: usize) -> usize {
+    pub(super) fn mode_of_stop(&self, stop: usize) -> usize {
         self.dims.modes - self.near.len() + stop
     }
 
@@ -94,6 +97,15 @@ where
         let (_, stop) = pulls.min_by(|one, other| one.0.total_cmp(&other.0))?;
         state.modes[self.mode_of_stop(stop)] = 1;
         Some(stop)
+    }
+
+    /// The rows that hold joints on stops, with the senses in which these push.
+    pub(super) fn rests_by_rows(&self) -> impl Iterator<Item = (usize, f64)> {
+        let stops = &self.dynamics.mechanism.stops;
+        self.roots.iter().filter_map(|root| match *root {
+            Root::Rest { row, stop } => Some((row, stops[stop].sense)),
+            _ => None,
+        })
     }
 
     /// Whether a blow has to wait until what cannot withstand it is let go: contacts that stick, and joints that rest where a stop would
@@ -120,6 +132,7 @@ where
             state.modes[self.mode_of_stop(stop)] = 1;
             self.rests.push((stop, false));
         }
+        self.loosened |= !pulled.is_empty();
         !pulled.is_empty()
     }
 
@@ -142,13 +155,15 @@ where
         }
         self.accelerate(&state.at());
         let pressed = stop.sense * self.dynamics.extent_acceleration(along, &self.a) < 0.0;
+        // a rebound so weak counts as rest, also of what is pulled away
+        let weak = Effect::Bounce { restitution: 0.0, stops: true };
         if pressed || speed > stop.rest_speed {
             self.rests.push((index, true));
-            return Effect::Bounce { restitution: 0.0, stops: true };
+            return weak;
         }
-        state.modes[mode] = 1;
+        state.modes[mode] = self.passed(index);
         match undecided {
-            _ if speed > 0.0 => rebound,
+            _ if speed > 0.0 => weak,
             true => Effect::Stop,
             false => Effect::Record,
         }
@@ -209,8 +224,19 @@ where
     }
 
     /// Whether a joint has left a stop just now, and may still pass it by rounding.
-    fn left(&self, stop: usize, modes: &[i32]) -> bool {
-        modes[self.mode_of_stop(stop)] == 1
+    pub(super) fn left(&self, stop: usize, modes: &[i32]) -> bool {
+        modes[self.mode_of_stop(stop)] > 0
+    }
+
+    /// The mode of a stop that a joint leaves from where it stands: so many times what counts as near it may still be beyond; after the
+    /// look at the state.
+    pub(super) fn passed(&self, stop: usize) -> i32 {
+        1 + (-self.gap(stop) / self.near[stop]).ceil().clamp(0.0, MOST_PASSED) as i32
+    }
+
+    /// How far beyond a stop its joint may still be, rad or m.
+    fn slack_of(&self, stop: usize, modes: &[i32]) -> f64 {
+        f64::from(modes[self.mode_of_stop(stop)]) * self.near[stop]
     }
 
     /// The value of the root of an event with impacts whose function is `x`: its way to the side that counts.
@@ -221,8 +247,8 @@ where
         let held = |stop: usize| self.roots.iter().any(|root| matches!(root, Root::Rest { stop: s, .. } if *s == stop));
         match stop {
             Some(stop) if held(stop) => 1.0,
-            Some(stop) if self.left(stop, modes) => side * x + self.near[stop],
-            _ => side * x,
+            Some(stop) => side * x + self.slack_of(stop, modes),
+            None => side * x,
         }
     }
 
@@ -241,7 +267,7 @@ where
                 let pressed = self.dynamics.pressed(lambda).nth(place);
                 pressed.map_or(1.0, |(n, _)| n + slack(&self.pattern.metric, a, lambda))
             }
-            Root::Stop(stop) => self.gap(stop) + if left(stop) { self.near[stop] } else { 0.0 },
+            Root::Stop(stop) => self.gap(stop) + self.slack_of(stop, at.modes),
             Root::Clear(stop) if left(stop) => 2.0 * self.near[stop] - self.gap(stop),
             Root::Rest { row, stop } => -m.stops[stop].sense * lambda[row],
             _ => 1.0,

@@ -7,15 +7,13 @@
 
 use super::Mechanical;
 use super::root::{Met, Root};
+use super::touching::{NO_ACCELERATION, REST, Touching};
 use crate::dynamics::slack;
 use crate::geometry::Space;
 use crate::mechanism::{Contact, ContactLaw, EffortLaw, StretchOf};
 use crate::numerics::complementarity::{Bounded, Place, basic, shared, solve};
 use grashof_solvers::{At, Effect, Kkt, State};
 use nalgebra::{DMatrix, DVector};
-
-/// A rate of a contact that counts as rest, in rad/s or sizes of the mechanism a second.
-const REST: f64 = 1e-9;
 
 /// A contact that has just stopped is no faster than so many times that: its event is located to the rounding of a time.
 const STOPPED: f64 = 1e3;
@@ -25,9 +23,6 @@ const BLOW: f64 = 10.0;
 
 /// Part of what moves freely by which a contact is moved that drivers and other joints hold to its motion.
 const DETERMINED: f64 = 1e-10;
-
-/// Part of the accelerations at hand that counts as none.
-const NO_ACCELERATION: f64 = 1e-8;
 
 /// Inertial forces in parts of the largest force that count as none.
 const STILL: f64 = 1e-9;
@@ -49,6 +44,8 @@ pub(crate) struct Decided {
     pub(crate) senses: Vec<i32>,
     /// Contacts at rest whose friction nothing determines: other rows or drivers hold them as well.
     pub(crate) open: Vec<usize>,
+    /// Stops on which joints rest, of those that were to be decided.
+    pub(crate) resting: Vec<usize>,
 }
 
 /// Accelerations (nv) and multipliers (rows) by a force, or what velocities jump by and impulses.
@@ -114,11 +111,12 @@ where
         self.loosened
     }
 
-    /// Whether a contact that a blow has let go has to be decided anew; after the look at the state.
+    /// Whether a contact or a stop that a blow has let go has to be decided anew; after the look at the state.
     pub(super) fn undecided(&self, modes: &[i32]) -> bool {
         let closed = |c: &Contact| self.dynamics.extent_rate(c.along).abs() <= 2.0 * self.rest(c);
         let at_rest = |c: &Contact| if c.is_one_way() { closed(c) } else { modes[c.mode] == 0 };
-        self.dynamics.mechanism.contacts.iter().any(at_rest)
+        let stands = |stop: usize| self.left(stop, modes) && self.is_touched(stop);
+        self.dynamics.mechanism.contacts.iter().any(at_rest) || (0..self.near.len()).any(stands)
     }
 
     /// Contacts that stopped or gave way since this was asked last, and whether a blow waits.
@@ -132,11 +130,12 @@ where
         self.dynamics.mechanism.contacts.iter().map(|c| self.dynamics.extent(c.along)).collect()
     }
 
-    /// Which contacts are held and how the others slide, from a state on; `held` are those that rows have held until now, `met` those
-    /// that have stopped or given way. No row of this mechanism holds a contact.
+    /// Which contacts are held and how the others slide, from a state on, and which of the stops that joints touch at rest push; `held` are
+    /// contacts, and of the `touched` stops `rested` those, that rows have held until now, `met` contacts that have stopped or given way.
+    /// No row of this mechanism holds a contact, or one of these stops.
     ///
     /// None where no accelerations obey the laws of friction.
-    pub(crate) fn decide(&mut self, state: &State, held: &[usize], met: &[Met]) -> Option<Decided> {
+    pub(crate) fn decide(&mut self, state: &State, held: &[usize], met: &[Met], [touched, rested]: [&[usize]; 2]) -> Option<Decided> {
         let m = self.dynamics.mechanism;
         let mut modes = state.modes.clone();
         self.kinematics(&state.at());
@@ -151,15 +150,23 @@ where
         let slides = |c: usize| !m.contacts[c].is_one_way() && !resting.contains(&c);
         let senses: Vec<i32> = (0..m.contacts.len()).map(|c| if slides(c) { rates[c].signum() as i32 } else { 0 }).collect();
         m.slide(&senses, &mut modes);
-        let begins = |c: usize| match sense_of(c) {
-            Some(1) => Place::Low,
-            Some(-1) => Place::High,
-            None if !held.contains(&c) && before[c] > 0 => Place::Low,
-            None if !held.contains(&c) && before[c] < 0 => Place::High,
-            _ => Place::Between,
+        let begins = |touching: Touching| match touching {
+            Touching::Stop(stop) if rested.contains(&stop) => Place::Between,
+            Touching::Stop(_) => Place::Low,
+            Touching::Contact(c) => match sense_of(c) {
+                Some(1) => Place::Low,
+                Some(-1) => Place::High,
+                None if !held.contains(&c) && before[c] > 0 => Place::Low,
+                None if !held.contains(&c) && before[c] < 0 => Place::High,
+                _ => Place::Between,
+            },
         };
-        let found = self.balance_of(&At { modes: &modes, ..state.at() }, true, &resting, held, begins)?;
-        let mut out = Decided { senses, open: found.shared.iter().map(|i| resting[*i]).collect(), ..Decided::default() };
+        let stops = touched.iter().map(|stop| Touching::Stop(*stop));
+        let all: Vec<Touching> = resting.iter().map(|c| Touching::Contact(*c)).chain(stops).collect();
+        let found = self.balance_of(&At { modes: &modes, ..state.at() }, true, &all, held, begins)?;
+        let open = found.shared.iter().filter_map(|i| resting.get(*i)).copied().collect();
+        let rests = touched.iter().zip(&found.places[resting.len()..]).filter(|(_, place)| **place == Place::Between);
+        let mut out = Decided { senses, open, resting: rests.map(|(stop, _)| *stop).collect(), ..Decided::default() };
         for (i, &c) in resting.iter().enumerate() {
             match (m.contacts[c].is_one_way(), found.determined[i], found.places[i]) {
                 // one that has just given way carries no more than it can, to round-off: it is not held once more
@@ -188,7 +195,8 @@ where
         let all: Vec<usize> = (0..m.contacts.len()).collect();
         let mut modes = state.modes.clone();
         m.slide(&vec![0; m.contacts.len()], &mut modes);
-        let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &all, &[], |_| Place::Between)?;
+        let touching = |contacts: &[usize]| contacts.iter().map(|c| Touching::Contact(*c)).collect::<Vec<_>>();
+        let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &touching(&all), &[], |_| Place::Between)?;
         if !found.rests {
             return None;
         }
@@ -203,23 +211,23 @@ where
         if senses.iter().any(|sense| *sense != 0) {
             // what they give is the force of one that slides
             m.slide(&senses, &mut modes);
-            let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &held, &[], |_| Place::Between)?;
+            let found = self.balance_of(&At { modes: &modes, ..state.at() }, false, &touching(&held), &[], |_| Place::Between)?;
             if !found.rests {
                 return None;
             }
         }
-        Some(Decided { held, senses, open })
+        Some(Decided { held, senses, open, ..Decided::default() })
     }
 
-    /// Solves for the forces of resting contacts. Drivers are `driven` on, or stand still; `first` are held rather than others where
-    /// contacts depend on each other.
+    /// Solves for the forces of what touches at rest. Drivers are `driven` on, or stand still; where forces depend on each other stops
+    /// hold rather than contacts, and of these those in `first` rather than others.
     fn balance_of(
         &mut self,
         at: &At<'_>,
         driven: bool,
-        resting: &[usize],
+        resting: &[Touching],
         first: &[usize],
-        begins: impl Fn(usize) -> Place,
+        begins: impl Fn(Touching) -> Place,
     ) -> Option<Balanced> {
         let m = self.dynamics.mechanism;
         self.kinematics(at);
@@ -232,7 +240,7 @@ where
         let none = vec![0.0; m.rows.len()];
         let gamma = if driven { &w.gamma } else { &none };
         kkt.solve(&w.force, gamma, &mut free.a, &mut free.lambda);
-        let gradients: Vec<Vec<f64>> = resting.iter().map(|&c| self.gradient(m.contacts[c].along)).collect();
+        let gradients: Vec<Vec<f64>> = resting.iter().map(|touching| self.pushes(*touching)).collect();
         let responses: Vec<Response> = gradients.iter().map(|g| self.response(g)).collect();
         // efforts by reactions of what slides
         let friction_by_reactions: Vec<(f64, usize, Response)> = m
@@ -250,19 +258,19 @@ where
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let n = resting.len();
         let a = DMatrix::from_fn(n, n, |i, j| dot(&gradients[i], &responses[j].a));
-        let alone: Vec<f64> = resting.iter().map(|&c| self.dynamics.extent_acceleration(m.contacts[c].along, &free.a)).collect();
+        let alone: Vec<f64> = resting.iter().map(|touching| self.parts(*touching, &free.a)).collect();
         let freely: Vec<f64> = gradients.iter().map(|gradient| self.freely(gradient)).collect();
         let fixed: Vec<bool> = (0..n).map(|i| a[(i, i)] <= DETERMINED * freely[i]).collect();
 
         let mut lambda = free.lambda.clone();
         let mut forces = DVector::zeros(n);
-        let begin: Vec<Place> = resting.iter().map(|&c| begins(c)).collect();
+        let begin: Vec<Place> = resting.iter().map(|touching| begins(*touching)).collect();
         let mut places = begin.clone();
         let mut last: Vec<f64> = Vec::new();
         for round in 0..MOST_ROUNDS {
             let friction_forces: Vec<f64> =
                 friction_by_reactions.iter().map(|(size, pressing, _)| size * self.dynamics.pressing_force(*pressing, &lambda)).collect();
-            let caps: Vec<f64> = resting.iter().map(|&c| self.most(&m.contacts[c], &lambda)).collect();
+            let caps: Vec<f64> = resting.iter().map(|touching| self.most(*touching, &lambda)).collect();
             let b = DVector::from_fn(n, |i, _| {
                 alone[i]
                     + friction_by_reactions.iter().zip(&friction_forces).map(|((_, _, r), f)| f * dot(&gradients[i], &r.a)).sum::<f64>()
@@ -274,7 +282,7 @@ where
             let bounded: Vec<Bounded> = movable
                 .iter()
                 .map(|&i| Bounded {
-                    low: if m.contacts[resting[i]].is_one_way() { 0.0 } else { -caps[i] },
+                    low: if self.only_pushes(resting[i]) { 0.0 } else { -caps[i] },
                     high: caps[i],
                     // where a contact that gives way stands must not depend on normal forces that are not yet right; later on one of
                     // several solutions is kept
@@ -287,7 +295,11 @@ where
             let side = DVector::from_fn(movable.len(), |i, _| b[movable[i]]);
             let (mut f, mut found) = solve(&block, &side, &bounded)?;
             let mut order: Vec<usize> = (0..movable.len()).collect();
-            order.sort_by_key(|i| !first.contains(&resting[movable[*i]]));
+            order.sort_by_key(|i| match resting[movable[*i]] {
+                Touching::Stop(_) => 0,
+                Touching::Contact(contact) if first.contains(&contact) => 1,
+                Touching::Contact(_) => 2,
+            });
             basic(&block, &side, &bounded, &mut f, &mut found, &order);
             forces.fill(0.0);
             for (k, &i) in movable.iter().enumerate() {
@@ -307,10 +319,7 @@ where
             let now: Vec<f64> = friction_forces.iter().copied().chain(caps.iter().copied().filter(|c| c.is_finite())).collect();
             let largest = now.iter().fold(slack, |m, x| m.max(x.abs()));
             let stays = last.len() == now.len() && now.iter().zip(&last).all(|(x, y)| (x - y).abs() <= SETTLED * largest);
-            if stays
-                || friction_by_reactions.is_empty()
-                    && resting.iter().all(|&c| m.contacts[c].friction().is_none_or(|(_, pressing)| pressing.is_none()))
-            {
+            if stays || friction_by_reactions.is_empty() && resting.iter().all(|touching| !self.by_reactions(*touching)) {
                 let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely[i] * largest);
                 let determined = (0..n).map(|i| fixed[i].then(|| if still(i) { 0 } else { b[i].signum() as i32 })).collect();
                 let mut accelerations = free.a;
@@ -336,9 +345,16 @@ where
         None
     }
 
-    /// The largest force or torque that holds a contact.
-    fn most(&self, contact: &Contact, lambda: &[f64]) -> f64 {
-        let Some((holds, pressing)) = contact.friction() else { return f64::INFINITY };
+    /// Whether the largest force of what touches depends on reactions.
+    fn by_reactions(&self, touching: Touching) -> bool {
+        let Touching::Contact(contact) = touching else { return false };
+        self.dynamics.mechanism.contacts[contact].friction().is_some_and(|(_, pressing)| pressing.is_some())
+    }
+
+    /// The largest force or torque of what touches.
+    fn most(&self, touching: Touching, lambda: &[f64]) -> f64 {
+        let Touching::Contact(contact) = touching else { return f64::INFINITY };
+        let Some((holds, pressing)) = self.dynamics.mechanism.contacts[contact].friction() else { return f64::INFINITY };
         let normal = pressing.map_or(1.0, |pressing| self.dynamics.pressing_force(pressing, lambda));
         (self.dynamics.work.force_outputs[holds] * normal).max(0.0)
     }
@@ -392,7 +408,7 @@ where
     }
 }
 
-/// Forces of resting contacts as found.
+/// Forces of what touches at rest as found.
 struct Balanced {
     places: Vec<Place>,
     /// Those at a bound whose motion others hold as well.
