@@ -106,10 +106,13 @@ fn a_four_bar_stands_on_the_nearer_assembly() {
             ("rocker.angle", meet(O, l1, b, l2).map(|both| both.map(|a| hinges(O, a, b, C))))
         };
         let Some(ends) = ends else { continue };
-        let text = four_bar([l1, l2, l3], "", "", &format!("{name}: {given} rad"));
-        held += usize::from(hold(&text, ends.to_vec()));
+        // a guess of the crank is met as well, and chooses no assembly
+        for guess in if case % 2 == 0 { &["", "~"][..] } else { &[""] } {
+            let text = four_bar([l1, l2, l3], "", "", &format!("{name}: {guess}{given} rad"));
+            held += usize::from(hold(&text, ends.to_vec()));
+        }
     }
-    assert!(held > 80, "{held}");
+    assert!(held > 120, "{held}");
 }
 
 /// Two more bars from the end of the rocker to the ground: four assemblies.

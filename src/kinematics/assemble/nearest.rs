@@ -14,7 +14,7 @@ use super::rotation::spin;
 use super::shake::Shake;
 use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, RowOwner, Step};
-use crate::numerics::least_squares::{Rows, Within};
+use crate::numerics::least_squares::{Rows, Within, left_open};
 use std::f64::consts::{PI, TAU};
 
 /// What a position is to be near to.
@@ -33,7 +33,7 @@ const FAR: f64 = 0.1;
 /// Part by which another assembly must be nearer to count.
 const NEARER: f64 = 1e-3;
 
-/// Residual of a closed position, rad and sizes, from which whole turns have been taken.
+/// Residual of a closed position, rad and sizes, from which whole turns have been taken, and what guesses may be missed by that are met.
 const CLOSED: f64 = 1e-9;
 
 /// Places from which other assemblies are looked for.
@@ -56,10 +56,12 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// Looks for an assembly that misses the guesses as little as the settled position `q`, and is nearer to the drawn pose; `from` is where
-    /// the search began, `targets` what is asked for. Where each loop has a guess, it has been chosen.
+    /// the search began, `targets` what is asked for. Where each loop has a guess, beside those that only say where free motions stand, it has
+    /// been chosen.
     pub(super) fn look_nearer(&mut self, from: &[f64], targets: &[Target], q: &mut Vec<f64>) {
         let m = self.dynamics.mechanism;
-        if m.nv > MOST || self.guessed() >= self.closings() {
+        let guessed = self.guessed();
+        if m.nv > MOST || guessed >= self.closings() && guessed > self.free(q) {
             return;
         }
         let settled = std::mem::replace(&mut self.targets, targets.to_vec());
@@ -87,7 +89,7 @@ impl<G: Space<S = f64>> System<'_, G> {
                 continue;
             }
             let distance = norm(&self.off(&trial, Near::Drawn).0);
-            if self.miss(&trial) <= missed + CONVERGED && distance < (1.0 - NEARER) * best.0 {
+            if self.miss(&trial) <= missed + CLOSED && distance < (1.0 - NEARER) * best.0 {
                 best = (distance, trial, settled, self.modes.clone());
             }
         }
@@ -120,6 +122,15 @@ impl<G: Space<S = f64>> System<'_, G> {
             }
         }
         more
+    }
+
+    /// How many motions constraints and exact values leave at a position.
+    fn free(&mut self, q: &[f64]) -> usize {
+        self.evaluate(q);
+        self.held = Held::Exact;
+        let (mut open, mut rows) = (Vec::new(), Rows::default());
+        self.hard(&mut open, &mut rows);
+        left_open(self.round_off(), &rows.to_dense(self.metric.len()), &self.metric).ncols()
     }
 
     /// Loops and couplings, of which each may have several assemblies.
