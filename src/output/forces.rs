@@ -18,6 +18,8 @@ const SAMPLE: f64 = 110.0;
 const LARGEST: f64 = 48.0;
 /// Shorter arrows are not seen, pixels.
 const SEEN: f64 = 3.0;
+/// Room for the axes of space at the right, pixels.
+const AXES: f64 = 150.0;
 /// Length of the head of an arrow, pixels.
 const HEAD: f64 = 13.0;
 
@@ -44,8 +46,8 @@ pub(super) struct Scales {
 /// each kind: loads may be specks beside reactions.
 pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
     let suits = |kind| {
-        let own = drawing.forces.iter().filter(|force| force.kind == kind);
-        let most = own.map(length).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        let own = drawing.forces.iter().filter(|force| force.kind == kind && force.turning.is_none());
+        let most = own.map(|force| force.size).filter(|x| x.is_finite()).fold(0.0, f64::max);
         if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 }
     };
     let asked = |kind| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale);
@@ -159,14 +161,24 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }
-    // where the axes of space leave room for it
-    if scales.torque > 0.0 && x < scene.width - 380.0 {
+    if scales.torque > 0.0 {
         let (signs, level) = (Signs { size: 0.4 }, [[1.0, 0.0], [0.0, -1.0]]);
         let radius = LARGEST * signs.size;
-        scene.shape(turned(signs, [x + radius, y], level, radius, 1.0), Some(color(ForceKind::Load)), None);
         let (shown, unit) = if scales.torque >= 1e3 { (scales.torque / 1e3, "kN m") } else { (scales.torque, "N m") };
-        let text = format!("torques: at most {} {unit}", significant(shown, 3));
-        scene.text([x + 2.0 * radius + 12.0, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
+        let most = format!("{} {unit}", significant(shown, 3));
+        // as long as there is room for it beside the axes of space, else in a line above
+        let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
+        let gap = 2.0 * radius + 12.0;
+        let fits = |text: &String| x + gap + font::width(text, letters) <= room;
+        let [long, short] = [format!("torques: at most {most}"), format!("to {most}")];
+        let above = room - gap - font::width(&long, letters);
+        let (text, x, y) = match (fits(&long), fits(&short)) {
+            (true, _) => (long, x, y),
+            (false, true) => (short, x, y),
+            (false, false) => (long, above.max(left), y - 2.5 * radius),
+        };
+        scene.shape(turned(signs, [x + radius, y], level, radius, 1.0), Some(color(ForceKind::Load)), None);
+        scene.text([x + gap, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
     }
 }
 
@@ -206,12 +218,12 @@ mod tests {
 
     #[test]
     fn scales_are_round_and_those_that_are_asked_for() {
-        let force = |kind, along, scale| Force { kind, along, scale, ..Force::default() };
+        let force = |kind, along: [f64; 2], scale| Force { kind, along, size: along[0].hypot(along[1]), scale, ..Force::default() };
         let forces = vec![force(ForceKind::Load, [0.0, -300.0], None), force(ForceKind::Reaction, [400.0, 300.0], None)];
         let mut drawing = Drawing { forces, ..Drawing::default() };
         // 500 N are at most a quarter of 2 m long, and so are loads beside them
         assert_eq!(scales(&drawing, 2.0).force, [1000.0, 1000.0]);
-        drawing.forces[0].along = [0.0, -3.0];
+        (drawing.forces[0].along, drawing.forces[0].size) = ([0.0, -3.0], 3.0);
         assert_eq!(scales(&drawing, 2.0).force, [10.0, 1000.0]);
         drawing.forces[1].scale = Some(50.0);
         assert_eq!(scales(&drawing, 2.0).force, [10.0, 50.0]);

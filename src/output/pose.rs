@@ -181,6 +181,8 @@ pub struct Force {
     pub at: [f64; 2],
     /// As it is seen, N; of a torque nothing.
     pub along: [f64; 2],
+    /// How large it is in space, N or N m.
+    pub size: f64,
     /// Of a torque its size, N m, less than 0 in the plane for one that turns clockwise; none of a force.
     pub turning: Option<f64>,
     /// Of a torque two directions at right angles in space as they are seen, across its axis, counter-clockwise about it.
