@@ -34,7 +34,8 @@ impl Damped {
     /// ζ = −Re μ/|μ|; 1 for a real eigenvalue that decays, NaN for 0.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        -self.value.re / self.value.norm()
+        // of no decay 0, not −0
+        -self.value.re / self.value.norm() + 0.0
     }
 }
 
