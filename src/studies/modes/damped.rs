@@ -34,8 +34,7 @@ impl Damped {
     /// ζ = −Re μ/|μ|; 1 for a real eigenvalue that decays, NaN for 0.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        // of no decay 0, not −0
-        -self.value.re / self.value.norm() + 0.0
+        -self.value.re / self.value.norm()
     }
 }
 

@@ -22,8 +22,6 @@ pub(super) const BALANCED: f64 = 1e-8;
 pub(super) const DRAWN: usize = 12;
 /// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.
 pub(super) const RIGID: f64 = 1e-7;
-/// Re μ below this part of the largest |μ| is round-off.
-const UNDAMPED: f64 = 1e-13;
 /// Parts of a shape that count in words, of the largest one.
 const PART: f64 = 0.3;
 /// Imaginary part of a part of a shape, of its real one, that is round-off.
@@ -121,7 +119,6 @@ impl Report<'_> {
     /// |Im μ|. What is small beside the largest |μ|, and beside a frequency `omega` of the mechanism, is 0.
     pub(super) fn damped(&mut self, all: &[Damped], wanted: usize, omega: f64) -> Vec<f64> {
         let size = all.iter().fold(omega, |m, d| m.max(d.value.norm()));
-        let all: Vec<Damped> = all.iter().map(|mode| Damped { value: rounded(mode.value, size), shape: mode.shape.clone() }).collect();
         let grows = |mode: &Damped| mode.grows(RIGID * size);
         let (found, beyond) = all.split_at(wanted.min(all.len()));
         let each = |f: &dyn Fn(&Damped) -> f64| -> Vec<f64> { found.iter().map(f).collect() };
@@ -134,7 +131,7 @@ impl Report<'_> {
             let amplitudes = mode.shape.map(|x| x.norm());
             let named = |c: &Coordinate, x: &Complex<f64>| [(c.name.clone(), x.norm()), (format!("{}.phase", c.name), phase(*x))];
             self.shapes.push(self.own.iter().zip(mode.shape.iter()).flat_map(|(n, x)| named(n, x)).collect());
-            if mode.value.norm() == 0.0 {
+            if mode.value.norm() <= RIGID * size {
                 let message = format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&amplitudes));
                 self.finding("free-motion", message);
             } else if grows(mode) {
@@ -206,14 +203,6 @@ impl Report<'_> {
 /// Round-off of the eigenvalue of a mode, 1/s², where forces do the work `work`, J, on unit ways: by the parts of its shape in these ways.
 pub(super) fn of_work(work: f64, parts: impl Iterator<Item = f64>) -> f64 {
     OF_WORK * work * parts.map(|x| x * x).sum::<f64>()
-}
-
-/// An eigenvalue without round-off beside the largest: 0 for a free motion, purely imaginary for one without damping.
-fn rounded(value: Complex<f64>, size: f64) -> Complex<f64> {
-    if value.norm() <= RIGID * size {
-        return Complex::new(0.0, 0.0);
-    }
-    Complex::new(if value.re.abs() <= UNDAMPED * size { 0.0 } else { value.re }, value.im)
 }
 
 /// The phase of a part of a shape, from −π to π; against the largest part it is π, whatever the sign of its round-off.
