@@ -220,7 +220,8 @@ impl<'a> Course<'a> {
             return Ok(Some(base));
         }
         // beside stops that hold, what friction does is decided anew: where both could hold the same, stops do
-        let beside = self.machine(base).decide(state, &self.holds.held, &self.met, [&[], &[]]);
+        let mut system = self.machine(base);
+        let beside = system.decide(state, &self.holds.held, &self.met, [&[], &[]]);
         let holds = |course: &mut Self, held: Vec<usize>, senses: &[i32], state: &mut State| {
             base.mechanism.slide(senses, &mut state.modes);
             course.holds.held = held;
@@ -240,7 +241,7 @@ impl<'a> Course<'a> {
             phase = Some(holds(self, decided.held, &decided.senses, state)?);
         }
         let Some(phase) = phase else { return Ok(None) };
-        state.live = self.machine(base).extents(state);
+        state.live = system.extents(state);
         self.open.extend(open_friction);
         Ok(Some(phase))
     }
