@@ -97,21 +97,7 @@ studies:
 #[test]
 fn a_coupling_with_many_kinks_does_not_jump() {
     for law in ["0.5*mod(A.angle, 1 turn)*(1 turn - mod(A.angle, 1 turn))/1 rad", "sin(A.angle)*sign(sin(A.angle))*1 rad"] {
-        let text = format!(
-            "grashof: 1
-name: kinks
-space: planar
-gravity: none
-ground: {{ A: [0, 0], B: [1 m, 0] }}
-bodies: {{ a: {{ mass: 1 kg, inertia: 0.1 kg m^2 }}, b: {{ mass: 1 kg, inertia: 0.2 kg m^2 }} }}
-joints: {{ A: {{ revolute: [ground.A, a.origin] }}, B: {{ revolute: [ground.B, b.origin] }} }}
-drivers: {{ d: {{ joint: A, speed: 1 rad/s }} }}
-couplings: {{ k: {{ zero: \"B.angle - {law}\" }} }}
-start: {{ A.angle: 0.25 rad }}
-studies: {{ k: {{ kinematics: {{ over: 100 turn, samples: 10 }}, columns: [A.angle, B.angle] }} }}
-"
-        );
-        let outcome = study(&text, "k").unwrap();
+        let outcome = moved_by(law, "{ A.angle: 0.25 rad }", "100 turn", 10);
         assert_eq!(outcome.stopped, None, "{law}");
         assert!((outcome.places.last().unwrap() - outcome.places[0] - 200.0 * std::f64::consts::PI).abs() < 1e-9, "{law}");
     }
