@@ -6,12 +6,10 @@
 //!
 //! A pair μ = −ζω ± iω√(1 − ζ²) is an oscillation with the damping ratio ζ = −Re μ/|μ|, which is negative where it grows.
 
+use super::free::Free;
 use crate::kinematics::held::Held;
 use crate::numerics::eigenvalues::{eigenvalues, eigenvector, measurable, of_each_pair};
 use nalgebra::{Complex, DMatrix, DVector};
-
-/// Part of the largest stiffness against inertia below which a motion is free.
-const FREE: f64 = 1e-12;
 
 /// One of each pair of complex eigenvalues, and every real one.
 #[derive(Clone, Debug)]
@@ -24,24 +22,33 @@ pub struct Damped {
 
 /// Re μ above this part of |μ| is growth.
 const GROWS: f64 = 1e-8;
+/// Round-off of eigenvalues for each row of the matrix, as part of the largest.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 impl Damped {
-    /// Whether it grows; one with |μ| ≤ `zero` is a free motion.
-    pub(super) fn grows(&self, zero: f64) -> bool {
-        self.value.norm() > zero && self.value.re > GROWS * self.value.norm()
+    /// Whether it grows.
+    pub(super) fn grows(&self) -> bool {
+        self.value.re > GROWS * self.value.norm()
+    }
+
+    /// A motion (n) that nothing drives back.
+    pub(super) fn free(motion: &DVector<f64>) -> Self {
+        Self { value: Complex::default(), shape: by_largest(&motion.map(Complex::from)) }
     }
 
     /// ζ = −Re μ/|μ|; 1 for a real eigenvalue that decays, NaN for 0.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        -self.value.re / self.value.norm()
+        // of no decay 0, not −0
+        -self.value.re / self.value.norm() + 0.0
     }
 }
 
-/// The state matrix of (u, u̇, δz) (order 2n + nz); `with_damping` false leaves out C. None if M is not positive definite.
+/// The state matrix of (u, u̇, δz) (order 2n + nz); `with_damping` false leaves out C, and holds δz (order 2n). None if M is not positive
+/// definite.
 #[must_use]
 pub fn state_matrix(held: &Held, with_damping: bool) -> Option<DMatrix<f64>> {
-    let (n, nz) = (held.mass.nrows(), held.z_z.nrows());
+    let (n, nz) = (held.mass.nrows(), if with_damping { held.z_z.nrows() } else { 0 });
     let factor = held.mass.clone().cholesky()?;
     let mut a = DMatrix::zeros(2 * n + nz, 2 * n + nz);
     a.view_mut((0, n), (n, n)).fill_with_identity();
@@ -69,48 +76,36 @@ pub fn damped(a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
     if !measurable(a) {
         return None;
     }
-    let mut values = of_each_pair(eigenvalues(a)?);
+    let values = of_each_pair(eigenvalues(a)?);
+    Some(with_shapes(values, a, n))
+}
+
+/// Eigenvalues as [`damped`] finds them, of which those of free motions are 0 and have the shapes of these: one for the place of each, and
+/// another where nothing slows it down. What damps less than round-off does not damp.
+pub(super) fn beside(free: &Free, a: &DMatrix<f64>, n: usize) -> Option<Vec<Damped>> {
+    if !measurable(a) {
+        return None;
+    }
+    let rest = free.removed(a);
+    let mut values = of_each_pair(eigenvalues(&rest)?);
+    let round_off = ROUND_OFF * rest.nrows() as f64 * values.iter().fold(0.0, |m: f64, x| m.max(x.norm()));
+    for value in values.iter_mut().filter(|value| value.re.abs() <= round_off) {
+        value.re = 0.0;
+    }
+    values.sort_by(|x, y| x.norm().total_cmp(&y.norm()));
+    let going_on = values.iter().take(free.motions.len()).take_while(|value| value.norm() <= round_off).count();
+    let moving = values.split_off(going_on);
+    let at_rest = free.motions.iter().cycle().take(free.motions.len() + going_on);
+    let mut found: Vec<Damped> = at_rest.map(|motion| Damped::free(&motion.rows(0, n).into_owned())).collect();
+    found.extend(with_shapes(moving, a, n));
+    Some(found)
+}
+
+/// Eigenvalues of a state matrix by rising |μ|, with their shapes.
+fn with_shapes(mut values: Vec<Complex<f64>>, a: &DMatrix<f64>, n: usize) -> Vec<Damped> {
     values.sort_by(|x, y| x.norm().total_cmp(&y.norm()).then(x.re.total_cmp(&y.re)));
     let shape = |i, value| by_largest(&eigenvector(a, value, i).rows(0, n).into_owned());
-    Some(values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(i, value), value }).collect())
-}
-
-/// Gives modes without a rate, |μ| ≤ `zero`, the free motions that the stiffness (n × n) leaves as their shapes, one after the other: inverse
-/// iteration gives any mixture of them. Each has coordinates of its own, as far as there are such.
-pub(super) fn tell_free_apart(found: &mut [Damped], held: &Held, zero: f64) {
-    let free = free_motions(held);
-    let at_rest = found.iter_mut().filter(|mode| mode.value.norm() <= zero);
-    for (mode, motion) in at_rest.zip(free.iter().cycle()) {
-        mode.shape = by_largest(&motion.map(Complex::from));
-    }
-}
-
-/// A basis of the motions with K x = 0, each 1 in a coordinate in which the others are 0.
-fn free_motions(held: &Held) -> Vec<DVector<f64>> {
-    let n = held.mass.nrows();
-    if n == 0 {
-        return Vec::new();
-    }
-    let unit = held.mass.diagonal().map(|m| m.sqrt().recip());
-    let scaled = DMatrix::from_fn(n, n, |i, j| unit[i] * held.stiffness[(i, j)] * unit[j]);
-    let svd = scaled.svd(false, true);
-    let Some(turned) = &svd.v_t else { return Vec::new() };
-    let least = FREE * svd.singular_values.iter().copied().fold(0.0, f64::max);
-    let rows = svd.singular_values.iter().enumerate().filter(|(_, size)| **size <= least);
-    let mut basis: Vec<DVector<f64>> = rows.map(|(i, _)| turned.row(i).transpose().component_mul(&unit)).collect();
-    let mut taken = Vec::new();
-    for k in 0..basis.len() {
-        let sizes = (0..n).filter(|i| !taken.contains(i)).map(|i| (i, basis[k][i].abs() / unit[i]));
-        let Some((pivot, _)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        taken.push(pivot);
-        let own = &basis[k] / basis[k][pivot];
-        for (_, x) in basis.iter_mut().enumerate().filter(|(other, _)| *other != k) {
-            let part = x[pivot];
-            *x -= &own * part;
-        }
-        basis[k] = own;
-    }
-    basis
+    values.into_iter().enumerate().map(|(i, value)| Damped { shape: shape(i, value), value }).collect()
 }
 
 /// A shape by the largest of its coordinates, which becomes 1.

@@ -1,8 +1,9 @@
 //! Modes of a mechanism of few bodies: all of them, by full matrices and several methods.
 
-use super::damped::{Damped, damped, state_matrix, tell_free_apart};
+use super::damped::{Damped, beside, state_matrix};
 use super::eigen::{self, Eigen};
-use super::report::{self, BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped};
+use super::free::Free;
+use super::report::{self, BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
 use super::rest::held_start;
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
@@ -67,13 +68,11 @@ where
     }
     if !potential || asked.damped {
         let a = state_matrix(&held, asked.damped).ok_or_else(too_unlike)?;
-        let mut found = damped(&a, names.len()).ok_or_else(beyond)?;
-        let largest = found.iter().fold(0.0, |m: f64, mode| m.max(mode.value.norm()));
-        tell_free_apart(&mut found, &held, RIGID * largest);
+        let found = beside(&Free::new(&held, &ways, asked.damped), &a, names.len()).ok_or_else(beyond)?;
         if !potential {
             report.circulates(held.circulation());
         }
-        frequencies = report.damped(&found, if asked.lowest.is_some() { wanted } else { found.len() }, 0.0);
+        frequencies = report.damped(&found, if asked.lowest.is_some() { wanted } else { found.len() });
         drawn = found.iter().take(frequencies.len()).map(|d: &Damped| d.shape.map(|x| x.re)).collect();
     }
     let close = |phi: &[f64]| held.partition.follow(&DMatrix::from_column_slice(phi.len(), 1, phi)).as_slice().to_vec();

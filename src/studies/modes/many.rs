@@ -2,7 +2,7 @@
 
 use super::damped::{Damped, by_largest};
 use super::picture::picture;
-use super::report::{BALANCED, DRAWN, RIGID, ROUND_OFF, Report, Undamped, of_work};
+use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped, of_work};
 use super::rest::held_start;
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
@@ -20,13 +20,17 @@ use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium_of_many};
-use nalgebra::DVector;
+use nalgebra::{Complex, DVector};
 
 /// Bodies from which on the lowest modes alone are found, by sparse matrices, unless the study says otherwise; and how many.
 const MANY: usize = 100;
 const LOWEST: usize = 12;
 /// Part of the metric below which a motion moves no mass.
 const MASSLESS: f64 = 1e-13;
+/// |μ| of a free motion, as part of the largest, up to which it is 0: a double one, and so known to half of the digits.
+const RIGID: f64 = 1e-7;
+/// Re μ below this part of |μ| is round-off.
+const UNDAMPED: f64 = 1e-10;
 
 /// Whether a study wants the lowest modes by sparse matrices.
 pub(super) fn is_asked(model: &Model, asked: &Modes) -> bool {
@@ -82,12 +86,14 @@ where
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
     let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x)).collect();
     let (frequencies, drawn) = if asked.damped {
-        let LowestDamped { motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
+        let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
         steps += more;
+        let free: Vec<&Vec<f64>> = modes.iter().zip(&vectors).filter(|(mode, _)| mode.is_free()).map(|(_, x)| x).collect();
+        rounded(&mut motions, omega, &free);
         let damped = |motion: &DampedMotion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) };
         let found: Vec<Damped> = motions.iter().map(damped).collect();
-        let frequencies = report.damped(&found, wanted, omega);
-        growth(&mut report, pencil, found.iter().filter(|mode| mode.grows(RIGID * omega)).count());
+        let frequencies = report.damped(&found, wanted);
+        growth(&mut report, pencil, found.iter().filter(|mode| mode.grows()).count());
         (frequencies, motions.iter().map(|motion| motion.vector.iter().map(|x| x.re).collect()).collect())
     } else {
         (report.frequencies(&modes), vectors)
@@ -126,8 +132,21 @@ fn mode(held: &HeldSparse, size: f64, value: f64, x: &mut [f64]) -> Undamped {
 
 /// The lowest damped motions beside undamped modes, whose frequencies say where they are to be sought.
 fn damped_of(pencil: &Pencil, wanted: usize, modes: &[Undamped], stop: &dyn Fn() -> bool) -> Option<LowestDamped> {
-    let held = modes.iter().filter(|mode| mode.value.abs() > mode.noise);
+    let held = modes.iter().filter(|mode| !mode.is_free());
     lowest_damped(pencil, wanted, held.map(|mode| mode.value.abs()).min_by(f64::total_cmp), stop)
+}
+
+/// Gives motions of free ones (nv each) the eigenvalue 0, which is double where nothing slows them down; what damps less than round-off
+/// does not damp.
+fn rounded(motions: &mut [DampedMotion], omega: f64, free: &[&Vec<f64>]) {
+    let size = motions.iter().fold(omega, |m, motion| m.max(motion.value.norm()));
+    let at_rest = motions.iter_mut().take(2 * free.len()).take_while(|motion| motion.value.norm() <= RIGID * size);
+    for (motion, x) in at_rest.zip(free.iter().cycle()) {
+        *motion = DampedMotion { value: Complex::default(), vector: x.iter().map(|x| Complex::from(*x)).collect() };
+    }
+    for value in motions.iter_mut().map(|motion| &mut motion.value).filter(|value| value.re.abs() <= UNDAMPED * value.norm()) {
+        value.re = 0.0;
+    }
 }
 
 /// That more motions grow than are listed, or that these cannot be counted.

@@ -15,13 +15,11 @@ use nalgebra::{Complex, DVector};
 pub(super) const ROUND_OFF: f64 = 1e-12;
 /// An eigenvalue below this part of the work of all forces on unit ways, in its mode, is round-off, too: a stiffness may be the product of
 /// two numbers that are zero but for round-off.
-const OF_WORK: f64 = 1e-15;
+pub(super) const OF_WORK: f64 = 1e-15;
 /// Unbalanced forces below this part of what they are made of are round-off.
 pub(super) const BALANCED: f64 = 1e-8;
 /// Modes that are drawn.
 pub(super) const DRAWN: usize = 12;
-/// |μ| below this part of the largest is 0, which is double for a free motion and so known to half of the digits.
-pub(super) const RIGID: f64 = 1e-7;
 /// Parts of a shape that count in words, of the largest one.
 const PART: f64 = 0.3;
 /// Imaginary part of a part of a shape, of its real one, that is round-off.
@@ -47,6 +45,13 @@ pub(super) struct Undamped {
     pub(super) shape: DVector<f64>,
     /// Size of λ that is round-off.
     pub(super) noise: f64,
+}
+
+impl Undamped {
+    /// Whether nothing drives it back.
+    pub(super) fn is_free(&self) -> bool {
+        self.value.abs() <= self.noise
+    }
 }
 
 impl Report<'_> {
@@ -82,8 +87,8 @@ impl Report<'_> {
     /// Frequencies and shapes of undamped modes, with what their signs mean: √λ, NaN for λ < 0, 0 for a free motion.
     pub(super) fn frequencies(&mut self, found: &[Undamped]) -> Vec<f64> {
         let mut frequencies = Vec::new();
-        for (i, Undamped { value: lambda, shape, noise }) in found.iter().enumerate() {
-            let free = lambda.abs() <= *noise;
+        for (i, mode) in found.iter().enumerate() {
+            let (Undamped { value: lambda, shape, .. }, free) = (mode, mode.is_free());
             self.shapes.push(self.own.iter().map(|c| c.name.clone()).zip(shape.iter().copied()).collect());
             if free {
                 self.finding(
@@ -116,10 +121,8 @@ impl Report<'_> {
     }
 
     /// Lists and shapes of the first `wanted` damped modes, with what grows, also among those that are not listed; their frequencies
-    /// |Im μ|. What is small beside the largest |μ|, and beside a frequency `omega` of the mechanism, is 0.
-    pub(super) fn damped(&mut self, all: &[Damped], wanted: usize, omega: f64) -> Vec<f64> {
-        let size = all.iter().fold(omega, |m, d| m.max(d.value.norm()));
-        let grows = |mode: &Damped| mode.grows(RIGID * size);
+    /// |Im μ|. One with μ = 0 is a free motion.
+    pub(super) fn damped(&mut self, all: &[Damped], wanted: usize) -> Vec<f64> {
         let (found, beyond) = all.split_at(wanted.min(all.len()));
         let each = |f: &dyn Fn(&Damped) -> f64| -> Vec<f64> { found.iter().map(f).collect() };
         let frequencies = each(&|d| d.value.im);
@@ -131,10 +134,10 @@ impl Report<'_> {
             let amplitudes = mode.shape.map(|x| x.norm());
             let named = |c: &Coordinate, x: &Complex<f64>| [(c.name.clone(), x.norm()), (format!("{}.phase", c.name), phase(*x))];
             self.shapes.push(self.own.iter().zip(mode.shape.iter()).flat_map(|(n, x)| named(n, x)).collect());
-            if mode.value.norm() <= RIGID * size {
+            if mode.value.norm() == 0.0 {
                 let message = format!("mode {} is a free motion of {}: nothing drives it back", i + 1, self.parts(&amplitudes));
                 self.finding("free-motion", message);
-            } else if grows(mode) {
+            } else if mode.grows() {
                 let message = format!(
                     "mode {} is unstable, {}: it grows like exp({} t/s)",
                     i + 1,
@@ -144,8 +147,8 @@ impl Report<'_> {
                 self.finding("unstable", message);
             }
         }
-        if let Some(fastest) = beyond.iter().filter(|mode| grows(mode)).map(|mode| mode.value.re).max_by(f64::total_cmp) {
-            let count = beyond.iter().filter(|mode| grows(mode)).count();
+        if let Some(fastest) = beyond.iter().filter(|mode| mode.grows()).map(|mode| mode.value.re).max_by(f64::total_cmp) {
+            let count = beyond.iter().filter(|mode| mode.grows()).count();
             let message = format!(
                 "{count} more of the modes that are not listed are unstable: the fastest grows like exp({} t/s); `lowest` asks for more",
                 six_digits(fastest)
