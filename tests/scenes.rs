@@ -1,5 +1,7 @@
 //! What is drawn moves as the mechanism does: between its frames too, and with its joints closed.
 
+mod order;
+
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Selection};

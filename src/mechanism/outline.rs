@@ -3,14 +3,16 @@
 /// A shape in the frame of its body, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outline {
-    /// A straight bar; thin if its width is 0.
+    /// A straight bar; thin if its width and height are 0.
     Bar {
         /// One end.
         from: [f64; 3],
         /// The other end.
         to: [f64; 3],
-        /// Width across.
+        /// Width across, along y of a bar along x.
         width: f64,
+        /// Height, along z of a bar along x; of others both are turned with it by the smallest rotation. 0 in the plane.
+        height: f64,
     },
     /// A disc.
     Disc {

@@ -28,10 +28,10 @@ export class Arrows {
 
   constructor(private readonly motion: Motion, private readonly results: Results, private readonly pace: Pace) {
     const { joints, traces, arrows, dimensions } = motion.scene;
-    const told = ({ name, b }: Scene['joints'][number]): Scene['arrows'] => {
+    const told = ({ name, a, b, on_ground: minus }: Scene['joints'][number]): Scene['arrows'] => {
       const columns = ['fx', 'fy', 'fz'].slice(0, dimensions).map((axis) => `${name}.${axis}`);
       if (!columns.every((own) => column(results, own)) || arrows.some((arrow) => arrow.name === name)) return [];
-      return [{ name, kind: 'reaction', body: b.body, at: b.at, columns, values: null, scale: null }];
+      return [{ name, kind: 'reaction', ...(b.body === 0 ? a : b), columns, minus, values: null, scale: null }];
     };
     this.forces = [...arrows, ...joints.flatMap(told)];
     const seen = new Set<string>();
@@ -125,7 +125,7 @@ export class Arrows {
     const read = (i: number): number => {
       if (i < first || i >= first + own) return 0;
       const told = arrow.columns[i] !== undefined ? column(this.results, arrow.columns[i]!) : undefined;
-      if (told && told.values.length > 1) return valueAt(fineOf(this.results), told.values, place);
+      if (told && told.values.length > 1) return (arrow.minus ? -1 : 1) * valueAt(fineOf(this.results), told.values, place);
       if (!arrow.values || arrow.values.length === 0) return NaN;
       let k = 0;
       while (k + 2 < frames.at.length && frames.at[k + 1]! <= place) k++;

@@ -166,6 +166,8 @@ export interface Joint {
   kind: string;
   a: Place;
   b: Place;
+  /** Whether the columns of its force are those on the ground. */
+  on_ground: boolean;
   axis: number[];
   stroke: [number, number] | null;
   /** Of a slide the places of its stops along the axis from a. */
@@ -199,7 +201,7 @@ interface Parts<A> {
   joints: Joint[];
   links: Link[];
   gears: Gear[];
-  arrows: { name: string; kind: ArrowKind; body: number; at: number[]; columns: string[]; values: A; scale: Num }[];
+  arrows: { name: string; kind: ArrowKind; body: number; at: number[]; columns: string[]; minus: boolean; values: A; scale: Num }[];
   traces: Trace[];
 }
 

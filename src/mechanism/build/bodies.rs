@@ -116,7 +116,7 @@ impl<G: Space> Builder<'_, G> {
             Shape::Bar { length, mass, width, height } => {
                 let l = self.length(*length, place, "the length is");
                 let [m, b, h] = [*mass, *width, *height].map(|x| self.optional(x, place));
-                let outline = Outline::Bar { from: [0.0; 3], to: [l, 0.0, 0.0], width: b };
+                let outline = Outline::Bar { from: [0.0; 3], to: [l, 0.0, 0.0], width: b, height: h };
                 Shaped { mass: inertia::bar(m, l, b, h), ends: [origin, G::vector(&[l])], outline: Some(outline) }
             }
             Shape::BarBetween { from, to, mass, width, height } => {
@@ -126,7 +126,7 @@ impl<G: Space> Builder<'_, G> {
                     self.fault("no-length", place, "the bar begins and ends at one point".into(), "two points", Some("move `to`".into()));
                     return Shaped::default();
                 }
-                let outline = Some(Outline::Bar { from, to, width: b });
+                let outline = Some(Outline::Bar { from, to, width: b, height: h });
                 Shaped { mass: inertia::bar_between(m, from, to, b, h), ends: [G::vector(&from), G::vector(&to)], outline }
             }
             Shape::Disc { radius, mass, thickness } => {

@@ -30,10 +30,13 @@ pub struct Joint {
     pub name: String,
     /// Its kind as in the model file: `revolute`.
     pub kind: Cow<'static, str>,
-    /// Its point in the first body.
+    /// Its point in the first body, which is the ground if one of the two is, unless the joint is a slot or has two axes.
     pub a: Place,
     /// Its point in the second body.
     pub b: Place,
+    /// Whether the model names the ground second, so that the columns of its force are those on the ground.
+    #[serde(default)]
+    pub on_ground: bool,
     /// Unit direction of its axis or slide in the first body.
     pub axis: Vec<f64>,
     /// Of a slide: its positions along the axis over the whole motion, widened to its stops, m.
@@ -137,6 +140,9 @@ pub struct Arrow {
     pub at: Vec<f64>,
     /// Names of the columns with its world components, if the table has them.
     pub columns: Vec<String>,
+    /// Whether it is minus these columns, which are those on the ground that the model names as the second body.
+    #[serde(default)]
+    pub minus: bool,
     /// World components for each frame, flat, N or N m; of a torque in the plane the third one alone; may be empty.
     pub values: Vec<f64>,
     /// The body in whose axes the force is given; 0 is the world.

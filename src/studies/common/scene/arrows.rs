@@ -1,5 +1,6 @@
 //! Forces that a drawing shows: where they act and in which axes they are given; and their values along the motion.
 
+use super::joints::on_ground;
 use super::places::numbers;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, PointLoad};
@@ -8,26 +9,29 @@ use crate::results::Scene;
 use crate::results::scene::{Arrow, ArrowKind};
 use crate::studies::common::case::Case;
 
-/// The forces that a study shows, in its order, without values.
+/// The forces that a study shows, in its order, without values: of a joint those on its second body, or on the first where the second is the
+/// ground.
 pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Vec<Arrow> {
     let arrow = |force: &ShownForce| {
         let scale = force.scale.map(|id| case.value(id));
-        let (kind, (body, at), frame, axes) = match force.on {
-            ForceOn::Reaction(joint) => (ArrowKind::Reaction, mechanism.joints[joint].b, 0, world(G::VECTOR)),
-            ForceOn::Load(load) => {
+        let (kind, joint, (body, at), frame, axes) = match force.on {
+            ForceOn::Reaction(joint) => (ArrowKind::Reaction, Some(joint), mechanism.joints[joint].b, 0, world(G::VECTOR)),
+            ForceOn::Load(load) | ForceOn::Torque(load) => {
+                let joint = if let LoadOn::Joint { joint, .. } = case.model.loads[load].on { Some(joint) } else { None };
                 let (place, frame, axes) = load_of(case, mechanism, load);
-                (ArrowKind::Load, place, frame, axes)
-            }
-            ForceOn::Torque(load) => {
-                let (place, frame, axes) = load_of(case, mechanism, load);
-                (ArrowKind::Torque, place, frame, axes)
+                (if matches!(force.on, ForceOn::Load(_)) { ArrowKind::Load } else { ArrowKind::Torque }, joint, place, frame, axes)
             }
         };
+        let other = joint.filter(|joint| on_ground(mechanism, *joint));
+        let (body, at) = other.map_or((body, at), |joint| mechanism.joints[joint].a);
         // a torque in the plane is about the third axis, which is the same in all bodies
         let (frame, axes) = if kind == ArrowKind::Torque && G::VECTOR == 2 { (0, vec![vec![0.0, 0.0, 1.0]]) } else { (frame, axes) };
+        let turned = |axis: Vec<f64>| if other.is_some() { axis.into_iter().map(|x| 0.0 - x).collect() } else { axis };
+        let axes = axes.into_iter().map(turned).collect();
         let columns =
             if matches!(force.on, ForceOn::Reaction(_)) { force.components.iter().map(|c| c.name.clone()).collect() } else { Vec::new() };
-        Arrow { name: force.name.clone(), kind, body, at: numbers::<G>(at), columns, values: Vec::new(), frame, axes, scale }
+        let minus = other.is_some();
+        Arrow { name: force.name.clone(), kind, body, at: numbers::<G>(at), columns, minus, values: Vec::new(), frame, axes, scale }
     };
     case.study.forces.iter().map(arrow).collect()
 }

@@ -36,7 +36,12 @@ pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
 
 /// Gives wheels with outer teeth that have no outline of their own the disc of their pitch circle, and takes the disc of its pitch circle
 /// from a wheel with inner teeth in the plane, in which the others stand.
-pub(super) fn outline_wheels(gears: &[Gear], bodies: &mut [Body]) {
+pub(super) fn outline_wheels<G: Space<S = f64>>(mechanism: &Mechanism<G>, gears: &[Gear], bodies: &mut [Body]) {
+    let of_bars = |body: usize, shapes: &[Shape]| {
+        let bar = matches!(mechanism.bodies[body].outline, Some(Outline::Bar { .. }));
+        let of_bar = |shape: &Shape| matches!(shape, Shape::Bar { .. } | Shape::Hull { .. } | Shape::Mass { .. });
+        shapes.iter().all(|shape| of_bar(shape) || bar && matches!(shape, Shape::Box { .. }))
+    };
     for wheel in
         gears.iter().flat_map(|gear| [&gear.a, &gear.b]).filter(|wheel| wheel.body > 0 && wheel.radius < 0.0 && wheel.axis.is_empty())
     {
@@ -46,7 +51,7 @@ pub(super) fn outline_wheels(gears: &[Gear], bodies: &mut [Body]) {
     for gear in gears.iter().filter(|gear| matches!(gear.kind, GearKind::Teeth | GearKind::Rack)) {
         for wheel in [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.body > 0 && wheel.radius > 0.0) {
             let shapes = &mut bodies[wheel.body].shapes;
-            if shapes.iter().all(|shape| matches!(shape, Shape::Bar { .. } | Shape::Hull { .. } | Shape::Mass { .. })) {
+            if of_bars(wheel.body, shapes) {
                 let axis = (!wheel.axis.is_empty()).then(|| wheel.axis.clone());
                 shapes.insert(0, Shape::Disc { center: wheel.at.clone(), radius: wheel.radius, axis, thickness: None });
             }

@@ -23,6 +23,7 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 kind: joint.kind.into(),
                 a: place::<G>(joint.a),
                 b: place::<G>(joint.b),
+                on_ground: on_ground(mechanism, index),
                 axis: joint.axis[..G::VECTOR].to_vec(),
                 stroke: None,
                 stops,
@@ -32,9 +33,30 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 damped: said.damping.is_some_and(|damping| case.value(damping) != 0.0),
             };
             drawn.stroke = stroke(scene, &drawn);
-            drawn
+            if drawn.on_ground { from_ground(scene, drawn) } else { drawn }
         })
         .collect()
+}
+
+/// Whether the model names the ground as the second body of a joint.
+pub(super) fn on_ground<G: Space<S = f64>>(mechanism: &Mechanism<G>, joint: usize) -> bool {
+    let joint = &mechanism.joints[joint];
+    joint.b.0 == 0 && joint.a.0 != 0
+}
+
+/// A joint to the ground as one from the ground, so that what carries and guides rests, and what moves is the second body: the coordinate
+/// is the same about or along the opposite axis. A slot stays in its body, and joints of two axes as they are.
+fn from_ground(scene: &Scene, joint: Joint) -> Joint {
+    let planar = scene.dimensions == 2;
+    let turns = joint.kind == "revolute" && planar;
+    if scene.frames.count() == 0 || !(turns || ["revolute", "slider", "cylindrical", "screw", "spherical", "fixed"].contains(&&*joint.kind))
+    {
+        return joint;
+    }
+    let along = scene.direction(scene.frame(0), joint.a.body, &joint.axis);
+    // the axis of a hinge in the plane is the third one, whatever the order
+    let stops = if turns { [joint.stops[1], joint.stops[0]].map(|stop| stop.map(|stop| -stop)) } else { joint.stops };
+    Joint { a: joint.b, b: joint.a, axis: along[..scene.dimensions].iter().map(|x| 0.0 - x).collect(), stops, ..joint }
 }
 
 /// The ends of the coordinate of a joint, if it has stops.

@@ -1,22 +1,24 @@
 //! Springs, dampers and massless rods.
 
-use super::places::{numbers, place, reaches, same};
+use super::anchors::to_ground;
+use super::places::{place, same};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::{Joint, Measured, Mechanism, StretchOf};
-use crate::model::{self, Model, PointRef, Quantity, SpringLaw, SpringOn};
+use crate::model::{self, PointRef, Quantity, SpringLaw, SpringOn};
 use crate::results::Scene;
 use crate::results::scene::{Link, LinkKind, Place};
+use crate::studies::common::case::Case;
 
-/// Shortest spring along a slide or to the ground, as part of the size of the mechanism.
+/// Shortest spring along a slide, as part of the size of the mechanism.
 const SHORTEST: f64 = 0.1;
 
 /// The massless elements of a mechanism. The frames of the scene are there.
 ///
 /// A spring over an expression has a place where that is of the coordinates of one point or two, of one joint, or of the angles of one
 /// body or two about one hinge.
-pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
-    let springs = mechanism.stretches.iter().zip(&model.springs).filter_map(|(stretch, spring)| {
+pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
+    let springs = mechanism.stretches.iter().zip(&case.model.springs).filter_map(|(stretch, spring)| {
         let rest = (stretch.moving.is_none() && spring.rest.is_some()).then_some(stretch.rest);
         let (turns, [a, b], rest) = match (&spring.on, stretch.of) {
             (&SpringOn::Joint(joint), _) => {
@@ -30,7 +32,7 @@ pub(super) fn links<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
                 (false, [place::<G>((gauge.a, pa)), place::<G>((gauge.b, pb))], rest)
             }
             (&SpringOn::Stretch(id), _) => {
-                let (turns, ends) = stretched(model, mechanism, scene, id)?;
+                let (turns, ends) = stretched(case, mechanism, scene, id)?;
                 (turns, ends, None)
             }
             _ => return None,
@@ -75,13 +77,12 @@ fn at_joint<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, joint: &
 }
 
 /// The spring of an expression of positions, if it has a place.
-fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene, id: Id) -> Option<Ends> {
-    let (mut points, mut axes): (Vec<PointRef>, Vec<usize>) = (Vec::new(), Vec::new());
+fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene, id: Id) -> Option<Ends> {
+    let (model, mut points) = (case.model, Vec::<PointRef>::new());
     let (mut turned, mut joints): (Vec<usize>, Vec<(usize, usize)>) = (Vec::new(), Vec::new());
     for input in model.pool.inputs_of(&[id]) {
         match model.inputs[input as usize] {
-            Quantity::Point { at, axis, order: 0 } => {
-                axes.push(axis);
+            Quantity::Point { at, order: 0, .. } => {
                 if !points.contains(&at) {
                     points.push(at);
                 }
@@ -95,7 +96,7 @@ fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: 
     let on = |p: PointRef| (p.body, mechanism.bodies[p.body].points[p.point].1);
     match (&points[..], &turned[..], &joints[..]) {
         (&[a, b], [], []) => Some((false, [a, b].map(|p| place::<G>(on(p))))),
-        (&[a], [], []) => Some((false, above_ground(mechanism, scene, on(a), &axes))),
+        (&[a], [], []) => to_ground(case, mechanism, scene, id, a).map(|ends| (false, ends)),
         ([], &[a, b], []) => hinge(mechanism, a, b).map(|ends| (true, ends)),
         ([], &[a], []) => hinge(mechanism, 0, a).map(|ends| (true, ends)),
         ([], [], &[(joint, slot)]) => {
@@ -109,18 +110,6 @@ fn stretched<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: 
         }
         _ => None,
     }
-}
-
-/// From the ground to a point: where its coordinate along one axis is least, as far below as its body reaches; over several axes from the
-/// origin of the world.
-fn above_ground<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, (body, at): (usize, G::Vector), axes: &[usize]) -> [Place; 2] {
-    let point = place::<G>((body, at));
-    let &[axis] = axes else { return [Place { body: 0, at: vec![0.0; G::VECTOR] }, point] };
-    let mut foot = scene.world(scene.frame(0), &point);
-    let all = (0..scene.frames.count()).map(|i| scene.world(scene.frame(i), &point)[axis]);
-    let least = all.filter(|x| x.is_finite()).fold(foot[axis], f64::min);
-    foot[axis] = least - reaches(mechanism)[body].max(SHORTEST * mechanism.size());
-    [Place { body: 0, at: foot[..G::VECTOR].to_vec() }, Place { body, at: numbers::<G>(at) }]
 }
 
 /// Where two bodies turn about one point: a hinge between them, or one of each on a third body.

@@ -1,5 +1,6 @@
 //! The scene of a study: what is drawn of its mechanism, and the poses of its motion.
 
+mod anchors;
 mod arrows;
 mod asked;
 mod frames;
@@ -80,13 +81,13 @@ impl<G: Space<S = f64>> Subject<'_, G> {
             frames,
             ..Scene::default()
         };
-        scene.links = links::links(case.model, mechanism, &scene);
+        scene.links = links::links(case, mechanism, &scene);
         scene.joints = joints::joints(case, mechanism, &scene);
         senses::tell(case, mechanism, times, &mut scene);
         scene.arrows = arrows::arrows(case, mechanism);
         scene.gears = gears::gears(case.model, mechanism, &scene);
-        gears::outline_wheels(&scene.gears, &mut scene.bodies);
-        shafts::outline_shafts(&mut scene);
+        gears::outline_wheels(mechanism, &scene.gears, &mut scene.bodies);
+        shafts::outline_shafts(mechanism, &mut scene);
         scene.traces = traces::traces(case, mechanism, &scene);
         if let Some(shown) = turn::first_cycle(&scene) {
             scene.frames.shown = shown;

@@ -1,5 +1,6 @@
 //! In which sense joints are driven over a motion: by the laws of drivers, whatever positions are drawn, else by how the joint moves.
 
+use super::joints::on_ground;
 use super::turn::step;
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
@@ -20,7 +21,10 @@ pub(super) fn tell<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, 
     let laws = times.map(|times| laws(mechanism, times)).unwrap_or_default();
     let of_driver = |joint: &Joint| {
         let drives = |driver: &crate::model::Driver| mechanism.joints[driver.joint].name == joint.name;
-        laws.get(case.model.drivers.iter().position(drives)?).copied()
+        let driver = case.model.drivers.iter().position(drives)?;
+        // counter-clockwise is drawn of what moves, whichever body the model names first
+        let other_way = scene.dimensions == 2 && joint.kind == "revolute" && on_ground(mechanism, case.model.drivers[driver].joint);
+        laws.get(driver).map(|sense| if other_way { 0.0 - sense } else { *sense })
     };
     let told = |joint: &Joint| if joint.driven { of_driver(joint).unwrap_or_else(|| by_frames(scene, joint)) } else { 0.0 };
     let senses: Vec<f64> = scene.joints.iter().map(told).collect();

@@ -3,6 +3,8 @@
 //! A plate around such points, or legs to them, would go through the rods that turn on them. So each of these points is the middle of a pin
 //! between two webs, and journals lie along the axis from web to web.
 
+use crate::geometry::Space;
+use crate::mechanism::{Mechanism, Outline};
 use crate::results::Scene;
 use crate::results::scene::{Joint, Shape};
 
@@ -12,11 +14,17 @@ const PIN: f64 = 0.25;
 const NEAR: f64 = 1e-6;
 
 /// Gives bodies that are shafts with cranks the bars of these in place of the hull of their points. The joints of the scene are there.
-pub(super) fn outline_shafts(scene: &mut Scene) {
+pub(super) fn outline_shafts<G: Space>(mechanism: &Mechanism<G>, scene: &mut Scene) {
     if scene.dimensions != 3 || scene.frames.count() == 0 {
         return;
     }
-    for body in 1..scene.bodies.len() {
+    // a block or beam shows what it is
+    let sized = |body: usize| match mechanism.bodies[body].outline {
+        Some(Outline::Bar { width, height, .. }) => width.max(height) > 0.0,
+        Some(Outline::Block { .. } | Outline::Ball { .. }) => true,
+        Some(Outline::Disc { .. }) | None => false,
+    };
+    for body in (1..scene.bodies.len()).filter(|body| !sized(*body)) {
         let Some((at, axis)) = bearing(scene, body) else { continue };
         let shapes = &mut scene.bodies[body].shapes;
         let Some(index) = shapes.iter().position(|shape| matches!(shape, Shape::Hull { .. })) else { continue };

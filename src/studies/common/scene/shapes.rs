@@ -2,12 +2,14 @@
 
 use super::places::{numbers, of_body};
 use crate::geometry::Space;
-use crate::mechanism::{Mechanism, Outline};
+use crate::mechanism::{Mechanism, Outline, axis_rotation};
 use crate::model::Model;
 use crate::results::scene::{Body, Shape};
 
 /// Radius of the largest point mass, as part of the size of the mechanism.
 const LARGEST: f64 = 0.035;
+/// Thickness of a thin bar, as part of its width.
+const THIN: f64 = 0.02;
 
 /// The bodies of a mechanism with their shapes.
 pub(super) fn bodies<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<Body> {
@@ -52,13 +54,51 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
     let Some(own) = own else {
         return if places.is_empty() { Vec::new() } else { vec![Shape::Hull { points: all(&places) }] };
     };
-    let outside: Vec<G::Vector> = places.into_iter().filter(|p| !holds(&own, &numbers::<G>(*p))).collect();
+    let within = match body.outline {
+        Some(Outline::Bar { from, to, width, height }) if !outlined => {
+            let [from, to] = [from, to].map(|end| end[..G::VECTOR].to_vec());
+            Shape::Bar { from, to, width: Some(width.max(height)) }
+        }
+        _ => own.clone(),
+    };
+    let outside: Vec<G::Vector> = places.into_iter().filter(|p| !holds(&within, &numbers::<G>(*p))).collect();
     match own {
         _ if outside.is_empty() => vec![own],
-        // a bar with something beside it is a plate
-        Shape::Bar { from, to, .. } => vec![Shape::Hull { points: [vec![from, to], all(&outside)].concat() }],
+        // a bar with something beside it is a plate, unless it has a size of its own
+        Shape::Bar { from, to, width: None } => vec![Shape::Hull { points: [vec![from, to], all(&outside)].concat() }],
+        own if matches!(body.outline, Some(Outline::Bar { .. })) => {
+            let Some(Outline::Bar { from, to, .. }) = body.outline else { return vec![own] };
+            let leg = |p: Vec<f64>| Shape::Bar { from: nearest([&from, &to], &p), to: p, width: None };
+            all(&outside).into_iter().map(leg).chain([own]).collect()
+        }
         own => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
     }
+}
+
+/// The place of a line between two ends that is nearest to a point.
+fn nearest([from, to]: [&[f64; 3]; 2], p: &[f64]) -> Vec<f64> {
+    let way = [0, 1, 2].map(|i| to[i] - from[i]);
+    let along: f64 = p.iter().zip(from).zip(way).map(|((p, from), way)| (p - from) * way).sum();
+    let part = (along / way.iter().map(|x| x * x).sum::<f64>()).clamp(0.0, 1.0);
+    (0..p.len()).map(|i| from[i] + part * way[i]).collect()
+}
+
+/// The corners of a bar in space with a rectangle of these sizes across it, of which one may be 0: a box if it lies along x.
+fn beam(from: [f64; 3], to: [f64; 3], sizes: [f64; 2]) -> Shape {
+    let way = [0, 1, 2].map(|i| to[i] - from[i]);
+    let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [width, height] = [sizes[0].max(THIN * sizes[1]), sizes[1].max(THIN * sizes[0])];
+    let middle = [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]));
+    if way[0] == length {
+        return Shape::Box { center: middle.to_vec(), size: vec![length, width, height] };
+    }
+    let turned = axis_rotation([1.0, 0.0, 0.0], way.map(|x| x / length));
+    let corner = |k: usize| {
+        let [x, y, z] = [0, 1, 2].map(|i| if k >> i & 1 == 0 { -0.5 } else { 0.5 });
+        let local = [x * length, y * width, z * height];
+        (0..3).map(|i| middle[i] + (0..3).map(|j| turned[i][j] * local[j]).sum::<f64>()).collect()
+    };
+    Shape::Hull { points: (0..8).map(corner).collect() }
 }
 
 /// The shape of an outline.
@@ -67,7 +107,8 @@ fn outline_shape(outline: Outline, dimensions: usize) -> Shape {
     let origin = vec![0.0; dimensions];
     let given = |x: f64| (x > 0.0).then_some(x);
     match outline {
-        Outline::Bar { from, to, width } => Shape::Bar { from: cut(from), to: cut(to), width: given(width) },
+        Outline::Bar { from, to, width, height } if dimensions == 3 && width.max(height) > 0.0 => beam(from, to, [width, height]),
+        Outline::Bar { from, to, width, .. } => Shape::Bar { from: cut(from), to: cut(to), width: given(width) },
         Outline::Disc { center, axis, radius, thickness } => {
             let axis = (dimensions == 3).then(|| axis.to_vec());
             Shape::Disc { center: cut(center), radius, axis, thickness: given(thickness) }
@@ -98,7 +139,10 @@ fn holds(shape: &Shape, p: &[f64]) -> bool {
             let from: Vec<f64> = p.iter().zip(center).map(|(p, c)| p - c).collect();
             length(&from) <= radius * (1.0 + 1e-6)
         }
-        Shape::Box { size, .. } => size.iter().zip(p).all(|(size, x)| x.abs() <= 0.5 * size * (1.0 + 1e-6)),
+        Shape::Box { center, size } => {
+            let thick = size.iter().copied().fold(0.0, f64::max);
+            size.iter().zip(center.iter().zip(p)).all(|(size, (c, x))| (x - c).abs() <= 0.5 * size + 1e-6 * thick)
+        }
         Shape::Polygon { points } => is_inside(points, p),
         Shape::Hull { .. } | Shape::Cylinder { .. } | Shape::Mass { .. } => false,
     }
