@@ -1,6 +1,7 @@
 //! Couplings by expressions that switch: T = f(S) on the side of the switch on which S is, in every kind of study.
 
 mod efforts;
+mod turning;
 
 use crate::common;
 use grashof::mechanism::Coordinates;

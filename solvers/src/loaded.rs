@@ -131,6 +131,10 @@ impl System for Loaded<'_> {
         self.system.displace(span, q, u);
     }
 
+    fn longest(&mut self, at: At<'_>) -> f64 {
+        self.system.longest(at)
+    }
+
     fn power(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], w: &mut [f64]) {
         let Some((last, own)) = w.split_last_mut() else { return };
         self.system.power(at, a, lambda, own);

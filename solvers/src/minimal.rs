@@ -425,6 +425,11 @@ impl<S: System> System for Minimal<S> {
         chart.copy_from_slice(&[if spare > 0.0 { spare } else { relative - self.poor }, best.max(own) / self.best - SINGULAR]);
     }
 
+    fn longest(&mut self, at: At<'_>) -> f64 {
+        let loops = self.loops.get_mut();
+        if loops.reach(at) { loops.inner.longest(loops.state.at()) } else { f64::INFINITY }
+    }
+
     fn ahead(&mut self, at: At<'_>, to: f64, roots: &[usize]) -> Ahead {
         self.loops.get_mut().inner.ahead(At { modes: &at.modes[..self.inner.modes], ..at }, to, roots)
     }

@@ -207,6 +207,12 @@ pub trait System {
     /// The mode of every switch that belongs to the values at hand; `at.modes` decides on a switch that stands exactly at its edge.
     fn modes(&mut self, at: At<'_>, modes: &mut [i32]);
 
+    /// The longest step, s, from a state or to it in which values that are followed from their last ones, as angles that count turns, are
+    /// not lost. A system without such values has none, which is the default.
+    fn longest(&mut self, _at: At<'_>) -> f64 {
+        f64::INFINITY
+    }
+
     /// Root functions (roots), each positive inside of the present mode.
     fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]);
 

@@ -30,6 +30,8 @@ pub enum Why {
     Unresolved(usize),
     /// A blow against what drivers or other rows hold: the root of the contact.
     Blocked(usize),
+    /// The step is too long for values that are followed from their last ones.
+    Lost,
     /// More steps than are allowed.
     TooManySteps,
     /// This build does not have the scheme (see [`available`](crate::schemes::available)).
@@ -49,6 +51,7 @@ impl fmt::Display for Why {
             Self::Zeno(root) => write!(f, "events of root {root} pile up without end"),
             Self::Unresolved(root) => write!(f, "the sign of root {root} cannot be bounded"),
             Self::Blocked(root) => write!(f, "a blow at root {root} is against what other rows hold"),
+            Self::Lost => write!(f, "the step is too long to count the turns of angles"),
             Self::TooManySteps => write!(f, "more steps than are allowed"),
             Self::Unavailable => write!(f, "this build does not have the scheme"),
         }

@@ -52,6 +52,10 @@ where
             "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks or a force jumps there; look at the motion just before",
             halt.h
         ),
+        Why::Lost => format!(
+            "at t = {t:.6} s an angle about a hinge that closes a loop turns by more than a fifth of a turn in a step of {:.1e} s, so that its turns cannot be counted: give a shorter `step`, or a `tolerance`",
+            halt.h
+        ),
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
 }
@@ -122,7 +126,7 @@ fn cause<G: Space>(mechanism: &Mechanism<G>, why: &Why) -> String {
             mechanism.name_of_row(row)
         ),
         Why::TooManySteps => "the run has taken more steps than are allowed; ask for a larger `tolerance` or a shorter `until`".into(),
-        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::Unavailable => "the state cannot be continued".into(),
+        Why::Error(_) | Why::Newton | Why::StepSize | Why::Zeno(_) | Why::Unresolved(_) | Why::Blocked(_) | Why::Lost | Why::Unavailable => "the state cannot be continued".into(),
     }
 }
 

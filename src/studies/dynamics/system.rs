@@ -273,6 +273,16 @@ where
         }
     }
 
+    fn longest(&mut self, at: At<'_>) -> f64 {
+        if self.dynamics.mechanism.windings == 0 {
+            return f64::INFINITY;
+        }
+        self.kinematics(&at);
+        let readings = &self.dynamics.work.readings;
+        let rate = |root: &Root| if let Root::Winding { gauge, .. } = root { readings[*gauge].rate.abs() } else { 0.0 };
+        FOLLOWED / self.roots.iter().map(rate).fold(0.0, f64::max)
+    }
+
     fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {
         if self.direct.is_some() {
             return self.direct_roots(&at, g);
@@ -308,7 +318,7 @@ where
                 Root::Winding { gauge, winding } => {
                     let off = off_centre(self.dynamics.work.readings[gauge].x, m.gauges[gauge].shift, at.modes[m.switches + winding]);
                     // smooth at the middle, the distance near both ends
-                    let end = 0.75 * std::f64::consts::PI;
+                    let end = COUNTED;
                     (end * end - off * off) / (2.0 * end)
                 }
                 Root::Side { .. } | Root::Stop(_) | Root::Clear(_) | Root::Rest { .. } => self.touch(self.roots[i], &at, a, lambda),
@@ -380,6 +390,11 @@ where
         Some(effect)
     }
 }
+
+/// Angle from the centre of the half turn that is counted at which the next one is counted, rad: a little beyond the middle between them.
+const COUNTED: f64 = 0.55 * std::f64::consts::PI;
+/// Angle that a step may add, rad: with a fifth more the value stays smooth, which it is up to π.
+const FOLLOWED: f64 = 0.36 * std::f64::consts::PI;
 
 /// Angle from the centre of the half turn that is counted, rad.
 fn off_centre(x: f64, shift: f64, half: i32) -> f64 {
