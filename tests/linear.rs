@@ -1,5 +1,7 @@
 //! The linearised motion: against differences of accelerations, closed forms, and small motions in time.
 
+mod inputs;
+
 use crate::common::{Noise, State, accelerate, assembled, close, mechanism, model, slope, study};
 use grashof::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use grashof::geometry::{Planar, Space, Spatial};

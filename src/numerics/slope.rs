@@ -26,8 +26,8 @@ const APART: f64 = 1e-9;
 /// where f has no value beside 0.
 pub(crate) fn slope(longest: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
     let mut before: Option<Vec<f64>> = None;
-    // the best slope of each entry, and what it changed by
-    let mut best: Vec<(f64, f64)> = Vec::new();
+    // the best slope of each entry, what it changed by, and that or the round-off with which this is known
+    let mut best: Vec<(f64, f64, f64)> = Vec::new();
     let mut none = Vec::new();
     let scatter = scatter(longest, &mut f);
     for k in 0..STEPS {
@@ -41,17 +41,19 @@ pub(crate) fn slope(longest: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) ->
             sizes.iter().enumerate().map(|(i, size)| ROUNDED * (f64::EPSILON * size).max(scattered(i)) / h).collect::<Vec<f64>>();
         if best.is_empty() {
             none = sizes.iter().enumerate().map(|(i, size)| (NONE * size).max(SCATTERED * scattered(i)) / longest).collect();
-            best = now.iter().map(|x| (*x, f64::INFINITY)).collect();
+            best = now.iter().map(|x| (*x, f64::INFINITY, f64::INFINITY)).collect();
         }
         if let Some(before) = &before {
             for (((best, now), before), rounding) in best.iter_mut().zip(&now).zip(before).zip(&rounding) {
                 let change = (now - before).abs();
-                if change < best.1 {
+                // differences that are lost in round-off change by nothing at all
+                let seen = change.max(*rounding);
+                if seen < best.2 {
                     // where round-off explains the change, the longer step has less of it
-                    *best = (if change <= *rounding { *before } else { *now }, change);
+                    *best = (if change <= *rounding { *before } else { *now }, change, seen);
                 }
             }
-            let known = best.iter().zip(&rounding).all(|((x, change), rounding)| *change <= SAME * x.abs() + rounding);
+            let known = best.iter().zip(&rounding).all(|((x, change, _), rounding)| *change <= SAME * x.abs() + rounding);
             if known {
                 break;
             }
@@ -61,9 +63,9 @@ pub(crate) fn slope(longest: f64, mut f: impl FnMut(f64) -> Option<Vec<f64>>) ->
     if best.is_empty() {
         return None;
     }
-    let part = |((x, change), none): (&(f64, f64), &f64)| if *change <= *none { 0.0 } else { change / x.abs() };
+    let part = |((x, change, _), none): (&(f64, f64, f64), &f64)| if *change <= *none { 0.0 } else { change / x.abs() };
     let wrong = best.iter().zip(&none).map(part).fold(0.0, f64::max);
-    Some((best.into_iter().map(|(x, _)| x).collect(), wrong))
+    Some((best.into_iter().map(|(x, ..)| x).collect(), wrong))
 }
 
 /// Round-off of each entry of f, beside 0 on either side, where a kink or a jump at 0 takes no part; none where f has no values there.
@@ -129,6 +131,16 @@ mod tests {
         assert!(found.abs() < 1e-11 && wrong == 0.0, "{found:e} {wrong:e}");
         // a jump as small as that is one all the same
         assert!(of(|x| if x > 0.0 { 1e-17 } else { 0.0 }).1 > 0.1);
+    }
+
+    #[test]
+    fn round_off_of_one_entry_does_not_cost_others_their_slope() {
+        let noise = |x: f64| (1.7 + x).sin().powi(2) + (1.7 + x).cos().powi(2) - 1.0;
+        for rate in [1e-6, 1e-3, 1.0] {
+            let (found, _) = slope(1e-3, |x| Some(vec![noise(x), rate * x, 1.0 + rate * x, noise(0.3 + x)])).unwrap();
+            assert!((found[1] / rate - 1.0).abs() < 1e-9, "{rate:e}: {found:?}");
+            assert!((found[2] / rate - 1.0).abs() < 1e-6 + 1e-12 / rate, "{rate:e}: {found:?}");
+        }
     }
 
     #[test]
