@@ -117,3 +117,55 @@ fn a_step_of_a_coupling_ends_the_run_before_it() {
         }
     }
 }
+
+#[test]
+fn kinks_of_drivers_are_told_and_smooth_laws_are_not() {
+    // a slide whose driver begins at once, stops at once, or neither; once with a work that is ½ m v² at each jump
+    for (law, jumps) in [
+        ("position: '0.4 m/s*max(0 s, t - 0.5 s)'", 1),
+        ("position: '0.2 m*clamp((t - 0.2 s)/0.4 s, 0, 1)'", 2),
+        ("speed: 0.3 m/s", 0),
+        ("rise: { by: 0.2 m, during: 0.5 s, law: cycloidal }", 0),
+        ("rise: { by: 0.2 m, during: 0.5 s, law: poly5 }", 0),
+        ("position: '0.1 m*sin(7 rad/s*t)'", 0),
+        ("position: 'way(t)'", 0),
+    ] {
+        let text = format!(
+            "grashof: 1
+name: slide
+space: planar
+gravity: none
+tables: {{ way: {{ points: [[0 s, 0 mm], [0.2 s, 5 mm], [0.5 s, 10 mm], [0.8 s, 5 mm], [1 s, 0 mm]], between: cubic, beyond: periodic }} }}
+bodies: {{ a: {{ mass: 1 kg }}, b: {{ bar: {{ length: 0.3 m, mass: 2 kg }} }} }}
+joints: {{ A: {{ slider: [ground, a.origin], axis: [1, 0] }}, B: {{ revolute: [a.origin, b.start] }} }}
+drivers: {{ d: {{ joint: A, {law} }} }}
+start: {{ B.angle: -60 deg }}
+studies: {{ run: {{ dynamics: {{ until: 1 s, every: 0.1 s }}, columns: [A.velocity] }} }}
+"
+        );
+        let outcome = study(&text, "run", Coordinates::Joint);
+        let told: Vec<&str> = outcome.findings.iter().filter(|f| f.code == "velocity-jump").map(|f| f.message.as_str()).collect();
+        assert_eq!(told.len(), usize::from(jumps > 0), "{law}: {told:?}");
+        assert!(jumps < 1 || told[0].contains("the law of driver `d`") || told[0].contains("the law of `d`"), "{told:?}");
+        assert_eq!(told.iter().filter(|m| m.contains("and once more")).count(), usize::from(jumps == 2), "{law}: {told:?}");
+    }
+}
+
+#[test]
+fn a_smooth_table_in_a_coupling_has_no_jumps() {
+    // over many segments at a speed that falls to a steady one
+    let text = "grashof: 1
+name: smooth cam
+space: planar
+gravity: none
+tables: { lift: { points: [[0 deg, 0 mm], [90 deg, 5 mm], [180 deg, 10 mm], [270 deg, 5 mm], [360 deg, 0 mm]], between: cubic, beyond: periodic } }
+bodies: { w: { disc: { radius: 50 mm, mass: 2 kg } }, f: { mass: 0.1 kg } }
+joints: { O: { revolute: [ground, w.origin], damping: 0.1 N m s/rad }, F: { slider: [ground, f.origin], axis: [0, 1] } }
+couplings: { c: { zero: F.position - lift(O.angle) } }
+loads: { tq: { joint: O, torque: 2 N m } }
+start: { O.angle: 0 deg, O.omega: 20 rad/s }
+studies: { run: { dynamics: { until: 20 s, every: 0.1 s }, columns: [O.angle] } }
+";
+    let outcome = study(text, "run", Coordinates::Joint);
+    assert!(outcome.findings.iter().all(|f| f.code != "velocity-jump"), "{:?}", outcome.findings);
+}

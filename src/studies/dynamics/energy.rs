@@ -45,8 +45,8 @@ pub(super) struct Balance {
     kinks: f64,
     /// What one-way clutches took that blows have closed.
     closings: f64,
-    /// Corners of couplings: when the first was passed, s, whose it is, and how many there were.
-    corners: Option<(f64, String, usize)>,
+    /// Kinks of couplings and drivers: the first that was passed, and how many there were.
+    kinked: Option<(Kinked, usize)>,
     drift: f64,
     scale: f64,
     /// Largest |E|: what round-off is a part of.
@@ -59,6 +59,16 @@ pub(super) struct Balance {
     bridged: Vec<f64>,
     widest_gap: f64,
     schemes: Vec<&'static str>,
+}
+
+/// Where velocities have jumped by a law.
+#[derive(Clone, Debug)]
+struct Kinked {
+    /// When, s.
+    t: f64,
+    /// Whose law it is, and whether that of a coupling.
+    of: String,
+    coupling: bool,
 }
 
 /// Kinetic and whole energy at a node, J.
@@ -163,8 +173,9 @@ impl Balance {
             let [_, e0] = energy(system, before);
             let e1 = energy(system, after)[1] - switched;
             let corner = system.take_corner();
-            if let Some((row, _)) = corner {
-                self.corners.get_or_insert_with(|| (before.state.t, system.dynamics.mechanism.name_of_row(row), 0)).2 += 1;
+            if let Some(row) = corner.map(|(row, _)| row).or_else(|| system.kinked([&before.state, &after.state])) {
+                let of = || system.dynamics.mechanism.name_of_row(row);
+                self.kinked.get_or_insert_with(|| (Kinked { t: before.state.t, of: of(), coupling: corner.is_some() }, 0)).1 += 1;
             }
             let driven = corner.map_or_else(|| system.driven_work([&before.state, &after.state], crossed), |(_, work)| work);
             let own = || crossed.iter().filter(|root| **root < system.roots.len());
@@ -236,23 +247,24 @@ impl Balance {
             message: format!("a singular position was crossed near t = {t:.6} s"),
             path: "joints".into(),
         });
-        let corners = self.corners.map(|(t, of, count)| passed_corners(t, &of, count, place));
-        let findings = crossed.chain(corners).chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
+        let kinked = self.kinked.map(|(first, count)| passed_kinks(&first, count, place));
+        let findings = crossed.chain(kinked).chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
         (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings)
     }
 }
 
-/// That velocities have jumped at kinks of couplings.
-fn passed_corners(t: f64, of: &str, count: usize, place: &str) -> Finding {
+/// That velocities have jumped at kinks of couplings and drivers.
+fn passed_kinks(Kinked { t, of, coupling }: &Kinked, count: usize, place: &str) -> Finding {
     let others = match count {
         1 => String::new(),
         2 => " and once more".into(),
         _ => format!(" and {} more times", count - 1),
     };
+    let how = if *coupling { "they go on as over a corner that is rounded, without loss" } else { "they go on as it says" };
     Finding {
         code: "velocity-jump".into(),
         message: format!(
-            "velocities jump at t = {t:.6} s{others}: the law of {of} has a kink; they go on as over a corner that is rounded, without loss, and the forces there are impulses, which no row or extreme holds; a law without kinks has none, as a table `between: cubic`"
+            "velocities jump at t = {t:.6} s{others}: the law of {of} has a kink; {how}, and the forces there are impulses, which no row, extreme, mean or integral holds; a law without kinks has none, as a table `between: cubic`"
         ),
         path: place.into(),
     }

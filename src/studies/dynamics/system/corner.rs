@@ -22,6 +22,9 @@ const STEPS: usize = 64;
 /// is no corner.
 const SMOOTH: f64 = 1e-12;
 
+/// A jump of a prescribed rate, in radians or sizes of the mechanism per second, that is round-off of a law which comes to rest.
+const SLOW: f64 = 1e-9;
+
 /// A jump of a row, in radians or sizes of the mechanism, that is no rounding of the place of the switch.
 const STEP: f64 = 1e-9;
 
@@ -102,6 +105,20 @@ where
         let nu = near.nu.iter().zip(&far.nu).map(|(near, far)| near + s * (far - near));
         // M dv + Gᵀμ = 0: the impulses of the rows are −μ
         Some(-nu.zip(&corner.multipliers).map(|(nu, mu)| nu * mu).sum::<f64>())
+    }
+
+    /// The row whose prescribed rate jumps most at a switch between two sides of an event, if one does: that of a driver whose law has a kink.
+    pub(crate) fn kinked(&mut self, [before, after]: [&State; 2]) -> Option<usize> {
+        if before.modes == after.modes {
+            return None;
+        }
+        let [mut near, mut far] = [(); 2].map(|()| Terms::new(self.dims, &self.pattern));
+        self.terms(At { modes: &before.modes, ..after.at() }, Stage::Velocity, &mut near);
+        self.terms(after.at(), Stage::Velocity, &mut far);
+        let jump = |i: usize| (far.nu[i] - near.nu[i]).abs();
+        let row = (0..far.nu.len()).max_by(|i, k| jump(*i).total_cmp(&jump(*k)))?;
+        let size = if self.dynamics.mechanism.rows.get(row).is_none_or(|row| row.angular) { 1.0 } else { self.size };
+        (jump(row) > (SMOOTH * near.nu[row].abs().max(far.nu[row].abs())).max(SLOW * size)).then_some(row)
     }
 
     /// The row with a corner that was passed since this was asked last, if one was, and the work of rows that move with time there, J.
