@@ -3,8 +3,9 @@
 use super::damped::{Damped, beside, state_matrix};
 use super::eigen::{self, Eigen};
 use super::free::Free;
-use super::report::{self, BALANCED, DRAWN, ROUND_OFF, Report, Undamped};
+use super::report::{BALANCED, DRAWN, Report, Undamped};
 use super::rest::held_start;
+use super::round_off::{ROUND_OFF, of_work};
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
@@ -132,7 +133,7 @@ fn undamped(
     let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
         let sizes = x.abs();
         let made_of = sizes.dot(&(&held.round_off * &sizes)) + held.forces.component_div(ways).dot(&sizes.component_mul(&sizes));
-        let noise = ROUND_OFF * made_of + report::of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
+        let noise = ROUND_OFF * made_of + of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
         Undamped { value, noise, shape: x.into_owned() }
     };
     Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())

@@ -10,7 +10,7 @@
 //! eigenvector, so that numbers give it to half of their digits only: as large as a slow decay beside a stiff spring. Without the places,
 //! it is simple (deflation; Golub & Van Loan, Matrix Computations, 4th edition, section 8.2.3 for symmetric matrices).
 
-use super::report::{OF_WORK, ROUND_OFF};
+use super::round_off::{OF_WORK, ROUND_OFF};
 use crate::kinematics::held::Held;
 use nalgebra::{DMatrix, DVector};
 

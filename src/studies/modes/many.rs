@@ -2,8 +2,9 @@
 
 use super::damped::{Damped, by_largest};
 use super::picture::picture;
-use super::report::{BALANCED, DRAWN, ROUND_OFF, Report, Undamped, of_work};
+use super::report::{BALANCED, DRAWN, Report, Undamped};
 use super::rest::held_start;
+use super::round_off::{ROUND_OFF, of_work};
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::bounded::assembled_for_gauges;

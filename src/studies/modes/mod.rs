@@ -15,6 +15,7 @@ mod picture;
 pub mod power;
 mod report;
 mod rest;
+mod round_off;
 
 use super::common::case::Case;
 use crate::geometry::Space;
