@@ -5,6 +5,7 @@ mod eigensolvers;
 mod many;
 mod many_damped;
 mod meeting;
+mod order;
 mod round_off;
 
 use crate::common;

@@ -8,6 +8,9 @@ use nalgebra::{DMatrix, DVector};
 /// Pivot of the scaled rows, and part of the largest pivot, below which a row depends on the others.
 const RANK_TOLERANCE: f64 = 1e-8;
 
+/// Part of the largest pivot below which another column is taken, though it comes earlier in the file.
+const POOR: f64 = 1e-3;
+
 /// A division of velocities, v = (v_d, v_i), such that G_d has full column rank and as many columns as G has independent rows.
 #[derive(Clone, Debug)]
 pub struct Partition {
@@ -87,25 +90,29 @@ impl Scaled {
     }
 }
 
-/// Columns that elimination takes, rising: those that are not preferred first.
+/// Columns that elimination takes, rising: those that are not preferred first, then preferred ones from the last on, unless their pivot is
+/// poor.
 fn pivots(mut a: DMatrix<f64>, preferred: &[usize]) -> Vec<usize> {
     let (mut rows, mut columns): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     // sound rows have the length 1: what is far shorter is round-off, also if nothing longer is there
     let mut threshold = RANK_TOLERANCE;
-    for kept in [preferred, &[]] {
+    let others: Vec<usize> = (0..a.ncols()).filter(|j| !preferred.contains(j)).collect();
+    for (among, least) in [(&others[..], 1.0), (preferred, POOR)] {
         loop {
-            let free = |j: &usize| !columns.contains(j) && !kept.contains(j);
-            let places = (0..a.nrows()).filter(|i| !rows.contains(i)).flat_map(|i| (0..a.ncols()).filter(free).map(move |j| (i, j)));
-            let Some((i, j)) = places.max_by(|x, y| a[*x].abs().total_cmp(&a[*y].abs())) else { break };
-            let pivot = a[(i, j)];
-            if pivot.abs() <= threshold || pivot.is_nan() {
+            let left = |rows: &[usize]| (0..a.nrows()).filter(|i| !rows.contains(i)).collect::<Vec<usize>>();
+            let open = left(&rows);
+            let best = |j: usize| open.iter().map(|&i| (i, j, a[(i, j)].abs())).max_by(|x, y| x.2.total_cmp(&y.2));
+            let places: Vec<(usize, usize, f64)> = among.iter().filter(|j| !columns.contains(j)).filter_map(|&j| best(j)).collect();
+            let Some(largest) = places.iter().map(|place| place.2).max_by(f64::total_cmp) else { break };
+            if largest <= threshold || largest.is_nan() {
                 break;
             }
-            threshold = f64::max(threshold, RANK_TOLERANCE * pivot.abs());
+            let Some(&(i, j, size)) = places.iter().rev().find(|place| place.2 >= least * largest) else { break };
+            threshold = f64::max(threshold, RANK_TOLERANCE * size);
             rows.push(i);
             columns.push(j);
-            let line = a.row(i) / pivot;
-            for k in (0..a.nrows()).filter(|k| !rows.contains(k)) {
+            let line = a.row(i) / a[(i, j)];
+            for k in left(&rows) {
                 let factor = a[(k, j)];
                 a.row_mut(k).iter_mut().zip(line.iter()).for_each(|(x, l)| *x -= factor * l);
             }
@@ -115,7 +122,7 @@ fn pivots(mut a: DMatrix<f64>, preferred: &[usize]) -> Vec<usize> {
     columns
 }
 
-/// Velocities that are independent by preference: joint coordinates with an exact value in `start`, in file order.
+/// Velocities that are independent by preference: joint coordinates with an exact value in `start`, in its order.
 #[must_use]
 pub fn preferred<G: Space>(mechanism: &Mechanism<G>) -> Vec<usize> {
     let of = |asked: Asked| match asked {

@@ -18,7 +18,7 @@ use crate::mechanism::{Asked, Measured, Mechanism, Row, RowKind, RowOwner, Start
 use crate::model::{Model, coordinates_of};
 use grashof_solvers::rank::RANK_TOLERANCE;
 use grashof_solvers::{Block, Elimination, Kkt, Sparsity, Tangent};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Part of the stiffness that may be circulatory by round-off: forces have a potential.
 pub(crate) const POTENTIAL: f64 = 1e-8;
@@ -130,8 +130,8 @@ pub struct HeldSparse {
 struct Candidate {
     coordinate: Coordinate,
     way: Way,
-    /// Whether `start` gives it an exact value.
-    preferred: bool,
+    /// Its place among those to which `start` gives an exact value.
+    preferred: Option<usize>,
 }
 
 /// How a coordinate is measured.
@@ -227,7 +227,7 @@ fn of_joints<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<
         .iter()
         .filter(exact)
         .filter_map(|s| if let Asked::Gauge { gauge, order: 0 } = s.asked { Some(gauge) } else { None });
-    let asked: HashSet<usize> = asked.collect();
+    let asked: HashMap<usize, usize> = asked.enumerate().map(|(place, gauge)| (gauge, place)).collect();
     let mut out = Vec::new();
     for (joint, of) in mechanism.joints.iter().zip(&model.joints) {
         for (slot, &gauge) in joint.slots.iter().enumerate() {
@@ -236,7 +236,7 @@ fn of_joints<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<
             let measured = &mechanism.gauges[gauge];
             let way = if let Measured::Coordinate { along, .. } = measured.measured { Way::Column(along.v) } else { Way::Gauge(gauge) };
             let coordinate = Coordinate { name, rate, turns: measured.turns() };
-            out.push(Candidate { coordinate, way, preferred: asked.contains(&gauge) });
+            out.push(Candidate { coordinate, way, preferred: asked.get(&gauge).copied() });
         }
     }
     out
@@ -246,7 +246,7 @@ fn of_joints<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>) -> Vec<
 fn of_columns<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, known: &[Candidate]) -> Vec<Candidate> {
     let taken: HashSet<usize> = known.iter().filter_map(|c| if let Way::Column(v) = c.way { Some(v) } else { None }).collect();
     let columns = coordinates(model, mechanism).into_iter().enumerate().filter(|(v, _)| !taken.contains(v));
-    columns.map(|(v, coordinate)| Candidate { coordinate, way: Way::Column(v), preferred: false }).collect()
+    columns.map(|(v, coordinate)| Candidate { coordinate, way: Way::Column(v), preferred: None }).collect()
 }
 
 /// Which candidates are independent beside the rows, rising, and the rank of the rows with all candidates.
@@ -262,7 +262,7 @@ fn independent<G: Space<S = f64>>(
     candidates: &[Candidate],
 ) -> Result<Independent, Singular> {
     let mut order: Vec<usize> = (0..candidates.len()).collect();
-    order.sort_by_key(|&i| !candidates[i].preferred);
+    order.sort_by_key(|&i| candidates[i].preferred.unwrap_or(usize::MAX));
     let held = Rows::new(mechanism, pose, metric, order.iter().map(|&i| candidates[i].way))?;
     let rank = Elimination::new(&held.block, &inverse_roots(&held.scale), &inverse_roots(metric), RANK_TOLERANCE);
     let rows = mechanism.rows.len();
