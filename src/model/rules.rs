@@ -119,6 +119,10 @@ impl Rule {
                 TableError::NotRising(k) | TableError::NotFinite(k) => format!("{}[{k}]", place()),
                 _ => place(),
             };
+            if let TableError::EndsDiffer(first, _) = error {
+                let fault = Fault::new("bad-table", place, error.to_string(), "a last value that is the first one");
+                return Some(fault.help(format!("end it with {first}, or choose another `beyond`")));
+            }
             return Some(Fault::new("bad-table", place, error.to_string(), "two or more points, x strictly rising"));
         }
         if let Some(bad) = x.iter().find(|x| !x.is_finite()) {

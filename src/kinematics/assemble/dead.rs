@@ -37,6 +37,14 @@ impl<G: Space<S = f64>> System<'_, G> {
                 help: "drive a joint that can move, or remove constraints of the loop that holds this one".into(),
             };
         }
+        if let Some(drivers) = self.of_one_motion(q, &open) {
+            return AssemblyFault {
+                code: "over-constrained",
+                message: format!("{drivers} move the same motion and contradict each other: {missed} at the start"),
+                place: "drivers".into(),
+                help: "remove one of them, or let them agree at all times".into(),
+            };
+        }
         let mut sides = Vec::new();
         if open.ncols() == 1 {
             let largest = open.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
@@ -98,6 +106,33 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         let stuck = driven.iter().zip(moved).find(|(_, moved)| !moved);
         stuck.map(|((row, _), _)| format!("the {}", m.name_of_row(*row)))
+    }
+
+    /// Drivers that have no motions of their own among those that their rows leave `open` (nv each), neither at a position nor beside it.
+    fn of_one_motion(&mut self, q: &[f64], open: &DMatrix<f64>) -> Option<String> {
+        let m = self.dynamics.mechanism;
+        let drivers: Vec<usize> = (0..m.rows.len()).filter(|&row| matches!(m.rows[row].kind, RowKind::Driver { .. })).collect();
+        // the part of each driver in what they cannot do together
+        let shared = |system: &Self, open: &DMatrix<f64>| {
+            let (rows, _) = system.scaled(&drivers);
+            let along = DMatrix::from_row_slice(drivers.len(), m.nv, &rows.to_dense(m.nv)) * open;
+            let own = (&along * along.transpose()).symmetric_eigen();
+            let (least, size) = own.eigenvalues.argmin();
+            (size <= STAYS * own.eigenvalues.amax()).then(|| own.eigenvectors.column(least).into_owned())
+        };
+        if drivers.len() < 2 || open.ncols() == 0 {
+            return None;
+        }
+        self.place(q);
+        let parts = shared(self, open)?;
+        let way: Vec<f64> = (0..m.nv).map(|k| open.row(k).iter().enumerate().map(|(i, u)| (GOLDEN * i as f64).cos() * u).sum()).collect();
+        let largest = way.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
+        self.close_along(q, &way.iter().map(|u| u * BESIDE / largest).collect::<Vec<_>>())?;
+        let (a, round_off) = self.scaled(&self.undriven());
+        let beside = left_open(round_off, &a.to_dense(m.nv), &self.metric);
+        shared(self, &beside)?;
+        let named = drivers.iter().zip(&parts).filter(|(_, part)| part.abs() > 1e-6);
+        Some(named.map(|(row, _)| m.name_of_row(*row)).collect::<Vec<_>>().join(" and "))
     }
 
     /// A change point on none of whose branches drivers and exact rates can be met.

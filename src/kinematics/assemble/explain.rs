@@ -91,6 +91,23 @@ impl<G: Space<S = f64>> System<'_, G> {
             // round-off of a value that is zero
             if x.abs() < ROUND_OFF { 0.0 } else { x }
         };
+        let begins = |gauge: usize| {
+            let drives = |row: &&Row<G>| !row.anchored && matches!(row.kind, RowKind::Driver { gauge: own, .. } if own == gauge);
+            m.rows.iter().position(|row| drives(&row)).map(|row| m.name_of_row(row))
+        };
+        let driven = starts.iter().find_map(|start| match start.asked {
+            Asked::Gauge { gauge, .. } if (found(start) - start.value).abs() > 1e-9 => Some((*start, begins(gauge)?)),
+            _ => None,
+        });
+        if let Some((start, driver)) = driven {
+            let [wanted, own] = [start.value, found(start)].map(|x| written(x, unit(m, start.asked)));
+            return AssemblyFault {
+                code: "start-cannot-hold",
+                message: format!("the law of {driver} begins at {} = {own}, where the start says {wanted}", start.name),
+                place: start.place.clone(),
+                help: "leave it out of the start, or let the law begin with it".into(),
+            };
+        }
         let one = starts.len() == 1;
         let all = couplings.join(" and ");
         let (coupling, holds) = if couplings.len() == 1 { ("coupling", "holds") } else { ("couplings", "hold") };

@@ -2,7 +2,7 @@
 
 use super::super::force::{Output, StretchOf};
 use super::super::gauge::Measured;
-use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, PointLoad, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
+use super::super::{Buffer, Contact, ContactLaw, Drive, Effort, EffortLaw, Joint, PointLoad, Rotor, Row, RowKind, RowOwner, Stop, Stretch};
 use super::builder::Builder;
 use crate::expression::Id;
 use crate::geometry::Space;
@@ -159,12 +159,32 @@ impl<G: Space> Builder<'_, G> {
         p.mul(by, shape)
     }
 
+    /// Refuses a spring between the two points that a joint keeps together: it has no direction, and acts on nothing.
+    fn moves_apart(&mut self, spring: &str, [a, b]: [(usize, G::Vector); 2], place: &str) {
+        let same = |p: (usize, G::Vector), q: (usize, G::Vector)| p.0 == q.0 && G::dot(p.1 - q.1, p.1 - q.1).value() == 0.0;
+        let pins = |joint: &&Joint<G>| {
+            matches!(joint.kind, "revolute" | "spherical" | "universal" | "fixed")
+                && (same(joint.a, a) && same(joint.b, b) || same(joint.a, b) && same(joint.b, a))
+        };
+        let Some((joint, kind)) = self.mechanism.joints.iter().find(pins).map(|joint| (joint.name.clone(), joint.kind)) else { return };
+        let turning =
+            if kind == "revolute" { format!("let it turn with the joint, as `{{ joint: {joint}, .. }}`") } else { "leave it out".into() };
+        self.fault(
+            "no-way",
+            place,
+            format!("joint `{joint}` keeps the two points of the spring `{spring}` together"),
+            "two points that can move apart",
+            Some(format!("take another point, or {turning}")),
+        );
+    }
+
     fn spring(&mut self, index: usize) {
         let spring = &self.model.springs[index];
         let place = spring.place.as_str();
         let along = match spring.on {
             SpringOn::Between(a, b) => {
                 let ((a, pa), (b, pb)) = (self.at(a), self.at(b));
+                self.moves_apart(&spring.name, [(a, pa), (b, pb)], place);
                 Some(StretchOf::Gauge(self.gauge(a, b, Measured::Distance { pa, pb }, 0.0)))
             }
             SpringOn::Joint(joint) => self.coordinate(joint, place).map(StretchOf::Gauge),
