@@ -306,7 +306,7 @@ impl Pen<'_> {
         let stops = placement.stops.map(|stop| stop.map(|at| if slides { self.sheet.point(at) } else { [at[0], -at[1]] }));
         self.signs.stops(&mut self.scene, &Placement { stops, ..*placement }, slides);
         if symbol.driven {
-            let arrow = self.signs.drive(&mut self.scene, placement, slides);
+            let arrow = self.signs.drive(&mut self.scene, placement, slides && !symbol.turns);
             self.letters.avoid_line(&arrow, Obstacle::Sign);
         }
         if symbol.damped {

@@ -8,6 +8,8 @@ use super::scene::{Anchor, Color, PALETTE, Scene};
 use super::sheet::{Sheet, is_usable};
 use super::symbols::{Signs, direction, off};
 use super::thin::Point;
+use super::units::pretty;
+use crate::results::ShownIn;
 use std::f64::consts::TAU;
 
 /// The longest arrow, as part of the size of a mechanism.
@@ -145,6 +147,16 @@ fn turned(signs: Signs, at: Point, [u, v]: [Point; 2], radius: f64, sense: f64) 
     line(-half).chain(head).chain(line(half).rev()).collect()
 }
 
+/// A value in the unit that is asked for, else in SI, from a thousand on in the larger of two units.
+fn told(value: f64, asked: Option<&ShownIn>, [unit, larger]: [&str; 2], digits: usize) -> String {
+    let (size, unit) = match asked {
+        Some(asked) => (asked.size, pretty(&asked.unit)),
+        None if value >= 1e3 => (1e3, larger.into()),
+        None => (1.0, unit.into()),
+    };
+    format!("{} {unit}", significant(value / size, digits))
+}
+
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
 pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut Scene, left: f64, letters: f64) {
     let (mut x, y) = (left, scene.height - 26.0);
@@ -152,20 +164,19 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales.force[kind as usize]) {
             continue;
         }
-        let most = SAMPLE * scales.force[kind as usize] / pixels;
-        let value = round_above(0.4 * most);
-        let to = x + value * pixels / scales.force[kind as usize];
+        let scale = scales.force[kind as usize];
+        let size = drawing.force.as_ref().map_or(1.0, |unit| unit.size);
+        let value = round_above(0.4 * SAMPLE * scale / (pixels * size)) * size;
+        let to = x + value * pixels / scale;
         scene.shape(arrow(Signs { size: 0.8 }, [[x, y], [to, y]]), Some(color(kind)), None);
-        let (shown, unit) = if value >= 1e3 { (value / 1e3, "kN") } else { (value, "N") };
-        let text = format!("{name}: {} {unit}", significant(shown, 4));
+        let text = format!("{name}: {}", told(value, drawing.force.as_ref(), ["N", "kN"], 4));
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }
     if scales.torque > 0.0 {
         let (signs, level) = (Signs { size: 0.4 }, [[1.0, 0.0], [0.0, -1.0]]);
         let radius = LARGEST * signs.size;
-        let (shown, unit) = if scales.torque >= 1e3 { (scales.torque / 1e3, "kN m") } else { (scales.torque, "N m") };
-        let most = format!("{} {unit}", significant(shown, 3));
+        let most = told(scales.torque, drawing.torque.as_ref(), ["N m", "kN m"], 3);
         // as long as there is room for it beside the axes of space, else in a line above
         let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
         let gap = 2.0 * radius + 12.0;
@@ -184,6 +195,7 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
 
 #[cfg(test)]
 mod tests {
+    use super::super::scene::Item;
     use super::*;
 
     #[test]
@@ -214,6 +226,22 @@ mod tests {
         // counter-clockwise: from 144 degrees over 270 to 36, where the tip is; y of the sheet goes down
         let area = |points: &[Point]| (0..31).map(|k| points[k][0] * points[k + 1][1] - points[k][1] * points[k + 1][0]).sum::<f64>();
         assert!(area(&round) < 0.0 && area(&seen([[1.0, 0.0], [0.0, 1.0]], -4.0)) > 0.0);
+    }
+
+    #[test]
+    fn values_are_told_in_the_units_that_are_asked_for() {
+        let millimetres = ShownIn { unit: "N mm".into(), size: 1e-3 };
+        assert_eq!(told(0.8, Some(&millimetres), ["N m", "kN m"], 3), "800 N mm");
+        assert_eq!(told(1234.0, None, ["N m", "kN m"], 3), "1.23 kN m");
+        // the arrow that tells a scale has a round value in them
+        let pounds = ShownIn { unit: "lbf".into(), size: 4.448_221_615_260_5 };
+        let forces = vec![Force { along: [100.0, 0.0], size: 100.0, ..Force::default() }];
+        let drawing = Drawing { force: Some(pounds), forces, ..Drawing::default() };
+        let mut scene = Scene { width: 600.0, height: 400.0, ..Scene::default() };
+        legend(&drawing, 300.0, scales(&drawing, 1.0), &mut scene, 20.0, 18.0);
+        let texts: Vec<String> =
+            scene.items.iter().filter_map(|item| if let Item::Text(text) = item { Some(text.text.clone()) } else { None }).collect();
+        assert_eq!(texts, ["loads: 20 lbf"], "{texts:?}");
     }
 
     #[test]

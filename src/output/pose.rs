@@ -12,6 +12,10 @@ pub struct Drawing {
     pub title: String,
     /// The unit to show lengths in, if one is asked for.
     pub length: Option<ShownIn>,
+    /// The same of forces and of torques.
+    pub force: Option<ShownIn>,
+    /// See `force`.
+    pub torque: Option<ShownIn>,
     /// The bodies; the frame is shown by its joints.
     pub bodies: Vec<Outline>,
     /// The joints.
@@ -81,6 +85,8 @@ pub struct Symbol {
     pub way_body: usize,
     /// Something drives it.
     pub driven: bool,
+    /// What drives it turns about the axis, though it slides: a screw.
+    pub turns: bool,
     /// It has viscous damping.
     pub damped: bool,
     /// Where it is, for each position.

@@ -72,12 +72,11 @@ export class Arrows {
     return of?.scale ?? null;
   }
 
-  /** The unit of a kind, and its size in SI: of forces that of their columns, if the model asks for one. */
+  /** The unit of a kind, and its size in SI: of forces those that the model asks for. */
   unit(kind: Kind | 'torques'): { unit: string; size: number } {
     if (kind === 'velocities' || kind === 'accelerations') return { unit: kind === 'velocities' ? 'm/s' : 'm/s^2', size: 1 };
-    const of = { torques: 'torque', loads: 'load', reactions: 'reaction' }[kind];
-    const own = this.forces.filter((arrow) => arrow.kind === of).flatMap(({ columns }) => columns);
-    return own.map((name) => column(this.results, name)?.shown_in).find((asked) => asked) ?? { unit: kind === 'torques' ? 'N m' : 'N', size: 1 };
+    const { force, torque } = this.motion.scene;
+    return (kind === 'torques' ? torque : force) ?? { unit: kind === 'torques' ? 'N m' : 'N', size: 1 };
   }
 
   /** Pixels to one unit of a kind, with the slider at `part`, in a picture of some width and so many pixels to the metre. */

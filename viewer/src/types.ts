@@ -192,6 +192,9 @@ export type ArrowKind = 'load' | 'reaction' | 'torque';
 interface Parts<A> {
   dimensions: 2 | 3;
   length: Column['shown_in'];
+  /** Those of forces and torques. */
+  force: Column['shown_in'];
+  torque: Column['shown_in'];
   up: [number, number, number];
   /** In space from where it is seen: azimuth and elevation, rad, from the first of two level axes. */
   view: { level: [[number, number, number], [number, number, number]]; azimuth: number; elevation: number } | null;

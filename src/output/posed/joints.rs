@@ -16,6 +16,7 @@ impl Posed<'_> {
                 way_grounded: joint.a.body == 0,
                 way_body: joint.a.body,
                 driven: joint.driven,
+                turns: joint.kind == "screw",
                 damped: joint.damped,
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })

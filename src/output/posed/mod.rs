@@ -79,6 +79,8 @@ impl Posed<'_> {
         Drawing {
             title: String::new(),
             length: self.scene.length.clone(),
+            force: self.scene.force.clone(),
+            torque: self.scene.torque.clone(),
             bodies: self.bodies().collect(),
             joints: self.joints().chain(self.pins()).collect(),
             links: self.links().collect(),

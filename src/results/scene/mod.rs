@@ -26,6 +26,12 @@ pub struct Scene {
     pub caption: String,
     /// The unit to show lengths in, if the model asks for one.
     pub length: Option<ShownIn>,
+    /// The same of forces.
+    #[serde(default)]
+    pub force: Option<ShownIn>,
+    /// The same of torques.
+    #[serde(default)]
+    pub torque: Option<ShownIn>,
     /// Azimuth and elevation of the eye, rad, if the study asks for them.
     pub view: Option<[f64; 2]>,
     /// Value of the independent variable at which a still picture shows it strongly, if the study asks for one; else that is the first of

@@ -187,7 +187,7 @@ class Space implements Renderer {
     const at = this.motion.world(a, this.place);
     if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, inks);
     const [u, v] = facing(along, this.toEye, 0.75);
-    if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), slide, [seen(u), seen(v)], sense ?? 0, inks);
+    if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), kind === 'screw' ? null : slide, [seen(u), seen(v)], sense ?? 0, inks);
   }
 
   /** The damping of a joint. */

@@ -76,6 +76,8 @@ impl<G: Space<S = f64>> Subject<'_, G> {
             view: view(case),
             at: self.shown_at(),
             length: shown_in(case.model, Dimension::LENGTH),
+            force: shown_in(case.model, Dimension::FORCE),
+            torque: shown_in(case.model, Dimension::TORQUE),
             up: up(mechanism),
             bodies: shapes::bodies(case.model, mechanism),
             frames,
