@@ -7,6 +7,7 @@ mod faults;
 mod jumps;
 mod linear;
 mod nonlinear;
+mod steady;
 mod switches;
 mod together;
 

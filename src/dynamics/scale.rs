@@ -41,10 +41,10 @@ impl<G: Space<S = f64>> Dynamics<'_, G> {
         let m = self.mechanism;
         let mut natural = self.natural();
         let here = &self.work.g;
-        let scale = natural_row_scale(here.pattern(), here.values(), natural.values(), metric);
-        let positions = self.around(q, &scale, metric);
+        // by what rows are made of: one that nearly vanishes here would take the round-off of its other entries for constraints
+        let positions = self.around(q, &natural_row_scale(here.pattern(), natural.values(), natural.values(), metric), metric);
         if positions.is_empty() {
-            return scale;
+            return natural_row_scale(here.pattern(), here.values(), natural.values(), metric);
         }
         let unit = m.units(m.size());
         let mut entries = here.clone();

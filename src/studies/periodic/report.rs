@@ -211,11 +211,13 @@ fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, ap
     if worst <= SAME { Ok(()) } else { Err(explain::not_closed(search, worst)) }
 }
 
-/// The largest acceleration in a lap: where a period begins there may be none.
+/// The largest acceleration in a lap, and at least one that would change the motion in a period: where a period begins there may be none, and
+/// a steady motion has none but round-off.
 fn fastest<G: Space<S = f64>>(lap: &mut Lap<'_, G>, rates: &impl Fn(&Node) -> Vec<f64>) -> f64 {
     const LOOKS: usize = 24;
     let (breaks, begin, period) = (lap.trajectory.breaks(), lap.start.state.t, lap.period());
-    let mut size = rates(&lap.start).iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    let moving = lap.start.state.v.iter().chain(&lap.start.state.z).fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs() / period));
+    let mut size = rates(&lap.start).iter().fold(moving, |m, x| m.max(x.abs()));
     for i in 1..LOOKS {
         let t = begin + period * i as f64 / LOOKS as f64;
         let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;

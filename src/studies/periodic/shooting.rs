@@ -182,7 +182,7 @@ fn moved<G: Space<S = f64>>(lap: &mut Lap<'_, G>, delta: &DVector<f64>) -> Optio
 fn step(map: &Map, missed: &[f64], [of_motion, sizes]: [&[f64]; 2], zero: f64) -> Option<Step> {
     let m = sizes.len();
     let derivative = DMatrix::from_fn(m, m, |i, j| map.derivative[(i, j)] * sizes[j] / sizes[i]);
-    if derivative.iter().any(|x| !x.is_finite()) {
+    if m == 0 || derivative.iter().any(|x| !x.is_finite()) {
         return None;
     }
     let surface = match &map.surface {
