@@ -72,5 +72,6 @@ fn a_fixed_step_over_most_of_a_turn_is_refused() {
     let more = "couplings: { g: { gear: [A, B], ratio: -1 } }\nstart: { A.angle: 0 rad, A.omega: 100 rad/s }";
     let run = run_text(&discs("revolute", more, ", step: 50 ms, integrator: rk4"), &["--no-plots", "--no-report"]);
     assert_eq!(run.code, 3, "{}", run.stderr);
+    assert!(run.stderr.contains("joint `B` turns by more than a fifth of a turn"), "{}", run.stderr);
     assert!(run.stderr.contains("its turns cannot be counted: give a shorter `step`"), "{}", run.stderr);
 }

@@ -1,5 +1,6 @@
 //! Shafts that run steadily, or unevenly by the joint between them, under a torque and a damper.
 
+use super::faults::told;
 use super::{PERIOD, multipliers, near, regime};
 use std::f64::consts::TAU;
 
@@ -26,6 +27,28 @@ studies:
             assert_eq!(multipliers(&found).len(), 1);
             near("multiplier", multipliers(&found)[0][0], (-TAU / 30.0_f64).exp(), 1e-9);
         }
+    }
+}
+
+#[test]
+fn a_weak_spring_that_winds_up_is_no_steady_motion() {
+    // the weaker one changes the torque by two millionths in a turn
+    for stiffness in [1e-6, 1e-3] {
+        let text = format!(
+            "grashof: 1
+name: disc
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 1 kg, inertia: 0.1 kg m^2 }} }}
+joints: {{ A: {{ revolute: [ground, a.origin], damping: 0.1 N m s/rad }} }}
+springs: {{ coil: {{ joint: A, stiffness: {stiffness} N m/rad }} }}
+loads: {{ motor: {{ joint: A, torque: 3 N m }} }}
+start: {{ A.angle: 0 deg, A.omega: 30 rad/s }}
+studies:
+  regime: {{ periodic: {{ over: A.angle, by: 1 turn, of: A.omega, settle: 0 s }} }}
+"
+        );
+        told(&text, false, &["not-periodic", "counts the turns"]);
     }
 }
 

@@ -47,9 +47,7 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         let mut sides = Vec::new();
         if open.ncols() == 1 {
-            let largest = open.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
-            for s in [BESIDE / largest, -BESIDE / largest] {
-                let way: Vec<f64> = open.iter().map(|u| u * s).collect();
+            for way in self.both_ways(open.as_slice()) {
                 sides.extend(self.beside(q, &way));
             }
         }
@@ -82,6 +80,12 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
+    /// A little way along a motion (nv), and back.
+    fn both_ways(&self, motion: &[f64]) -> [Vec<f64>; 2] {
+        let largest = motion.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
+        [BESIDE, -BESIDE].map(|far| motion.iter().map(|u| u * (far / largest)).collect())
+    }
+
     /// A driver that is to move what stays where it is along all motions that its rows leave `open` (nv each).
     fn stuck(&mut self, q: &[f64], open: &DMatrix<f64>) -> Option<String> {
         let m = self.dynamics.mechanism;
@@ -94,11 +98,9 @@ impl<G: Space<S = f64>> System<'_, G> {
         let mut moved = vec![false; driven.len()];
         // along each of them, and all at once
         let ways = open.column_iter().map(|u| u.iter().copied().collect::<Vec<f64>>());
-        let all = (0..m.nv).map(|k| open.row(k).iter().enumerate().map(|(i, u)| (GOLDEN * i as f64).cos() * u).sum()).collect();
-        for way in ways.chain([all]) {
-            let largest = way.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
-            for s in [BESIDE / largest, -BESIDE / largest] {
-                self.close_along(q, &way.iter().map(|u| u * s).collect::<Vec<_>>())?;
+        for way in ways.chain([all_at_once(open)]) {
+            for way in self.both_ways(&way) {
+                self.close_along(q, &way)?;
                 for ((moved, here), &(_, gauge)) in moved.iter_mut().zip(&here).zip(&driven) {
                     *moved |= (self.dynamics.work.readings[gauge].x - here).abs() * self.gauge_scale(gauge) > STAYS;
                 }
@@ -125,9 +127,8 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
         self.place(q);
         let parts = shared(self, open)?;
-        let way: Vec<f64> = (0..m.nv).map(|k| open.row(k).iter().enumerate().map(|(i, u)| (GOLDEN * i as f64).cos() * u).sum()).collect();
-        let largest = way.iter().zip(&self.metric).map(|(u, d)| u.abs() * d.sqrt()).fold(f64::MIN_POSITIVE, f64::max);
-        self.close_along(q, &way.iter().map(|u| u * BESIDE / largest).collect::<Vec<_>>())?;
+        let [way, _] = self.both_ways(&all_at_once(open));
+        self.close_along(q, &way)?;
         let (a, round_off) = self.scaled(&self.undriven());
         let beside = left_open(round_off, &a.to_dense(m.nv), &self.metric);
         shared(self, &beside)?;
@@ -171,6 +172,11 @@ impl<G: Space<S = f64>> System<'_, G> {
         let start = exact.collect::<Vec<_>>().join(", ");
         closed.then(|| Beside { driven: readings[gauge].x, start })
     }
+}
+
+/// One motion of all that are `open` (nv each), in no special direction.
+fn all_at_once(open: &DMatrix<f64>) -> Vec<f64> {
+    open.row_iter().map(|row| row.iter().enumerate().map(|(i, u)| (GOLDEN * i as f64).cos() * u).sum()).collect()
 }
 
 /// A position beside a dead point: the driven value, and exact values of `start` as they would be written.

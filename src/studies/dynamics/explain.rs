@@ -52,10 +52,14 @@ where
             "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks or a force jumps there; look at the motion just before",
             halt.h
         ),
-        Why::Lost => format!(
-            "at t = {t:.6} s an angle about a hinge that closes a loop turns by more than a fifth of a turn in a step of {:.1e} s, so that its turns cannot be counted: give a shorter `step`, or a `tolerance`",
-            halt.h
-        ),
+        Why::Lost => {
+            let joint = system.fastest_turn().and_then(|(gauge, _)| mechanism.joints.iter().find(|joint| joint.slots.contains(&gauge)));
+            format!(
+                "at t = {t:.6} s joint `{}` turns by more than a fifth of a turn in a step of {:.1e} s, so that its turns cannot be counted: give a shorter `step`, or a `tolerance`",
+                joint.map_or("", |joint| &joint.name),
+                halt.h
+            )
+        }
         _ => format!("at t = {t:.6} s {}", cause(mechanism, &halt.why)),
     }
 }

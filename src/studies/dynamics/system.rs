@@ -112,6 +112,14 @@ where
         !crossed.is_empty() && crossed.iter().all(|&root| self.roots.get(root).is_none_or(|root| matches!(root, Root::Winding { .. })))
     }
 
+    /// The gauge whose turns are counted that turns fastest in the state evaluated last, and its rate, rad/s.
+    pub(super) fn fastest_turn(&self) -> Option<(usize, f64)> {
+        let rate = |root: &Root| {
+            if let Root::Winding { gauge, .. } = *root { Some((gauge, self.dynamics.work.readings[gauge].rate.abs())) } else { None }
+        };
+        self.roots.iter().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// Modes that the mechanism and its columns know.
     fn own<'a>(&self, modes: &'a [i32]) -> &'a [i32] {
         let m = self.dynamics.mechanism;
@@ -278,9 +286,7 @@ where
             return f64::INFINITY;
         }
         self.kinematics(&at);
-        let readings = &self.dynamics.work.readings;
-        let rate = |root: &Root| if let Root::Winding { gauge, .. } = root { readings[*gauge].rate.abs() } else { 0.0 };
-        FOLLOWED / self.roots.iter().map(rate).fold(0.0, f64::max)
+        FOLLOWED / self.fastest_turn().map_or(0.0, |(_, rate)| rate)
     }
 
     fn roots(&mut self, at: At<'_>, a: &[f64], lambda: &[f64], g: &mut [f64]) {

@@ -8,7 +8,8 @@
 //!
 //! Each such (x, 0, z) is an eigenvector of the state matrix with μ = 0. Where nothing slows the motion down, μ = 0 is double and has no second
 //! eigenvector, so that numbers give it to half of their digits only: as large as a slow decay beside a stiff spring. Without the places,
-//! it is simple (deflation; Golub & Van Loan, Matrix Computations, 4th edition, section 8.2.3 for symmetric matrices).
+//! it is simple: Wielandt's deflation A − n (row p of A) with n_p = 1 (Saad, Numerical Methods for Large Eigenvalue Problems, 2nd edition,
+//! section 4.2), whose row and column p are left out.
 
 use super::round_off::{OF_WORK, ROUND_OFF};
 use crate::kinematics::held::Held;
@@ -46,8 +47,7 @@ impl Free {
         found
     }
 
-    /// A state matrix A on states of which the free motions N are some: with T = I but for the columns N, T⁻¹ A T has zeros there, and is
-    /// given without them and their rows.
+    /// A state matrix without its free motions, see above: one row and column less for each.
     pub(super) fn removed(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         let kept: Vec<usize> = (0..a.nrows()).filter(|i| !self.pivots.contains(i)).collect();
         let along =

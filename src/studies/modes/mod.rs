@@ -1,7 +1,8 @@
 //! Vibrations about a held pose: the study kind `modes`.
 //!
 //! Of few bodies, `kinematics/held.rs` makes M, C and K of a pose; `eigen`, `jacobi` and `power` solve K x = λ M x, `damped` the state
-//! matrix, from which `free` takes what nothing drives back, and `few` compares them. Of many, `many` finds the lowest modes from the sparse matrices of `kinematics/pencil.rs` by `kinematics/lowest.rs`.
+//! matrix, from which `free` takes what nothing drives back, and `few` compares them. Of many, `many` finds the lowest modes from the sparse
+//! matrices of `kinematics/pencil.rs` by `kinematics/lowest.rs`.
 //! `report` says what is found, `picture` draws it.
 
 pub mod damped;

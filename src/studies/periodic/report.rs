@@ -32,6 +32,9 @@ use grashof_solvers::{Control, Node};
 /// Part of the largest acceleration by which those at the two ends may differ.
 const SAME: f64 = 1e-5;
 
+/// In tolerances, how far velocities at the two ends may be apart where nothing accelerates but by round-off.
+const STEADY: f64 = 1e3;
+
 /// What is watched in a period.
 pub(super) struct Columns {
     pub(super) ids: Vec<Id>,
@@ -193,7 +196,7 @@ impl<'a> Regime<'a> {
 fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, apart: f64) -> Result<(), Failure> {
     let rates = |node: &Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
     let start = rates(&lap.start);
-    let size = fastest(lap, &rates);
+    let size = fastest(lap, &rates, STEADY * search.tolerance / SAME);
     let sizes = vec![size; start.len()];
     let phase = tools(&mut lap.trajectory);
     let mut followed = lap.end.clone();
@@ -211,13 +214,13 @@ fn check_closed<G: Space<S = f64>>(search: &Search<'_>, lap: &mut Lap<'_, G>, ap
     if worst <= SAME { Ok(()) } else { Err(explain::not_closed(search, worst)) }
 }
 
-/// The largest acceleration in a lap, and at least one that would change the motion in a period: where a period begins there may be none, and
-/// a steady motion has none but round-off.
-fn fastest<G: Space<S = f64>>(lap: &mut Lap<'_, G>, rates: &impl Fn(&Node) -> Vec<f64>) -> f64 {
+/// The largest acceleration in a lap, and at least one that changes velocities by a `part` of them in a period: where a period begins there
+/// may be none, and a steady motion has none but round-off.
+fn fastest<G: Space<S = f64>>(lap: &mut Lap<'_, G>, rates: &impl Fn(&Node) -> Vec<f64>, part: f64) -> f64 {
     const LOOKS: usize = 24;
     let (breaks, begin, period) = (lap.trajectory.breaks(), lap.start.state.t, lap.period());
-    let moving = lap.start.state.v.iter().chain(&lap.start.state.z).fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs() / period));
-    let mut size = rates(&lap.start).iter().fold(moving, |m, x| m.max(x.abs()));
+    let steady = lap.start.state.v.iter().chain(&lap.start.state.z).fold(f64::MIN_POSITIVE, |m: f64, x| m.max(part * x.abs() / period));
+    let mut size = rates(&lap.start).iter().fold(steady, |m, x| m.max(x.abs()));
     for i in 1..LOOKS {
         let t = begin + period * i as f64 / LOOKS as f64;
         let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;

@@ -49,8 +49,7 @@ pub(super) fn on_ground<G: Space<S = f64>>(mechanism: &Mechanism<G>, joint: usiz
 fn from_ground(scene: &Scene, joint: Joint) -> Joint {
     let planar = scene.dimensions == 2;
     let turns = joint.kind == "revolute" && planar;
-    if scene.frames.count() == 0 || !(turns || ["revolute", "slider", "cylindrical", "screw", "spherical", "fixed"].contains(&&*joint.kind))
-    {
+    if scene.frames.count() == 0 || !["revolute", "slider", "cylindrical", "screw", "spherical", "fixed"].contains(&&*joint.kind) {
         return joint;
     }
     let along = scene.direction(scene.frame(0), joint.a.body, &joint.axis);

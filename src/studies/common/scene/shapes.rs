@@ -62,16 +62,15 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
         _ => own.clone(),
     };
     let outside: Vec<G::Vector> = places.into_iter().filter(|p| !holds(&within, &numbers::<G>(*p))).collect();
-    match own {
-        _ if outside.is_empty() => vec![own],
+    match (own, body.outline) {
+        (own, _) if outside.is_empty() => vec![own],
         // a bar with something beside it is a plate, unless it has a size of its own
-        Shape::Bar { from, to, width: None } => vec![Shape::Hull { points: [vec![from, to], all(&outside)].concat() }],
-        own if matches!(body.outline, Some(Outline::Bar { .. })) => {
-            let Some(Outline::Bar { from, to, .. }) = body.outline else { return vec![own] };
+        (Shape::Bar { from, to, width: None }, _) => vec![Shape::Hull { points: [vec![from, to], all(&outside)].concat() }],
+        (own, Some(Outline::Bar { from, to, .. })) => {
             let leg = |p: Vec<f64>| Shape::Bar { from: nearest([&from, &to], &p), to: p, width: None };
             all(&outside).into_iter().map(leg).chain([own]).collect()
         }
-        own => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
+        (own, _) => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
     }
 }
 

@@ -109,7 +109,7 @@ where
 
     /// The row whose prescribed rate jumps most at a switch between two sides of an event, if one does: that of a driver whose law has a kink.
     pub(crate) fn kinked(&mut self, [before, after]: [&State; 2]) -> Option<usize> {
-        if before.modes == after.modes {
+        if self.dynamics.mechanism.drives.is_empty() || before.modes == after.modes {
             return None;
         }
         let [mut near, mut far] = [(); 2].map(|()| Terms::new(self.dims, &self.pattern));
