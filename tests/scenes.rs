@@ -5,8 +5,8 @@ mod order;
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Selection};
-use grashof::results::Scene;
 use grashof::results::scene::{GearKind, LinkKind, Place, Shape, Trace};
+use grashof::results::{Results, Scene};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
 use grashof::studies::sweep::{Drawn, Run, Settings, sweep};
@@ -384,8 +384,13 @@ studies: { swing: { SHOWN, inverse: { over: 90 deg, samples: 90 }, columns: [O.f
 ";
 
 /// The results of the lever.
-fn lever(shown: &str) -> grashof::results::Results {
-    let model = model(&LEVER.replace("SHOWN", shown), Some("swing"));
+fn lever(shown: &str) -> Results {
+    results_of(&LEVER.replace("SHOWN", shown), "swing")
+}
+
+/// The results of a study of a text: with forces in its scenes.
+fn results_of(text: &str, name: &str) -> Results {
+    let model = model(text, Some(name));
     let study = model.study.clone().expect("a study");
     let outcome = run(Case::new(&model, &study, &parameters(&model)), &|| false).unwrap_or_else(|f| panic!("{}", f.reason()));
     grashof::studies::common::named::named(&model, &study, outcome)
