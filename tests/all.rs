@@ -47,6 +47,7 @@ mod report;
 mod resolution;
 mod rheonomic;
 mod rises;
+mod scales;
 mod scenes;
 mod singular;
 mod solve;

@@ -11,6 +11,9 @@
 //! (`conjugate.rs`). Where rows are redundant, the multipliers are those of least λᵀEλ. An E that follows the present rows vanishes with
 //! them, and a smaller one loses energy in singular positions (measured).
 //!
+//! Where an inertia has grown to over a hundred times that at assembly, rows feel little of it, and E would be large beside that. There
+//! each E is multiplied by Σ g²/max(D, M) / Σ g²/D, sums over the present row: the growth alone, which does not vanish with the row.
+//!
 //! The diagonal of a row that is round-off at assembly is that of its natural size, and of one that happens to vanish there that of
 //! a position nearby ([`natural_row_scale`]).
 //!
@@ -56,8 +59,12 @@ pub struct Kkt {
     rows: usize,
     /// Powers of two near D^−½, then near diag(G D⁻¹ Gᵀ)^−½ (nv + m).
     scale: Vec<f64>,
-    /// Scaled E (m).
+    /// Scaled E (m) at assembly, and that of the factors at hand.
+    assembled: Vec<f64>,
     e: Vec<f64>,
+    /// Roots of the parts that are left of E (m), and whether one of them is not 1; see [`Kkt::follow_inertias`].
+    weights: Vec<f64>,
+    grown: bool,
     refinements: usize,
     /// Where rows are nearly dependent at the start: σ from which on they are to hold to round-off.
     regular: Option<f64>,
@@ -99,6 +106,9 @@ const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Part of D below which a diagonal entry of M counts as none.
 const LIGHT: f64 = 1e-2;
+
+/// Inertia, in parts of that at assembly, from which on E follows it.
+const GROWN: f64 = 100.0;
 
 /// Inverse iterations for the smallest singular value at the start.
 const ITERATIONS: usize = 4;
@@ -164,7 +174,10 @@ impl Kkt {
             diagonal: (0..nv).filter_map(|i| blocks.0[0].place(i, i)).collect(),
             blocks,
             scale: vec![1.0; n],
+            assembled: vec![REGULARIZATION; n - nv],
             e: vec![REGULARIZATION; n - nv],
+            weights: vec![1.0; n - nv],
+            grown: false,
             refinements: REFINEMENTS,
             regular: None,
             g: Vec::new(),
@@ -193,9 +206,10 @@ impl Kkt {
         for (s, x) in self.scale.iter_mut().zip(metric.iter().chain(g_scale)) {
             *s = scale::root_inverse(*x);
         }
-        for ((e, x), s) in self.e.iter_mut().zip(g_scale).zip(&self.scale[self.nv..]) {
+        for ((e, x), s) in self.assembled.iter_mut().zip(g_scale).zip(&self.scale[self.nv..]) {
             *e = REGULARIZATION * x * s * s;
         }
+        self.e.copy_from_slice(&self.assembled);
         match &mut self.form {
             Form::Full(full) => full.set_scale(&self.scale),
             Form::Sparse(quasi) => quasi.set_scale(&self.blocks, &self.scale),
@@ -214,13 +228,38 @@ impl Kkt {
             self.g.clear();
             self.g.extend_from_slice(g);
         }
-        let light = self.diagonal.iter().zip(&self.scale).any(|(k, s)| mass[*k] * s * s < LIGHT);
+        let (mut light, mut grown) = (false, false);
+        for (k, s) in self.diagonal.iter().zip(&self.scale) {
+            let inertia = mass[*k] * s * s;
+            light |= inertia < LIGHT;
+            grown |= inertia > GROWN;
+        }
         self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
+        if grown || self.grown {
+            self.follow_inertias(mass, g);
+            self.grown = grown;
+        }
         self.definite = match &mut self.form {
             Form::Full(full) => full.factor(&self.blocks, [mass, g], &self.e),
             Form::Sparse(quasi) => quasi.factor([mass, g], &self.e),
         };
         if self.definite { Ok(()) } else { self.eliminate(mass, g) }
+    }
+
+    /// Takes E for inertias that are not those at assembly: of each row the part Σ g²/max(D, M) / Σ g²/D is left.
+    fn follow_inertias(&mut self, mass: &[f64], g: &[f64]) {
+        let (d, pattern) = (&self.scale[..self.nv], &self.blocks.0[1]);
+        for i in 0..self.rows {
+            let (mut at_assembly, mut now) = (0.0, 0.0);
+            for (&j, g) in pattern.row(i).iter().zip(&g[pattern.range(i)]) {
+                let square = (g * d[j]).powi(2);
+                at_assembly += square;
+                now += square / (mass[self.diagonal[j]] * d[j] * d[j]).max(1.0);
+            }
+            let left = if at_assembly > 0.0 { now / at_assembly } else { 1.0 };
+            self.e[i] = left * self.assembled[i];
+            self.weights[i] = left.sqrt();
+        }
     }
 
     /// Factors by elimination with pivots.
@@ -323,8 +362,8 @@ impl Kkt {
     /// factorisation; 1 for independent rows, 0 in a singular position and for each redundant row.
     ///
     /// `vectors` (as many as `sigma` × m) keeps the vectors from call to call (zeros at first): the combinations of scaled rows that are
-    /// nearest to dependence, orthonormal. M stands in the place of D, and E hides what is below 1e-4; a factor of about 2 is what to
-    /// expect.
+    /// nearest to dependence, orthonormal. M stands in the place of D (rows are scaled by inertias that have grown, as E is), and E hides
+    /// what is below 1e-4; a factor of about 2 is what to expect.
     pub fn smallest_singular_values(&mut self, vectors: &mut [f64], sigma: &mut [f64]) {
         let (nv, m) = (self.nv, self.rows);
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -338,8 +377,9 @@ impl Kkt {
             }
             // λ' = −(G M⁻¹ Gᵀ + E)⁻¹ λ, so |λ| / |λ'| tends to σ² + E
             self.x[..nv].fill(0.0);
-            self.x[nv..].iter_mut().zip(&*row).for_each(|(x, y)| *x = y / length);
+            self.x[nv..].iter_mut().zip(&*row).zip(&self.weights).for_each(|((x, y), w)| *x = w * y / length);
             self.apply(0);
+            self.x[nv..].iter_mut().zip(&self.weights).for_each(|(x, w)| *x *= w);
             let grown = &mut self.x[nv..];
             // twice is enough
             for other in before.chunks_exact(m).chain(before.chunks_exact(m)) {
@@ -364,21 +404,22 @@ impl Kkt {
         self.without_redundant(vector);
         let length = norm(vector);
         self.x[..self.nv].fill(0.0);
-        self.x[self.nv..].iter_mut().zip(&*vector).for_each(|(x, y)| *x = y / length);
+        self.x[self.nv..].iter_mut().zip(&*vector).zip(&self.weights).for_each(|((x, y), w)| *x = w * y / length);
         self.apply(0);
-        vector.copy_from_slice(&self.x[self.nv..]);
+        vector.iter_mut().zip(&self.x[self.nv..]).zip(&self.weights).for_each(|((y, x), w)| *y = w * x);
         self.without_redundant(vector);
         let size = norm(vector);
         vector.iter_mut().for_each(|x| *x /= size);
         (size.recip() - REGULARIZATION).max(0.0).sqrt()
     }
 
-    /// x − (S + E)⁻¹ E x.
+    /// x − (S + E)⁻¹ E x, of x times the weights.
     fn without_redundant(&mut self, vector: &mut [f64]) {
         self.x[..self.nv].fill(0.0);
-        self.x[self.nv..].iter_mut().zip(&self.e).zip(&*vector).for_each(|((x, e), y)| *x = e * y);
+        let e = self.e.iter().zip(&self.weights).map(|(e, w)| e / w);
+        self.x[self.nv..].iter_mut().zip(e).zip(&*vector).for_each(|((x, e), y)| *x = e * y);
         self.apply(0);
-        vector.iter_mut().zip(&self.x[self.nv..]).for_each(|(y, x)| *y += x);
+        vector.iter_mut().zip(&self.x[self.nv..]).zip(&self.weights).for_each(|((y, x), w)| *y += w * x);
     }
 }
 

@@ -317,3 +317,39 @@ fn nearly_dependent_rows_hold_to_round_off() {
         }
     }
 }
+
+/// An inertia that has grown by up to 1e8 since assembly: rows that act on it are met, and none of them counts as dependent for that.
+#[test]
+fn rows_feel_inertias_that_have_grown() {
+    let mut noise = Noise(17);
+    for (nv, m) in [(2, 1), (4, 2), (12, 5), (40, 12)] {
+        for growth in [1e3, 1e5, 1e8] {
+            let mut mass = mass(&mut noise, nv);
+            // one row acts on the first coordinate alone, and none of the others on it
+            let mut g = noise.vector(m * nv);
+            g[1..nv].fill(0.0);
+            g.chunks_exact_mut(nv).skip(1).for_each(|row| row[0] = 0.0);
+            let mut kkt = Kkt::new(nv, m);
+            kkt.scale(&mass, &g, &vec![0; nv]);
+            let mut vectors = vec![0.0; m];
+            let mut weakest = |kkt: &mut Kkt| {
+                let mut sigma = [0.0];
+                (0..8).for_each(|_| kkt.smallest_singular_values(&mut vectors, &mut sigma));
+                sigma[0]
+            };
+            kkt.factor(&mass, &g).unwrap();
+            let before = weakest(&mut kkt);
+
+            mass[0] *= growth;
+            let (f, gamma) = (noise.vector(nv), noise.vector(m));
+            let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
+            kkt.factor(&mass, &g).unwrap();
+            kkt.solve(&f, &gamma, &mut a, &mut lambda);
+            let rows = g.chunks_exact(nv).map(|row| row.iter().zip(&a).map(|(g, a)| g * a).sum::<f64>());
+            let open = rows.zip(&gamma).map(|(row, gamma)| (row - gamma).abs()).fold(0.0, f64::max);
+            assert!(open < 1e-12, "{nv}, {m}, {growth:e}: {open:e}");
+            let now = weakest(&mut kkt);
+            assert!(now > 0.1 * before, "{nv}, {m}, {growth:e}: {now:e}, before {before:e}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Very different inertias in one mechanism: light structures, rows that are nearly dependent, and inertias that grow by orders of
+//! magnitude on the way.
+
+use crate::common::study;
+use grashof::mechanism::Coordinates;
+
+/// A light parallelogram through its flat positions keeps its energy beside a mechanism that is 1e8 times as heavy.
+#[test]
+fn light_mechanisms_know_no_heavy_ones_beside_them() {
+    let text = "grashof: 1
+name: side by side
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { O: [0, 0], C: [0.2 m, 0], Z: [5 m, 0] }
+bodies:
+  c: { bar: { length: 0.1 m, mass: 1 g } }
+  l: { bar: { length: 0.2 m, mass: 1 g } }
+  r: { bar: { length: 0.1 m, mass: 1 g } }
+  z: { bar: { length: 1 m, mass: 1e5 kg } }
+joints:
+  O: { revolute: [ground.O, c.start] }
+  A: { revolute: [c.end, l.start] }
+  B: { revolute: [l.end, r.end] }
+  C: { revolute: [ground.C, r.start] }
+  Z: { revolute: [ground.Z, z.start] }
+start: { O.angle: 90 deg, O.omega: 20 rad/s, l.angle: ~0 deg, r.angle: ~90 deg, Z.angle: -90 deg }
+studies:
+  run: { dynamics: { until: 5 s, every: 0.1 s, tolerance: 1e-12, coordinates: cartesian }, columns: [O.angle, O.omega] }
+";
+    // two bars about their ends and one that is only shifted, of 1 g
+    let energy = |row: &[f64]| 1e-3 * (0.5 * 0.01 * (1.0 + 2.0 / 3.0) * row[1] * row[1] + 9.81 * 0.1 * 2.0 * row[0].sin());
+    let found = study(text, "run", Coordinates::Joint);
+    let start = energy(&found.rows[0]);
+    let off = found.rows.iter().map(|row| (energy(row) - start).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-8 * start, "{off:e} J of {start:e} J");
+}
+
+/// A truss of two bars with a slope of 1e-4 at rest carries F/(2 slope): its rows are nearly dependent all along.
+#[test]
+fn shallow_trusses_carry_what_is_put_on_them() {
+    for (height, within) in [("10 mm", 1e-9), ("1 mm", 1e-9), ("0.1 mm", 1e-8)] {
+        for settings in ["", ", coordinates: cartesian", ", integrator: radau5"] {
+            let text = format!(
+                "grashof: 1
+name: shallow truss
+space: planar
+gravity: none
+parameters: {{ height: {height} }}
+ground: {{ A: [-1 m, 0], B: [1 m, 0] }}
+bodies:
+  l: {{ mass: 1 kg, inertia: 0.1 kg*m^2, points: {{ end: [1 m, height] }} }}
+  r: {{ mass: 1 kg, inertia: 0.1 kg*m^2, points: {{ end: [-1 m, height] }} }}
+joints:
+  A: {{ revolute: [ground.A, l.origin] }}
+  B: {{ revolute: [ground.B, r.origin] }}
+  C: {{ revolute: [l.end, r.end] }}
+loads: {{ f: {{ at: l.end, force: [0, -10 N] }} }}
+start: {{ l.angle: ~0 deg, r.angle: ~0 deg }}
+measures: {{ part: A.fx*2*height/(10 N*1 m) }}
+studies:
+  run: {{ dynamics: {{ until: 0.1 s, every: 0.05 s{settings} }}, columns: [part, A.fy, l.angle] }}
+"
+            );
+            let found = study(&text, "run", Coordinates::Joint);
+            let last = found.rows.last().expect("a row");
+            let off = (last[0].abs() - 1.0).abs().max((last[1].abs() / 5.0 - 1.0).abs()).max(last[2].abs());
+            assert!(off < within, "{height}{settings}: {last:?}");
+        }
+    }
+}
+
+/// A heavy bar that hangs on a truss of six light ones begins to fall with 1.5 g/L, and swings with the square root of it.
+#[test]
+fn light_structures_carry_heavy_bodies() {
+    let text = "grashof: 1
+name: heavy bar on a light truss
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: { A: [0, 0], B: [0, -0.11 m] }
+bodies:
+  t0: { bar: { from: [0 m, 0 m], to: [1 m, -0.14 m], mass: 10 g } }
+  t1: { bar: { from: [0 m, -0.11 m], to: [1 m, -0.14 m], mass: 10 g } }
+  t2: { bar: { from: [0 m, -0.11 m], to: [2 m, -0.15 m], mass: 10 g } }
+  t3: { bar: { from: [1 m, -0.14 m], to: [2 m, -0.15 m], mass: 10 g } }
+  t4: { bar: { from: [1 m, -0.14 m], to: [3 m, -0.08 m], mass: 10 g } }
+  t5: { bar: { from: [2 m, -0.15 m], to: [3 m, -0.08 m], mass: 10 g } }
+  bob: { bar: { from: [3 m, -0.08 m], to: [3.5 m, -0.08 m], mass: 30 kg } }
+joints:
+  j0: { revolute: [ground.A, t0.start], cut: true }
+  j1: { revolute: [ground.B, t1.start], cut: true }
+  k0: { revolute: [t0.end, t1.end], cut: true }
+  j2: { revolute: [ground.B, t2.start], cut: true }
+  j3: { revolute: [t0.end, t3.start], cut: true }
+  k1: { revolute: [t2.end, t3.end], cut: true }
+  j4: { revolute: [t0.end, t4.start], cut: true }
+  j5: { revolute: [t2.end, t5.start], cut: true }
+  k2: { revolute: [t4.end, t5.end], cut: true }
+  hang: { revolute: [t4.end, bob.start], cut: true }
+start: { hang.angle: 0 deg }
+studies:
+  dop853: { dynamics: { until: 10 ms, every: 10 ms, tolerance: 1e-10 }, columns: [hang.alpha, hang.fy] }
+  bdf: { dynamics: { until: 10 ms, every: 10 ms, tolerance: 1e-6, integrator: bdf }, columns: [hang.alpha, hang.fy] }
+  radau5: { dynamics: { until: 10 ms, every: 10 ms, integrator: radau5 }, columns: [hang.alpha, hang.fy] }
+  vibration: { linearize: { at: statics }, columns: [hang.angle] }
+";
+    for name in ["dop853", "bdf", "radau5"] {
+        let found = study(text, name, Coordinates::Joint);
+        let [alpha, force] = [found.rows[0][0] / -29.43 - 1.0, found.rows[0][1] / 73.575 - 1.0];
+        assert!(alpha.abs().max(force.abs()) < 1e-8, "{name}: {alpha:e} {force:e}");
+        assert!(found.findings.is_empty(), "{name}: {:?}", found.findings);
+    }
+    let found = study(text, "vibration", Coordinates::Joint);
+    assert!(found.findings.iter().all(|f| f.code != "not-at-rest"), "{:?}", found.findings);
+    let poles = found.lists.iter().find(|list| list.name == "poles_imaginary").expect("poles");
+    let swing = poles.values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    assert!((swing / 29.43_f64.sqrt() - 1.0).abs() < 1e-6, "{swing}");
+}
+
+/// A body slides away along an arm that is turned by a law of time: what the arm does is the law, and what its drive does is
+/// (I + m r²) α + 2 m r ṙ ω. On the way the inertia about the hinge grows to 10¹⁰ times that at the start, which rows are scaled by.
+#[test]
+fn rows_feel_inertias_that_grow() {
+    let [near, far, farthest] = ["1 m/s", "100 m/s", "10 km/s"];
+    let explicit = [near, far, farthest];
+    for (integrator, coordinates, speeds) in [
+        ("dop853", "joint", &explicit[..]),
+        ("dop853", "minimal", &explicit),
+        ("radau5", "joint", &[near, far]),
+        ("bdf", "joint", &[near, far]),
+    ] {
+        for speed in speeds {
+            let text = format!(
+                "grashof: 1
+name: sliding away
+space: planar
+gravity: none
+bodies:
+  arm: {{ mass: 1 kg, inertia: 0.02 kg*m^2 }}
+  load: {{ mass: 1 kg, inertia: 0.001 kg*m^2 }}
+joints:
+  hinge: {{ revolute: [ground, arm.origin] }}
+  way: {{ slider: [arm.origin, load.origin], axis: [1, 0] }}
+drivers: {{ drive: {{ joint: hinge, angle: 0.2*sin(t/(1 s)) }} }}
+start: {{ way.position: 1 m, way.velocity: {speed} }}
+measures:
+  off: hinge.alpha + 0.2*sin(t/(1 s))*1 rad/s^2
+  wanted: (0.021 kg*m^2 + 1 kg*way.position^2)*hinge.alpha + 2 kg*way.velocity*hinge.omega*way.position
+studies:
+  run:
+    dynamics: {{ until: 10 s, every: 1 s, integrator: {integrator}, coordinates: {coordinates}, tolerance: 1e-9 }}
+    columns: [off, wanted, drive.torque, way.position]
+"
+            );
+            let found = study(&text, "run", Coordinates::Joint);
+            let last = found.rows.last().expect("a row");
+            assert!(last[3] > 1.0, "it has slid away");
+            let largest = found.rows.iter().fold(0.0, |m: f64, row| m.max(row[1].abs()));
+            for row in &found.rows {
+                let off = row[0].abs().max((row[2] - row[1]).abs() / largest);
+                assert!(off < 1e-12, "{integrator}, {coordinates}, {speed}: off by {off:e} in {row:?}");
+            }
+        }
+    }
+}
