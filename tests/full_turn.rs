@@ -120,3 +120,36 @@ studies: {{ turn: {{ kinematics: {{ over: 90 deg, samples: 3 }}, columns: [O.ang
         assert!((outcome.scalars[0].to_degrees() - end).abs() < 1e-9);
     }
 }
+
+/// A four-bar in space ends at its dead points, which are those of the plane, on whatever tree its driven hinge stands.
+#[test]
+fn dead_points_in_space_are_found_on_any_tree() {
+    for cut in ["", ", cut: true"] {
+        let text = format!(
+            "grashof: 1
+name: four-bar in space
+space: spatial
+gravity: none
+ground: {{ O: [0, 0, 0], C: [0.3 m, 0, 0] }}
+bodies:
+  crank: {{ bar: {{ length: 0.3 m }} }}
+  coupler: {{ bar: {{ length: 0.3 m }} }}
+  rocker: {{ bar: {{ length: 0.25 m }} }}
+joints:
+  O: {{ revolute: [ground.O, crank.start]{cut} }}
+  A: {{ revolute: [crank.end, coupler.start] }}
+  B: {{ revolute: [coupler.end, rocker.end] }}
+  C: {{ revolute: [ground.C, rocker.start] }}
+drivers: {{ drive: {{ joint: O, speed: 2 rad/s }} }}
+start: {{ O.angle: 60 deg, A.angle: ~-60 deg, C.angle: ~80 deg }}
+studies:
+  turn: {{ kinematics: {{ over: 1 turn, samples: 6 }}, columns: [O.angle, A.omega, C.angle], scalars: {{ middle: mean(C.angle) }} }}
+"
+        );
+        let found = run_text(&text, &["--no-plots"]);
+        // the crank with coupler and rocker in a line, on each side
+        let reach = |line: f64| ((0.3_f64.powi(2) + 0.3_f64.powi(2) - line.powi(2)) / (2.0 * 0.3 * 0.3)).acos().to_degrees();
+        let words = format!("O.angle cannot go beyond {:.6} deg nor below {:.6} deg: dead point", reach(0.55), reach(0.05));
+        assert!(found.code == 3 && found.stderr.contains(&words), "{cut}: {words}\n{}", found.stderr);
+    }
+}

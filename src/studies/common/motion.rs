@@ -26,6 +26,11 @@ const STANDING: f64 = 1e-2;
 /// How far from a change point, in rad or sizes, positions are taken that tell those in it.
 const SMOOTH: f64 = 0.08;
 
+/// Parts of the range next to a dead point within which positions may be a series, and within which rates may be open.
+const FOLDED: f64 = 1e-6;
+/// See [`FOLDED`].
+const WEAK: f64 = 1e-4;
+
 /// A place could not be reached: the message says where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lost {
@@ -183,7 +188,9 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
                     if lost.gap.is_some() {
                         return Err(lost);
                     }
-                    let Some(q) = standing.or_else(|| self.smooth(t)).or_else(|| self.folded(s)) else { return Err(lost) };
+                    let found = reached.is_ok().then(|| self.driven.q.clone()).filter(|_| self.beside_dead(s, WEAK).is_some());
+                    let place = found.or(standing).or_else(|| self.smooth(t)).or_else(|| self.folded(s));
+                    let Some(q) = place else { return Err(lost) };
                     self.singular(t, &q);
                     return Ok(false);
                 }
@@ -332,12 +339,17 @@ impl<'m, G: Space<S = f64>> Motion<'m, G> {
         self.path.dead[if self.clock.end() < 0.0 { 1 - side } else { side }].as_ref().map(|d| d.1.clone())
     }
 
+    /// Progress and coordinates of a dead point that is nearer to progress `s` than a part of the range.
+    fn beside_dead(&self, s: f64, part: f64) -> Option<(f64, Vec<f64>)> {
+        let end = self.ends.into_iter().find(|end| (end - s).abs() <= part * self.clock.length)?;
+        Some((end, self.dead_at(end)?))
+    }
+
     /// Coordinates so near to a dead point that Newton's method has no direction any more. The path turns back there, so that they are a
     /// series in √d of the distance d from it: its terms in √d and d through the dead point and two regular places.
     fn folded(&mut self, s: f64) -> Option<Vec<f64>> {
-        let end = self.ends.into_iter().find(|end| (end - s).abs() <= 1e-8 * self.clock.length)?;
-        let dead = self.dead_at(end)?;
-        let (inwards, h) = ((s - end).signum(), 1e-6 * self.clock.length);
+        let (end, dead) = self.beside_dead(s, FOLDED)?;
+        let (inwards, h) = ((s - end).signum(), FOLDED * self.clock.length);
         let mut beside = |d: f64| {
             let t = self.time(end + inwards * d);
             self.regular(t)?;
