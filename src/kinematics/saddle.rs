@@ -8,8 +8,10 @@ use grashof_solvers::indefinite::Indefinite;
 
 /// E, of scaled rows.
 const REDUNDANT: f64 = 1e-12;
-/// Steps of refinement, which take the error of E away.
-const REFINEMENTS: usize = 2;
+/// Most steps of refinement, each of which leaves the part E/(E + σ²) of what E has done.
+const REFINEMENTS: usize = 100;
+/// Refinements go on while corrections fall by this factor: of rows of long loops σ² is as small as E.
+const FALLS: f64 = 0.9;
 
 /// The factors of the scaled matrix.
 pub(crate) struct Saddle {
@@ -60,11 +62,21 @@ impl Saddle {
         right.iter_mut().zip(force).zip(&self.scale).for_each(|((b, f), s)| *b = f * s);
         let mut x = right.clone();
         self.factors.solve(&mut x);
+        let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let mut last = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             let mut left = right.clone();
             self.matrix.iter().for_each(|(i, j, a)| left[*i] -= a * x[*j]);
             self.factors.solve(&mut left);
+            let size = largest(&left);
+            if size >= FALLS * last {
+                break;
+            }
             x.iter_mut().zip(&left).for_each(|(x, d)| *x += d);
+            if size <= f64::EPSILON * largest(&x) {
+                break;
+            }
+            last = size;
         }
         x.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
     }

@@ -1,7 +1,7 @@
 //! Mechanisms of more than a hundred bodies, whose equilibria are found by sparse matrices.
 
 use super::{findings, list, near, run};
-use crate::common::study;
+use crate::common::{close, study};
 use crate::reference::program::run_text;
 use grashof::mechanism::Coordinates;
 use grashof::studies::common::outcome::Outcome;
@@ -129,5 +129,79 @@ fn what_a_long_chain_lacks_is_told() {
     assert_eq!(run.code, 3, "{}", run.stderr);
     for word in ["moves on and on", "stays unbalanced", "hold it"] {
         assert!(run.stderr.contains(word), "no `{word}` in:\n{}", run.stderr);
+    }
+}
+
+/// What a truss of many bays with a load at its tip carries at its root is the moment of the load: rows come near to dependence along it.
+#[test]
+fn a_long_truss_carries_what_is_put_on_its_tip() {
+    let n = 60;
+    let (mut bodies, mut joints, mut number) = (String::new(), String::new(), 0);
+    // the bars that end at the lower and at the upper corner before
+    let mut corners = [vec!["ground.B".to_owned()], vec!["ground.T".to_owned()]];
+    for bay in 0..n {
+        let [near, far] = [bay, bay + 1];
+        let bars = [[(near, 0), (far, 0)], [(near, 1), (far, 1)], [(near, 1), (far, 0)], [(far, 1), (far, 0)]];
+        let mut ahead = [vec![], vec![]];
+        for (k, [from, to]) in bars.into_iter().enumerate() {
+            let name = format!("m{}", 4 * bay + k);
+            bodies += &format!("  {name}: {{ bar: {{ from: [{}, {}], to: [{}, {}], mass: 1 g }} }}\n", from.0, from.1, to.0, to.1);
+            for ((x, y), end) in [(from, "start"), (to, "end")] {
+                let pins = if x == bay { &mut corners[y] } else { &mut ahead[y] };
+                if let Some(other) = pins.first() {
+                    joints += &format!("  J{number}: {{ revolute: [{other}, {name}.{end}] }}\n");
+                    number += 1;
+                }
+                pins.push(format!("{name}.{end}"));
+            }
+        }
+        corners = ahead;
+    }
+    let text = format!(
+        "grashof: 1\nname: truss\nspace: planar\ngravity: none\nground: {{ B: [0, 0], T: [0, 1] }}\nbodies:\n{bodies}joints:\n{joints}
+loads: {{ tip: {{ at: m{}.end, force: [0, -1 N] }} }}
+studies: {{ s: {{ statics: {{ from: start }}, columns: [J0.fx, J0.fy, J1.fx, J1.fy, J2.fx, J2.fy] }} }}\n",
+        4 * n - 3
+    );
+    let found = study(&text, "s", Coordinates::Joint);
+    // lower chord, upper chord, and the diagonal of the first bay
+    close("root", &found.rows[0], &[60.0, 0.0, -59.0, 0.0, -1.0, 1.0], 1e-6);
+}
+
+/// The same chain drawn taut, in `statics` and in the modes about it: the pull grows far beyond the weight, and stiffens it. The lowest
+/// frequencies by sparse matrices are those by full ones.
+#[test]
+fn a_taut_chain_pulls_and_swings_as_its_forces_say() {
+    for (n, span) in [(101, 0.999), (200, 0.9999), (200, 0.99999)] {
+        // the horizontal pull by bisection, of a chain of 1 kg and 1 m
+        let slope = |pull: f64, i: usize| (G / n as f64 * (0.5 * (n - 1) as f64 - i as f64) / pull).atan();
+        let reach = |pull: f64| (0..n).map(|i| slope(pull, i).cos()).sum::<f64>() / n as f64;
+        let (mut low, mut high) = (1e-3, 1e6);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if reach(middle) < span { low = middle } else { high = middle }
+        }
+        let pull = 0.5 * (low + high);
+        let each = |f: &dyn Fn(usize) -> String| (0..n).map(f).collect::<String>();
+        let text = format!(
+            "grashof: 1\nname: taut chain\nspace: planar\ngravity: [0, -9.81]\nground: {{ A: [0, 0], B: [{span} m, 0] }}\nbodies:\n{}joints:\n{}  \
+             Q: {{ revolute: [ground.B, b{}.end] }}\nstart:\n{}studies:
+  s: {{ statics: {{ from: start }}, columns: [P0.fx, P0.fy, Q.fx] }}
+  lowest: {{ modes: {{ at: statics, lowest: 3 }} }}
+  full: {{ modes: {{ at: statics, methods: [library] }} }}\n",
+            each(&|i| format!("  b{i}: {{ bar: {{ length: {} m, mass: {} kg }} }}\n", 1.0 / n as f64, 1.0 / n as f64)),
+            each(&|i| {
+                let before = if i == 0 { "ground.A".to_owned() } else { format!("b{}.end", i - 1) };
+                format!("  P{i}: {{ revolute: [{before}, b{i}.start] }}\n")
+            }),
+            n - 1,
+            each(&|i| format!("  b{i}.angle: ~{} rad\n", -slope(pull, i))),
+        );
+        let found = study(&text, "s", Coordinates::Joint);
+        close(&format!("{n} bars over {span}"), &found.rows[0], &[-pull, 0.5 * G, pull], 1e-7);
+        let [sparse, full] = ["lowest", "full"].map(|name| list(&study(&text, name, Coordinates::Joint), "eigenvalues").to_vec());
+        for (sparse, full) in sparse.iter().zip(&full) {
+            assert!((sparse / full - 1.0).abs() < 1e-8, "{n} bars over {span}: {sparse} and {full}");
+        }
     }
 }
