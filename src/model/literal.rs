@@ -2,6 +2,7 @@
 //! and where their digits are.
 
 use super::document::Document;
+use super::reading::BYTE_ORDER;
 use super::spans::Spans;
 use std::ops::Range;
 
@@ -42,12 +43,14 @@ impl Document {
     }
 }
 
-/// The text with other numbers in the places of literals; all other bytes stay. Literals must not overlap and rise in the text.
+/// The text with other numbers in the places of literals; all other bytes stay. Literals must not overlap and rise in the text, in which a
+/// sign of the byte order in front does not count.
 #[must_use]
 pub fn replaced(text: &str, numbers: &[(&Literal, f64)]) -> String {
     let mut sorted: Vec<_> = numbers.iter().collect();
     sorted.sort_by_key(|(literal, _)| literal.digits.start);
     let mut out = String::with_capacity(text.len() + 16);
+    let text = text.strip_prefix(BYTE_ORDER).inspect(|_| out.push(BYTE_ORDER)).unwrap_or(text);
     let mut last = 0;
     for (literal, number) in sorted {
         out.push_str(text.get(last..literal.digits.start).unwrap_or_default());
@@ -142,5 +145,10 @@ start: { O.angle: 90 deg, coupler.angle: ~ 25 deg, rocker.angle: tilt }
         );
         let changed = replaced(TEXT, &[(&literals[4], 33.25), (&literals[0], 17.0), (&literals[2], 2e-7)]);
         assert_eq!(changed, TEXT.replace("15 cm", "17 cm").replace("~ 25", "~ 33.25").replace("-1.5e-3", "2e-7"));
+
+        // places count from behind the sign of a byte order
+        let marked = format!("\u{feff}{TEXT}");
+        let literals = Document::from_bytes(marked.as_bytes(), "a.yaml").unwrap().literals();
+        assert_eq!(replaced(&marked, &[(&literals[0], 17.0)]), marked.replace("15 cm", "17 cm"));
     }
 }

@@ -96,8 +96,8 @@ impl Board {
 
     /// Takes what was read of the file.
     pub(super) fn read(&self, look: Look) {
-        // places lead into the text as it is; the rest of the head follows once the study in view is computed
-        let source = String::from_utf8_lossy(&look.bytes).into_owned();
+        // places lead into the text behind a sign of the byte order; the rest of the head follows once the study in view is computed
+        let source = String::from_utf8_lossy(&look.bytes).trim_start_matches('\u{feff}').to_owned();
         let literals = look.read.as_ref().map(|document| document.literals()).unwrap_or_default();
         self.change(|state| {
             (state.bytes, state.away) = (look.bytes, None);
