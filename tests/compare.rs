@@ -190,6 +190,11 @@ fn fixed_steps_show_the_order() {
         assert_eq!(scheme[2]["step"].as_f64(), Some(0.0025));
         assert_eq!(scheme[2]["steps"].as_f64(), Some(400.0));
     }
+    // the end of a range is compared, also within a decade
+    let done = place.compare(&["--study", "fixed", "--integrators", "rk4", "--steps", "2e-2..5e-3", "--json", "--no-plots"]);
+    let json: Value = serde_json::from_str(&done.stdout).unwrap();
+    let steps: Vec<f64> = json["runs"].as_array().unwrap().iter().filter_map(|run| run["step"].as_f64()).collect();
+    assert_eq!(steps, [0.02, 0.005]);
 }
 
 #[test]

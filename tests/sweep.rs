@@ -188,6 +188,14 @@ fn every_form_of_values() {
 }
 
 #[test]
+fn a_sweep_does_not_take_the_name_of_another_study() {
+    let place = Place::new("name", &FOUR_BAR.replace("  lengths:\n", "  turn-over-l3:\n"));
+    let [_, stderr] = place.ends(2, &["sweep", "model.yaml", "--study", "turn", "--over", "l3=0.5,0.6", "-o", "out"]);
+    assert!(stderr.contains("would be named `turn-over-l3`, as a study of the file is"), "{stderr}");
+    assert!(!place.0.join("out").exists());
+}
+
+#[test]
 fn a_sweep_takes_the_place_of_the_study_s_own() {
     let place = Place::new("instead", FOUR_BAR);
     place.ends(0, &["sweep", "model.yaml", "--study", "speeds", "--over", "l3=0.5..0.6:3", "-o", "out"]);

@@ -246,7 +246,7 @@ fn sizes(arguments: &Arguments, own: Steps) -> Result<(bool, Vec<f64>), u8> {
     Ok((false, listed(text, "--tolerances", 0.1)?))
 }
 
-/// The numbers of `1e-3..1e-10`, decade by decade, or of a list.
+/// The numbers of `1e-3..1e-10`, decade by decade up to the end, or of a list.
 fn listed(text: &str, flag: &str, most: f64) -> Result<Vec<f64>, u8> {
     let bound = if most.is_finite() { format!(" and at most {most}") } else { String::new() };
     let wrong = |what: String| {
@@ -262,13 +262,17 @@ fn listed(text: &str, flag: &str, most: f64) -> Result<Vec<f64>, u8> {
     };
     let (from, to) = (number(from)?, number(to)?);
     let decades = (to / from).log10();
-    let count = (decades.abs() + 1e-9).floor() as usize + 1;
+    let whole = (decades.abs() + 1e-9).floor() as usize;
+    // the end that is asked for is compared, also where it lies within a decade
+    let ends_between = decades.abs() > whole as f64 + 1e-9;
+    let count = whole + 1 + usize::from(ends_between);
     if count > MOST {
         return Err(wrong(format!("{count} sizes are more than {MOST}")));
     }
     // read again, so that 1e-3 a thousandth of 1 is the same number as 1e-3
     let round = |x: f64| format!("{x:.12e}").parse().unwrap_or(x);
-    Ok((0..count).map(|k| round(from * 10f64.powf(decades.signum() * k as f64))).collect())
+    let of_decade = (0..=whole).map(|k| round(from * 10f64.powf(decades.signum() * k as f64)));
+    Ok(of_decade.chain(ends_between.then_some(to)).collect())
 }
 
 /// Prints why there is no reference; the exit code.
@@ -302,7 +306,7 @@ mod tests {
         let read = |text: &str| listed(text, "--tolerances", 0.1).unwrap();
         assert_eq!(read("1e-3..1e-6"), [1e-3, 1e-4, 1e-5, 1e-6]);
         assert_eq!(read("1e-6..1e-4"), [1e-6, 1e-5, 1e-4]);
-        assert_eq!(read("2e-3..1e-5"), [2e-3, 2e-4, 2e-5]);
+        assert_eq!(read("2e-3..1e-5"), [2e-3, 2e-4, 2e-5, 1e-5]);
         assert_eq!(read("1e-4, 3e-7"), [1e-4, 3e-7]);
         assert_eq!(read("1e-4"), [1e-4]);
         for wrong in ["", "1e-3..", "0", "1", "-1e-3", "1e-3..x", "1e-300..1e-3", "nan"] {

@@ -93,6 +93,13 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
     let names: Vec<&str> = over.iter().flat_map(|(names, _)| names.split(',').map(str::trim)).collect();
     let (stem, swept) =
         if names.is_empty() { (study.to_owned(), None) } else { (format!("{study}-over-{}", names.join("+")), Some("--over")) };
+    if swept.is_some() && known.contains(&stem) {
+        print_error(
+            &format!("the results of this sweep would be named `{stem}`, as a study of the file is"),
+            "give that study another name",
+        );
+        return code::INPUT;
+    }
     let selection = Selection { study: Some(study), over, samples: asked.drawn.samples(), ..selection };
     let mut model = match load(&mut Loader::new(&document, common.threads()), &document, common, &selection, &told) {
         Ok(model) => model,
