@@ -251,3 +251,19 @@ fn the_varied_parameter_belongs_to_the_study() {
     let right = zero(|c| swing(0.15, 1.0, c, 1.1) - 40f64.to_radians(), 0.3, 0.8);
     assert!((number(&run, "swing", "/parameters/l3") / right - 1.0).abs() < 1e-10);
 }
+
+/// The target is met for two ends of the bounds, for all values, or by far fewer digits than it has: each is told.
+#[test]
+fn what_a_solution_hides_is_told() {
+    let rotor = |scalar: &str, solve: &str| {
+        let text =
+            ROTOR.replace("found: torque", &format!("found: torque, y: \"{scalar}\"")).replace("{}", &format!("solve: {{ {solve} }}"));
+        run_text(&text, &["--no-plots"]).succeeded()
+    };
+    let ends = rotor("torque*(torque - 4 N m)/(1 N m)", "vary: torque, between: [0 N m, 4 N m], target: { y: 0 N m }");
+    assert!(ends.stderr.contains("and others lie at 4 N m"), "{}", ends.stderr);
+    let constant = rotor("inertia/(1 kg m^2)", "vary: torque, between: [0 N m, 4 N m], target: { y: 2 }");
+    assert!(constant.stderr.contains("`y` is the same for all values of `torque`"), "{}", constant.stderr);
+    let wide = rotor("1e6*torque/(1 N m)", "vary: torque, between: [-1e9 N m, 1.3e9 N m], target: { y: 1 }");
+    assert!(wide.stderr.contains("`y` misses its target by 4.6e-2: `between` spans so much"), "{}", wide.stderr);
+}

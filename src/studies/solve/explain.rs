@@ -45,6 +45,19 @@ impl Explain<'_> {
             );
             return unsolved(message, "choose bounds or a target on one side");
         }
+        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
+        if let Some(first) = values.next()
+            && values.all(|value| value == first)
+            && runs > 1
+        {
+            let message = format!(
+                "`{scalar}` does not meet its target {}: it is {} for all values of `{parameter}` that were tried{}",
+                self.target(),
+                self.with_unit(first),
+                self.reasons()
+            );
+            return unsolved(message, "vary a parameter on which the scalar depends, or give other bounds in `between`");
+        }
         let ends: Vec<String> = [self.log.first(), self.log.last()].into_iter().flatten().map(|run| self.describe(run)).collect();
         let off = |run: &&Trial| (run.scalar - run.target).abs();
         let nearest = self.log.iter().filter(|run| run.why.is_none()).min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -63,7 +76,10 @@ impl Explain<'_> {
         let finding = |code: &'static str, message| Finding { code: code.into(), message, path: path.clone() };
         let mut found = Vec::new();
         if !zero.others.is_empty() {
-            let others: Vec<String> = zero.others.iter().map(|[a, b]| format!("between {} and {}", self.at(*a), self.at(*b))).collect();
+            let place = |[a, b]: &[f64; 2]| {
+                if a == b { format!("at {}", self.at(*a)) } else { format!("between {} and {}", self.at(*a), self.at(*b)) }
+            };
+            let others: Vec<String> = zero.others.iter().map(place).collect();
             let message = format!(
                 "`{scalar}` meets its target for several values of `{parameter}`; {} is the first, and others lie {}",
                 self.at(zero.at),
@@ -76,9 +92,23 @@ impl Explain<'_> {
             found.push(finding("solve-failed-runs", format!("{failed} of {} runs gave no value{}", self.log.len(), self.reasons())));
         }
         let target = self.log.iter().find(|run| run.x == zero.at).map_or(0.0, |run| run.target);
-        if zero.value.abs() > COARSE * zero.scale.max(target.abs()) {
-            let message = format!("`{scalar}` is met to {:.1e} only: it jumps there, or is noisy", zero.value.abs());
+        let off = zero.value.abs();
+        if off > COARSE * zero.scale.max(target.abs()) {
+            let message = format!("`{scalar}` is met to {off:.1e} only: it jumps there, or is noisy");
             found.push(finding("solve-coarse", message));
+        } else if target != 0.0 && off > COARSE * target.abs() {
+            let message = format!(
+                "`{scalar}` misses its target by {off:.1e}: `between` spans so much that nearer values of `{parameter}` are not looked at; give nearer bounds"
+            );
+            found.push(finding("solve-coarse", message));
+        }
+        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
+        if let Some(first) = values.next()
+            && self.log.len() > failed + 1
+            && values.all(|value| value == first)
+        {
+            let message = format!("`{scalar}` is the same for all values of `{parameter}` that were tried: does it depend on it?");
+            found.push(finding("solve-constant", message));
         }
         found
     }

@@ -92,7 +92,9 @@ impl<'f, E: Send> Search<'f, E> {
     fn closed(&mut self) -> Result<Option<Zero>, E> {
         let known: Vec<Sample> = self.samples.iter().copied().filter(|s| !s.value.is_nan()).collect();
         if let Some(first) = known.first().filter(|s| s.value == 0.0) {
-            return Ok(Some(Zero { at: first.at, value: 0.0, bracket: [first.at; 2], scale: 0.0, others: Vec::new() }));
+            let further = known.windows(2).filter(|w| w[1].value == 0.0 || opposite(w[0], w[1]));
+            let others = further.map(|w| if w[1].value == 0.0 { [w[1].at; 2] } else { [w[0].at, w[1].at] }).collect();
+            return Ok(Some(Zero { at: first.at, value: 0.0, bracket: [first.at; 2], scale: 0.0, others }));
         }
         let brackets: Vec<[Sample; 2]> = known.windows(2).map(|w| [w[0], w[1]]).filter(|[a, b]| opposite(*a, *b)).collect();
         for (k, bracket) in brackets.iter().enumerate() {
