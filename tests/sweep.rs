@@ -188,6 +188,22 @@ fn every_form_of_values() {
 }
 
 #[test]
+fn what_runs_of_a_sweep_do_not_meet_is_told_with_the_run() {
+    let lengths = "sweep: { l3: { from: 50 cm, to: 60 cm, count: 3 } }";
+    let text = |l3: &str| {
+        let expect = format!("sweep: {{ l3: [{l3}] }}\n    expect: {{ swing: {{ is: 32.86316737556072 deg, within: 1e-9 }} }}");
+        FOUR_BAR.replace(lengths, &expect)
+    };
+    let place = Place::new("missed", &text("50 cm, 55 cm, 60 cm"));
+    let [_, stderr] = place.ends(1, &["run", "model.yaml", "--study", "lengths", "-o", "out", "--no-plots"]);
+    assert_eq!(stderr.matches("error[expectation]").count(), 1, "{stderr}");
+    assert!(stderr.contains("in 2 of 3 runs, the first of them run 1 (l3 = 50 cm): `swing` is"), "{stderr}");
+    fs::write(place.0.join("model.yaml"), text("55 cm, 5 m")).unwrap();
+    let [_, stderr] = place.ends(0, &["run", "model.yaml", "--study", "lengths", "-o", "out", "--no-plots"]);
+    assert!(stderr.contains("1 of the 2 runs of study `lengths` failed; what the file expects is not judged there"), "{stderr}");
+}
+
+#[test]
 fn a_sweep_does_not_take_the_name_of_another_study() {
     let place = Place::new("name", &FOUR_BAR.replace("  lengths:\n", "  turn-over-l3:\n"));
     let [_, stderr] = place.ends(2, &["sweep", "model.yaml", "--study", "turn", "--over", "l3=0.5,0.6", "-o", "out"]);

@@ -238,28 +238,27 @@ impl Job<'_> {
 
     /// Tells which expectations are not met.
     fn expectations(&self, results: &Results) -> u8 {
+        let missed = results.expectations.iter().filter(|e| !e.met);
+        missed.fold(code::DONE, |_, e| self.unmet(&e.place, e.message.clone()))
+    }
+
+    /// Tells that an expectation at a place of the file is not met.
+    fn unmet(&self, place: &str, message: String) -> u8 {
         let help = match self.common.changes() {
             Some(_) => "the file expects this of its own values; `--set` and `--variant` change what is computed",
             None => "find out which of the two is right",
         };
-        let mut code = code::DONE;
-        for e in results.expectations.iter().filter(|e| !e.met) {
-            code = code::UNMET;
-            let report = Report::new(vec![self.document.diagnostic(
-                "expectation",
-                &e.place,
-                e.message.clone(),
-                "the value that the file expects",
-                Some(help.into()),
-            )]);
-            print_report(&report, self.common.colored());
-        }
-        code
+        self.print_at_with("expectation", place, message, "the value that the file expects", help);
+        code::UNMET
     }
 
     /// Prints an error at a place of the file.
     fn print_at(&self, code: &'static str, place: &str, message: String, help: &str) {
-        let report = Report::new(vec![self.document.diagnostic(code, place, message, "", Some(help.into()))]);
+        self.print_at_with(code, place, message, "", help);
+    }
+
+    fn print_at_with(&self, code: &'static str, place: &str, message: String, expected: &str, help: &str) {
+        let report = Report::new(vec![self.document.diagnostic(code, place, message, expected, Some(help.into()))]);
         print_report(&report, self.common.colored());
     }
 

@@ -8,7 +8,7 @@ use super::super::{code, print_error, print_note};
 use super::{Finished, Job, Output, units, values};
 use grashof::model::{ShownWhat, Study};
 use grashof::output::{ReportRuns, ReportStudy, Staging, figures, files, run_files, summary, tables, write_json};
-use grashof::results::Results;
+use grashof::results::{self, Results};
 use grashof::studies::sweep::{self, Run, together};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -149,8 +149,10 @@ impl Job<'_> {
         let mut first = None;
         let mut unwritten = None;
         let mut pages = self.report.then(|| ReportRuns::new(runs.len()));
+        let (count, failed) = (runs.len(), runs.iter().filter(|run| run.result.is_err()).count());
+        let mut missed = Missed::default();
         let results = together(self.model, study, runs, &mut |i, run| {
-            code = code.max(self.expectations(run));
+            missed.take(i, run);
             computed.push(values(run));
             unwritten = unwritten.max(self.add(&mut staging, run_files(self.study, i + 1, run, self.formats)).err());
             if let Some(pages) = &mut pages {
@@ -161,6 +163,15 @@ impl Job<'_> {
             }
             *run = remaining(study, std::mem::take(run));
         });
+        for (place, message) in missed.in_words(&results.runs) {
+            code = code.max(self.unmet(&place, message));
+        }
+        if failed > 0 && !study.expect.is_empty() {
+            print_note(&format!(
+                "note: {failed} of the {count} runs of study `{}` failed; what the file expects is not judged there",
+                study.name
+            ));
+        }
         unwritten = unwritten.max(self.add(&mut staging, tables(self.study, &results.table, self.formats)).err());
         if let Some(unwritten) = unwritten {
             return Finished::nothing(code.max(unwritten));
@@ -173,6 +184,30 @@ impl Job<'_> {
         let output = Output { table: summary(&results), report: write_json(&results), columns: units(&results), page };
         let finished = self.write(&staging, code, output);
         Finished { computed, ended: finished.output.is_some(), ..finished }
+    }
+}
+
+/// Expectations that runs of a sweep do not meet: for each of them its place, the first such run with what it says, and how many there are.
+#[derive(Default)]
+struct Missed(Vec<(String, usize, String, usize)>);
+
+impl Missed {
+    /// Takes those of run `i`, counted from 0.
+    fn take(&mut self, i: usize, run: &Results) {
+        for e in run.expectations.iter().filter(|e| !e.met) {
+            match self.0.iter_mut().find(|(place, ..)| *place == e.place) {
+                Some((.., count)) => *count += 1,
+                None => self.0.push((e.place.clone(), i, e.message.clone(), 1)),
+            }
+        }
+    }
+
+    /// Place and message of each.
+    fn in_words(self, runs: &[results::Run]) -> impl Iterator<Item = (String, String)> {
+        self.0.into_iter().map(move |(place, i, message, count)| {
+            let others = if count == 1 { String::new() } else { format!("in {count} of {} runs, the first of them ", runs.len()) };
+            (place, format!("{others}run {} ({}): {message}", i + 1, runs[i].label))
+        })
     }
 }
 
