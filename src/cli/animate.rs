@@ -85,7 +85,7 @@ fn animated(arguments: &Arguments, common: &Common) -> Result<(), u8> {
         moving.scene_mut().view = arguments.view;
     }
     let repeats = !arguments.once && (arguments.again || !matches!(kind, Kind::Video(_)));
-    let shot = moving.shot(&arguments.fast, repeats)?;
+    let shot = moving.shot(&arguments.fast, repeats, common)?;
     if shot.seconds < SHORT && !common.quiet {
         print_note(&format!("note: the motion is shown in {:.3} s; `--speed 0.1` or `--duration 4` shows it more slowly", shot.seconds));
     }

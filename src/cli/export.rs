@@ -42,7 +42,7 @@ fn exported(arguments: &Arguments, common: &Common) -> Result<(), u8> {
     let (results, scene) = (&moving.results, moving.scene());
     let mut made = Vec::new();
     if let Some(file) = &arguments.gltf {
-        let shot = moving.shot(&arguments.fast, false)?;
+        let shot = moving.shot(&arguments.fast, false, common)?;
         let binary = ends_in(file, "glb");
         made.push((file, write_gltf(&results.model, &results.study, moving.name(), scene, &shot, binary)));
     }

@@ -70,12 +70,20 @@ impl Moving {
     }
 
     /// When pictures are taken; what is wrong was reported.
-    pub(super) fn shot(&self, fast: &Fast, repeats: bool) -> Result<Shot, u8> {
+    pub(super) fn shot(&self, fast: &Fast, repeats: bool, common: &Common) -> Result<Shot, u8> {
         let pace = fast.duration.map_or(Pace::Speed(fast.speed), Pace::Duration);
-        Shot::of(&self.results, self.scene(), &ShotOptions { rate: fast.rate, pace, repeats }).map_err(|message| {
+        let options = ShotOptions { rate: fast.rate, pace, repeats };
+        let shot = Shot::of(&self.results, self.scene(), &options).map_err(|message| {
             print_error(&message, "show it faster with `--speed`, as a whole with `--duration 10`, or with fewer pictures by `--rate`");
             code::INPUT
-        })
+        })?;
+        if !shot.is_timed() && self.results.kind != "modes" && fast.duration.is_none() && !common.quiet {
+            print_note(&format!(
+                "note: `time` is no column of study `{}`, so that its motion is shown evenly in {:.3} s; list `time` in `columns` for its own speed, or give `--duration`",
+                self.results.study, shot.exact
+            ));
+        }
+        Ok(shot)
     }
 }
 

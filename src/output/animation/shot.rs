@@ -36,8 +36,10 @@ pub struct Shot {
     pub time: Option<Vec<f64>>,
     /// Pictures a second.
     pub rate: f64,
-    /// How long all of it is shown, s.
+    /// How long all of it is shown, s: whole pictures.
     pub seconds: f64,
+    /// How long it takes at the speed that is asked for, s.
+    pub exact: f64,
     /// Whether it begins again at its end.
     pub repeats: bool,
     /// Even steps from its beginning to its end.
@@ -66,7 +68,27 @@ impl Shot {
         let parts: Vec<f64> = (0..count).map(|k| k as f64 / steps as f64).collect();
         let time = clock.real.then(|| parts.iter().map(|part| clock.time(*part)).collect());
         let at = parts.iter().map(|part| clock.place(*part)).collect();
-        Ok(Self { at, time, rate: asked.rate, seconds: steps as f64 / asked.rate, repeats: asked.repeats, steps, clock })
+        Ok(Self { at, time, rate: asked.rate, seconds: steps as f64 / asked.rate, exact: seconds, repeats: asked.repeats, steps, clock })
+    }
+
+    /// Whether its time is that of the motion; else all of it is gone through evenly.
+    #[must_use]
+    pub fn is_timed(&self) -> bool {
+        self.clock.real
+    }
+
+    /// Parts of the whole, 0 to 1, one for each even step and as many between them as no more than `most` needs, by a measure of the way
+    /// between two places of the independent variable; with these places.
+    pub(crate) fn parts(&self, most: f64, way: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+        let part = |k: usize| k as f64 / self.steps as f64;
+        let mut out = vec![(0.0, self.clock.place(0.0))];
+        for k in 0..self.steps {
+            let [from, to] = [part(k), part(k + 1)];
+            let pieces = (way(self.clock.place(from), self.clock.place(to)) / most).ceil().max(1.0);
+            let all = (1..=pieces as usize).map(|j| if j as f64 == pieces { to } else { from + j as f64 / pieces * (to - from) });
+            out.extend(all.map(|part| (part, self.clock.place(part))));
+        }
+        out
     }
 
     /// The time of the motion at so many even steps, s, if it has one; shape steps + 1.

@@ -23,13 +23,18 @@ use shapes::Builder;
 const JOINT: Color = [70, 70, 76];
 const LINK: Color = [150, 60, 20];
 
+/// Most that a body turns between two keys, rad: the middle of a chord is then half a hundredth of its radius off.
+const LARGEST_TURN: f64 = 0.2;
+
 /// The bytes of a glTF file of a motion; `binary` for the form `.glb`, else text with its numbers within.
 #[must_use]
 pub fn write_gltf(model: &str, study: &str, name: &str, scene: &Scene, shot: &Shot, binary: bool) -> Vec<u8> {
     let mut file = File { buffer: Buffer::default(), nodes: Vec::new(), meshes: Vec::new(), channels: Vec::new(), samplers: Vec::new() };
-    let frames: Vec<Vec<f64>> = shot.at.iter().map(|x| scene.frames.at(*x, scene.dimensions)).collect();
+    // viewers turn the shorter way between two keys, and shift along a straight line
+    let keys = shot.parts(LARGEST_TURN, |from, to| turned(scene, from, to));
+    let frames: Vec<Vec<f64>> = keys.iter().map(|(_, x)| scene.frames.at(*x, scene.dimensions)).collect();
     file.nodes.push(Value::Null);
-    let seconds: Vec<[f64; 1]> = (0..frames.len()).map(|k| [k as f64 / shot.rate]).collect();
+    let seconds: Vec<[f64; 1]> = keys.iter().map(|(part, _)| [part * shot.exact]).collect();
     let times = file.buffer.floats(&seconds, None, true);
     file.bodies(scene, &frames, times);
     let unit = file.meshes.len();
@@ -53,6 +58,25 @@ pub fn write_gltf(model: &str, study: &str, name: &str, scene: &Scene, shot: &Sh
     file.nodes[0] = json!({ "name": model, "rotation": links::arc(scene.up, [0.0, 1.0, 0.0]), "children": children });
     let title = posed::title("", study, name, &scene.caption);
     file.bytes(&title, materials(scene), binary)
+}
+
+/// How far the body that turns most does so between two places of the independent variable, rad.
+fn turned(scene: &Scene, from: f64, to: f64) -> f64 {
+    let [low, high] = [from.min(to), from.max(to)];
+    let at = &scene.frames.at;
+    let between = at.partition_point(|x| *x <= low)..at.partition_point(|x| *x < high);
+    let places = [low].into_iter().chain(at.get(between).unwrap_or_default().iter().copied()).chain([high]);
+    let all: Vec<Vec<f64>> = places.map(|x| scene.frames.at(x, scene.dimensions)).collect();
+    let stride = scene.stride();
+    let step = |a: &[f64], b: &[f64]| {
+        let dot: f64 = turn(a).iter().zip(turn(b)).map(|(a, b)| a * b).sum();
+        2.0 * dot.abs().min(1.0).acos()
+    };
+    let of_body = |body: usize| {
+        let pose = |poses: &Vec<f64>| poses[body * stride..(body + 1) * stride].to_vec();
+        all.windows(2).map(|pair| step(&pose(&pair[0]), &pose(&pair[1]))).sum::<f64>()
+    };
+    (0..scene.bodies.len().saturating_sub(1)).map(of_body).fold(0.0, f64::max)
 }
 
 /// One colour for each body, then those of joints and links.
