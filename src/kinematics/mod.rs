@@ -24,4 +24,5 @@ pub(crate) mod saddle;
 pub(crate) mod standing;
 mod steps;
 pub mod survey;
+pub(crate) mod thin;
 pub mod undefined;

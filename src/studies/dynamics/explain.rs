@@ -7,6 +7,7 @@ use crate::dynamics::Dynamics;
 use crate::geometry::Space;
 use crate::kinematics::assemble::{Assembled, units};
 use crate::kinematics::mobility::mobility;
+use crate::kinematics::thin::spinning;
 use crate::kinematics::undefined::{Gap, meeting};
 use crate::mechanism::{BuildFault, Mechanism, Stop};
 use crate::model::{Model, Parameter, Study};
@@ -309,6 +310,9 @@ pub(super) fn no_start<G: Space<S = f64>>(study: &Study, mechanism: &Mechanism<G
 
 /// That bodies without mass or inertia leave the accelerations open.
 pub(crate) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    if let Some(failure) = spins(mechanism, start) {
+        return Some(failure);
+    }
     if let Some((body, how)) = unresisted(mechanism, start) {
         let has_mass = mechanism.bodies.iter().any(|b| b.name == body && crate::scalar::Scalar::value(b.mass.mass) > 0.0);
         return Some(Failure::Study {
@@ -337,6 +341,21 @@ pub(crate) fn massless<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
         message: format!("the accelerations at the start are not determined: {} {verb} no mass and can move by {selves}", names.join(", ")),
         place: "bodies".into(),
         help: "give every moving body a mass, as `bar: { length: 1 m, mass: 1 kg }`".into(),
+    })
+}
+
+/// That a thin body can turn about its own axis, about which nothing has inertia.
+pub(super) fn spins<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Option<Failure> {
+    let body = &mechanism.bodies[spinning(mechanism, start)?].name;
+    Some(Failure::Study {
+        code: "singular-mass",
+        message: format!(
+            "the accelerations at the start are not determined: body `{body}` can turn about its own axis and has no inertia about it"
+        ),
+        place: format!("bodies.{body}"),
+        help: "give it a thickness, as `bar: { length: 1 m, mass: 1 kg, width: 2 cm, height: 2 cm }`, or an inertia about three axes; or \
+               hold the turn by a joint, as `universal` in the place of `spherical`"
+            .into(),
     })
 }
 
