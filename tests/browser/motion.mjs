@@ -1,6 +1,6 @@
 // The mechanism in motion: places against the tables, play, keys, scrubbing, runs, drawings.
 
-import { assert, csv, near, seek, time } from './read.mjs';
+import { assert, csv, near, seek, time, until } from './read.mjs';
 
 /** Largest length of models/crank_rocker.yaml, m. */
 const SIZE = 1.2;
@@ -134,9 +134,9 @@ export async function positions_without_time_say_so(open) {
   await tab.locator('.scrub').fill('5000');
   assert.match(await tab.locator('.time').innerText(), /^theta [\d.]+ deg$/);
   await tab.evaluate(() => grashof.study('modes'));
-  await tab.waitForFunction(() => document.querySelector('.timeless').textContent === 'shape, no time');
+  await until(tab, () => document.querySelector('.timeless').textContent === 'shape, no time');
   await tab.evaluate(() => grashof.study('one-turn'));
-  await tab.waitForFunction(() => document.querySelector('[aria-label=speed]').value === '1×');
+  await until(tab, () => document.querySelector('[aria-label=speed]').value === '1×');
   assert.equal(await timeless.isVisible(), false);
 }
 

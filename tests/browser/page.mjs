@@ -1,7 +1,7 @@
 // The page as a whole: contents, findings and their places, tables, light and dark, narrow and wide.
 
 import { readFileSync } from 'node:fs';
-import { assert, csv, near } from './read.mjs';
+import { assert, csv, near, until } from './read.mjs';
 
 export async function studies_are_listed_with_what_they_are_about(open) {
   const { tab } = await open('crank_rocker');
@@ -17,7 +17,7 @@ export async function a_study_is_chosen_by_keys_and_by_address(open) {
   assert.equal(await tab.locator('#study-title').innerText(), 'modes');
   await tab.locator('nav a', { hasText: 'start-up-exact' }).focus();
   await tab.keyboard.press('Enter');
-  await tab.waitForFunction(() => document.getElementById('study-title').textContent === 'start-up-exact');
+  await until(tab, () => document.getElementById('study-title').textContent === 'start-up-exact');
   assert.equal(await tab.evaluate(() => document.activeElement.id), 'study-title');
   assert.equal(await tab.evaluate(() => [grashof.study('no-such'), grashof.study('balanced')].join()), 'false,true');
 }
@@ -172,7 +172,7 @@ export async function the_chosen_study_is_in_view_in_the_contents(open) {
     const { tab } = await open('crank_rocker', { study });
     for (const part of ['nav [aria-current]', 'nav h2']) assert.ok(await within(tab, part, 'nav'), `${part} with ${study}`);
     await tab.evaluate(() => (location.hash = 'stiffness-small'));
-    await tab.waitForFunction(() => document.getElementById('study-title').textContent === 'stiffness-small');
+    await until(tab, () => document.getElementById('study-title').textContent === 'stiffness-small');
     for (const part of ['nav [aria-current]', 'nav h2']) assert.ok(await within(tab, part, 'nav'), `${part} from ${study}`);
     const [head, link] = await tab.evaluate(() => ['nav h2', 'nav [aria-current]'].map((part) => document.querySelector(part).getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })));
     assert.ok(link.top >= head.bottom - 1, 'the heading lies over the chosen study');
@@ -186,7 +186,7 @@ export async function narrow_windows_have_a_compact_list_of_studies(open) {
   assert.ok((await tab.locator('nav').boundingBox()).height < 80);
   await list.focus();
   await list.selectOption('start-up-exact');
-  await tab.waitForFunction(() => document.getElementById('study-title').textContent === 'start-up-exact');
+  await until(tab, () => document.getElementById('study-title').textContent === 'start-up-exact');
   assert.ok(await within(tab, '#study-title', 'body'), 'the title is out of view');
   assert.equal(await tab.evaluate(() => document.activeElement.getAttribute('aria-label')), 'study');
   assert.match(tab.url(), /#start-up-exact$/);

@@ -18,3 +18,12 @@ export function near(found, wanted, tolerance, what = '') {
 
 export const time = (tab) => tab.evaluate(() => grashof.time());
 export const seek = (tab, at) => tab.evaluate((to) => grashof.seek(to), at);
+
+/** Waits until something holds in the page, whose policy lets no text be run as `waitForFunction` would. */
+export async function until(tab, holds, argument) {
+  for (let i = 0; i < 1000; i++) {
+    if (await tab.evaluate(holds, argument)) return;
+    await tab.waitForTimeout(20);
+  }
+  throw new Error(`never: ${holds}`);
+}

@@ -15,6 +15,7 @@ import * as motion from './motion.mjs';
 import * as page from './page.mjs';
 import * as paper from './paper.mjs';
 import * as plots from './plots.mjs';
+import { until } from './read.mjs';
 import * as watch from './watch.mjs';
 
 const [, , program, executablePath = '/usr/bin/chromium'] = process.argv;
@@ -52,7 +53,7 @@ const open = async (name, { study = '', width = 1280, height = 900, colorScheme 
   tab.on('pageerror', (error) => faults.push(`error: ${error.message}`));
   tab.on('request', (request) => /^(file|data|blob):/.test(request.url()) || faults.push(`request: ${request.url()}`));
   await tab.goto(`file://${known.get(name)}/report.html${study && `#${study}`}`);
-  await tab.waitForFunction('window.grashof');
+  await until(tab, () => Boolean(window.grashof));
   return { tab, faults, directory: known.get(name), close: () => context.close() };
 };
 

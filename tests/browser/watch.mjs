@@ -4,7 +4,7 @@ import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { assert, seek, time } from './read.mjs';
+import { assert, seek, time, until } from './read.mjs';
 
 const MODEL = `grashof: 1
 name: pendulum
@@ -50,15 +50,6 @@ async function watched(browser, program, use) {
 
 const far = (tab) => tab.locator('.values dd').first().innerText();
 const changes = (tab, before) => until(tab, (was) => document.querySelector('.values dd')?.textContent !== was, before);
-
-/** Waits until something holds in the page, whose policy lets no text be run as `waitForFunction` would. */
-async function until(tab, holds, argument) {
-  for (let i = 0; i < 1000; i++) {
-    if (await tab.evaluate(holds, argument)) return;
-    await tab.waitForTimeout(20);
-  }
-  throw new Error(`never: ${holds}`);
-}
 
 export async function a_save_is_shown_and_nothing_is_lost(browser, program) {
   await watched(browser, program, async ({ open, save }) => {
