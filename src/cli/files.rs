@@ -232,7 +232,12 @@ pub(super) fn directory(model: &str, common: &Common) -> Option<PathBuf> {
 
 /// Prints why something did not begin, at its place, and gives the exit code; `study` is empty outside of studies.
 pub(super) fn explain(document: &Document, failure: &Failure, study: &str, common: &Common) -> u8 {
-    print_failure(study, &explained(document, study, failure), common.colored());
+    explain_beside(document, failure, study, study, common)
+}
+
+/// [`explain`] for a failure of a study `of` that keeps another one from beginning, of which it takes a scalar.
+pub(super) fn explain_beside(document: &Document, failure: &Failure, study: &str, of: &str, common: &Common) -> u8 {
+    print_failure(study, &explained(document, of, failure), common.colored());
     match failure {
         Failure::Model(_) | Failure::Study { .. } => code::INPUT,
         Failure::Unsolved(_) | Failure::Undefined(_) | Failure::Numerical { .. } => code::NUMERICAL,

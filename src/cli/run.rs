@@ -325,7 +325,7 @@ pub(super) fn load(
             code::INPUT
         }
         NotLoaded::Failed { .. } if interrupted() => code::INTERRUPTED,
-        NotLoaded::Failed { study, failure } => files::explain(document, &failure, &study, common),
+        NotLoaded::Failed { study: of, failure } => files::explain_beside(document, &failure, selection.study.unwrap_or(&of), &of, common),
         NotLoaded::Stopped { study, of, reason } => {
             let message = format!("study `{study}` takes a scalar of `{of}`, which stopped on its way: {reason}");
             print_error(&message, "see to that study first");

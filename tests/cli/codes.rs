@@ -107,6 +107,15 @@ fn the_same_reason_is_told_once() {
     let told: serde_json::Value = serde_json::from_str(&place.run(&[&both[..], &["--json"]].concat()).ends(2).stdout).unwrap();
     let each = told.as_array().unwrap();
     assert!(each.len() == 2 && each.iter().all(|study| study["errors"][0]["code"] == "start-cannot-hold"), "{told}");
+    // a study that takes a number of one that has failed is named itself
+    let taking = "  other:
+    take: { wide: turn.swing }
+    set: { l3: 0.55 m + 0*wide*1 m }
+    kinematics: { over: 1 turn, samples: 24 }
+";
+    place.put("model.yaml", &(text + taking));
+    let done = place.run(&["run", "model.yaml", "--study", "turn", "--study", "other", "--no-plots"]).ends(2);
+    assert!(done.stderr.contains("study `other` does not begin for the same reason"), "{}", done.stderr);
 }
 
 #[test]
