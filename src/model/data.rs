@@ -53,22 +53,21 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let mark = ['\t', ';', ','].into_iter().find(|mark| head.contains(*mark)).unwrap_or(',');
     let names: Vec<String> = head.split(mark).map(|name| name.trim().trim_matches('"').trim().to_owned()).collect();
     if names.iter().all(|name| name.parse::<f64>().is_ok()) {
-        return Err("its first line has numbers: the names of the columns are expected there".to_owned());
+        return Err("its first line has numbers: the names of the columns are expected there, as `t,x`".to_owned());
     }
-    if let Some(twice) = names.iter().enumerate().find_map(|(i, name)| names[..i].contains(name).then_some(name)) {
+    if let Some(twice) = names.iter().enumerate().find_map(|(i, name)| (!name.is_empty() && names[..i].contains(name)).then_some(name)) {
         return Err(format!("two of its columns are named `{twice}`: each needs its own name"));
     }
     let mut rows = Vec::new();
     for (number, line) in lines {
         let fields: Vec<&str> = line.split(mark).map(str::trim).collect();
-        let number_of = |field: &&str| match *field {
-            "" => Some(f64::NAN),
-            field => field.parse().ok().filter(|x: &f64| !x.is_infinite()),
-        };
-        let row: Option<Vec<f64>> = fields.iter().map(number_of).collect();
+        let row: Option<Vec<f64>> = fields.iter().map(|field| if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() }).collect();
         let row = row.filter(|row| row.len() == names.len()).ok_or_else(|| {
             format!("line {}: {} numbers with a decimal point are expected, as the first line has names", number + 1, names.len())
         })?;
+        if let Some(k) = row.iter().position(|x| x.is_infinite()) {
+            return Err(format!("line {}: `{}` is beyond all numbers; leave the field empty if there is none", number + 1, fields[k]));
+        }
         rows.push(row);
         if rows.len() * names.len() > MOST {
             return Err(format!("it has more than {MOST} numbers"));
@@ -92,9 +91,11 @@ mod tests {
         assert!(read("t;x\n0;1,5\n").is_err_and(|why| why.starts_with("line 2: 2 numbers")));
         // lines that end in a carriage return, no names, no numbers, a name twice, a number without bound
         assert_eq!(read("t,x\r0,1.5\r1,-2e-3\r"), Ok(wanted));
-        for (text, words) in [("0,1\n2,3\n", "names"), ("t,x\n", "no numbers"), ("t,t\n0,1\n", "`t`"), ("t,x\n0,inf\n", "line 2")] {
+        for (text, words) in [("0,1\n2,3\n", "names"), ("t,x\n", "no numbers"), ("t,t\n0,1\n", "`t`"), ("t,x\n0,inf\n", "line 2: `inf`")] {
             assert!(read(text).is_err_and(|why| why.contains(words)), "{text}");
         }
+        // marks behind the last name, as spreadsheets write them
+        assert!(read("t,x,,\n0,1,,\n").is_ok_and(|table| table.rows[0][..2] == [0.0, 1.0]));
         assert!(read("t,x\n0\n").is_err() && read("").is_err() && table(&[0xff, 0xfe]).is_err());
     }
 }

@@ -97,7 +97,8 @@ impl Board {
     /// Takes what was read of the file.
     pub(super) fn read(&self, look: Look) {
         // places lead into the text behind a sign of the byte order; the rest of the head follows once the study in view is computed
-        let source = String::from_utf8_lossy(&look.bytes).trim_start_matches('\u{feff}').to_owned();
+        let text = String::from_utf8_lossy(&look.bytes);
+        let source = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
         let literals = look.read.as_ref().map(|document| document.literals()).unwrap_or_default();
         self.change(|state| {
             (state.bytes, state.away) = (look.bytes, None);
