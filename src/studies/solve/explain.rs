@@ -45,15 +45,11 @@ impl Explain<'_> {
             );
             return unsolved(message, "choose bounds or a target on one side");
         }
-        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
-        if let Some(first) = values.next()
-            && values.all(|value| value == first)
-            && runs > 1
-        {
+        if let Some(same) = self.constant() {
             let message = format!(
                 "`{scalar}` does not meet its target {}: it is {} for all values of `{parameter}` that were tried{}",
                 self.target(),
-                self.with_unit(first),
+                self.with_unit(same),
                 self.reasons()
             );
             return unsolved(message, "vary a parameter on which the scalar depends, or give other bounds in `between`");
@@ -75,7 +71,7 @@ impl Explain<'_> {
         let path = format!("{}.solve", self.task.study.place);
         let finding = |code: &'static str, message| Finding { code: code.into(), message, path: path.clone() };
         let mut found = Vec::new();
-        if !zero.others.is_empty() {
+        if !zero.others.is_empty() && self.constant().is_none() {
             let place = |[a, b]: &[f64; 2]| {
                 if a == b { format!("at {}", self.at(*a)) } else { format!("between {} and {}", self.at(*a), self.at(*b)) }
             };
@@ -102,15 +98,19 @@ impl Explain<'_> {
             );
             found.push(finding("solve-coarse", message));
         }
-        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
-        if let Some(first) = values.next()
-            && self.log.len() > failed + 1
-            && values.all(|value| value == first)
-        {
+        if self.constant().is_some() {
             let message = format!("`{scalar}` is the same for all values of `{parameter}` that were tried: does it depend on it?");
             found.push(finding("solve-constant", message));
         }
         found
+    }
+
+    /// The value of the scalar, if it is the same in three runs and more, and in all that have one.
+    fn constant(&self) -> Option<f64> {
+        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
+        let first = values.next()?;
+        let mut others = 0;
+        (values.all(|value| (value == first).then(|| others += 1).is_some()) && others >= 2).then_some(first)
     }
 
     /// Names of parameter and scalar.

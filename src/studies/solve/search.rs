@@ -59,6 +59,10 @@ impl<'f, E: Send> Search<'f, E> {
     /// The first zero, if the search finds one.
     pub(super) fn zero(&mut self) -> Result<Option<Zero>, E> {
         self.look(&[0.0, 1.0])?;
+        if self.samples.iter().all(|sample| sample.value == 0.0) {
+            // whether it is zero all along
+            self.look(&[0.5])?;
+        }
         let mut intervals = 1;
         loop {
             if let Some(zero) = self.closed()? {
