@@ -69,12 +69,16 @@ fn turned(scene: &Scene, from: f64, to: f64) -> f64 {
     let all: Vec<Vec<f64>> = places.map(|x| scene.frames.at(x, scene.dimensions)).collect();
     let stride = scene.stride();
     let step = |a: &[f64], b: &[f64]| {
+        // in the plane angles count whole turns
+        if let ([.., before], [.., after], 3) = (a, b, stride) {
+            return (after - before).abs();
+        }
         let dot: f64 = turn(a).iter().zip(turn(b)).map(|(a, b)| a * b).sum();
         2.0 * dot.abs().min(1.0).acos()
     };
     let of_body = |body: usize| {
-        let pose = |poses: &Vec<f64>| poses[body * stride..(body + 1) * stride].to_vec();
-        all.windows(2).map(|pair| step(&pose(&pair[0]), &pose(&pair[1]))).sum::<f64>()
+        let pose = body * stride..(body + 1) * stride;
+        all.windows(2).map(|pair| step(&pair[0][pose.clone()], &pair[1][pose.clone()])).sum::<f64>()
     };
     (0..scene.bodies.len().saturating_sub(1)).map(of_body).fold(0.0, f64::max)
 }
