@@ -200,3 +200,53 @@ studies:
         assert_eq!(across.code, 0, "{rpy}: {}", across.stderr);
     }
 }
+
+/// A thin bar whose turn is held is not blamed for a link that is too light for the digits of what hangs on it; a hinge along a thin bar is
+/// found as a ball joint is, and among many bars the one that turns is named.
+#[test]
+fn only_thin_bars_that_turn_are_blamed() {
+    let study = "studies: { s: { dynamics: { until: 1 ms, every: 1 ms } } }\n";
+    let light = format!(
+        "grashof: 1
+name: light link
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+ground: {{ Z: [0, 3 m, 0] }}
+bodies:
+  long: {{ bar: {{ length: 5 m, width: 0.1 m, height: 0.1 m, mass: 20 kg }} }}
+  link: {{ bar: {{ length: 5 cm, width: 1 mm, height: 1 mm, mass: 1 g }} }}
+  z: {{ bar: {{ length: 1 m, mass: 1 kg }} }}
+joints:
+  A: {{ spherical: [ground, link.start] }}
+  B: {{ spherical: [link.end, long.start] }}
+  Z: {{ revolute: [ground.Z, z.start], axis: [0, 1, 0] }}
+{study}"
+    );
+    let run = run_text(&light, &["--no-plots"]);
+    assert!(!run.stderr.contains("`z`"), "{}", run.stderr);
+    let n = 60;
+    let each = |f: &dyn Fn(usize) -> String| (0..n).map(f).collect::<String>();
+    let chain = format!(
+        "grashof: 1
+name: chain of thin bars
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+bodies:
+{}joints:
+{}{study}",
+        each(&|i| format!("  b{i}: {{ bar: {{ length: 1 m, mass: 1 kg }} }}\n")),
+        each(&|i| {
+            let before = if i == 0 { "ground".to_owned() } else { format!("b{}.end", i - 1) };
+            if i == 41 {
+                format!("  J{i}: {{ revolute: [{before}, b{i}.start], axis: [1, 2, 0.7], to: [1, 0, 0] }}\n")
+            } else {
+                format!("  J{i}: {{ revolute: [{before}, b{i}.start], axis: [0, {}, 1] }}\n", i % 3)
+            }
+        }),
+    );
+    for coordinates in ["joint", "cartesian"] {
+        let text = chain.replace("every: 1 ms }", &format!("every: 1 ms, coordinates: {coordinates} }}"));
+        let run = run_text(&text, &["--no-plots"]);
+        assert!(run.code == 2 && run.stderr.contains("body `b41` can turn about its own axis"), "{coordinates}: {}", run.stderr);
+    }
+}

@@ -69,7 +69,7 @@ impl Saddle {
             self.matrix.iter().for_each(|(i, j, a)| left[*i] -= a * x[*j]);
             self.factors.solve(&mut left);
             let size = largest(&left);
-            if size >= FALLS * last {
+            if size >= FALLS * last || left.iter().any(|x| x.is_nan()) {
                 break;
             }
             x.iter_mut().zip(&left).for_each(|(x, d)| *x += d);
