@@ -12,8 +12,10 @@
 
 use super::dense::dot;
 
-/// Most steps: few singular values are near to E at the same time.
+/// Most steps where singular positions may be near: few singular values are near to E at the same time.
 const MOST: usize = 30;
+/// Most steps where all directions are wanted: along a structure of hundreds of light and heavy bodies there are many.
+const MOST_OF_ALL: usize = 400;
 
 /// Conjugate gradients on the multipliers, with the accelerations that belong to them; room is made when it is needed.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +41,7 @@ impl Conjugate {
     /// Takes the residual `r` away down to `round_off`, for so many velocities; whether that was reached. `solve(r, x)` writes δa and z
     /// of a residual.
     ///
-    /// It is not where a direction is needed whose σ² is below `least`.
+    /// It is not where a direction is needed whose σ² is below `least`; 0 takes all directions.
     pub(super) fn reduce(&mut self, velocities: usize, [round_off, least]: [f64; 2], mut solve: impl FnMut(&[f64], &mut [f64])) -> bool {
         let (m, n) = (self.r.len(), velocities + self.r.len());
         for (x, n) in [(&mut self.sum, n), (&mut self.z, n), (&mut self.p, n), (&mut self.sp, m)] {
@@ -47,7 +49,7 @@ impl Conjugate {
             x.resize(n, 0.0);
         }
         let mut last = f64::INFINITY;
-        for _ in 0..MOST {
+        for _ in 0..if least > 0.0 { MOST } else { MOST_OF_ALL } {
             solve(&self.r, &mut self.z);
             let z = &self.z[velocities..];
             let now = dot(&self.r, z);

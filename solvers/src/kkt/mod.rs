@@ -12,7 +12,7 @@
 //! them, and a smaller one loses energy in singular positions (measured).
 //!
 //! Where an inertia has grown to over a hundred times that at assembly, rows feel little of it, and E would be large beside that. There
-//! each E is multiplied by Σ g²/max(D, M) / Σ g²/D, sums over the present row: the growth alone, which does not vanish with the row.
+//! each E is multiplied by Σ g²/max(D, M/100) / Σ g²/D, sums over the present row: the growth alone, which does not vanish with the row.
 //!
 //! The diagonal of a row that is round-off at assembly is that of its natural size, and of one that happens to vanish there that of
 //! a position nearby ([`natural_row_scale`]).
@@ -237,8 +237,8 @@ impl Kkt {
         self.refinements = if light { REFINEMENTS_WITHOUT_MASS } else { REFINEMENTS };
         if grown || self.grown {
             self.follow_inertias(mass, g);
-            self.grown = grown;
         }
+        self.grown = grown;
         self.definite = match &mut self.form {
             Form::Full(full) => full.factor(&self.blocks, [mass, g], &self.e),
             Form::Sparse(quasi) => quasi.factor([mass, g], &self.e),
@@ -246,7 +246,8 @@ impl Kkt {
         if self.definite { Ok(()) } else { self.eliminate(mass, g) }
     }
 
-    /// Takes E for inertias that are not those at assembly: of each row the part Σ g²/max(D, M) / Σ g²/D is left.
+    /// Takes E for inertias that are not those at assembly: of each row the part Σ g²/max(D, M/100) / Σ g²/D is left, all of it where no
+    /// inertia has grown so much.
     fn follow_inertias(&mut self, mass: &[f64], g: &[f64]) {
         let (d, pattern) = (&self.scale[..self.nv], &self.blocks.0[1]);
         for i in 0..self.rows {
@@ -254,7 +255,7 @@ impl Kkt {
             for (&j, g) in pattern.row(i).iter().zip(&g[pattern.range(i)]) {
                 let square = (g * d[j]).powi(2);
                 at_assembly += square;
-                now += square / (mass[self.diagonal[j]] * d[j] * d[j]).max(1.0);
+                now += square / (mass[self.diagonal[j]] * d[j] * d[j] / GROWN).max(1.0);
             }
             let left = if at_assembly > 0.0 { now / at_assembly } else { 1.0 };
             self.e[i] = left * self.assembled[i];
@@ -332,7 +333,7 @@ impl Kkt {
                 self.apply(0);
                 x.copy_from_slice(&self.x);
             });
-            if reached {
+            if reached || regular == 0.0 {
                 let unknowns = a.iter_mut().chain(lambda);
                 unknowns.zip(conjugate.sum.iter().zip(&self.scale)).for_each(|(unknown, (x, s))| *unknown += x * s);
             }
@@ -356,6 +357,12 @@ impl Kkt {
     /// as no position is nearer to a singular one.
     pub fn set_weakest(&mut self, weakest: f64) {
         self.regular = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(NEARER * weakest);
+    }
+
+    /// Lets solutions go on until rows hold to round-off in all directions, or no longer: for what is at rest, where no singular position is
+    /// passed.
+    pub fn set_exact(&mut self, exact: bool) {
+        self.regular = exact.then_some(0.0);
     }
 
     /// Estimates of the smallest singular values σ of diag(G D⁻¹ Gᵀ)^−½ G D^−½, the smallest first, by one inverse iteration on the

@@ -25,11 +25,10 @@ use grashof_solvers::{Block, Kkt, Span, Sparsity, Stage, System};
 
 /// Steps in which constraints are closed.
 const CLOSING: usize = 40;
+/// Most solutions for the multipliers of a position.
+const HOLDING: usize = 8;
 /// Part of D that is added to the bath, with which it resists slides.
 const SLIDES: f64 = 1e-6;
-/// Multipliers are exact in directions of rows down to a hundredth of this singular value: along a truss or a taut chain of many bodies rows
-/// come near to dependence.
-const DEPENDENT: f64 = 1e-5;
 /// The first σ that is tried where none was needed before, as part of the size of K.
 const SOME: f64 = 1e-3;
 /// Ways in rad or extents after which a mechanism that cannot go on has run away.
@@ -88,17 +87,35 @@ where
         }
         let rows = self.row_scale.len();
         let (mut pull, mut lambda) = (vec![0.0; self.metric.len()], vec![0.0; rows]);
-        self.closing.set_weakest(DEPENDENT);
-        let factored = self.factor();
-        if factored.is_ok() {
-            self.closing.solve(&self.rest.terms.force, &vec![0.0; rows], &mut pull, &mut lambda);
-        }
-        self.closing.set_weakest(1.0);
-        factored?;
+        self.closing.set_exact(true);
+        let solved = self.factor().map(|()| self.hold(&mut pull, &mut lambda));
+        self.closing.set_exact(false);
+        solved?;
         let net: Vec<f64> = self.bath.lines().map(|line| line.dot(&pull)).collect();
         let force = net.iter().zip(&self.metric).map(|(f, d)| f * f / d).sum::<f64>().sqrt();
         let (grain, _) = self.rest.sizes();
         Ok(Stand { position: self.rest.position(lambda), net, force, grain })
+    }
+
+    /// The multipliers (m) that leave least unbalanced, and the pull B⁻¹(f − Gᵀλ) (nv) of the rest, by the factors at hand.
+    ///
+    /// What is left is formed anew after each solution, so that multipliers are exact to round-off over σ, not over σ².
+    fn hold(&mut self, pull: &mut [f64], lambda: &mut [f64]) {
+        let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let terms = &self.rest.terms;
+        let (zeros, mut part) = (vec![0.0; lambda.len()], vec![0.0; lambda.len()]);
+        let mut last = f64::INFINITY;
+        for _ in 0..HOLDING {
+            let mut left = terms.force.clone();
+            terms.g.lines().zip(&*lambda).for_each(|(line, lambda)| line.add_to(-lambda, &mut left));
+            self.closing.solve(&left, &zeros, pull, &mut part);
+            lambda.iter_mut().zip(&part).for_each(|(lambda, part)| *lambda += part);
+            let size = largest(&part);
+            if size >= 0.5 * last || size <= f64::EPSILON * largest(lambda) {
+                break;
+            }
+            last = size;
+        }
     }
 
     /// The position behind a displacement (nv).
