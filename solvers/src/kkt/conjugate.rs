@@ -41,15 +41,21 @@ impl Conjugate {
     /// Takes the residual `r` away down to `round_off`, for so many velocities; whether that was reached. `solve(r, x)` writes δa and z
     /// of a residual.
     ///
-    /// It is not where a direction is needed whose σ² is below `least`; 0 takes all directions.
-    pub(super) fn reduce(&mut self, velocities: usize, [round_off, least]: [f64; 2], mut solve: impl FnMut(&[f64], &mut [f64])) -> bool {
+    /// It is not where a direction is needed whose σ² is below `least`; without it all are taken.
+    pub(super) fn reduce(
+        &mut self,
+        velocities: usize,
+        round_off: f64,
+        least: Option<f64>,
+        mut solve: impl FnMut(&[f64], &mut [f64]),
+    ) -> bool {
         let (m, n) = (self.r.len(), velocities + self.r.len());
         for (x, n) in [(&mut self.sum, n), (&mut self.z, n), (&mut self.p, n), (&mut self.sp, m)] {
             x.clear();
             x.resize(n, 0.0);
         }
         let mut last = f64::INFINITY;
-        for _ in 0..if least > 0.0 { MOST } else { MOST_OF_ALL } {
+        for _ in 0..if least.is_some() { MOST } else { MOST_OF_ALL } {
             solve(&self.r, &mut self.z);
             let z = &self.z[velocities..];
             let now = dot(&self.r, z);
@@ -61,7 +67,7 @@ impl Conjugate {
             self.p.iter_mut().zip(&self.z).for_each(|(p, z)| *p = z + beta * *p);
             let p = &self.p[velocities..];
             let of_rows = dot(p, &self.sp);
-            if of_rows.is_nan() || of_rows <= least * dot(p, p) {
+            if of_rows.is_nan() || of_rows <= least.unwrap_or(0.0) * dot(p, p) {
                 return false;
             }
             let step = now / of_rows;

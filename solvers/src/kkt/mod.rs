@@ -66,9 +66,9 @@ pub struct Kkt {
     weights: Vec<f64>,
     grown: bool,
     refinements: usize,
-    /// Where rows are nearly dependent at the start: σ from which on they are to hold to round-off.
-    regular: Option<f64>,
-    /// Values of G, where that is so.
+    /// Whether solutions go on until rows hold to round-off.
+    further: Option<Further>,
+    /// Values of G, where they do.
     g: Vec<f64>,
     blocks: Blocks,
     /// Places of the diagonal of M (nv).
@@ -83,6 +83,15 @@ pub struct Kkt {
     x: Vec<f64>,
     /// Made when it is needed.
     conjugate: Conjugate,
+}
+
+/// Where solutions go on until rows hold to round-off.
+#[derive(Clone, Copy, Debug)]
+enum Further {
+    /// In directions from this σ on, of rows that are nearly dependent at the start. Where another one is needed nothing changes.
+    Regular(f64),
+    /// In all directions, as far as they can: at rest no singular position is passed.
+    Everywhere,
 }
 
 /// How L D Lᵀ is computed.
@@ -179,7 +188,7 @@ impl Kkt {
             weights: vec![1.0; n - nv],
             grown: false,
             refinements: REFINEMENTS,
-            regular: None,
+            further: None,
             g: Vec::new(),
             form,
             definite: false,
@@ -224,7 +233,7 @@ impl Kkt {
             // nothing is free and nothing constrains: minimal coordinates of what cannot move
             return Ok(());
         }
-        if self.regular.is_some() {
+        if self.further.is_some() {
             self.g.clear();
             self.g.extend_from_slice(g);
         }
@@ -308,15 +317,15 @@ impl Kkt {
         for ((out, x), s) in lambda.iter_mut().zip(&self.x[nv..]).zip(s) {
             *out = x * s;
         }
-        if let Some(regular) = self.regular {
-            self.converge(gamma, regular, a, lambda);
+        if let Some(further) = self.further {
+            self.converge(gamma, further, a, lambda);
         }
     }
 
     /// Goes on from accelerations `a` (nv) and multipliers `lambda` (m) until G a = `gamma` (m) holds to round-off.
     ///
-    /// Nothing changes where it does already, or where a singular value other than those of redundant rows is below `regular`.
-    fn converge(&mut self, gamma: &[f64], regular: f64, a: &mut [f64], lambda: &mut [f64]) {
+    /// Nothing changes where it does already.
+    fn converge(&mut self, gamma: &[f64], further: Further, a: &mut [f64], lambda: &mut [f64]) {
         let nv = self.nv;
         let mut conjugate = std::mem::take(&mut self.conjugate);
         let g = &self.blocks.0[1];
@@ -327,13 +336,14 @@ impl Kkt {
         let round_off = ROUNDED * unknowns.fold(0.0, |size: f64, (x, s)| size.max((x / s).abs()));
         if largest(&conjugate.r) > round_off {
             conjugate.e.clone_from(&self.e);
-            let reached = conjugate.reduce(nv, [round_off, regular * regular], |r, x| {
+            let least = if let Further::Regular(sigma) = further { Some(sigma * sigma) } else { None };
+            let reached = conjugate.reduce(nv, round_off, least, |r, x| {
                 self.x[..nv].fill(0.0);
                 self.x[nv..].iter_mut().zip(r).for_each(|(x, r)| *x = -r);
                 self.apply(0);
                 x.copy_from_slice(&self.x);
             });
-            if reached || regular == 0.0 {
+            if reached || least.is_none() {
                 let unknowns = a.iter_mut().chain(lambda);
                 unknowns.zip(conjugate.sum.iter().zip(&self.scale)).for_each(|(unknown, (x, s))| *unknown += x * s);
             }
@@ -356,13 +366,12 @@ impl Kkt {
     /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by [`Kkt::weakest`] of it, and as far
     /// as no position is nearer to a singular one.
     pub fn set_weakest(&mut self, weakest: f64) {
-        self.regular = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(NEARER * weakest);
+        self.further = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(Further::Regular(NEARER * weakest));
     }
 
-    /// Lets solutions go on until rows hold to round-off in all directions, or no longer: for what is at rest, where no singular position is
-    /// passed.
+    /// Lets solutions go on until rows hold to round-off in all directions, or no longer: for what is at rest.
     pub fn set_exact(&mut self, exact: bool) {
-        self.regular = exact.then_some(0.0);
+        self.further = exact.then_some(Further::Everywhere);
     }
 
     /// Estimates of the smallest singular values σ of diag(G D⁻¹ Gᵀ)^−½ G D^−½, the smallest first, by one inverse iteration on the
