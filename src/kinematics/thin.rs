@@ -55,7 +55,7 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
     if before == 0 || free(&thin)? >= before {
         return None;
     }
-    // the first bodies without which none is left: by halving
+    // of the shortest list of first bodies that has to be given some it is the last: by halving
     let (mut low, mut high) = (0, thin.len());
     while high - low > 1 {
         let middle = low.midpoint(high);

@@ -39,9 +39,6 @@ impl<'m, G: Space<S = f64>> Charted<'m, G> {
         state: &State,
         sound: &mut f64,
     ) -> Result<Self, Failure> {
-        if let Some(failure) = explain::spins(&phase.mechanism, &phase.start) {
-            return Err(failure);
-        }
         if !plan.minimal {
             return Ok(Self::Whole(Box::new(system)));
         }

@@ -10,6 +10,7 @@ mod depart;
 pub(crate) mod energy;
 pub(crate) mod explain;
 pub(crate) mod march;
+pub(crate) mod massless;
 mod pace;
 pub(crate) mod phases;
 pub(crate) mod rows;

@@ -1,5 +1,6 @@
 //! The mechanisms of a run: one for all parameters, stops on which joints rest and contacts that stick, from one change to the next.
 
+use super::massless::spins;
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
@@ -35,10 +36,13 @@ impl<G: Space<S = f64>> Phases<G> {
     /// The mechanism at the start.
     ///
     /// # Errors
-    /// If the model has none, or it cannot be assembled.
+    /// If the model has none, it cannot be assembled, or a thin body can turn about its own axis.
     pub(crate) fn new(model: &Model, parameters: &[f64], coordinates: Coordinates) -> Result<Self, Failure> {
         let (mechanism, start) = assembled::<G>(model, parameters, coordinates)?;
         stops::begins(model, &mechanism, &start)?;
+        if let Some(failure) = spins(&mechanism, &start) {
+            return Err(failure);
+        }
         let mechanism = Differentiable::new(mechanism);
         Ok(Self { mechanism, parameters: parameters.to_vec(), start, holds: Holds::default(), next: OnceCell::new() })
     }

@@ -11,7 +11,7 @@ use super::common::case::Case;
 use super::common::case::parameters_with;
 use super::common::numbers::Sources;
 use super::common::scene::{self, Subject};
-use super::dynamics::explain::massless;
+use super::dynamics::massless::massless;
 use super::statics::equilibrium;
 use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use crate::expression::Id;
