@@ -77,9 +77,9 @@ impl Shot {
         self.clock.real
     }
 
-    /// Parts of the whole, 0 to 1, one for each even step and as many between them as no more than `most` needs, by a measure of the way
-    /// between two places of the independent variable; with these places.
-    pub(crate) fn parts(&self, most: f64, way: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    /// Keys for whoever interpolates between them: the even steps, and as many between two of these as keep every way from key to key below
+    /// `most`. Of each the part of the whole, 0 to 1, and the independent variable there; `way` measures from one value of that to another.
+    pub(crate) fn keys(&self, most: f64, way: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
         let part = |k: usize| k as f64 / self.steps as f64;
         let mut out = vec![(0.0, self.clock.place(0.0))];
         for k in 0..self.steps {

@@ -31,7 +31,7 @@ const LARGEST_TURN: f64 = 0.2;
 pub fn write_gltf(model: &str, study: &str, name: &str, scene: &Scene, shot: &Shot, binary: bool) -> Vec<u8> {
     let mut file = File { buffer: Buffer::default(), nodes: Vec::new(), meshes: Vec::new(), channels: Vec::new(), samplers: Vec::new() };
     // viewers turn the shorter way between two keys, and shift along a straight line
-    let keys = shot.parts(LARGEST_TURN, |from, to| turned(scene, from, to));
+    let keys = shot.keys(LARGEST_TURN, |from, to| turned(scene, from, to));
     let frames: Vec<Vec<f64>> = keys.iter().map(|(_, x)| scene.frames.at(*x, scene.dimensions)).collect();
     file.nodes.push(Value::Null);
     let seconds: Vec<[f64; 1]> = keys.iter().map(|(part, _)| [part * shot.exact]).collect();
@@ -60,7 +60,7 @@ pub fn write_gltf(model: &str, study: &str, name: &str, scene: &Scene, shot: &Sh
     file.bytes(&title, materials(scene), binary)
 }
 
-/// How far the body that turns most does so between two places of the independent variable, rad.
+/// By how much the body that turns most does so between two values of the independent variable, rad: from frame to frame in between.
 fn turned(scene: &Scene, from: f64, to: f64) -> f64 {
     let [low, high] = [from.min(to), from.max(to)];
     let at = &scene.frames.at;
@@ -68,19 +68,11 @@ fn turned(scene: &Scene, from: f64, to: f64) -> f64 {
     let places = [low].into_iter().chain(at.get(between).unwrap_or_default().iter().copied()).chain([high]);
     let all: Vec<Vec<f64>> = places.map(|x| scene.frames.at(x, scene.dimensions)).collect();
     let stride = scene.stride();
-    let step = |a: &[f64], b: &[f64]| {
-        // in the plane angles count whole turns
-        if let ([.., before], [.., after], 3) = (a, b, stride) {
-            return (after - before).abs();
-        }
-        let dot: f64 = turn(a).iter().zip(turn(b)).map(|(a, b)| a * b).sum();
-        2.0 * dot.abs().min(1.0).acos()
-    };
     let of_body = |body: usize| {
         let pose = body * stride..(body + 1) * stride;
-        all.windows(2).map(|pair| step(&pair[0][pose.clone()], &pair[1][pose.clone()])).sum::<f64>()
+        all.windows(2).map(|pair| posed::traces::turned(&pair[0][pose.clone()], &pair[1][pose.clone()])).sum::<f64>()
     };
-    (0..scene.bodies.len().saturating_sub(1)).map(of_body).fold(0.0, f64::max)
+    (0..scene.width() / stride).map(of_body).fold(0.0, f64::max)
 }
 
 /// One colour for each body, then those of joints and links.

@@ -46,6 +46,11 @@ pub(in crate::output) fn places(scene: &Scene, trace: &scene::Trace) -> Option<V
 fn turn(scene: &Scene, body: usize, frame: usize) -> f64 {
     let pose = |index: usize| body.checked_sub(1).and_then(|k| scene.frame(index).get(k * scene.stride()..(k + 1) * scene.stride()));
     let (Some(before), Some(after)) = (pose(frame - 1), pose(frame)) else { return 0.0 };
+    turned(before, after)
+}
+
+/// By how much a body turns from one pose to another, rad; in space half a turn at most. 0 where that is not known.
+pub(in crate::output) fn turned(before: &[f64], after: &[f64]) -> f64 {
     let turn = match (before, after) {
         (&[_, _, from], &[_, _, to]) => (to - from).abs(),
         (&[_, _, _, a, b, c, d], &[_, _, _, e, f, g, h]) => 2.0 * (a * e + b * f + c * g + d * h).abs().min(1.0).acos(),
