@@ -146,9 +146,9 @@ impl Job<'_> {
             if interrupted() {
                 print_interrupted(&message);
             } else if let Some(undefined) = &results.undefined {
-                self.print_at("undefined", &undefined.place, message, &undefined.help);
+                self.print_at("undefined", &undefined.place, message, "", &undefined.help);
             } else {
-                self.print_at("stopped", &study.place, message, help);
+                self.print_at("stopped", &study.place, message, "", help);
             }
             code = if interrupted() { code::INTERRUPTED } else { code::NUMERICAL };
         } else {
@@ -248,16 +248,12 @@ impl Job<'_> {
             Some(_) => "the file expects this of its own values; `--set` and `--variant` change what is computed",
             None => "find out which of the two is right",
         };
-        self.print_at_with("expectation", place, message, "the value that the file expects", help);
+        self.print_at("expectation", place, message, "the value that the file expects", help);
         code::UNMET
     }
 
-    /// Prints an error at a place of the file.
-    fn print_at(&self, code: &'static str, place: &str, message: String, help: &str) {
-        self.print_at_with(code, place, message, "", help);
-    }
-
-    fn print_at_with(&self, code: &'static str, place: &str, message: String, expected: &str, help: &str) {
+    /// Prints an error at a place of the file, with what was expected there if that is more than the message says.
+    fn print_at(&self, code: &'static str, place: &str, message: String, expected: &str, help: &str) {
         let report = Report::new(vec![self.document.diagnostic(code, place, message, expected, Some(help.into()))]);
         print_report(&report, self.common.colored());
     }

@@ -225,10 +225,17 @@ fn findings_of(first: usize, runs: &[Run], labels: &[String]) -> Vec<Finding> {
         }
     }
     let told = |(i, count, finding): (usize, usize, &Finding)| {
-        let others = if count == 1 { String::new() } else { format!("in {count} of {} runs, the first of them ", runs.len()) };
-        Finding { message: format!("{others}run {} ({}): {}", first + i + 1, labels[i], finding.message), ..finding.clone() }
+        let message = said_by([count, runs.len()], first + i, &labels[i], &finding.message);
+        Finding { message, ..finding.clone() }
     };
     known.into_iter().map(told).collect()
+}
+
+/// What the first of so many runs of all says: its number, counted from 0, and its label.
+#[must_use]
+pub fn said_by([count, all]: [usize; 2], number: usize, label: &str, message: &str) -> String {
+    let others = if count == 1 { String::new() } else { format!("in {count} of {all} runs, the first of them ") };
+    format!("{others}run {} ({label}): {message}", number + 1)
 }
 
 /// How the parameters of a sweep get their values.

@@ -9,7 +9,7 @@ use super::{Finished, Job, Output, units, values};
 use grashof::model::{ShownWhat, Study};
 use grashof::output::{ReportRuns, ReportStudy, Staging, figures, files, run_files, summary, tables, write_json};
 use grashof::results::{self, Results};
-use grashof::studies::sweep::{self, Run, together};
+use grashof::studies::sweep::{self, Run, said_by, together};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -204,10 +204,11 @@ impl Missed {
 
     /// Place and message of each.
     fn in_words(self, runs: &[results::Run]) -> impl Iterator<Item = (String, String)> {
-        self.0.into_iter().map(move |(place, i, message, count)| {
-            let others = if count == 1 { String::new() } else { format!("in {count} of {} runs, the first of them ", runs.len()) };
-            (place, format!("{others}run {} ({}): {message}", i + 1, runs[i].label))
-        })
+        let told = move |(place, i, message, count): (String, usize, String, usize)| {
+            let message = said_by([count, runs.len()], i, &runs[i].label, &message);
+            (place, message)
+        };
+        self.0.into_iter().map(told)
     }
 }
 

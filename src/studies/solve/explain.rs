@@ -107,10 +107,8 @@ impl Explain<'_> {
 
     /// The value of the scalar, if it is the same in three runs and more, and in all that have one.
     fn constant(&self) -> Option<f64> {
-        let mut values = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar);
-        let first = values.next()?;
-        let mut others = 0;
-        (values.all(|value| (value == first).then(|| others += 1).is_some()) && others >= 2).then_some(first)
+        let values: Vec<f64> = self.log.iter().filter(|run| run.why.is_none()).map(|run| run.scalar).collect();
+        (values.len() >= 3 && values.iter().all(|value| *value == values[0])).then(|| values[0])
     }
 
     /// Names of parameter and scalar.
