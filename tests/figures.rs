@@ -32,10 +32,11 @@ studies:
   fast: { variant: fast, inverse: { over: 1 turn, samples: 36 }, columns: [depth, W.velocity] }
 ";
 
-/// The text with a figure, read with one file beside it.
+/// The text with a figure, read with files beside it.
 fn document(plot: &str) -> Result<Document, Report> {
     let files = |path: &str| match path {
         "lift.csv" => Ok((path.to_owned(), b"angle;lift\n90;0\n270;80\n".to_vec())),
+        "bare.csv" => Ok((path.to_owned(), b"90;0\n270;80\n".to_vec())),
         _ => Err("there is no such file".to_owned()),
     };
     Document::with_files(PRESS.replace("PLOT", plot).as_bytes(), "press.yaml", &files)
@@ -116,6 +117,7 @@ fn faults_of_figures_have_their_places() {
         ("{ show: [depth], with: [slow] }", "unknown-study"),
         ("{ show: [drive.torque], with: [fast] }", "no-column"),
         ("{ show: [depth], data: { m: { file: lost.csv } } }", "no-file"),
+        ("{ show: [depth], data: { m: { file: bare.csv } } }", "bad-data"),
         ("{ show: [depth], data: { m: { file: lift.csv, y: force } } }", "no-column"),
         ("{ show: [depth], data: { m: { file: lift.csv, in: [mm, mm] } } }", "wrong-dimension"),
         ("{ show: [depth], data: { m: { file: lift.csv, of: rise } } }", "wrong-plot"),

@@ -14,9 +14,18 @@ pub(crate) struct Table {
     pub(crate) rows: Vec<Vec<f64>>,
 }
 
+/// Why there is no table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum NoTable {
+    /// The file cannot be read.
+    Unread(String),
+    /// What it says is none.
+    Wrong(String),
+}
+
 /// Tables by the paths under which a model names them, or why there is none.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct DataFiles(BTreeMap<String, Result<Table, String>>);
+pub(crate) struct DataFiles(BTreeMap<String, Result<Table, NoTable>>);
 
 impl DataFiles {
     /// Reads all that the figures of a model name.
@@ -27,7 +36,8 @@ impl DataFiles {
             for plot in map(study, "plot").values() {
                 for data in map(plot, "data").values() {
                     let Some(path) = data.get("file").and_then(Value::as_str) else { continue };
-                    found.entry(path.to_owned()).or_insert_with(|| files(path).and_then(|(_, bytes)| table(&bytes)));
+                    let read = || files(path).map_err(NoTable::Unread).and_then(|(_, bytes)| table(&bytes).map_err(NoTable::Wrong));
+                    found.entry(path.to_owned()).or_insert_with(read);
                 }
             }
         }
@@ -38,8 +48,9 @@ impl DataFiles {
     ///
     /// # Errors
     /// Why there is none.
-    pub(crate) fn table(&self, path: &str) -> Result<&Table, String> {
-        self.0.get(path).map_or_else(|| Err("no files are read here".to_owned()), |found| found.as_ref().map_err(Clone::clone))
+    pub(crate) fn table(&self, path: &str) -> Result<&Table, NoTable> {
+        let unread = || Err(NoTable::Unread("no files are read here".to_owned()));
+        self.0.get(path).map_or_else(unread, |found| found.as_ref().map_err(Clone::clone))
     }
 }
 

@@ -14,6 +14,9 @@ pub(crate) fn remedy(code: &str) -> Option<&'static str> {
         "expression" => "write what is expected in its place; `docs/format.md`, section `Expressions`, has all operators and functions",
         "cycle" => "give one of them a value that does not need the others",
         "bad-table" => "sort the points by x, and give each x one value",
+        "bad-data" => {
+            "mend the file: names first, as `t,x`, then numbers with a decimal point, with commas, semicolons or tabs between them"
+        }
         "bad-span" => "leave out `log`, or begin above 0",
         "too-many-runs" => "give fewer values, or cut the sweep into several",
         "spatial-only" => "leave it out, or write `space: spatial`",

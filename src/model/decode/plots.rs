@@ -3,7 +3,7 @@
 use super::decoder::Decoder;
 use super::frame::Frame;
 use crate::expression::Dimension;
-use crate::model::data::{DataFiles, Table};
+use crate::model::data::{DataFiles, NoTable, Table};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANY, Shape, Size, Want};
 use crate::model::figure::{Beside, Plot, PlotAxis, Shown, ShownWhat};
@@ -213,8 +213,13 @@ impl<'n> Decoder<'n> {
         let file_at = at.key(keys.file);
         let table = match files.table(path) {
             Ok(table) => table,
-            Err(why) => {
+            Err(NoTable::Unread(why)) => {
                 self.fault("no-file", &file_at, format!("cannot read `{}`: {why}", clip(path)), "a CSV file, by its path from this file");
+                return None;
+            }
+            Err(NoTable::Wrong(why)) => {
+                let expected = "a line of names, then lines of as many numbers";
+                self.fault("bad-data", &file_at, format!("`{}` is no table: {why}", clip(path)), expected);
                 return None;
             }
         };
