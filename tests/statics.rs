@@ -7,6 +7,7 @@ mod forces;
 mod linkages;
 mod many;
 mod states;
+mod weak;
 
 use crate::common;
 use grashof::mechanism::Coordinates;

@@ -33,7 +33,7 @@ const LOOK: usize = 5;
 const ROUNDS: usize = 60;
 
 /// The lowest eigenvalues of K x = λ M x with G x = 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lowest {
     /// Eigenvalues, rising.
     pub values: Vec<f64>,

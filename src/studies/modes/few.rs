@@ -5,7 +5,7 @@ use super::eigen::{self, Eigen};
 use super::free::Free;
 use super::report::{BALANCED, DRAWN, Report, Undamped};
 use super::rest::held_start;
-use super::round_off::{ROUND_OFF, of_work};
+use super::round_off::{self, ROUND_OFF, of_work};
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
@@ -130,10 +130,11 @@ fn undamped(
         first.get_or_insert((method, found));
     }
     let (_, found) = first?;
+    let others = round_off::by_others(&found.values);
     let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
         let sizes = x.abs();
         let made_of = sizes.dot(&(&held.round_off * &sizes)) + held.forces.component_div(ways).dot(&sizes.component_mul(&sizes));
-        let noise = ROUND_OFF * made_of + of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
+        let noise = others + ROUND_OFF * made_of + of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
         Undamped { value, noise, shape: x.into_owned() }
     };
     Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())

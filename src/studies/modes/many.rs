@@ -4,7 +4,7 @@ use super::damped::{Damped, by_largest};
 use super::picture::picture;
 use super::report::{BALANCED, DRAWN, Report, Undamped};
 use super::rest::held_start;
-use super::round_off::{ROUND_OFF, of_work};
+use super::round_off::{self, ROUND_OFF, of_work};
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::bounded::assembled_for_gauges;
@@ -85,7 +85,8 @@ where
     let Lowest { values, mut vectors, mut steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
-    let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x)).collect();
+    let others = round_off::by_others(&values);
+    let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x, others)).collect();
     let (frequencies, drawn) = if asked.damped {
         let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
         steps += more;
@@ -114,8 +115,8 @@ where
     Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
 }
 
-/// A mode by its vector (nv), which is turned so that its largest coordinate is positive.
-fn mode(held: &HeldSparse, size: f64, value: f64, x: &mut [f64]) -> Undamped {
+/// A mode by its vector (nv), which is turned so that its largest coordinate is positive; `others` is round-off by the other modes.
+fn mode(held: &HeldSparse, size: f64, value: f64, x: &mut [f64], others: f64) -> Undamped {
     let HeldSparse { pencil, independent, .. } = held;
     let mut shape = shape(independent, x);
     let largest = shape.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() * (1.0 + 1e-9) { *x } else { m });
@@ -127,7 +128,7 @@ fn mode(held: &HeldSparse, size: f64, value: f64, x: &mut [f64]) -> Undamped {
     let noise = pencil.stiffness.lines().zip(x.iter()).map(line).sum::<f64>();
     let made_of: f64 = pencil.grain.iter().zip(x.iter()).map(|(grain, x)| grain * x * x).sum();
     let parts = independent.iter().zip(shape.iter()).map(|((c, _), x)| if c.turns { *x } else { x / size });
-    let noise = ROUND_OFF * (noise + made_of) + of_work(held.work, parts);
+    let noise = others + ROUND_OFF * (noise + made_of) + of_work(held.work, parts);
     Undamped { value, shape, noise }
 }
 

@@ -9,12 +9,13 @@ impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
 {
-    /// Sizes of the forces and of the stiffnesses that act at the state evaluated last, each before anything cancels, in the metric.
+    /// Sizes of the forces and of the stiffnesses that act at the state evaluated last, each before anything cancels, in the metric: of all
+    /// forces together, and of the stiffest velocity.
     pub(super) fn sizes(&self) -> (f64, f64) {
         let root: Vec<f64> = self.system.pattern().metric.iter().map(|d| d.sqrt()).collect();
         let (m, w) = (self.system.dynamics.mechanism, &self.system.dynamics.work);
         let mut grains = self.pulls(&root);
-        let mut stiffness = G::dot(m.gravity, m.gravity).sqrt() / self.size;
+        let mut stiff = vec![G::dot(m.gravity, m.gravity).sqrt() / self.size; root.len()];
         // of each effort the velocities along it are few
         let (mut along, mut touched) = (vec![0.0; root.len()], Vec::new());
         for (effort, size) in m.efforts.iter().zip(&w.efforts) {
@@ -35,7 +36,7 @@ where
             touched.dedup();
             let mut size = size.abs();
             if let EffortLaw::Linear { stiffness: k, rest, .. } = effort.law {
-                stiffness += k.abs() * touched.iter().map(|&i| along[i] * along[i]).sum::<f64>();
+                touched.iter().for_each(|&i| stiff[i] += k.abs() * along[i] * along[i]);
                 size += k.abs() * (self.system.dynamics.extent(effort.along).abs() + rest.abs());
             }
             for k in touched.drain(..) {
@@ -43,7 +44,7 @@ where
                 along[k] = 0.0;
             }
         }
-        (norm(&grains), stiffness)
+        (norm(&grains), stiff.iter().fold(0.0, |m: f64, k| m.max(*k)))
     }
 
     /// Sizes of the forces on bodies along each velocity (nv); `root` is D^½.

@@ -4,7 +4,7 @@
 //! Newton's method from places all over the motion, and further equilibria, are not tried.
 
 use super::explain::{Names, undefined, verdict};
-use super::report::{Report, Told, not_stable, without_friction};
+use super::report::{Report, Told, not_stable, one_equilibrium, without_friction};
 use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
 use super::sinking::{Sinking, Stand, of_metric};
@@ -15,7 +15,7 @@ use crate::kinematics::assemble::Assembled;
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::held;
-use crate::kinematics::lowest::lowest;
+use crate::kinematics::lowest::{Lowest, lowest};
 use crate::kinematics::pair::Pair;
 use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Way};
 use crate::kinematics::undefined::not_finite;
@@ -30,8 +30,11 @@ use crate::studies::dynamics::system::Mechanical;
 
 /// Bodies from which on equilibria are found by sparse matrices.
 const MANY: usize = 100;
-/// Part of the stiffness below which an eigenvalue counts as zero. A row of n bodies has eigenvalues from 1 to about 1/n² of the largest.
+/// Part of the stiffness below which an eigenvalue counts as zero, unless forces follow it (`weak.rs`). A row of n bodies has eigenvalues
+/// from 1 to about 1/n² of the largest, a truss to 1/n⁴.
 const ZERO: f64 = 1e-10;
+/// Most motions of which that is asked.
+const WEAK: usize = 32;
 /// Part of the damping below which its eigenvalues are round-off.
 const RESISTS: f64 = 1e-9;
 /// By how much a mechanism is pushed off a ridge, rad or sizes, and how often.
@@ -216,13 +219,23 @@ where
         pencil.freedom = stiff.freedom;
         let pair = Pair::new(&pencil);
         let below = |part: f64| pair.below(part * pair.size).unwrap_or(0);
-        let negative = below(-ZERO);
-        let zero = below(ZERO).saturating_sub(negative);
-        let falls = if negative + zero == 0 { None } else { lowest(&pencil, 1, stop).and_then(|mut found| found.vectors.pop()) };
+        let mut negative = below(-ZERO);
+        let mut zero = below(ZERO).saturating_sub(negative);
+        let mut falls = Vec::new();
+        if negative + zero > 0 {
+            let wanted = if zero > 0 && negative + zero <= WEAK { negative + zero } else { 1 };
+            let Lowest { values, vectors, .. } = lowest(&pencil, wanted, stop).unwrap_or_default();
+            let weak = values.iter().zip(&vectors).skip(negative).filter(|(value, _)| value.abs() <= 2.0 * ZERO * pair.size);
+            let followed: Vec<f64> =
+                weak.filter(|(value, x)| self.sinking.is_followed(&stand, **value, x)).map(|(value, _)| *value).collect();
+            zero -= followed.len();
+            negative += followed.iter().filter(|value| **value < 0.0).count();
+            falls = vectors.into_iter().next().unwrap_or_default();
+        }
         if stop() {
             return Err(Failure::interrupted());
         }
-        Ok(Found { stand, negative, zero, falls: falls.unwrap_or_default(), held })
+        Ok(Found { stand, negative, zero, falls, held })
     }
 
     /// The linear motion about a stand.
@@ -279,13 +292,7 @@ where
             })
             .collect();
         let mut findings: Vec<Finding> = without_friction(self.case).collect();
-        findings.push(Finding {
-            code: "one-equilibrium".into(),
-            message:
-                "of a mechanism of many bodies further equilibria are not looked for; others may be found from other values of `start`"
-                    .into(),
-            path: self.case.study.place.clone(),
-        });
+        findings.push(one_equilibrium(self.case));
         let coordinates = found.held.independent.iter().map(|(coordinate, _)| coordinate.clone()).collect();
         let report = Report { case: self.case, rest: &mut self.sinking.rest, coordinates, by_friction: false };
         report.outcome(watched, begin, &all, findings)

@@ -1,8 +1,9 @@
 //! Equilibrium: the study kind `statics`.
 //!
 //! `rest` is a mechanism that stands still, `pose` what is unbalanced there, `search` finds where it is in balance, `stability` judges
-//! that, `others` looks for further equilibria; `bench` has them all for mechanisms of few bodies; `many` and `sinking` do it by sparse
-//! matrices for those of many. `explain` and `report` tell what was found. Which equilibrium is meant by "from the start" is decided here:
+//! that, with `weak` where stiffness is small, `others` looks for further equilibria; `bench` has them all for mechanisms of few bodies;
+//! `many` and `sinking` do it by sparse matrices for those of many. `explain` and `report` tell what was found. Which equilibrium is meant
+//! by "from the start" is decided here:
 //!
 //! 1. A start that is in balance stays where it is, be it stable or not.
 //! 2. Else the mechanism sinks from there as in a viscous bath. Where that ends exactly on a ridge, it is pushed off it, along the
@@ -28,6 +29,7 @@ mod search;
 mod sinking;
 mod stability;
 mod states;
+mod weak;
 
 use super::common::case::Case;
 use super::common::watched::Watched;
@@ -43,7 +45,9 @@ use crate::studies::common::stops::shared_by_contacts;
 use bench::{Bench, Settled};
 use grip::Gripped;
 pub(crate) use many::equilibrium as equilibrium_of_many;
+use others::number_of_places;
 use pose::Pose;
+use report::one_equilibrium;
 use rest::Position;
 pub(crate) use rest::Still;
 use search::Found;
@@ -118,6 +122,8 @@ where
     let Settled { begin, found, passed } = bench.settle(&start, stop)?;
     let mut all = vec![found];
     all.extend(passed);
+    let freedom = all[0].pose.basis.ncols();
+    let alone = freedom > 0 && number_of_places(freedom) == 0;
     if all[0].stability.zero == 0 {
         let known: Vec<&Pose> = all.iter().map(|f| &f.pose).collect();
         let further = bench.rest.others(&all[0].pose, &begin, &known, stop).map_err(|_| Failure::interrupted())?;
@@ -129,6 +135,7 @@ where
     }
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     let mut outcome = bench.outcome(&watched, &begin, &all)?;
+    outcome.findings.extend(alone.then(|| one_equilibrium(case)));
     outcome.findings.extend(open(case, &watched, &mechanism, &start));
     Ok(outcome)
 }

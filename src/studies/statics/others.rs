@@ -12,14 +12,24 @@ use grashof_solvers::System;
 use nalgebra::DVector;
 use std::f64::consts::{PI, TAU};
 
-/// Places where searches begin; fewer for more than [`FREEDOM`] degrees of freedom, so that the work stays bounded.
+/// Places where searches begin; fewer for more than [`FREEDOM`] degrees of freedom, and far fewer for more than [`DENSE`], where a step
+/// costs the cube of them, so that the work stays bounded.
 const PLACES: usize = 32;
 const FREEDOM: usize = 8;
+const DENSE: usize = 64;
 /// Longest walk, rad or sizes, and its steps.
 const WALK: f64 = 1.2 * PI;
 const STRIDE: f64 = 0.25;
 /// Equilibria nearer than this to each other are the same.
 const SAME: f64 = 1e-5;
+
+/// Number of places where searches of a mechanism with `freedom` degrees of freedom begin.
+pub(super) fn number_of_places(freedom: usize) -> usize {
+    if freedom == 0 {
+        return 0;
+    }
+    PLACES * FREEDOM * DENSE.pow(2) / (freedom.max(FREEDOM) * freedom.max(DENSE).pow(2))
+}
 
 /// Whether two signatures are of the same equilibrium.
 fn is_same(a: &[f64], b: &[f64]) -> bool {
@@ -92,8 +102,7 @@ where
 
     /// Where walks from a pose end.
     fn places(&mut self, from: &Pose) -> Vec<Pose> {
-        let n = from.basis.ncols();
-        let count = if n == 0 { 0 } else { PLACES * FREEDOM / n.max(FREEDOM) };
+        let count = number_of_places(from.basis.ncols());
         let mut sequence = Sequence(20_240_229);
         (0..count)
             .map(|i| {

@@ -161,6 +161,16 @@ where
     }
 }
 
+/// That only the equilibrium from the start was looked for.
+pub(super) fn one_equilibrium(case: Case<'_>) -> Finding {
+    Finding {
+        code: "one-equilibrium".into(),
+        message: "of a mechanism of many bodies further equilibria are not looked for; others may be found from other values of `start`"
+            .into(),
+        path: case.study.place.clone(),
+    }
+}
+
 /// The joints whose friction does not count in an equilibrium.
 pub(super) fn without_friction(case: Case<'_>) -> impl Iterator<Item = Finding> {
     let model = case.model;

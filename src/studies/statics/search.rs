@@ -70,7 +70,13 @@ where
     /// A pose with its stability, whatever its balance.
     pub(super) fn judged(&mut self, pose: Pose) -> Result<Found, Ended> {
         let h = self.tangent(&pose)?;
-        Ok(Found { stability: Stability::new(&pose, &h), pose })
+        let mut stability = Stability::new(&pose, &h);
+        for (value, motion) in std::mem::take(&mut stability.weak) {
+            if self.is_followed(&pose, value, &motion) {
+                stability.take_weak(value);
+            }
+        }
+        Ok(Found { stability, pose })
     }
 
     /// The way to the equilibrium of the linearised forces is within round-off of the position.
@@ -95,7 +101,8 @@ where
             let h = self.tangent(&pose)?;
             let stability = Stability::new(&pose, &h);
             if pose.force.norm() <= ROUND_OFF * pose.grain {
-                return Ok(Found { pose, stability });
+                let pose = self.polish(pose)?;
+                return self.judged(pose);
             }
             let (y, sigma) = self.step(&pose, &h, &stability, radius)?;
             let floor = FLOOR * stability.scale;
@@ -173,9 +180,6 @@ where
     /// Newton steps as long as they halve what is unbalanced.
     pub(super) fn polish(&mut self, mut pose: Pose) -> Result<Pose, Ended> {
         for _ in 0..8 {
-            if pose.force.norm() <= 4.0 * f64::EPSILON * pose.grain {
-                break;
-            }
             let h = self.tangent(&pose)?;
             let y = newton_step(&h, &pose.force, 0.0);
             let delta = &pose.basis * y;

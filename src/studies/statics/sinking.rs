@@ -169,7 +169,7 @@ where
                 return Err(Ended::Stopped);
             }
             if stand.force <= ROUND_OFF * stand.grain {
-                return Ok(stand);
+                return self.polish(stand);
             }
             let pencil = self.pencil(&stand)?;
             let pair = Pair::new(&pencil);
@@ -232,9 +232,6 @@ where
     /// Newton steps as long as they halve what is unbalanced.
     fn polish(&mut self, mut stand: Stand) -> Result<Stand, Ended> {
         for _ in 0..8 {
-            if stand.force <= 4.0 * f64::EPSILON * stand.grain {
-                break;
-            }
             let pencil = self.pencil(&stand)?;
             let Some(delta) = self.newton(&stand, &Pair::new(&pencil)) else { break };
             match self.moved(&stand, &delta) {

@@ -16,8 +16,8 @@ use crate::numerics::eigenvalues::eigenvalues;
 use nalgebra::linalg::{Schur, SymmetricEigen};
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// Part of the stiffness that acts below which an eigenvalue counts as zero: an equilibrium with a zero one is found to 1e-5 of
-/// its place only, since the force is flat there.
+/// Part of the stiffness that acts below which an eigenvalue is weak: it counts as zero unless forces follow it (`weak.rs`). An
+/// equilibrium with a zero one is found to 1e-5 of its place only, since the force is flat there.
 const ZERO: f64 = 1e-8;
 /// Part of H that may be unsymmetric by round-off.
 const SYMMETRIC: f64 = 1e-9;
@@ -42,6 +42,8 @@ pub(super) struct Stability {
     pub(super) negative: usize,
     /// Motions that nothing holds.
     pub(super) zero: usize,
+    /// Weak eigenvalues with their motions in the basis of the pose (n): counted as zero as long as nothing tells more.
+    pub(super) weak: Vec<(f64, DVector<f64>)>,
     /// Whether the forces have an energy, as far as can be seen here.
     pub(super) symmetric: bool,
     /// Whether it is that of the linearised motion.
@@ -56,7 +58,8 @@ impl Stability {
         let n = h.nrows();
         let scale = pose.stiffness + h.amax();
         let symmetric = (h - h.transpose()).amax() <= SYMMETRIC * scale;
-        let mut found = Self { values: Vec::new(), falls: DVector::zeros(n), negative: 0, zero: 0, symmetric, of_motion: false, scale };
+        let (values, weak, falls) = (Vec::new(), Vec::new(), DVector::zeros(n));
+        let mut found = Self { values, falls, negative: 0, zero: 0, weak, symmetric, of_motion: false, scale };
         if n == 0 {
             return found;
         }
@@ -64,6 +67,9 @@ impl Stability {
         if let Some(eigen) = SymmetricEigen::try_new(mean, f64::EPSILON, SWEEPS) {
             found.falls = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
             found.values = eigen.eigenvalues.as_slice().to_vec();
+            let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+            let weak = pairs.filter(|(x, _)| symmetric && x.abs() <= ZERO * scale);
+            found.weak = weak.map(|(x, motion)| (*x, motion.into_owned())).collect();
         }
         if !symmetric && let Some(schur) = Schur::try_new(h.clone(), f64::EPSILON, SWEEPS) {
             found.values = schur.complex_eigenvalues().iter().map(|x| x.re).collect();
@@ -72,6 +78,12 @@ impl Stability {
         found.negative = found.values.iter().filter(|x| **x < -ZERO * scale).count();
         found.zero = found.values.iter().filter(|x| x.abs() <= ZERO * scale).count();
         found
+    }
+
+    /// Counts a weak eigenvalue as what it says.
+    pub(super) fn take_weak(&mut self, value: f64) {
+        self.zero -= 1;
+        self.negative += usize::from(value < 0.0);
     }
 
     /// Judges by the poles of the linearised motion what the stiffness alone does not tell: forces without an energy, and motions
