@@ -23,8 +23,9 @@ use nalgebra::{Complex, DMatrix};
 
 /// The shift as part of the lowest frequency where free motions ask for one.
 const BESIDE: f64 = 1e-3;
-/// Residual of a converged vector, as part of its ν.
-const CONVERGED: f64 = 1e-10;
+/// Residual of a converged vector, as part of its ν; it may grow to the second where round-off allows no less. Values are better, as they
+/// are refined with it.
+const CONVERGED: [f64; 2] = [1e-10, 1e-7];
 /// What is left of a vector beside others when it is no other one.
 const SAME: f64 = 1e-6;
 /// What is left of a vector beside those before it when there are no others, as part of the largest ν.
@@ -33,6 +34,10 @@ const EXHAUSTED: f64 = 1e-11;
 const EQUAL: f64 = 1e-7;
 /// Part of the largest damping or stiffness below which an eigenvalue is round-off.
 const ROUND_OFF: f64 = 1e-10;
+/// Newton's steps to the root of a motion, how far it may be from the value found, and how far from its double, both as parts.
+const REFINEMENTS: usize = 4;
+const NEAR: f64 = 1e-3;
+const APART: f64 = 1e-3;
 /// Steps between looks at what has converged, and most rounds.
 const LOOK: usize = 10;
 const ROUNDS: usize = 60;
@@ -67,7 +72,7 @@ pub fn lowest_damped(pencil: &Pencil, count: usize, lowest: Option<f64>, stop: &
     let free = pair.below(ROUND_OFF * pair.size)? > pair.below(-ROUND_OFF * pair.size)?;
     let mut map = Inverted::new(&pair, omega, if free { BESIDE * omega } else { 0.0 })?;
     let mut space = Orthonormal::default();
-    let (mut steps, mut most) = (0, 8 * count + 40);
+    let (mut steps, mut most, mut residual) = (0, 8 * count + 40, CONVERGED[0]);
     for round in 0..ROUNDS {
         let motions = map.motions(&space)?;
         let place = count.checked_sub(1).map_or(0.0, |last| motions.get(last).map_or(f64::INFINITY, |m| m.value.norm()));
@@ -79,9 +84,11 @@ pub fn lowest_damped(pencil: &Pencil, count: usize, lowest: Option<f64>, stop: &
         }
         let missing = count.saturating_sub(motions.len());
         let left = all - space.vectors.len();
-        let new = map.converged(&space, missing.max(1), most.min(left), round, &mut steps, stop);
+        let wanted = Wanted { count: missing.max(1), residual, most: most.min(left), round, is_all: most >= left };
+        let new = map.converged(&space, &wanted, &mut steps, stop);
         if new.is_empty() {
             most = most.saturating_mul(2);
+            residual = f64::min(10.0 * residual, CONVERGED[1]);
             continue;
         }
         let before = space.vectors.len();
@@ -118,9 +125,10 @@ fn halves(matrix: &Block) -> Vec<(usize, usize, f64)> {
 /// The map of positions and rates; rates are divided by a frequency, so that both are displacements.
 struct Inverted<'a> {
     pencil: &'a Pencil,
-    /// The symmetric part of C, and M.
+    /// The symmetric part of C, M, and the symmetric part of K.
     damping: Vec<(usize, usize, f64)>,
     mass: &'a Block,
+    stiffness: &'a Block,
     shifted: Saddle,
     /// [D Gᵀ; G −E], if there are rows.
     closing: Option<Kkt>,
@@ -139,7 +147,7 @@ impl<'a> Inverted<'a> {
         let damped = damping.iter().map(|(i, j, c)| (*i, *j, shift * c / pair.size));
         let shifted = pair.beside_rows(stiff.chain(damped))?;
         let closing = if pencil.row_scale.is_empty() { None } else { Some(pencil.closing()?) };
-        Some(Self { pencil, damping, mass: &pair.mass, shifted, closing, omega, shift, size: pair.size })
+        Some(Self { pencil, damping, mass: &pair.mass, stiffness: &pair.stiffness, shifted, closing, omega, shift, size: pair.size })
     }
 
     /// (u', w') of (u, w).
@@ -187,28 +195,19 @@ impl<'a> Inverted<'a> {
         }
     }
 
-    /// Up to `wanted` motions of the largest |ν| beside a space that the map keeps, in at most `most` steps: of each that has converged,
-    /// real and imaginary part of the vector.
-    fn converged(
-        &mut self,
-        space: &Orthonormal,
-        wanted: usize,
-        most: usize,
-        round: usize,
-        steps: &mut usize,
-        stop: &dyn Fn() -> bool,
-    ) -> Vec<Vec<f64>> {
+    /// Motions of the largest |ν| beside a space that the map keeps: of each that has converged, real and imaginary part of the vector.
+    fn converged(&mut self, space: &Orthonormal, wanted: &Wanted, steps: &mut usize, stop: &dyn Fn() -> bool) -> Vec<Vec<f64>> {
         let mut basis = space.clone();
         let first = space.vectors.len();
         // in no special direction
-        let noise = |i: usize| 1.0 + (2.39 * (i + 1) as f64 * (round + 1) as f64).sin();
+        let noise = |i: usize| 1.0 + (2.39 * (i + 1) as f64 * (wanted.round + 1) as f64).sin();
         let start: Vec<f64> = (0..2 * self.pencil.metric.len()).map(noise).collect();
         let mut next = self.apply(&start);
         self.clear(&basis, &mut next);
         let mut h = DMatrix::<f64>::zeros(0, 0);
         let mut found = Vec::new();
         let mut length = dot(&next, &self.metric(&next)).sqrt();
-        for step in 0..most {
+        for step in 0..wanted.most {
             if !(length > 0.0 && length.is_finite()) {
                 break;
             }
@@ -224,10 +223,13 @@ impl<'a> Inverted<'a> {
                 h[(step, step - 1)] = length;
             }
             length = dot(&next, &self.metric(&next)).sqrt();
-            let ends = length <= EXHAUSTED * h.amax() || step + 1 == most || stop();
+            let last = step + 1 == wanted.most;
+            let ends = length <= EXHAUSTED * h.amax() || last || stop();
             if ends || step % LOOK == LOOK - 1 {
-                found = sound(&h, length, wanted);
-                if ends || found.len() >= wanted {
+                // beyond all motions there is only round-off
+                let beyond = if last && wanted.is_all { 0.0 } else { length };
+                found = sound(&h, beyond, wanted);
+                if ends || found.len() >= wanted.count {
                     break;
                 }
             }
@@ -255,23 +257,51 @@ impl<'a> Inverted<'a> {
                 let factors: Vec<f64> = y.iter().map(|y| if part == 0 { y.re } else { y.im }).collect();
                 space.combined(0, &factors)
             });
-            let vector = re[..nv].iter().zip(&im).map(|(re, im)| Complex::new(*re, *im)).collect();
-            let value = nu.inv() + Complex::new(self.shift, 0.0);
-            DampedMotion { value, vector }
+            let vector: Vec<Complex<f64>> = re[..nv].iter().zip(&im).map(|(re, im)| Complex::new(*re, *im)).collect();
+            DampedMotion { value: self.refined(nu.inv() + self.shift, &vector), vector }
         };
         let mut motions: Vec<DampedMotion> =
             of_each_pair(eigenvalues(&t)?).into_iter().map(|nu| nu.conj()).enumerate().map(motion).collect();
         motions.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.value.re.total_cmp(&b.value.re)));
         Some(motions)
     }
+
+    /// The root of xᵀ(μ²M + μC + K)x next to a value. As the matrices are symmetric it does not change with x to first order (Lancaster,
+    /// Lambda-Matrices and Vibrating Systems, section 6.3), unless two roots meet; then the value stays.
+    fn refined(&self, value: Complex<f64>, x: &[Complex<f64>]) -> Complex<f64> {
+        let along =
+            |block: &Block| -> Complex<f64> { block.pattern().places().zip(block.values()).map(|((i, j), k)| x[i] * x[j] * *k).sum() };
+        let (m, k) = (along(self.mass), along(self.stiffness));
+        let c: Complex<f64> = self.damping.iter().map(|(i, j, c)| x[*i] * x[*j] * *c).sum();
+        let slope = value * m * 2.0 + c;
+        let size = (value * m * 2.0).norm() + c.norm();
+        let mut root = value;
+        for _ in 0..REFINEMENTS {
+            root -= ((root * m + c) * root + k) / (root * m * 2.0 + c);
+        }
+        let near = (root - value).norm() <= NEAR * value.norm();
+        if slope.norm() > APART * size && near { root } else { value }
+    }
 }
 
-/// The `wanted` eigenvalues of the largest |ν| of Hessenberg's matrix, as far as they have converged one after the other: one of each
-/// pair, with its vector; `beyond` is what the next step of the iteration would add below the matrix.
-fn sound(h: &DMatrix<f64>, beyond: f64, wanted: usize) -> Vec<(Complex<f64>, Vec<Complex<f64>>)> {
+/// What a round of the iteration looks for.
+struct Wanted {
+    /// Motions, and what may be left of one, as part of its ν.
+    count: usize,
+    residual: f64,
+    /// Most steps, and whether these are all that there are beside the space.
+    most: usize,
+    is_all: bool,
+    /// Number of the round.
+    round: usize,
+}
+
+/// The eigenvalues of the largest |ν| of Hessenberg's matrix that are wanted, as far as they have converged one after the other: one of
+/// each pair, with its vector; `beyond` is what the next step of the iteration would add below the matrix.
+fn sound(h: &DMatrix<f64>, beyond: f64, wanted: &Wanted) -> Vec<(Complex<f64>, Vec<Complex<f64>>)> {
     let Some(values) = eigenvalues(h) else { return Vec::new() };
     let mut values = of_each_pair(values);
     values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
-    let pairs = values.into_iter().take(wanted).enumerate().map(|(i, nu)| (nu, eigenvector(h, nu, i).as_slice().to_vec()));
-    pairs.take_while(|(nu, y)| y.last().is_some_and(|last| beyond * last.norm() <= CONVERGED * nu.norm())).collect()
+    let pairs = values.into_iter().take(wanted.count).enumerate().map(|(i, nu)| (nu, eigenvector(h, nu, i).as_slice().to_vec()));
+    pairs.take_while(|(nu, y)| y.last().is_some_and(|last| beyond * last.norm() <= wanted.residual * nu.norm())).collect()
 }

@@ -10,6 +10,7 @@ use grashof::mechanism::Coordinates;
 use grashof::studies::common::outcome::Outcome;
 use grashof::studies::modes::damped::{damped, state_matrix};
 use nalgebra::Complex;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// μ of x″ + c x′ + λ x = 0, one of a pair.
@@ -154,4 +155,78 @@ fn what_drives_is_not_counted() {
     assert_eq!(growing(&sparse::<Planar<f64>>(&row(120), Coordinates::Joint).pencil), Some(0));
     let driven = text(0.0).replace("studies:", "loads: { push: { at: b7.origin, force: [3 N s/m*b7.vx, 0] } }\nstudies:");
     assert_eq!(growing(&sparse::<Planar<f64>>(&driven, Coordinates::Joint).pencil), None);
+}
+
+/// Bars of 1 kg and 0.1 g in turn, drawn taut between two points, with a damper from one of them to a place.
+fn taut(n: usize, span: f64, damping: f64) -> String {
+    let each = |f: &dyn Fn(usize) -> String| (0..n).map(f).collect::<String>();
+    // a parabola of this length
+    let sag = (0.375 * (1.0 - span)).sqrt();
+    format!(
+        "grashof: 1\nname: taut chain\nspace: planar\ngravity: [0, -9.81]\nground: {{ A: [0, 0], B: [{span} m, 0] }}\nbodies:\n{}joints:\n{}  Q: {{ revolute: [ground.B, b{}.end] }}\nsprings: {{ d: {{ between: [ground.A, b{}.end], damping: {damping} N s/m }} }}\nstart:\n{}studies:
+  undamped: {{ modes: {{ at: statics, lowest: 4 }} }}
+  many: {{ modes: {{ at: statics, damped: true, lowest: 4 }} }}
+  full: {{ modes: {{ at: statics, damped: true, methods: [library] }} }}\n",
+        each(&|i| format!("  b{i}: {{ bar: {{ length: {} m, mass: {} }} }}\n", 1.0 / n as f64, ["1 kg", "0.1 g"][i % 2])),
+        each(&|i| {
+            let before = if i == 0 { "ground.A".to_owned() } else { format!("b{}.end", i - 1) };
+            format!("  P{i}: {{ revolute: [{before}, b{i}.start] }}\n")
+        }),
+        n - 1,
+        n / 2,
+        each(&|i| format!("  b{i}.angle: ~{} rad\n", 4.0 * sag * ((2 * i + 1) as f64 / n as f64 - 1.0))),
+    )
+}
+
+/// Decays far below the frequencies, and none at all.
+#[test]
+fn a_taut_chain_of_light_and_heavy_bars_decays_as_its_damper_says() {
+    let still = taut(110, 0.999, 0.0);
+    let frequencies = list(&study(&still, "undamped", Coordinates::Joint), "frequencies").to_vec();
+    let undamped: Vec<Complex<f64>> = frequencies.iter().map(|omega| Complex::new(0.0, *omega)).collect();
+    let outcome = study(&still, "many", Coordinates::Joint);
+    same("no damping", &of_study(&outcome), &undamped, 1e-9);
+    assert!(of_study(&outcome).iter().all(|mu| mu.re == 0.0), "{:?}", of_study(&outcome));
+    assert_eq!(codes(&outcome), ["lowest-modes"]);
+    let damped = taut(110, 0.999, 1e3);
+    let [many, full] = ["many", "full"].map(|name| of_study(&study(&damped, name, Coordinates::Joint)));
+    same("damped", &many, &full[..4], 1e-7);
+    many.iter().zip(&full).for_each(|(x, y)| assert!((x.re / y.re - 1.0).abs() < 1e-4, "{x} and {y}"));
+}
+
+/// A hanging truss of `n` bays that a pin holds, of bars of 1 kg and 1 g in turn, with a damper at its lower end.
+fn truss_pendulum(n: usize) -> String {
+    let (mut bodies, mut joints, mut pins, mut number) =
+        (String::new(), String::new(), BTreeMap::from([((0, 0), "ground.O".to_owned())]), 0);
+    let bays = (0..n).flat_map(|x| [[(x, 0), (x + 1, 0)], [(x, 1), (x + 1, 1)], [(x, 1), (x + 1, 0)], [(x + 1, 1), (x + 1, 0)]]);
+    for (k, ends) in std::iter::once([(0, 0), (0, 1)]).chain(bays).enumerate() {
+        let place = |(x, y): (usize, usize)| format!("[{}, -{x}]", 0.5 * y as f64);
+        bodies += &format!("  m{k}: {{ bar: {{ from: {}, to: {}, mass: {} }} }}\n", place(ends[0]), place(ends[1]), ["1 g", "1 kg"][k % 2]);
+        for (corner, end) in ends.into_iter().zip(["start", "end"]) {
+            let point = format!("m{k}.{end}");
+            match pins.get(&corner) {
+                Some(first) => {
+                    joints += &format!("  J{number}: {{ revolute: [{first}, {point}] }}\n");
+                    number += 1;
+                }
+                None => drop(pins.insert(corner, point)),
+            }
+        }
+    }
+    format!(
+        "grashof: 1\nname: truss pendulum\nspace: planar\ngravity: [0, -9.81]\nground: {{ O: [0, 0], P: [1, -{n}] }}\nbodies:\n{bodies}joints:\n{joints}springs: {{ d: {{ between: [ground.P, {}], damping: 1 N s/m }} }}\nstudies:
+  many: {{ modes: {{ at: statics, damped: true, lowest: 4 }} }}
+  full: {{ modes: {{ at: statics, damped: true, methods: [library] }} }}\n",
+        pins[&(n, 0)]
+    )
+}
+
+/// More is wanted than there is, and rows of light and heavy bars leave round-off beside it.
+#[test]
+fn a_truss_that_is_a_pendulum_has_one_pair() {
+    let text = truss_pendulum(27);
+    let [many, full] = ["many", "full"].map(|name| of_study(&study(&text, name, Coordinates::Joint)));
+    same("pendulum", &many, &full, 1e-8);
+    assert_eq!(many.len(), 1);
+    assert!((many[0].re / full[0].re - 1.0).abs() < 1e-6, "{many:?} and {full:?}");
 }
