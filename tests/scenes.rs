@@ -5,7 +5,7 @@ mod order;
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Selection};
-use grashof::results::scene::{GearKind, LinkKind, Place, Shape, Trace};
+use grashof::results::scene::{ArrowKind, GearKind, LinkKind, Place, Shape, Trace};
 use grashof::results::{Results, Scene};
 use grashof::studies::common::case::{Case, parameters};
 use grashof::studies::run::run;
@@ -445,6 +445,24 @@ fn forces_are_shown_where_they_act_and_in_world_axes() {
     assert!((hinge.values[0].abs() < 1e-9) && (hinge.values[1] - 5.0).abs() < 1e-9, "{:?}", &hinge.values[..2]);
     assert!((hinge.values[last] + 5.0).abs() < 1e-9 && hinge.values[last + 1].abs() < 1e-9, "{:?}", &hinge.values[last..]);
     assert_eq!(hinge.columns, ["O.fx", "O.fy"]);
+}
+
+/// A cantilever carries F at its tip by the moment F l, about the wall and about its own end, whichever body the joint names first.
+#[test]
+fn moments_of_joints_are_shown_about_their_points() {
+    for (space, down) in [("planar", "[0, -50 N]"), ("spatial", "[0, -50 N, 0]")] {
+        for joint in ["[ground.W, beam.start]", "[beam.start, ground.W]"] {
+            let text = format!(
+                "grashof: 1\nname: cantilever\nspace: {space}\ngravity: none\nground: {{ W: {0} }}\nbodies: {{ beam: {{ bar: {{ length: 2 m }} }} }}\njoints: {{ wall: {{ fixed: {joint} }} }}\nloads: {{ tip: {{ at: beam.end, force: {down} }} }}\nstudies: {{ rest: {{ statics: {{ from: start }}, show: [reactions], columns: [wall.m] }} }}\n",
+                if space == "planar" { "[1 m, 0]" } else { "[1 m, 0, 0]" }
+            );
+            let scene = results_of(&text, "rest").scenes.remove(0).1;
+            let moment = scene.arrows.iter().find(|arrow| arrow.kind == ArrowKind::Moment).expect(joint);
+            let about_z = *moment.values[..scene.dimensions * 2 - 3].last().expect("a value");
+            assert!((about_z - 100.0).abs() < 1e-9, "{space} {joint}: {:?}", moment.values);
+            assert_eq!(moment.body, 1, "{space} {joint}");
+        }
+    }
 }
 
 #[test]

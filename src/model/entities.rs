@@ -134,6 +134,18 @@ pub enum JointKind {
     Particle,
 }
 
+impl JointKind {
+    /// Whether a moment goes through it, of a mechanism in the plane or in space.
+    #[must_use]
+    pub fn transmits_moment(&self, planar: bool) -> bool {
+        match self {
+            Self::Slider | Self::Fixed => true,
+            Self::PinInSlot | Self::Distance { .. } | Self::Spherical | Self::Free | Self::Particle => false,
+            Self::Revolute | Self::Cylindrical | Self::Planar | Self::Screw { .. } | Self::Universal { .. } => !planar,
+        }
+    }
+}
+
 /// A relation between coordinates.
 #[derive(Clone, Debug)]
 pub struct Coupling {

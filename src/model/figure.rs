@@ -98,7 +98,7 @@ pub struct ShownForce {
     pub name: String,
     /// What it is.
     pub on: ForceOn,
-    /// Its components, in the order of the axes in which it is given.
+    /// Its components, in the order of the axes in which it is given; behind those of a moment those of the force that goes with it.
     pub components: Vec<Shown>,
     /// Force per length of its arrow, N/m; `None` for one that suits the picture.
     pub scale: Option<Id>,
@@ -113,4 +113,6 @@ pub enum ForceOn {
     Torque(usize),
     /// `model.joints[i]`: its force on the second body, in world axes.
     Reaction(usize),
+    /// `model.joints[i]`: its moment on the second body, in world axes.
+    Moment(usize),
 }

@@ -18,6 +18,8 @@ const LONGEST: f64 = 0.25;
 const SAMPLE: f64 = 110.0;
 /// Radius of the arrow of the largest torque, pixels.
 const LARGEST: f64 = 48.0;
+/// Radius of the arrow that tells how large that is, pixels.
+const TURNED: f64 = 19.0;
 /// Shorter arrows are not seen, pixels.
 const SEEN: f64 = 3.0;
 /// Room for the axes of space at the right, pixels.
@@ -25,7 +27,8 @@ const AXES: f64 = 150.0;
 /// Length of the head of an arrow, pixels.
 const HEAD: f64 = 13.0;
 
-const KINDS: [(ForceKind, &str); 2] = [(ForceKind::Load, "loads"), (ForceKind::Reaction, "reactions")];
+/// Kinds with the names of their forces and of their torques.
+const KINDS: [(ForceKind, &str, &str); 2] = [(ForceKind::Load, "loads", "torques"), (ForceKind::Reaction, "reactions", "moments")];
 
 pub(super) fn color(kind: ForceKind) -> Color {
     PALETTE[if kind == ForceKind::Load { 1 } else { 0 }]
@@ -40,8 +43,8 @@ fn length(force: &Force) -> f64 {
 pub(super) struct Scales {
     /// Force per length of the arrows of each kind, N/m.
     force: [f64; 2],
-    /// The largest torque, whose arrow has the largest radius, N m.
-    torque: f64,
+    /// The largest torque of each kind, whose arrow has the largest radius, N m.
+    torque: [f64; 2],
 }
 
 /// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m, one for
@@ -53,8 +56,11 @@ pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
         if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 }
     };
     let asked = |kind| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale);
-    let torques = drawing.forces.iter().filter_map(|force| force.turning).map(f64::abs).filter(|x| x.is_finite());
-    Scales { force: KINDS.map(|(kind, _)| asked(kind).unwrap_or_else(|| suits(kind))), torque: torques.fold(0.0, f64::max) }
+    let torque = |kind| {
+        let own = drawing.forces.iter().filter(|force| force.kind == kind).filter_map(|force| force.turning);
+        own.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    Scales { force: KINDS.map(|(kind, ..)| asked(kind).unwrap_or_else(|| suits(kind))), torque: KINDS.map(|(kind, ..)| torque(kind)) }
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a number.
@@ -109,7 +115,8 @@ fn ends(force: &Force, tip: [f64; 2], sheet: &Sheet) -> Option<(Point, Point)> {
 /// The outline of an arrow from `from` to `to`, or of one that turns about `from`.
 fn outline(force: &Force, signs: Signs, scales: Scales, [from, to]: [Point; 2]) -> Vec<Point> {
     let Some(turning) = force.turning else { return arrow(signs, [from, to]) };
-    let part = if scales.torque > 0.0 { (turning.abs() / scales.torque).min(1.0) } else { 0.0 };
+    let most = scales.torque[force.kind as usize];
+    let part = if most > 0.0 { (turning.abs() / most).min(1.0) } else { 0.0 };
     let across = force.across.map(|[x, y]| [x, -y]);
     turned(signs, from, across, part * LARGEST * signs.size, if turning < 0.0 { -1.0 } else { 1.0 })
 }
@@ -160,7 +167,7 @@ fn told(value: f64, asked: Option<&ShownIn>, [unit, larger]: [&str; 2], digits: 
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
 pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut Scene, left: f64, letters: f64) {
     let (mut x, y) = (left, scene.height - 26.0);
-    for (kind, name) in KINDS {
+    for (kind, name, _) in KINDS {
         if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales.force[kind as usize]) {
             continue;
         }
@@ -173,24 +180,33 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }
-    if scales.torque > 0.0 {
-        let (signs, level) = (Signs { size: 0.4 }, [[1.0, 0.0], [0.0, -1.0]]);
-        let radius = LARGEST * signs.size;
-        let most = told(scales.torque, drawing.torque.as_ref(), ["N m", "kN m"], 3);
-        // as long as there is room for it beside the axes of space, else in a line above
-        let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
-        let gap = 2.0 * radius + 12.0;
+    // as long as there is room for them beside the axes of space, else together in a line above
+    let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
+    let gap = 2.0 * TURNED + 12.0;
+    let mut above = Vec::new();
+    for (kind, _, name) in KINDS.into_iter().filter(|(kind, ..)| scales.torque[*kind as usize] > 0.0) {
+        let most = told(scales.torque[kind as usize], drawing.torque.as_ref(), ["N m", "kN m"], 3);
+        let [long, short] = [format!("{name}: at most {most}"), format!("{name} to {most}")];
         let fits = |text: &String| x + gap + font::width(text, letters) <= room;
-        let [long, short] = [format!("torques: at most {most}"), format!("to {most}")];
-        let above = room - gap - font::width(&long, letters);
-        let (text, x, y) = match (fits(&long), fits(&short)) {
-            (true, _) => (long, x, y),
-            (false, true) => (short, x, y),
-            (false, false) => (long, above.max(left), y - 2.5 * radius),
-        };
-        scene.shape(turned(signs, [x + radius, y], level, radius, 1.0), Some(color(ForceKind::Load)), None);
-        scene.text([x + gap, y + letters * font::CAPITAL / 2.0], text, letters, Anchor::Start);
+        match [&long, &short].into_iter().find(|text| fits(text)) {
+            Some(text) => x = turning(scene, kind, text, [x, y], letters) + 30.0,
+            None => above.push((kind, long.clone())),
+        }
     }
+    let width = |text: &str| gap + font::width(text, letters) + 30.0;
+    let mut x = (room + 30.0 - above.iter().map(|(_, text)| width(text)).sum::<f64>()).max(left);
+    for (kind, text) in &above {
+        x = turning(scene, *kind, text, [x, y - 2.5 * TURNED], letters) + 30.0;
+    }
+}
+
+/// An arrow that turns with a text behind it, from a place on; where the text ends.
+fn turning(scene: &mut Scene, kind: ForceKind, text: &str, [x, y]: Point, letters: f64) -> f64 {
+    let level = [[1.0, 0.0], [0.0, -1.0]];
+    scene.shape(turned(Signs { size: TURNED / LARGEST }, [x + TURNED, y], level, TURNED, 1.0), Some(color(kind)), None);
+    let from = x + 2.0 * TURNED + 12.0;
+    scene.text([from, y + letters * font::CAPITAL / 2.0], text.to_owned(), letters, Anchor::Start);
+    from + font::width(text, letters)
 }
 
 #[cfg(test)]
@@ -217,7 +233,7 @@ mod tests {
         // about an axis in the picture's plane: a line across it, with a head
         let seen = |across: [[f64; 2]; 2], turning: f64| {
             let force = Force { turning: Some(turning), across, ..Force::default() };
-            outline(&force, Signs { size: 1.0 }, Scales { force: [1.0; 2], torque: 4.0 }, [[0.0; 2]; 2])
+            outline(&force, Signs { size: 1.0 }, Scales { force: [1.0; 2], torque: [4.0; 2] }, [[0.0; 2]; 2])
         };
         let span = |points: &[Point], i: usize| points.iter().fold(0.0_f64, |most, p| most.max(p[i].abs()));
         let (flat, round) = (seen([[1.0, 0.0], [0.0; 2]], 4.0), seen([[1.0, 0.0], [0.0, 1.0]], 4.0));
@@ -256,6 +272,6 @@ mod tests {
         drawing.forces[1].scale = Some(50.0);
         assert_eq!(scales(&drawing, 2.0).force, [10.0, 50.0]);
         assert_eq!(tips(&drawing, scales(&drawing, 2.0)).last(), Some([8.0, 6.0]));
-        assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: 0.0 });
+        assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: [0.0; 2] });
     }
 }

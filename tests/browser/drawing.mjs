@@ -89,3 +89,11 @@ export async function the_largest_torque_of_the_loads_is_told(open) {
   const { tab: pushed } = await open('pushed');
   assert.deepEqual((await texts(pushed)).map(([kind]) => kind), ['loads', 'reactions'], 'no torque, no word');
 }
+
+export async function the_largest_moment_of_a_joint_is_told(open) {
+  const { tab } = await open('cantilever');
+  await seen(tab);
+  const told = await tab.evaluate(() => grashof.scales());
+  assert.deepEqual(told.map(({ kind }) => kind), ['reactions', 'moments']);
+  assert.equal(told[1].text, 'at most 100 N m');
+}

@@ -180,6 +180,17 @@ drivers: { drive: { joint: O, speed: 60 rpm } }
 start: { O.angle: 0 deg, P.angle: 10 deg, S.position: 0 m, Q.angle: 0 deg, R.angle: 0 deg }
 studies: { turn: { kinematics: { over: 1 turn, samples: 90 }, columns: [time, O.angle] } }
 `,
+  // a clamp, which transmits a moment
+  cantilever: `grashof: 1
+name: cantilever
+space: planar
+gravity: none
+ground: { W: [0, 0] }
+bodies: { beam: { bar: { length: 2 m, mass: 1 kg } } }
+joints: { wall: { fixed: [ground.W, beam.start] } }
+loads: { tip: { at: beam.end, force: [0, -50 N] } }
+studies: { rest: { statics: { from: start }, show: [reactions], columns: [wall.m] } }
+`,
   // a rope, springs over one coordinate, a torque, forces with a scale of their own, two vertical axes, measured data
   winch: `grashof: 1
 name: winch

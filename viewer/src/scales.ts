@@ -1,6 +1,6 @@
 // What the length of arrows means: at the foot of a drawing an arrow of each kind that is shown, and how much that is.
 
-import { type Arrows, COLOR, KINDS, type Kind, ROUND } from './arrows';
+import { type Arrows, COLOR, KINDS, type Kind, ROUND, TURNING, type Turning } from './arrows';
 import { digits, pretty } from './numbers';
 import { LEVEL, type Pen } from './plane/pen';
 import { scaled } from './plot/axis';
@@ -15,8 +15,8 @@ const EDGE = 16;
 const ROW = 18;
 const LETTERS = 11;
 
-/** An arrow that tells the scale of a kind, with its length in pixels; of the torques among the loads one that tells the largest. */
-export interface Told { kind: Kind | 'torques'; text: string; length: number }
+/** An arrow that tells the scale of a kind, with its length in pixels; of what turns one that tells the largest. */
+export interface Told { kind: Kind | Turning; text: string; length: number }
 
 /** The largest of 1, 2 and 5 times a power of ten that is not above a number. */
 function below(x: number): number {
@@ -33,21 +33,23 @@ function told(kind: Kind, pixels: number, arrows: Arrows): Told {
   return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}`, length: value * size * pixels };
 }
 
-/** The largest torque of the loads, if there is one. */
-function turning(arrows: Arrows): Told[] {
-  const { unit, size } = arrows.unit('torques');
-  const most = arrows.most('torques') / size;
+/** The largest torque of a kind, if there is one. */
+function turning(arrows: Arrows, of: Kind): Told[] {
+  const kind = TURNING[of];
+  if (!kind) return [];
+  const { unit, size } = arrows.unit(kind);
+  const most = arrows.most(kind) / size;
   if (!(most > 0)) return [];
   // as forces
   const kilo = unit === 'N m' && most >= 1e3;
-  return [{ kind: 'torques', text: `at most ${digits(most / (kilo ? 1e3 : 1), 3)} ${kilo ? 'k' : ''}${pretty(unit)}`, length: ROUND }];
+  return [{ kind, text: `at most ${digits(most / (kilo ? 1e3 : 1), 3)} ${kilo ? 'k' : ''}${pretty(unit)}`, length: ROUND }];
 }
 
 /** Those that are shown, from the right corner at the foot to `left`, each with its left end and foot, in rows one above the other. */
 function placed(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, [width, height]: [number, number]): (Told & { from: number; foot: number })[] {
   const all = KINDS.filter((kind) => shown.has(kind)).flatMap((kind) => [
     ...(arrows.most(kind) > 0 && pixels(kind) > 0 ? [told(kind, pixels(kind), arrows)] : []),
-    ...(kind === 'loads' ? turning(arrows) : []),
+    ...turning(arrows, kind),
   ]);
   let [right, foot] = [width - EDGE, height - 12];
   return [...all].reverse().map((one) => {
@@ -68,7 +70,7 @@ export function scalesHeight(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels:
 export function tellScales(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind) => number, left: number, size: [number, number], inks: Inks): Told[] {
   const all = placed(pen, arrows, shown, pixels, left, size);
   for (const { kind, text, length, from, foot } of all) {
-    if (kind === 'torques') pen.turn([from + length / 2, foot - 4], LEVEL, 1, length / 2, inks.curves[COLOR.loads]!);
+    if (kind === 'torques' || kind === 'moments') pen.turn([from + length / 2, foot - 4], LEVEL, 1, length / 2, inks.curves[COLOR[kind === 'torques' ? 'loads' : 'reactions']]!);
     else pen.arrow([from, foot - 4], [from + length, foot - 4], inks.curves[COLOR[kind]]!, 2.2);
     pen.text(text, [from + length + BEHIND, foot], inks.soft, inks.paper, LETTERS);
   }

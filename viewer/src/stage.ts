@@ -253,7 +253,7 @@ export class Stage {
     this.motion = motion;
     const still = motion.to <= motion.from || rests(results);
     if (still) motion.behind = Array.from(scene.frames.shown, (k) => scene.frames.at[k]!).filter((at) => at !== motion.begin);
-    this.pace = pace(results, motion.begin, motion.end, scene.arrows.filter(({ kind }) => kind !== 'reaction').map(({ name }) => name));
+    this.pace = pace(results, motion.begin, motion.end, scene.arrows.filter(({ kind }) => kind !== 'reaction' && kind !== 'moment').map(({ name }) => name));
     const arrows = new Arrows(motion, results, this.pace);
     const space = motion.scene.dimensions === 3;
     this.renderer = space ? (window.grashofSpace?.(this.context, motion, arrows) ?? null) : new Plane(this.context, motion, arrows);

@@ -187,7 +187,7 @@ export interface Wheel { body: number; at: number[]; radius: number; axis?: numb
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';
 export interface Gear { name: string; kind: GearKind; a: Wheel; b: Wheel }
 export interface Trace { name: string; body: number; at: number[] }
-export type ArrowKind = 'load' | 'reaction' | 'torque';
+export type ArrowKind = 'load' | 'reaction' | 'torque' | 'moment';
 
 interface Parts<A> {
   dimensions: 2 | 3;

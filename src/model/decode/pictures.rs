@@ -109,21 +109,29 @@ impl<'n> Decoder<'n> {
         forces
     }
 
+    /// Forces and moments of all joints that transmit them.
     fn shown_reactions(&mut self, scale: Option<Id>) -> Vec<ShownForce> {
-        let axes = &["fx", "fy", "fz"][..self.name_space.components()];
-        let names: Vec<String> = self.name_space.model.joints.iter().map(|joint| joint.name.clone()).collect();
-        let mut forces = Vec::new();
-        for (index, name) in names.into_iter().enumerate() {
-            let components: Option<Vec<Shown>> = axes
-                .iter()
-                .map(|axis| {
-                    let column = self.quiet(&format!("{name}.{axis}"))?;
-                    Some(Shown { name: column.name, what: ShownWhat::Column(column.value), dimension: column.dimension })
-                })
-                .collect();
-            forces.extend(components.map(|components| ShownForce { name, on: ForceOn::Reaction(index), components, scale }));
+        let planar = self.name_space.components() == 2;
+        let forces = &["fx", "fy", "fz"][..self.name_space.components()];
+        let moments: &[&str] = if planar { &["m"] } else { &["mx", "my", "mz"] };
+        let joints: Vec<(String, bool)> =
+            self.name_space.model.joints.iter().map(|joint| (joint.name.clone(), joint.kind.transmits_moment(planar))).collect();
+        let mut shown = Vec::new();
+        for (index, (name, has_moment)) in joints.into_iter().enumerate() {
+            // a moment may be asked for about another point, which its force tells
+            let turning = has_moment.then(|| (ForceOn::Moment(index), [moments, forces].concat()));
+            for (on, axes) in [(ForceOn::Reaction(index), forces.to_vec())].into_iter().chain(turning) {
+                let components: Option<Vec<Shown>> = axes
+                    .iter()
+                    .map(|axis| {
+                        let column = self.quiet(&format!("{name}.{axis}"))?;
+                        Some(Shown { name: column.name, what: ShownWhat::Column(column.value), dimension: column.dimension })
+                    })
+                    .collect();
+                shown.extend(components.map(|components| ShownForce { name: name.clone(), on, components, scale }));
+            }
         }
-        forces
+        shown
     }
 
     /// Points whose paths are drawn, if the study names them.

@@ -161,8 +161,18 @@ pub enum ArrowKind {
     Load,
     /// The force in a joint.
     Reaction,
-    /// A torque about the place.
+    /// A torque about the place, of a load.
     Torque,
+    /// The moment in a joint.
+    Moment,
+}
+
+impl ArrowKind {
+    /// Whether it turns about its place.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        matches!(self, Self::Torque | Self::Moment)
+    }
 }
 
 /// A point whose path is drawn.

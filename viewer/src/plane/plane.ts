@@ -415,7 +415,7 @@ export class Plane implements Renderer {
     const color = this.inks.curves[COLOR[kind]]!;
     for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
       const at = this.pixel(from[0], from[1]);
-      if (torque) this.pen.turn(at, LEVEL, along[2], this.arrows.radius(along[2]), color);
+      if (torque) this.pen.turn(at, LEVEL, along[2], this.arrows.radius(kind, along[2]), color);
       else this.pen.arrow(at, [at[0] + along[0] * pixels, at[1] - along[1] * pixels], color, 2.2);
     }
   }

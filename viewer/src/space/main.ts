@@ -358,17 +358,17 @@ class Space implements Renderer {
   private drawArrows(kind: Kind, pixels: number, inks: Inks): void {
     const color = inks.curves[COLOR[kind]]!;
     for (const { from, along, torque } of this.arrows.at(kind, this.place)) {
-      if (torque) this.torque(from, along, color);
+      if (torque) this.torque(kind, from, along, color);
       else this.pen.arrow(this.pixel(from), this.pixel(add(from, along, pixels / this.scale)), color, 2.2);
     }
   }
 
   /** A torque about its axis, which has its middle on the side near to the eye. */
-  private torque(from: Vector, along: Vector, color: string): void {
+  private torque(kind: Kind, from: Vector, along: Vector, color: string): void {
     const size = Math.hypot(...along);
     if (!(size > 0)) return;
     const [u, v] = facing(unit(along), this.toEye, 0.75 * 2 * Math.PI).map((e): Point => [dot(e, this.right), -dot(e, this.above)]) as [Point, Point];
-    this.pen.turn(this.pixel(from), [u, v], 1, this.arrows.radius(size), color);
+    this.pen.turn(this.pixel(from), [u, v], 1, this.arrows.radius(kind, size), color);
   }
 
   /** The axes of the world at the lower left. */

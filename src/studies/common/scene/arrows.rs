@@ -6,16 +6,17 @@ use crate::geometry::Space;
 use crate::mechanism::{Mechanism, PointLoad};
 use crate::model::{ForceOn, LoadOn, Shown, ShownForce, Study};
 use crate::results::Scene;
-use crate::results::scene::{Arrow, ArrowKind};
+use crate::results::scene::{Arrow, ArrowKind, Place};
 use crate::studies::common::case::Case;
 
 /// The forces that a study shows, in its order, without values: of a joint those on its second body, or on the first where the second is the
-/// ground.
+/// ground. Moments of joints are about the point on that body.
 pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Vec<Arrow> {
     let arrow = |force: &ShownForce| {
         let scale = force.scale.map(|id| case.value(id));
         let (kind, joint, (body, at), frame, axes) = match force.on {
             ForceOn::Reaction(joint) => (ArrowKind::Reaction, Some(joint), mechanism.joints[joint].b, 0, world(G::VECTOR)),
+            ForceOn::Moment(joint) => (ArrowKind::Moment, Some(joint), mechanism.joints[joint].b, 0, world(G::VECTOR)),
             ForceOn::Load(load) | ForceOn::Torque(load) => {
                 let joint = if let LoadOn::Joint { joint, .. } = case.model.loads[load].on { Some(joint) } else { None };
                 let (place, frame, axes) = load_of(case, mechanism, load);
@@ -25,12 +26,17 @@ pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
         let other = joint.filter(|joint| on_ground(mechanism, *joint));
         let (body, at) = other.map_or((body, at), |joint| mechanism.joints[joint].a);
         // a torque in the plane is about the third axis, which is the same in all bodies
-        let (frame, axes) = if kind == ArrowKind::Torque && G::VECTOR == 2 { (0, vec![vec![0.0, 0.0, 1.0]]) } else { (frame, axes) };
+        let (frame, axes) = if kind.turns() && G::VECTOR == 2 { (0, vec![vec![0.0, 0.0, 1.0]]) } else { (frame, axes) };
         let turned = |axis: Vec<f64>| if other.is_some() { axis.into_iter().map(|x| 0.0 - x).collect() } else { axis };
-        let axes = axes.into_iter().map(turned).collect();
-        let columns =
-            if matches!(force.on, ForceOn::Reaction(_)) { force.components.iter().map(|c| c.name.clone()).collect() } else { Vec::new() };
+        let axes: Vec<Vec<f64>> = axes.into_iter().map(turned).collect();
         let minus = other.is_some();
+        // the columns of a moment are about the point on the second body
+        let are_columns = match kind {
+            ArrowKind::Reaction => true,
+            ArrowKind::Moment => !minus,
+            ArrowKind::Load | ArrowKind::Torque => false,
+        };
+        let columns = force.components.iter().take(if are_columns { axes.len() } else { 0 }).map(|c| c.name.clone()).collect();
         Arrow { name: force.name.clone(), kind, body, at: numbers::<G>(at), columns, minus, values: Vec::new(), frame, axes, scale }
     };
     case.study.forces.iter().map(arrow).collect()
@@ -66,7 +72,11 @@ pub(crate) fn fill_arrows<'c>(study: &Study, scene: &mut Scene, places: &[f64], 
         let Some(columns) = columns.filter(|columns| !places.is_empty() && columns.iter().all(|c| c.len() == places.len())) else {
             continue;
         };
-        let planar_torque = arrow.kind == ArrowKind::Torque && scene.dimensions == 2;
+        if arrow.kind == ArrowKind::Moment {
+            arrow.values = moments(scene, arrow, places, &columns);
+            continue;
+        }
+        let planar_torque = arrow.kind.turns() && scene.dimensions == 2;
         let components = if planar_torque { 2..3 } else { 0..scene.dimensions };
         arrow.values = (0..scene.frames.count())
             .flat_map(|index| {
@@ -81,6 +91,34 @@ pub(crate) fn fill_arrows<'c>(study: &Study, scene: &mut Scene, places: &[f64], 
             .collect();
     }
     scene.arrows = arrows;
+}
+
+/// The moments of a joint at the frames of a scene, about the point of their arrow: columns are those of its moment about the point on its
+/// second body, and of its force.
+fn moments(scene: &Scene, arrow: &Arrow, places: &[f64], columns: &[&[f64]]) -> Vec<f64> {
+    let planar = scene.dimensions == 2;
+    let own = if planar { 2..3 } else { 0..3 };
+    let point = Place { body: arrow.body, at: arrow.at.clone() };
+    let joint = scene.joints.iter().find(|joint| arrow.minus && joint.name == arrow.name);
+    let ground = joint.and_then(|joint| [&joint.a, &joint.b].into_iter().find(|place| place.body == 0));
+    let (turning, forces) = columns.split_at(own.len());
+    let mut values = Vec::with_capacity(own.len() * scene.frames.count());
+    for (index, at) in scene.frames.at.iter().enumerate() {
+        let [mut m, mut f] = [[0.0; 3]; 2];
+        m[own.clone()].iter_mut().zip(turning).for_each(|(m, column)| *m = between(places, column, *at));
+        f.iter_mut().zip(forces).for_each(|(f, column)| *f = between(places, column, *at));
+        if let Some(ground) = ground {
+            let poses = scene.frame(index);
+            let (from, to) = (scene.world(poses, &point), scene.world(poses, ground));
+            let arm: [f64; 3] = std::array::from_fn(|i| to[i] - from[i]);
+            m = std::array::from_fn(|i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                -(m[i] + arm[j] * f[k] - arm[k] * f[j])
+            });
+        }
+        values.extend_from_slice(&m[own.clone()]);
+    }
+    values
 }
 
 /// A value between rows at places that rise or fall; beyond them that of the end.
