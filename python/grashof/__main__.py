@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 from . import load, parse
 from .errors import Error, Interrupted, Refused, StudyError
@@ -54,11 +54,16 @@ def _arguments() -> argparse.ArgumentParser:
 def _sweep(asked: argparse.Namespace) -> SweepTable:
     model = parse(sys.stdin.read()) if asked.model == "-" else load(asked.model)
     model = model.variant(*asked.variant).set(dict(_pairs("--set", asked.set)))
+    over = _pairs("--over", asked.over)
+    twice = [name for place, (name, _) in enumerate(over) if name in dict(over[:place])]
+    if twice:
+        help = "leave one of them out"
+        raise Refused(f"`{twice[0]}` is swept already; {help}", code="swept-twice", help=help)
     study = _chosen(asked.study, model.studies)
     progress = (lambda done, count: None) if asked.quiet else None
     return model.sweep(
         study,
-        dict(_pairs("--over", asked.over)),
+        dict(over),
         workers="ray",
         address=asked.ray,
         samples=asked.samples,
@@ -76,7 +81,7 @@ def _chosen(named: Optional[str], known: List[str]) -> str:
     return named if named is not None else known[0]
 
 
-def _pairs(flag: str, texts: Sequence[str]) -> Dict[str, str]:
+def _pairs(flag: str, texts: Sequence[str]) -> List[Tuple[str, str]]:
     """Names with values."""
 
     def split(text: str) -> Tuple[str, str]:
@@ -86,7 +91,7 @@ def _pairs(flag: str, texts: Sequence[str]) -> Dict[str, str]:
             raise Refused(f"`{flag} {text}` has no `=`; {help}", code="refused", help=help)
         return name.strip(), value.strip()
 
-    return dict(map(split, texts))
+    return list(map(split, texts))
 
 
 def _tell(error: Error) -> None:

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 def frame(results: Results | SweepTable, copy: bool) -> pandas.DataFrame:
     """The table as a frame."""
     library = _optional.package("pandas", "frames are made")
-    index = None if results.reasons else library.Index(results.independent, name=results.independent_name or None)
+    is_over = results.independent_name and not results.reasons
+    index = library.Index(results.independent, name=results.independent_name) if is_over else None
     made: pandas.DataFrame = library.DataFrame(results.table, index=index, columns=results.columns, copy=copy)
     if results.reasons:
         made.index.name = "run"
@@ -40,7 +41,7 @@ def dataset(results: Results | SweepTable) -> xarray.Dataset:
 
     # a column that is the independent variable itself is the coordinate
     columns = {name: (axis, results[name], attributes(name)) for name in results.columns if name != axis}
-    at = np.arange(len(results)) if sweep else results.independent
+    at = results.independent if results.independent_name and not sweep else np.arange(len(results))
     made: xarray.Dataset = library.Dataset(columns, coords={axis: (axis, at, {"units": results.units.get(axis, "")})})
     if sweep:
         made["reason"] = (axis, reasons)
@@ -48,8 +49,10 @@ def dataset(results: Results | SweepTable) -> xarray.Dataset:
     return made
 
 
-def quantity(results: Results | SweepTable, name: str, registry: Any) -> Any:
-    """A column with its unit."""
+def quantity(results: Results | SweepTable, name: str | None, registry: Any) -> Any:
+    """A column with its unit, or all by their names."""
     library = _optional.package("pint", "quantities are made")
     registry = registry or library.get_application_registry()
+    if name is None:
+        return {each: quantity(results, each, registry) for each in results.columns}
     return registry.Quantity(results[name], results.units[name] or "dimensionless")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional
 
 from . import _text
 
 if TYPE_CHECKING:
+    from .errors import Fault
     from .model import LoadedModel
+    from .results import Results
 
 __all__ = ["Model"]
 
@@ -67,6 +69,14 @@ class Model:
         """Writes a model file."""
         with open(os.fspath(path), "w", encoding="utf-8", newline="\n") as file:
             file.write(self.to_yaml())
+
+    def check(self) -> List[Fault]:
+        """:meth:`LoadedModel.check` of the loaded model."""
+        return self.load().check()
+
+    def run(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
+        """:meth:`LoadedModel.run` of the loaded model."""
+        return self.load().run(study, values, **named)
 
     def load(self) -> LoadedModel:
         """The model, to check and run; :meth:`LoadedModel.check` tells what is wrong with it."""

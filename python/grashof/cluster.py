@@ -71,6 +71,10 @@ def connected(address: Optional[str]) -> Iterator[Any]:
     alone, if there is no address. What was begun here ends here."""
     module = ray()
     if module.is_initialized():
+        here = module.get_runtime_context().gcs_address
+        if address not in (None, "auto", "local", here) and "://" not in str(address):
+            help = "leave the address out, or disconnect by `ray.shutdown()` before"
+            raise Refused(f"the program is connected to the cluster at `{here}`, and not to `{address}`; {help}", code="refused", help=help)
         yield module
         return
     quiet = {"log_to_driver": False, "logging_level": logging.ERROR}

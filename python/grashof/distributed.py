@@ -47,14 +47,13 @@ def sweep(
 ) -> SweepTable:
     """Computes a sweep on a cluster into a directory, or what is missing of it there."""
     prepared = core.prepare(study, over, samples, 1)
-    decides = {"grashof": _grashof.version, "model": core.pack(), "study": study, "over": over, "samples": samples}
-    hashes = {key: hashlib.sha256(json.dumps(value).encode()).hexdigest() for key, value in decides.items()}
     about: Dict[str, Any] = {
         "grashof": _grashof.version,
         "study": study,
         "parameters": prepared.parameters,
-        "model": hashes["model"],
-        "values": hashes["over"],
+        # the values of the sweep are among its content
+        "model": hashlib.sha256(prepared.content().encode()).hexdigest(),
+        "values": hashlib.sha256(json.dumps(over).encode()).hexdigest(),
         "samples and seed": list(samples) if samples else None,
         **({"functions": by_source(functions)} if functions else {}),
     }
@@ -66,7 +65,13 @@ def sweep(
         if parts.missing():
             with connected(address) as ray:
                 _Driver(ray, task, parts, _shown(progress)).run()
+        elif progress is not None:
+            progress(parts.done, parts.count)
         parts.gather(prepared)
+    except Interrupted:
+        raise
+    except KeyboardInterrupt:
+        raise interrupted(parts) from None
     finally:
         parts.close()
     return SweepTable(str(parts.gathered), study, prepared)
@@ -120,7 +125,7 @@ class _Driver:
                     self._keep(reference)
         except KeyboardInterrupt:
             self._cancel()
-            raise self._interrupted() from None
+            raise interrupted(self._parts) from None
         except BaseException:
             self._cancel()
             raise
@@ -163,10 +168,12 @@ class _Driver:
             self._ray.cancel(reference)
         self._out.clear()
 
-    def _interrupted(self) -> Interrupted:
-        kept = f"{self._parts.done} of {self._parts.count} runs are kept in `{self._parts.directory}`"
-        help = "the same call goes on from them"
-        return Interrupted(f"the sweep was interrupted: {kept}; {help}", code="interrupted", help=help)
+
+def interrupted(parts: Parts) -> Interrupted:
+    """What tells that a sweep was ended, and that nothing of it is lost."""
+    kept = f"{parts.done} of {parts.count} runs are kept in `{parts.directory}`"
+    help = "the same call goes on from them"
+    return Interrupted(f"the sweep was interrupted: {kept}; {help}", code="interrupted", help=help)
 
 
 def _shown(progress: Optional[Progress]) -> Progress:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List, NamedTuple, Tuple
+from typing import TYPE_CHECKING, Any, Callable, List, NamedTuple, Tuple
 
 from . import _grashof
-from .errors import Refused
+from .errors import Error, Refused
 
 if TYPE_CHECKING:
     import numpy as np
@@ -78,7 +78,7 @@ class Dynamics:
     def force(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """f (..., nv), N and N m: all applied forces and those of Coriolis. What depends on reactions is not in it."""
         lead, (time, at, along) = self._states(t, (q, self.nq, "coordinates"), (v, self.nv, "velocities"))
-        return self._core.force(time, at, along).reshape(lead + (self.nv,))
+        return _evaluated(self._core.force, time, at, along).reshape(lead + (self.nv,))
 
     def bias(self, q: ArrayLike, v: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """b = −f (..., nv), N and N m, so that M a + b + Gᵀλ = 0 where nothing else acts."""
@@ -92,7 +92,7 @@ class Dynamics:
         """Accelerations a (..., nv), m/s^2 and rad/s^2, and multipliers λ (..., m), N and N m; the reactions of the constraints are
         −Gᵀλ."""
         lead, (time, at, along) = self._states(t, (q, self.nq, "coordinates"), (v, self.nv, "velocities"))
-        both = self._core.accelerations(time, at, along)
+        both = _evaluated(self._core.accelerations, time, at, along)
         return both[:, : self.nv].reshape(lead + (self.nv,)), both[:, self.nv :].reshape(lead + (self.m,))
 
     def inverse(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, multipliers: ArrayLike | None = None, t: ArrayLike = 0.0) -> Array:
@@ -108,7 +108,7 @@ class Dynamics:
             (a, self.nv, "accelerations"),
             (reactions, self.m, "multipliers"),
         )
-        return self._core.inverse(time, (at, along), (wanted, lagrange)).reshape(lead + (self.nv,))
+        return _evaluated(self._core.inverse, time, (at, along), (wanted, lagrange)).reshape(lead + (self.nv,))
 
     def project(self, q: ArrayLike, v: ArrayLike | None = None, t: ArrayLike = 0.0) -> Tuple[Array, Array]:
         """The states on the constraints next to given ones: coordinates (..., nq) moved to Φ = 0 and velocities (..., nv) moved to
@@ -119,12 +119,12 @@ class Dynamics:
 
         rates: Any = np.zeros(self.nv) if v is None else v
         lead, (time, at, along) = self._states(t, (q, self.nq, "coordinates"), (rates, self.nv, "velocities"))
-        both = self._core.project(time, at, along)
+        both = _evaluated(self._core.project, time, at, along)
         return both[:, : self.nq].reshape(lead + (self.nq,)), both[:, self.nq :].reshape(lead + (self.nv,))
 
-    def pose(self, body: str, q: ArrayLike) -> Pose:
-        """Where a body of the file is, for coordinates ``q`` (..., nq)."""
-        lead, (_, at) = self._states(0.0, (q, self.nq, "coordinates"))
+    def pose(self, body: str, q: ArrayLike | None = None) -> Pose:
+        """Where a body of the file is, for coordinates ``q`` (..., nq), or at the start."""
+        lead, (_, at) = self._states(0.0, (self.start()[0] if q is None else q, self.nq, "coordinates"))
         placed = self._core.pose(body, at)
         return Pose(placed[:, :3].reshape(lead + (3,)), placed[:, 3:].reshape(lead + (3, 3)))
 
@@ -136,8 +136,8 @@ class Dynamics:
         arrays = [np.asarray(part, dtype=np.float64) for part, _, _ in parts]
         for array, (_, size, what) in zip(arrays, parts):
             if array.ndim == 0 or array.shape[-1] != size:
-                found = array.shape[-1] if array.ndim else "no axis of"
-                message = f"there are {found} {what}, and the mechanism has {size}"
+                found = f"there are {array.shape[-1]} {what}" if array.ndim else f"{array} is no array of {what}"
+                message = f"{found}, and the mechanism has {size}"
                 raise Refused(message, code="refused", help="see `start` and `coordinates`")
         if times.ndim == 0 and all(array.ndim == 1 for array in arrays):
             # one state, as solvers of differential equations ask for it
@@ -146,3 +146,21 @@ class Dynamics:
         count = int(np.prod(lead, dtype=np.int64))
         rows = [np.ascontiguousarray(np.broadcast_to(array, lead + array.shape[-1:])).reshape(count, array.shape[-1]) for array in arrays]
         return lead, [np.ascontiguousarray(np.broadcast_to(times, lead)).reshape(count), *rows]
+
+
+def _evaluated(term: Callable[..., Array], times: Any, *parts: Any) -> Array:
+    """A term in many states; where one has a number that is not finite, no other cause is told."""
+    import numpy as np
+
+    try:
+        return term(times, *parts)
+    except Error as why:
+        arrays = [array for part in parts for array in (part if isinstance(part, tuple) else (part,))]
+        finite = np.isfinite(times)
+        for array in arrays:
+            finite = finite & np.isfinite(array).all(axis=1)
+        if finite.all():
+            raise
+        help = "look at where it comes from"
+        message = f"state {int(np.argmin(finite))} of {len(finite)} has a number that is not finite; {help}"
+        raise Refused(message, code="not-finite", help=help) from why

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional
 
 from . import _grashof, _text
 from .records import Named, Statistics, statistics_of, unknown
@@ -37,6 +37,11 @@ class SweepTable:
 
     def __repr__(self) -> str:
         return f"<{len(self)} runs of study {self.study} in {self.path}>"
+
+    @property
+    def parameters(self) -> List[str]:
+        """Names of the parameters that run through values."""
+        return self._sweep.parameters
 
     @property
     def columns(self) -> List[str]:
@@ -110,8 +115,8 @@ class SweepTable:
 
         return dataset(self)
 
-    def to_pint(self, name: str, registry: Any = None) -> Any:
-        """A column with its unit, a quantity of pint."""
+    def to_pint(self, name: Optional[str] = None, registry: Any = None) -> Any:
+        """A column with its unit, a quantity of pint, or without a name all columns by their names."""
         from .adapters import quantity
 
         return quantity(self, name, registry)

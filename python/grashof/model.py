@@ -10,9 +10,10 @@ from . import functions as _functions
 from .builder import Model
 from .compared import Compared
 from .dynamics import Dynamics
-from .errors import Fault, ModelError, Refused
+from .errors import Fault, Refused
 from .functions import Function, Functions
 from .page import Page
+from .records import unknown
 from .results import Results
 from .stepper import Stepper
 
@@ -24,7 +25,8 @@ __all__ = ["LoadedModel", "Study", "load", "parse"]
 
 
 def load(source: Union[_text.Path, Mapping[str, Any], Model], functions: Optional[Functions] = None) -> LoadedModel:
-    """Reads a model: the path of a file, with what it includes; or a mechanism in code, as a mapping with the keys of a file.
+    """Reads a model: the path of a file, with what it includes; a text of several lines, as :func:`parse`; or a mechanism in code, as a
+    mapping with the keys of a file.
     ``functions`` are functions of Python that its expressions may call, by their names there.
 
     Nothing is checked but the form of the file: raises :class:`ModelError` if it cannot be read or is no YAML. What is wrong with the
@@ -38,10 +40,7 @@ def load(source: Union[_text.Path, Mapping[str, Any], Model], functions: Optiona
     if isinstance(source, Mapping):
         return parse(_text.text(source), functions)
     path = os.fspath(source)
-    if "\n" in path:
-        help = "read it by `grashof.parse`"
-        raise ModelError(f"this looks like the text of a model, and not like the path of a file; {help}", code="unreadable", help=help)
-    return _with(_grashof.load(path), functions)
+    return parse(path, functions) if "\n" in path else _with(_grashof.load(path), functions)
 
 
 def parse(text: str, functions: Optional[Functions] = None) -> LoadedModel:
@@ -137,12 +136,14 @@ class LoadedModel:
         return self._core.check()
 
     def study(self, name: str) -> Study:
-        """A study by its name."""
+        """A study by its name; raises :class:`UnknownName` if there is none."""
+        if name not in self.studies:
+            raise unknown("study", name, self.studies)
         return Study(self, name)
 
     def run(self, study: str, values: Optional[Mapping[str, _text.Value]] = None, /, **named: _text.Value) -> Results:
         """Runs a study, with parameters at other values, and first those from which it takes scalars. Values are given by keyword, or
-        as a mapping.
+        as a mapping. What the file expects of its own values is judged if none are changed.
 
         A motion that stops on its way has results up to there, with :attr:`Results.stopped`; so has a sweep of which runs fail.
         Raises :class:`StudyError` if the study does not begin.
@@ -153,7 +154,7 @@ class LoadedModel:
     def sweep(
         self,
         study: str,
-        over: Mapping[Any, Any],
+        over: Any,
         *,
         workers: Optional[int] = None,
         values: Optional[Mapping[str, _text.Value]] = None,
@@ -164,7 +165,7 @@ class LoadedModel:
     def sweep(
         self,
         study: str,
-        over: Mapping[Any, Any],
+        over: Any,
         *,
         workers: Literal["ray"],
         values: Optional[Mapping[str, _text.Value]] = None,
@@ -177,7 +178,7 @@ class LoadedModel:
     def sweep(
         self,
         study: str,
-        over: Mapping[Any, Any],
+        over: Any,
         *,
         workers: Union[int, Literal["ray"], None] = None,
         values: Optional[Mapping[str, _text.Value]] = None,
@@ -189,7 +190,8 @@ class LoadedModel:
     ) -> Union[Results, SweepTable]:
         """Runs a study for all combinations of values of parameters; the last parameter goes fastest.
 
-        ``over`` has for each parameter its values: numbers in SI or texts. Several parameters together run through points, a row each.
+        ``over`` has for each parameter its values: numbers in SI or texts, or a range with the keys of a file. Several parameters
+        together run through points, a row each: lists, mappings, a frame. A frame in the place of ``over`` has a run for each row.
         The results have a row a run: the parameters and the scalars of the study. ``workers`` are threads, all processors if omitted;
         the numbers are the same for any.
 
@@ -208,8 +210,9 @@ class LoadedModel:
 
         >>> m.sweep("one-turn", over={"l3": np.linspace(0.4, 0.7, 10**5)}, workers="ray", into="lengths")
         """
-        drawn = None if samples is None else (samples, seed)
+        drawn = None if samples is None else (_text.whole(samples, "samples", 1), _text.whole(seed, "seed", 0))
         if workers != "ray":
+            workers = None if workers is None else _text.whole(workers, "workers", 1, 'a number of threads, or "ray"')
             if into is not None or address is not None or progress is not None:
                 raise TypeError("`into`, `address` and `progress` go with `workers=\"ray\"`")
             return self._run(study, over, workers, _text.settings(values, {}), drawn)
@@ -242,9 +245,15 @@ class LoadedModel:
         """
         from .sensitivity import indices, points
 
+        if not over:
+            help = "give parameters with their distributions"
+            raise Refused(f"no parameter varies; {help}", code="refused", help=help)
+        if not 0 < confidence < 1:
+            help = "give a part of 1, as 0.95"
+            raise Refused(f"{confidence!r} is no confidence; {help}", code="refused", help=help)
         model = self.set(values) if values else self
         names = list(over)
-        at = points(model._core, study, _text.axes(over), samples, seed)
+        at = points(model._core, study, _text.axes(over), _text.whole(samples, "samples", 1), _text.whole(seed, "seed", 0))
         runs = model.sweep(study, {tuple(names): at}, workers=workers, **cluster)
         return indices(runs, names, seed, confidence)
 
@@ -325,11 +334,12 @@ class LoadedModel:
         return Dynamics(self._core.dynamics())
 
     def stepper(self, study: str) -> Stepper:
-        """The motion of a study of the kind ``dynamics``, to be advanced step by step by the integrator of the study.
+        """The motion of a study of the kind ``dynamics``, to be advanced step by step by the integrator of the study; what events change
+        is followed.
 
-        Raises :class:`Refused` for a mechanism with events, rigid stops or exact friction.
+        Raises :class:`Refused` for a study of another kind.
         """
-        return Stepper(self._core.stepper(study))
+        return Stepper(self._core.stepper(study), self._core)
 
     def report(self, *results: Results) -> Page:
         """The page of a report on results of its studies: figures, tables, the mechanism in motion."""
@@ -357,7 +367,13 @@ class Study:
         return self.model.run(self.name, values, **named)
 
     def sweep(
-        self, over: Mapping[Any, Any], *, workers: Optional[int] = None, samples: Optional[int] = None, seed: int = 1
+        self,
+        over: Any,
+        *,
+        workers: Optional[int] = None,
+        values: Optional[Mapping[str, _text.Value]] = None,
+        samples: Optional[int] = None,
+        seed: int = 1,
     ) -> Results:
-        """:meth:`LoadedModel.sweep` of this study."""
-        return self.model.sweep(self.name, over, workers=workers, samples=samples, seed=seed)
+        """:meth:`LoadedModel.sweep` of this study, on this machine."""
+        return self.model.sweep(self.name, over, workers=workers, values=values, samples=samples, seed=seed)

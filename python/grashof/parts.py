@@ -70,6 +70,8 @@ class Parts:
         if known != about:
             keys = known.keys() | about.keys() if isinstance(known, dict) else ()
             others = sorted(key for key in keys if known.get(key) != about.get(key))
+            # a model with other values is not the same
+            others = [key for key in others if key != "model"] or others
             raise _refused(f"`{self.directory}` holds another sweep, of another {' and '.join(others) or 'kind'}")
 
     def is_gathered(self) -> bool:

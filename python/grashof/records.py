@@ -120,7 +120,8 @@ class Named(Dict[str, Any]):
 
 def unknown(what: str, name: object, known: Sequence[str]) -> UnknownName:
     """There is nothing of a name."""
-    there = _grashof.there_are(str(name), list(known))
+    parts = [each for each in known if each.startswith(f"{name}.")]
+    there = f"there are its parts {', '.join(f'`{each}`' for each in parts)}" if parts else _grashof.there_are(str(name), list(known))
     return UnknownName(f"there is no {what} `{name}`; {there}", code="unknown", help=there)
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union, overload
 
 from . import _grashof, _text
-from .errors import StudyError
+from .errors import Refused, StudyError
 from .linear import Linear
 from .page import Animation, Page
 from .records import Checked, Event, Extremes, Finding, Named, Solution, Statistics, extremes_of, statistics_of, unknown
@@ -140,7 +140,7 @@ class Results:
         """Lists that the kind gives, as the ``eigenvalues`` of ``modes``; SI."""
         import numpy as np
 
-        return {each["name"]: np.array(each["values"], dtype=np.float64) for each in self._facts["lists"]}
+        return Named("list", {each["name"]: np.array(each["values"], dtype=np.float64) for each in self._facts["lists"]})
 
     @property
     def shapes(self) -> List[Dict[str, float]]:
@@ -192,6 +192,18 @@ class Results:
         """The runs of a sweep."""
         return Runs(self)
 
+    # nothing of them changes
+
+    def __copy__(self) -> Results:
+        return self
+
+    def __deepcopy__(self, known: Any) -> Results:
+        return self
+
+    def __reduce__(self) -> Any:
+        help = "send what is needed of them, as `results.to_pandas()` or `results.scalars`, or the model, and run it there"
+        raise Refused(f"results stay in the process that has computed them; {help}", code="refused", help=help)
+
     def summary(self) -> str:
         """What was found, in words, as the program prints it."""
         return self._core.summary()
@@ -221,8 +233,9 @@ class Results:
 
         return dataset(self)
 
-    def to_pint(self, name: str, registry: Any = None) -> Any:
-        """A column with its unit, a quantity of pint; of the registry that the application has set if none is given."""
+    def to_pint(self, name: Optional[str] = None, registry: Any = None) -> Any:
+        """A column with its unit, a quantity of pint, or without a name all columns by their names; of the registry that the application has
+        set if none is given."""
         from .adapters import quantity
 
         return quantity(self, name, registry)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple, Union
 
 from . import _grashof, _optional, _text
@@ -102,6 +103,9 @@ def indices(results: Union[Results, SweepTable], names: Sequence[str], seed: int
         columns = zip(*(found[key] for key in ("S1", "S1_conf", "ST", "ST_conf")))
         return {name: Index(*map(float, each)) for name, each in zip(names, columns)}
 
+    lost = sum(reason != "" for reason in results.reasons)
+    if lost:
+        warnings.warn(f"{lost} of {len(results)} runs have no whole result, and no index is known of what they lack: see `results.reasons`", stacklevel=3)
     return Sensitivity({name: of(results[name]) for name in results.columns if name not in names}, results)
 
 

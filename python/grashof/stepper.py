@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Dict, List, NamedTuple, Tuple
 
-from . import _grashof
+from . import _grashof, _text
+from .errors import Refused
 from .records import unknown
 
 if TYPE_CHECKING:
@@ -36,8 +38,9 @@ class Stepper:
     ...     motion.advance(0.01)
     """
 
-    def __init__(self, core: _grashof.Stepper) -> None:
+    def __init__(self, core: _grashof.Stepper, model: _grashof.Model) -> None:
         self._core = core
+        self._model = model
 
     def __repr__(self) -> str:
         return f"<motion at t = {self.time:g} s>"
@@ -45,17 +48,31 @@ class Stepper:
     def advance(self, by: float) -> None:
         """Goes on by a time, s, or to an event that ends the motion.
 
-        Raises :class:`Refused` if the motion cannot go on; the state is the last good one.
+        Raises :class:`Refused` if the motion cannot go on, with the last good state, and for a negative time.
         """
+        if not 0 <= by < math.inf:
+            help = "give a time in s that is not negative"
+            raise Refused(f"a motion does not go on by {by!r} s; {help}", code="refused", help=help)
         self.advance_to(self.time + by)
 
     def advance_to(self, t: float) -> None:
         """Goes on to a time, s, or to an event that ends the motion; a time in the past changes nothing."""
+        if not math.isfinite(t):
+            help = "give a time in s"
+            raise Refused(f"a motion does not go on to {t!r}; {help}", code="refused", help=help)
         self._core.advance_to(t)
 
-    def set_input(self, parameter: str, value: float) -> None:
-        """Goes on with a parameter at another value, SI, from the present state, as behind an event that sets it."""
-        self._core.set_input(parameter, float(value))
+    def set_input(self, parameter: str, value: _text.Value) -> None:
+        """Goes on with a parameter at another value, a number in SI, a text as in the file or a quantity of pint, from the present state, as
+        behind an event that sets it."""
+        self._core.set_input(parameter, self._number(parameter, value))
+
+    def _number(self, parameter: str, value: _text.Value) -> float:
+        """A value of a parameter, SI."""
+        written = _text.value(value, parameter)
+        if _text.is_number(value):
+            return float(written)
+        return next(x for name, x, _ in self._model.set([(parameter, written)]).parameters() if name == parameter)
 
     @property
     def time(self) -> float:

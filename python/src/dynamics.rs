@@ -15,6 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// States for which the evaluator that is kept serves, at most: others wait meanwhile.
 const FEW: usize = 64;
+/// States that are placed between two looks at whether to end.
+const SOME: usize = 10_000;
 
 type Times<'py> = PyReadonlyArray1<'py, f64>;
 type States<'py> = PyReadonlyArray2<'py, f64>;
@@ -27,8 +29,8 @@ type Work = Box<dyn FnOnce(&mut Evaluator<'_>) + Send>;
 #[pyclass(frozen, module = "grashof._grashof")]
 pub(crate) struct Dynamics {
     mechanism: Arc<Mechanism>,
-    /// Where the evaluator that is kept takes its work.
-    kept: Mutex<Option<Sender<Work>>>,
+    /// Where the evaluator that is kept takes its work, and the process in which it does: the thread does not follow into a fork.
+    kept: Mutex<Option<(u32, Sender<Work>)>>,
     trouble: Trouble,
 }
 
@@ -65,8 +67,9 @@ impl Dynamics {
     /// Gives work to the evaluator that is kept; it is made when it is needed first.
     fn give(&self, work: Work) -> PyResult<()> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let sender = match &mut *kept {
-            Some(sender) => sender,
+        let here = std::process::id();
+        let (_, sender) = match &mut *kept {
+            Some(known) if known.0 == here => known,
             none => {
                 let (sender, receiver) = channel::<Work>();
                 let mechanism = Arc::clone(&self.mechanism);
@@ -74,7 +77,7 @@ impl Dynamics {
                     let mut evaluator = mechanism.evaluator();
                     receiver.iter().for_each(|work| work(&mut evaluator));
                 })?;
-                none.insert(sender)
+                none.insert((here, sender))
             }
         };
         // it takes work as long as it is kept
@@ -200,16 +203,21 @@ impl Dynamics {
 
     /// Where a body is: its place, then its axes as the columns of a matrix that is written row by row.
     fn pose<'py>(&self, py: Python<'py>, body: &str, q: States<'py>) -> PyResult<Rows<'py>> {
-        let count = q.as_array().nrows();
-        let q = q.as_slice()?;
-        let placed = py.detach(|| {
+        let (count, width) = (q.as_array().nrows(), self.mechanism.sizes().0);
+        let (mechanism, body, q) = (Arc::clone(&self.mechanism), body.to_owned(), q.as_slice()?.to_vec());
+        let placed = away(py, move |flag| {
             let mut out = Vec::with_capacity(12 * count);
-            self.mechanism.placements(body, q, |at| {
-                out.extend(at.position.iter());
-                out.extend(at.rotation.transpose().iter());
+            // without coordinates there is one state
+            let all = if q.is_empty() { vec![&q[..]] } else { q.chunks(SOME * width).collect() };
+            let mut wanted = all.into_iter().take_while(|_| !flag.load(Ordering::Relaxed));
+            wanted.try_for_each(|states| {
+                mechanism.placements(&body, states, |at| {
+                    out.extend(at.position.iter());
+                    out.extend(at.rotation.transpose().iter());
+                })
             })?;
             Ok::<_, Error>(out)
-        });
+        })?;
         PyArray1::from_vec(py, self.trouble.settle(py, placed)?).reshape([count, 12])
     }
 }

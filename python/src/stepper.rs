@@ -52,6 +52,8 @@ pub(crate) struct Stepper {
     calls: Mutex<Sender<Asked>>,
     present: Mutex<Present>,
     columns: Vec<String>,
+    /// The process in which the motion lives: its thread does not follow into a fork.
+    process: u32,
     flag: Flag,
     trouble: Trouble,
 }
@@ -74,11 +76,14 @@ impl Stepper {
         interrupt::begin(move || thread.known(serving))?;
         let begun = awaited(py, begin, &flag)?;
         let (present, columns) = trouble.settle(py, begun)?;
-        Ok(Self { calls: Mutex::new(calls), present: Mutex::new(present), columns, flag, trouble })
+        Ok(Self { calls: Mutex::new(calls), present: Mutex::new(present), columns, process: std::process::id(), flag, trouble })
     }
 
     /// Sends a call and waits for its end.
     fn ask(&self, py: Python<'_>, call: Call) -> PyResult<()> {
+        if self.process != std::process::id() {
+            return Err(refused(py, "the motion has stayed in the process that was forked", "begin a new one in this process"));
+        }
         let (reply, replied) = channel();
         self.flag.store(false, Ordering::Relaxed);
         let sent = self.calls.lock().unwrap_or_else(PoisonError::into_inner).send((call, reply));

@@ -50,6 +50,11 @@ impl Sweep {
         self.sweep.parameters().into_iter().map(str::to_owned).collect()
     }
 
+    /// A text of all that decides the results.
+    fn content(&self, py: Python<'_>) -> String {
+        py.detach(|| self.sweep.content())
+    }
+
     /// Computes the runs from one on to another, which is not computed.
     #[pyo3(signature = (first, end, threads=1))]
     fn only(&self, py: Python<'_>, first: usize, end: usize, threads: usize) -> PyResult<Results> {

@@ -73,9 +73,9 @@ def test_a_projection_is_the_shortest_way_to_the_constraints(dynamics: grashof.D
     assert np.allclose(again, at, rtol=0, atol=1e-14 * (1 + np.abs(at).max()))
 
 
-def test_a_state_far_from_all_positions_is_refused() -> None:
+def test_a_state_that_is_none_is_not_projected() -> None:
     d = grashof.load(CRANK_ROCKER).dynamics()
-    with pytest.raises(grashof.Refused, match="cannot be closed"):
+    with pytest.raises(grashof.Refused, match="state 0 of 1 has a number that is not finite"):
         d.project(np.full(d.nq, np.nan))
 
 
@@ -88,6 +88,21 @@ def test_a_pose_is_that_of_the_body() -> None:
     assert np.allclose(pose.rotation[:, 1, 0], np.sin(angles[:, 0]))
     with pytest.raises(grashof.UnknownName):
         d.pose("nobody", angles)
+
+
+def test_a_pose_is_that_of_the_start() -> None:
+    d = grashof.load(CRANK_ROCKER).dynamics()
+    assert np.array_equal(d.pose("rocker").position, d.pose("rocker", d.start()[0]).position)
+
+
+def test_a_state_that_is_not_finite_is_named() -> None:
+    d = grashof.load(CRANK_ROCKER).variant("motor").dynamics()
+    q, v = d.start()
+    states = np.tile(q, (5, 1))
+    states[3] = np.nan
+    with pytest.raises(grashof.Refused, match="state 3 of 5") as raised:
+        d.accelerations(0.0, states, v)
+    assert raised.value.code == "not-finite"
 
 
 def test_sizes_are_held() -> None:

@@ -57,9 +57,10 @@ def test_one_tolerance_and_one_integrator() -> None:
             model.compare("swing", "dop853", wrong)
 
 
-def test_a_text_is_no_path() -> None:
-    with pytest.raises(grashof.ModelError, match="grashof.parse"):
-        grashof.load("name: x\n")
+def test_a_text_of_several_lines_is_no_path() -> None:
+    assert grashof.load(PENDULUM).studies == ["swing"]
+    with pytest.raises(grashof.ModelError, match="cannot read `name: x`"):
+        grashof.load("name: x")
 
 
 def test_what_is_not_checked_by_loading_is_told_by_check() -> None:

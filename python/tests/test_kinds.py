@@ -54,3 +54,12 @@ def test_a_study_is_added() -> None:
     model, name = grashof.parse(PENDULUM).with_study("swing", {"dynamics": {"until": "10 ms"}, "columns": ["P.angle"]})
     assert name == "swing-2" and name in model.studies
     assert model.run(name).independent[-1] == 0.01
+
+
+def test_modes_have_no_independent_variable() -> None:
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    modes = grashof.load(CRANK_ROCKER).run("modes")
+    assert list(modes.to_pandas().index) == list(modes.to_xarray()["row"]) == list(range(len(modes)))
+    with pytest.raises(grashof.UnknownName):
+        modes.lists["freq"]

@@ -99,13 +99,15 @@ def test_an_interrupted_sweep_goes_on(
     with pytest.raises(grashof.Refused, match="another sweep"):
         model.sweep("swing", {"length": [1.0, 2.0]}, workers="ray", into=tmp_path)
     with pytest.raises(grashof.Refused, match="another sweep"):
-        model.set(push=1.0).sweep("swing", LENGTHS, workers="ray", into=tmp_path)
+        grashof.parse(model.text.replace("2 kg", "3 kg")).sweep("swing", LENGTHS, workers="ray", into=tmp_path)
     # a part that was torn is computed again
     torn = tmp_path / "parts" / sorted(kept)[0]
     torn.write_bytes(torn.read_bytes()[:100])
     cut(monkeypatch, 47)
     seen: list[int] = []
-    table = model.sweep("swing", LENGTHS, workers="ray", into=tmp_path, progress=lambda done, count: seen.append(done))
+    # what decides nothing may have changed
+    remarked = grashof.parse("# a remark\n" + model.text)
+    table = remarked.sweep("swing", LENGTHS, workers="ray", into=tmp_path, progress=lambda done, count: seen.append(done))
     assert 0 < seen[0] < 1000 and pathlib.Path(table.path).read_bytes() == whole
     # what is there is not computed again
     known = os.stat(table.path).st_mtime_ns
@@ -215,5 +217,6 @@ def test_the_command_line(nodes: Any, tmp_path: pathlib.Path, capsys: pytest.Cap
     assert "3 runs, of which 1 have no whole result" in capsys.readouterr().out
     assert command.main([*words, "--study", "none"]) == 2
     assert command.main([*words, "--over", "length"]) == 2 and "has no `=`" in capsys.readouterr().err
+    assert command.main([*words, "--over", "length=3 m"]) == 2 and "is swept already" in capsys.readouterr().err
     assert command.main([*words, "--set", "push=2 N m"]) == 2 and "holds another sweep" in capsys.readouterr().err
     assert command.main([*words[:5], "length=-1 m,-2 m", "-o", str(tmp_path / "none")]) == 3

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import pathlib
+import pickle
 
 import numpy as np
 import pytest
@@ -120,3 +122,24 @@ def test_events_and_expectations() -> None:
     results = grashof.parse(text).run("swing")
     assert [event.name for event in results.events][:1] == ["low"]
     assert [checked.met for checked in results.expectations] == [False]
+
+
+def test_results_stay_in_their_process() -> None:
+    results = grashof.load(CRANK_ROCKER).run("one-turn")
+    with pytest.raises(grashof.Refused, match="to_pandas"):
+        pickle.dumps(results)
+    assert copy.copy(results) is results and copy.deepcopy([results])[0] is results
+
+
+def test_parts_of_a_column_that_there_is_not_are_named() -> None:
+    results = grashof.load(CRANK_ROCKER).run("one-turn")
+    with pytest.raises(grashof.UnknownName, match=r"`B\.fx`"):
+        results["B"]
+
+
+def test_all_columns_have_their_units() -> None:
+    pytest.importorskip("pint")
+    results = grashof.load(CRANK_ROCKER).run("one-turn")
+    quantities = results.to_pint()
+    assert list(quantities) == results.columns
+    assert quantities["drive.torque"].check("[force] * [length]")

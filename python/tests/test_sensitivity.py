@@ -73,3 +73,11 @@ def test_what_cannot_be_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "SALib.sample.sobol", None)
     with pytest.raises(grashof.Refused, match="pip install SALib"):
         model.sensitivity("swing", over={"x1": grashof.normal(0, 1)}, samples=4)
+
+
+def test_runs_without_a_result_are_told() -> None:
+    pytest.importorskip("SALib")
+    model = grashof.load(CRANK_ROCKER)
+    with pytest.warns(UserWarning, match="have no whole result"):
+        found = model.sensitivity("one-turn", over={"l3": grashof.uniform("0.1 m", "0.2 m")}, samples=16)
+    assert np.isnan(found["mean_power"]["l3"].total)

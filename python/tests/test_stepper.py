@@ -49,6 +49,31 @@ def test_many_inputs() -> None:
     assert abs(motion["P.omega"]) < 1.0
 
 
+def test_inputs_are_values_as_those_of_a_file() -> None:
+    pint = pytest.importorskip("pint")
+    speeds: list[float] = []
+    for push in (4000.0, "4 kN m", pint.UnitRegistry()("4 kN m"), "length*4 kN"):
+        motion = grashof.parse(PENDULUM).stepper("swing")
+        motion.set_input("push", push)
+        motion.advance(0.1)
+        speeds.append(motion["P.omega"])
+    assert speeds == [speeds[0]] * 4
+    motion = grashof.parse(PENDULUM).stepper("swing")
+    for wrong in ("4 kg", "4 kM"):
+        with pytest.raises(grashof.ModelError):
+            motion.set_input("push", wrong)
+
+
+def test_a_motion_goes_forward() -> None:
+    motion = grashof.parse(PENDULUM).stepper("swing")
+    for by in (float("nan"), -1.0, float("inf")):
+        with pytest.raises(grashof.Refused):
+            motion.advance(by)
+    with pytest.raises(grashof.Refused):
+        motion.advance_to(float("nan"))
+    assert motion.time == 0.0
+
+
 def test_what_cannot_be_stepped_is_refused() -> None:
     model = grashof.load(CRANK_ROCKER)
     with pytest.raises(grashof.Refused):

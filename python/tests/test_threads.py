@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import _thread
+import os
+import signal
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -49,6 +51,39 @@ def test_ctrl_c_ends_a_batch() -> None:
     q, v = d.start()
     states, velocities, times = np.tile(q, (80_000, 1)), np.tile(v, (80_000, 1)), np.zeros(80_000)
     assert interrupted(lambda: d.accelerations(times, states, velocities)) < 0.1
+
+
+def test_ctrl_c_ends_poses() -> None:
+    d = grashof.load(CRANK_ROCKER).dynamics()
+    states = np.tile(d.start()[0], (3_000_000, 1))
+    assert interrupted(lambda: d.pose("rocker", states)) < 0.15
+
+
+def test_a_fork_has_threads_of_its_own() -> None:
+    if not hasattr(os, "fork"):
+        pytest.skip("this system has no fork")
+    d = grashof.load(CRANK_ROCKER).dynamics()
+    q, _ = d.start()
+    motion = grashof.parse(PENDULUM).stepper("swing")
+    mass = d.mass(q)
+    motion.advance(0.01)
+    child = os.fork()
+    if child == 0:
+        same = np.array_equal(d.mass(q), mass)
+        try:
+            motion.advance(0.01)
+        except grashof.Refused:
+            os._exit(0 if same else 1)
+        os._exit(2)
+    end = time.monotonic() + 20
+    done, status = 0, 0
+    while not done and time.monotonic() < end:
+        done, status = os.waitpid(child, os.WNOHANG)
+        time.sleep(0.01)
+    if not done:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    assert done and os.waitstatus_to_exitcode(status) == 0
 
 
 def test_ctrl_c_ends_a_step() -> None:

@@ -198,8 +198,7 @@ impl Model {
     /// The motion of a study of the kind `dynamics`, to be advanced from outside by the integrator of the study.
     ///
     /// # Errors
-    /// If the study is no motion in time or wrong, does not begin, or has what changes the mechanism on the way: events, rigid stops,
-    /// exact friction.
+    /// If the study is no motion in time or wrong, or does not begin.
     pub fn stepping(&self, study: &str) -> Result<Stepping, Error> {
         let known = self.studies();
         if !known.iter().any(|name| name == study) {

@@ -18,7 +18,8 @@ use grashof_solvers::{Scheme, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A study with settings. What it is set to replaces what the file says; nothing is computed before it is run.
+/// A study with settings. What it is set to replaces what the file says; nothing is computed before it is run. With parameters set, variants
+/// or values of its own, what the file expects of its values is not judged.
 pub struct Study<'a> {
     document: &'a Document,
     selection: Selection<'a>,
@@ -150,7 +151,7 @@ impl<'a> Study<'a> {
     pub fn prepare(&self) -> Result<PreparedSweep, Error> {
         let selection = self.selection();
         let loaded = Loader::new(self.document, self.threads).model(&selection, &*self.stop);
-        let model = loaded.map_err(|why| Error::not_loaded(self.document, why))?;
+        let model = self.as_asked(loaded.map_err(|why| Error::not_loaded(self.document, why))?)?;
         let Some(study) = model.study.clone() else { return Err(self.unknown()) };
         if study.sweep.is_empty() {
             let message = format!("study `{}` is no sweep", self.name);
@@ -237,7 +238,26 @@ impl<'a> Study<'a> {
     }
 
     fn model(&self) -> Result<Model, Error> {
-        Loader::new(self.document, self.threads).drawn(&self.selection(), &*self.stop).map_err(|why| Error::not_loaded(self.document, why))
+        let loaded = Loader::new(self.document, self.threads).drawn(&self.selection(), &*self.stop);
+        self.as_asked(loaded.map_err(|why| Error::not_loaded(self.document, why))?)
+    }
+
+    /// A model without what the file expects of its own values, if these are changed, as the program does it.
+    ///
+    /// # Errors
+    /// If a parameter is set that the study varies.
+    fn as_asked(&self, mut model: Model) -> Result<Model, Error> {
+        if let Some(parameter) = model.set_and_varied() {
+            let message = format!("`{parameter}` is set, and study `{}` varies it", self.name);
+            return Err(Error::Refused { message, help: "leave the parameter to the study, or run another one".into() });
+        }
+        let Selection { sets, variants, over, .. } = &self.selection;
+        if let Some(study) = &mut model.study
+            && !(sets.is_empty() && variants.is_empty() && over.is_empty())
+        {
+            study.expect.clear();
+        }
+        Ok(model)
     }
 
     fn selection(&self) -> Selection<'_> {

@@ -33,6 +33,15 @@ impl PreparedSweep {
         self.study.sweep.iter().map(|sweep| self.model.parameters[sweep.parameter].name.as_str()).collect()
     }
 
+    /// A text of all that decides its results; of the file neither comments nor what another study is.
+    #[must_use]
+    pub fn content(&self) -> String {
+        let mut text = String::new();
+        // a text takes all
+        let _ = self.model.write_content(&mut text);
+        text
+    }
+
     /// The columns of its table, without values. The table of the runs leaves out results of the kind that no run has, as the frequency of
     /// a mode that is not there.
     #[must_use]

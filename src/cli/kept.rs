@@ -10,7 +10,6 @@
 //! A shard keeps its runs for good, in a file of its own, which ends in a record of no bytes when all its runs have been tried:
 //! those that it does not hold then never began.
 
-use grashof::expression::Pool;
 use grashof::model::Model;
 use grashof::results::{Failure, Unsolved};
 use grashof::studies::common::outcome::Outcome;
@@ -261,8 +260,7 @@ fn fingerprint(model: &Model) -> u64 {
     let mut text = Text(Sha256::new());
     // by its bytes, so that copies on several machines are one
     let program = std::env::current_exe().and_then(fs::read).ok().map(|bytes| shortened(Sha256::new().chain_update(bytes)));
-    // the index of the pool has no order: its nodes hold all
-    let rest = Model { pool: Pool::new(), ..model.clone() };
-    let _ = write!(text, "{} {program:?} {:?} {:?} {rest:?}", env!("CARGO_PKG_VERSION"), model.pool.nodes(), model.pool.switches());
+    let _ = write!(text, "{} {program:?} ", env!("CARGO_PKG_VERSION"));
+    let _ = model.write_content(&mut text);
     shortened(text.0)
 }

@@ -100,8 +100,8 @@ pub(super) fn moving(chosen: &Chosen, common: &Common) -> Result<Moving, u8> {
         Err(_) if interrupted() => return Err(ended(name)),
         loaded => loaded?,
     };
-    if let Some(parameter) = run::conflict(&model) {
-        return Err(run::refused(&parameter, name));
+    if let Some(parameter) = model.set_and_varied() {
+        return Err(run::refused(parameter, name));
     }
     let study = model.study.as_ref().ok_or(code::INPUT)?;
     let mut points = grid(&model, study);

@@ -137,9 +137,9 @@ fn studies(arguments: &Arguments, common: &Common, reports: &mut Vec<String>) ->
                 continue;
             }
         };
-        match conflict(&model) {
+        match model.set_and_varied() {
             Some(parameter) if !arguments.study.is_empty() => {
-                worst = worst.max(refused(&parameter, study));
+                worst = worst.max(refused(parameter, study));
                 reported(None, about(&model));
                 continue;
             }
@@ -298,13 +298,6 @@ impl Request<'_> {
             Err(failure) => files::explain(self.document, &failure, study, self.common),
         }
     }
-}
-
-/// A parameter that is set from outside although the study varies it.
-pub(super) fn conflict(model: &Model) -> Option<String> {
-    let study = model.study.as_ref()?;
-    let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
-    varied.map(|p| model.parameters[p].name.clone()).find(|name| model.set.contains(name))
 }
 
 /// The model of a study, with the scalars that it takes from others; what is wrong or doubtful has been printed, but for what was `told`.

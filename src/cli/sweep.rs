@@ -1,7 +1,7 @@
 //! `grashof sweep`: a study of the file over values of parameters that are named on the command line.
 
 use super::interrupt::{interrupted, watch_interrupts};
-use super::run::{Request, Wanted, conflict, load, refused};
+use super::run::{Request, Wanted, load, refused};
 use super::shard::{Part, Shard};
 use super::terminal::{take_errors, with_errors};
 use super::{Common, code, files, print_error, print_out};
@@ -106,8 +106,8 @@ pub(super) fn computed(asked: &Asked, common: &Common) -> u8 {
         Err(_) if interrupted() => return code::INTERRUPTED,
         Err(code) => return code,
     };
-    if let Some(parameter) = conflict(&model) {
-        return refused(&parameter, study);
+    if let Some(parameter) = model.set_and_varied() {
+        return refused(parameter, study);
     }
     if let (Some(study), true) = (&mut model.study, swept.is_some()) {
         let figure = figure(study);

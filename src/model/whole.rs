@@ -10,6 +10,7 @@ use super::rules::Check;
 use super::study::Study;
 use super::vocabulary::Quantity;
 use crate::expression::{Id, Pool};
+use std::fmt;
 
 /// A model with its variants merged: everything that a mechanism and one study are built from.
 #[derive(Clone, Debug)]
@@ -71,6 +72,24 @@ pub struct Model {
 }
 
 impl Model {
+    /// A parameter that is set from outside although the study varies it.
+    #[must_use]
+    pub fn set_and_varied(&self) -> Option<&str> {
+        let study = self.study.as_ref()?;
+        let varied = study.sweep.iter().map(|s| s.parameter).chain(study.solve.iter().map(|s| s.parameter));
+        varied.map(|p| self.parameters[p].name.as_str()).find(|name| self.set.iter().any(|set| set == name))
+    }
+
+    /// Writes all that decides its results: of the text of the file neither comments nor what another study is.
+    ///
+    /// # Errors
+    /// Those of what is written to.
+    pub fn write_content(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        // the index of the pool has no order: its nodes hold all
+        let rest = Self { pool: Pool::new(), ..self.clone() };
+        write!(to, "{:?} {:?} {rest:?}", self.pool.nodes(), self.pool.switches())
+    }
+
     /// Puts numbers for the scalars that the study takes from others, in the order of its `take`.
     pub fn give(&mut self, taken: &[f64]) {
         for (input, quantity) in self.inputs.iter().enumerate() {

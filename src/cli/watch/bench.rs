@@ -1,7 +1,7 @@
 //! The bench: studies that are out of date are computed, the one in view first, and given up when they are out of date again.
 
 use super::super::interrupt::interrupted;
-use super::super::{Common, files, report, run::conflict};
+use super::super::{Common, files, report};
 use super::board::Board;
 use super::entry::Computed;
 use grashof::api::explained;
@@ -104,7 +104,7 @@ impl Bench<'_> {
             Ok(model) => model,
             Err(why) => return Some(wrong(self.not_loaded(name, why))),
         };
-        if let Some(parameter) = conflict(&model) {
+        if let Some(parameter) = model.set_and_varied() {
             let message = format!("study `{name}` varies `{parameter}`, which `--set` fixes: it is not computed");
             return Some(wrong(self.told(name, message, "leave the parameter to the study")));
         }
