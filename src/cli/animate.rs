@@ -1,7 +1,7 @@
 //! `grashof animate`: a mechanism in motion, as GIF, SVG, film or pictures.
 
 use super::interrupt::{interrupted, uncut};
-use super::moving::{Chosen, Fast, Moving, moving};
+use super::moving::{Chosen, Fast, Moving, Seen, moving};
 use super::progress::Progress;
 use super::{Common, code, files, interrupt, print_error, print_note, video};
 use grashof::output::{Film, Projector, RenderError, Shot, Staging, moving_svg, write_gif};
@@ -30,23 +30,8 @@ pub(super) struct Arguments {
     /// Stop at the end
     #[arg(long)]
     once: bool,
-    /// Of a mechanism in space: from where it is seen: `front`, `top`, `side`, or azimuth and elevation in degrees, as `30,20`
-    #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
-    view: Option<[f64; 2]>,
-}
-
-/// Azimuth and elevation of the eye, rad.
-fn view(text: &str) -> Result<[f64; 2], String> {
-    let degrees = match text {
-        "front" => Some([-90.0, 0.0]),
-        "top" => Some([-90.0, 90.0]),
-        "side" => Some([0.0, 0.0]),
-        other => {
-            other.split_once(',').and_then(|(azimuth, elevation)| Some([azimuth.trim().parse().ok()?, elevation.trim().parse().ok()?]))
-        }
-    };
-    let known = degrees.filter(|d: &[f64; 2]| d[0].is_finite() && d[1].abs() <= 90.0);
-    known.map(|d| d.map(f64::to_radians)).ok_or_else(|| "front, top, side, or azimuth and elevation in degrees as `30,20`".into())
+    #[command(flatten)]
+    seen: Seen,
 }
 
 /// What is made.
@@ -77,13 +62,7 @@ fn animated(arguments: &Arguments, common: &Common) -> Result<(), u8> {
     let kind = kind(file)?;
     ready(kind, file, arguments, common)?;
     let mut moving = moving(&arguments.chosen, common)?;
-    if arguments.view.is_some() {
-        if moving.scene().dimensions == 2 {
-            print_error("`--view` is for mechanisms in space, and this one is planar", "leave `--view` out");
-            return Err(code::INPUT);
-        }
-        moving.scene_mut().view = arguments.view;
-    }
+    moving.look(&arguments.seen)?;
     let repeats = !arguments.once && (arguments.again || !matches!(kind, Kind::Video(_)));
     let shot = moving.shot(&arguments.fast, repeats, common)?;
     if shot.seconds < SHORT && !common.quiet {
@@ -193,13 +172,6 @@ fn unmade(error: &RenderError) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn views_have_names_or_two_angles() {
-        assert_eq!(view("top").map(|v| v.map(f64::to_degrees)), Ok([-90.0, 90.0]));
-        assert!(view("30, -20").is_ok_and(|v| (v[1].to_degrees() + 20.0).abs() < 1e-9));
-        assert!(view("30,100").is_err() && view("above").is_err() && view("nan,0").is_err());
-    }
 
     #[test]
     fn endings_say_what_is_made() {

@@ -1,7 +1,7 @@
 //! `grashof export`: the mechanism for other programs, as glTF with its motion and as DXF.
 
 use super::interrupt::interrupted;
-use super::moving::{Chosen, Fast, moving};
+use super::moving::{Chosen, Fast, Seen, moving};
 use super::{Common, code, files, interrupt, print_error};
 use grashof::output::{drawing, write_dxf, write_gltf};
 use std::path::{Path, PathBuf};
@@ -12,6 +12,8 @@ pub(super) struct Arguments {
     chosen: Chosen,
     #[command(flatten)]
     fast: Fast,
+    #[command(flatten)]
+    seen: Seen,
     /// Write bodies, joints and their motion as glTF 2.0, to a file that ends in .gltf or .glb
     #[arg(long, value_name = "FILE")]
     gltf: Option<PathBuf>,
@@ -38,7 +40,12 @@ fn exported(arguments: &Arguments, common: &Common) -> Result<(), u8> {
         ending(file, endings)?;
         files::may_write(file, common)?;
     }
-    let moving = moving(&arguments.chosen, common)?;
+    if arguments.seen.is_asked() && arguments.dxf.is_none() {
+        print_error("`--view` is for a drawing, and glTF is seen from anywhere", "leave `--view` out, or add `--dxf out.dxf`");
+        return Err(code::INPUT);
+    }
+    let mut moving = moving(&arguments.chosen, common)?;
+    moving.look(&arguments.seen)?;
     let (results, scene) = (&moving.results, moving.scene());
     let mut made = Vec::new();
     if let Some(file) = &arguments.gltf {

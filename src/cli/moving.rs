@@ -46,6 +46,35 @@ fn rate(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|x| (0.1..=240.0).contains(x)).ok_or_else(|| "a number from 0.1 to 240".into())
 }
 
+/// From where a motion is seen.
+#[derive(clap::Args)]
+pub(super) struct Seen {
+    /// Of a mechanism in space: from where it is seen: `front`, `top`, `side`, or azimuth and elevation in degrees, as `30,20`
+    #[arg(long, value_name = "VIEW", value_parser = view, allow_hyphen_values = true)]
+    view: Option<[f64; 2]>,
+}
+
+impl Seen {
+    /// Whether it is said.
+    pub(super) fn is_asked(&self) -> bool {
+        self.view.is_some()
+    }
+}
+
+/// Azimuth and elevation of the eye, rad.
+fn view(text: &str) -> Result<[f64; 2], String> {
+    let degrees = match text {
+        "front" => Some([-90.0, 0.0]),
+        "top" => Some([-90.0, 90.0]),
+        "side" => Some([0.0, 0.0]),
+        other => {
+            other.split_once(',').and_then(|(azimuth, elevation)| Some([azimuth.trim().parse().ok()?, elevation.trim().parse().ok()?]))
+        }
+    };
+    let known = degrees.filter(|d: &[f64; 2]| d[0].is_finite() && d[1].abs() <= 90.0);
+    known.map(|d| d.map(f64::to_radians)).ok_or_else(|| "front, top, side, or azimuth and elevation in degrees as `30,20`".into())
+}
+
 /// A motion that was computed.
 pub(super) struct Moving {
     pub(super) results: Results,
@@ -64,9 +93,17 @@ impl Moving {
         &self.results.scenes[self.index].1
     }
 
-    /// The mechanism, to be seen from elsewhere.
-    pub(super) fn scene_mut(&mut self) -> &mut Scene {
-        &mut self.results.scenes[self.index].1
+    /// Lets the mechanism be seen from where it is asked; what is wrong was reported.
+    pub(super) fn look(&mut self, seen: &Seen) -> Result<(), u8> {
+        if seen.view.is_none() {
+            return Ok(());
+        }
+        if self.scene().dimensions == 2 {
+            print_error("`--view` is for mechanisms in space, and this one is planar", "leave `--view` out");
+            return Err(code::INPUT);
+        }
+        self.results.scenes[self.index].1.view = seen.view;
+        Ok(())
     }
 
     /// When pictures are taken; what is wrong was reported.
@@ -178,5 +215,17 @@ fn found(results: Results, name: &str, chosen: &Chosen) -> Result<Moving, u8> {
             print_error(&message, &help);
             Err(code::INPUT)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn views_have_names_or_two_angles() {
+        assert_eq!(view("top").map(|v| v.map(f64::to_degrees)), Ok([-90.0, 90.0]));
+        assert!(view("30, -20").is_ok_and(|v| (v[1].to_degrees() + 20.0).abs() < 1e-9));
+        assert!(view("30,100").is_err() && view("above").is_err() && view("nan,0").is_err());
     }
 }

@@ -218,3 +218,28 @@ fn a_drawing_has_its_layers_and_its_size() {
     let lengths: Vec<f64> = lines.map(|w| (number(&w[5]) - number(&w[2])).hypot(number(&w[6]) - number(&w[3]))).collect();
     assert_eq!(lengths.iter().filter(|length| (**length - 300.0).abs() < 1e-3).count(), 2, "{lengths:?}");
 }
+
+/// A bar of 400 mm along x, seen along it and across.
+#[test]
+fn a_drawing_in_space_is_seen_from_where_it_is_asked() {
+    let arm = "grashof: 1
+name: arm
+space: spatial
+gravity: none
+bodies: { arm: { bar: { length: 40 cm, mass: 1 kg, width: 2 cm, height: 2 cm } } }
+joints: { P: { revolute: [ground, arm.start], axis: [1, 0, 0] } }
+drivers: { drive: { joint: P, speed: 60 rpm } }
+studies: { turn: { kinematics: { over: 1 turn, samples: 36 }, columns: [arm.end.y] } }
+";
+    let place = Place::new("seen", arm);
+    // along the arm, and across it
+    for (view, long) in [("side", false), ("front", true), ("-90,0", true)] {
+        let file = format!("{}.dxf", view.replace(',', "_"));
+        let text = String::from_utf8(place.made(&format!("export --study turn --dxf {file} --view {view}"), &file)).unwrap();
+        let pairs: Vec<(&str, &str)> =
+            text.lines().zip(text.lines().skip(1)).step_by(2).map(|(code, value)| (code.trim(), value)).collect();
+        // how far it reaches to the right, mm
+        let right = pairs.windows(2).find(|w| w[0] == ("9", "$EXTMAX")).map(|w| w[1].1.parse::<f64>().unwrap());
+        assert_eq!(right.is_some_and(|right| right > 399.0), long, "{view}: {right:?}");
+    }
+}

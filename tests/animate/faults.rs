@@ -19,6 +19,8 @@ fn what_cannot_be_shown_is_refused() {
         ("animate --study turn --speed 1e-9 -o out.gif", "pictures and more than"),
         ("animate --study turn -o no/such/place/out.gif", "there is no such file"),
         ("export --study turn", "what to write"),
+        ("export --study turn --dxf out.dxf --view top", "is planar"),
+        ("export --study turn --gltf out.glb --view top", "is for a drawing"),
         ("export --study turn --gltf out.obj", "the ending of `out.obj` is not known"),
         ("export --study rest --dxf out.dxf", "has no motion"),
     ] {
