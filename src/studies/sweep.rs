@@ -189,6 +189,7 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
         findings.extend(run.solved.iter().flat_map(|s| &s.findings).map(|f| Finding { message: of(&f.message), ..f.clone() }));
     }
     findings.extend(findings_of(first, &runs, &labels));
+    findings.extend(constant(study, &table));
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
@@ -229,6 +230,22 @@ fn findings_of(first: usize, runs: &[Run], labels: &[String]) -> Vec<Finding> {
         Finding { message, ..finding.clone() }
     };
     known.into_iter().map(told).collect()
+}
+
+/// Runs from which on scalars that are all the same are no chance.
+const SOME: usize = 3;
+
+/// That nothing that the study asks for depends on what is swept.
+fn constant(study: &Study, table: &Table) -> Option<Finding> {
+    let scalars = &table.columns[table.columns.len() - study.scalars.len()..];
+    let same = |column: &Column| column.values.iter().all(|x| x.is_finite() && Some(x) == column.values.first());
+    let swept = study.sweep.iter().zip(&table.columns).map(|(_, column)| format!("`{}`", column.name)).collect::<Vec<_>>();
+    let all = !scalars.is_empty() && scalars.iter().all(same) && table.rows() >= SOME;
+    all.then(|| Finding {
+        code: "sweep-constant".into(),
+        message: format!("all scalars are the same in all {} runs: does anything depend on {}?", table.rows(), swept.join(" or ")),
+        path: study.place.clone(),
+    })
 }
 
 /// What the first of so many runs of all says: its number, counted from 0, and its label.

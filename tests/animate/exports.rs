@@ -234,7 +234,7 @@ studies: { turn: { kinematics: { over: 1 turn, samples: 36 }, columns: [arm.end.
     let place = Place::new("seen", arm);
     // along the arm, and across it
     for (view, long) in [("side", false), ("front", true), ("-90,0", true)] {
-        let file = format!("{}.dxf", view.replace(',', "_"));
+        let file = format!("from{}.dxf", view.replace(',', "_"));
         let text = String::from_utf8(place.made(&format!("export --study turn --dxf {file} --view {view}"), &file)).unwrap();
         let pairs: Vec<(&str, &str)> =
             text.lines().zip(text.lines().skip(1)).step_by(2).map(|(code, value)| (code.trim(), value)).collect();

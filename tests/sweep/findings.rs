@@ -48,3 +48,17 @@ fn an_absolute_value_is_not_below_zero_where_its_switch_is() {
         assert!(values.iter().any(|x| *x > 1e9), "{study}");
     }
 }
+
+#[test]
+fn a_sweep_that_changes_nothing_is_told() {
+    let text = POLES.replace("parameters: { l3: 55 cm }", "parameters: { l3: 55 cm, spare: 1 m }");
+    let text = text.replace("most: max(advantage)", "far: max(rocker.angle), near: min(rocker.angle)");
+    let model = Model::parse(&text).unwrap();
+    let told = |parameter: &str, values: &str| {
+        let results = model.study("turn").unwrap().over(parameter, values).run().unwrap();
+        results.findings.iter().find(|f| f.code == "sweep-constant").map(|f| f.message.to_string())
+    };
+    assert_eq!(told("spare", "1 m, 2 m, 3 m").as_deref(), Some("all scalars are the same in all 3 runs: does anything depend on `spare`?"));
+    assert_eq!(told("spare", "1 m, 2 m"), None);
+    assert_eq!(told("l3", "50 cm, 55 cm, 60 cm"), None);
+}
