@@ -38,6 +38,8 @@ const ROUND_OFF: f64 = 1e-10;
 const REFINEMENTS: usize = 4;
 const NEAR: f64 = 1e-3;
 const APART: f64 = 1e-3;
+/// Part of what xᵀKx is the sum of that is round-off.
+const CANCELLED: f64 = 1e-14;
 /// Steps between looks at what has converged, and most rounds.
 const LOOK: usize = 10;
 const ROUNDS: usize = 60;
@@ -273,6 +275,13 @@ impl<'a> Inverted<'a> {
             |block: &Block| -> Complex<f64> { block.pattern().places().zip(block.values()).map(|((i, j), k)| x[i] * x[j] * *k).sum() };
         let (m, k) = (along(self.mass), along(self.stiffness));
         let c: Complex<f64> = self.damping.iter().map(|(i, j, c)| x[*i] * x[*j] * *c).sum();
+        // of a free motion it is what rounding has left: that goes on, or is slowed down as a whole
+        let sizes = self.stiffness.pattern().places().zip(self.stiffness.values());
+        let made_of: f64 = sizes.map(|((i, j), k)| x[i].norm() * x[j].norm() * k.abs()).sum();
+        if k.norm() <= CANCELLED * made_of {
+            let slowed = -c / m;
+            return if (value - slowed).norm() < value.norm() { slowed } else { Complex::default() };
+        }
         let slope = value * m * 2.0 + c;
         let size = (value * m * 2.0).norm() + c.norm();
         let mut root = value;

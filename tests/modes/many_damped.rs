@@ -230,3 +230,24 @@ fn a_truss_that_is_a_pendulum_has_one_pair() {
     assert_eq!(many.len(), 1);
     assert!((many[0].re / full[0].re - 1.0).abs() < 1e-6, "{many:?} and {full:?}");
 }
+
+/// A free row that a small damper to the ground slows down: as a whole by c over all masses.
+#[test]
+fn a_free_row_with_a_small_damper_comes_to_rest_slowly() {
+    let n = 110;
+    let each = |f: &dyn Fn(usize) -> String| (0..n).map(f).collect::<String>();
+    let text = format!(
+        "grashof: 1\nname: free row\nspace: planar\ngravity: none\nbodies:\n{}joints:\n{}springs:\n{}studies: {{ v: {{ modes: {{ damped: true, lowest: 3 }} }} }}\n",
+        each(&|i| format!("  b{i}: {{ mass: 1 kg }}\n")),
+        each(&|i| format!(
+            "  j{i}: {{ slider: [ground, b{i}.origin], axis: [1, 0]{} }}\n",
+            if i == 0 { ", damping: 0.001 N s/m" } else { "" }
+        )),
+        each(&|i| if i == 0 { String::new() } else { format!("  s{i}: {{ stretch: b{i}.x - b{}.x, stiffness: 1e6 N/m }}\n", i - 1) }),
+    );
+    let outcome = study(&text, "v", Coordinates::Joint);
+    let found = of_study(&outcome);
+    assert_eq!(found[0], Complex::default(), "{found:?}");
+    assert!((found[1].re * n as f64 / -1e-3 - 1.0).abs() < 1e-6 && found[1].im == 0.0, "{found:?}");
+    assert!(!codes(&outcome).contains(&"unstable"), "{:?}", outcome.findings);
+}

@@ -56,3 +56,46 @@ fn a_truss_of_springs_is_stable_and_carries_the_moment_of_its_load() {
         near(high / (n - 1) as f64, 1.0, 1e-6);
     }
 }
+
+/// `n` levers on which two weights are in balance in any position.
+fn levers(n: usize, angle: f64) -> String {
+    let each = |f: &dyn Fn(usize) -> String| (0..n).map(f).collect::<String>();
+    format!(
+        "grashof: 1\nname: levers\nspace: planar\ngravity: [0, -9.81]\nbodies:\n{}joints:\n{}start:\n{}studies: {{ rest: {{ statics: {{ from: start }} }} }}\n",
+        each(&|i| format!(
+            "  b{i}: {{ points: {{ P: [20 cm, 0], Q: [-30 cm, 0] }}, attached: {{ p: {{ at: P, mass: 3 kg }}, q: {{ at: Q, mass: 2 kg }} }} }}\n"
+        )),
+        each(&|i| format!("  J{i}: {{ revolute: [ground, b{i}.origin] }}\n")),
+        each(&|i| format!("  J{i}.angle: {} deg\n", angle + i as f64)),
+    )
+}
+
+#[test]
+fn a_balanced_lever_is_indifferent_in_any_position() {
+    for n in [1, 120] {
+        for angle in [0.0, 20.0, 47.0] {
+            let outcome = run(&levers(n, angle), "rest");
+            let told = findings(&outcome, "equilibrium")[0].to_owned();
+            assert!(told.contains(": indifferent"), "{n} at {angle}: {told}");
+        }
+    }
+}
+
+/// A force of 0.3 N on a spring of 1 N/m beside four of 1e10 N/m, and rest without any force.
+#[test]
+fn a_soft_spring_is_drawn_as_far_as_its_force_says() {
+    let text = |load: &str| {
+        let each = |f: &dyn Fn(usize) -> String| (0..5).map(f).collect::<String>();
+        format!(
+            "grashof: 1\nname: soft\nspace: planar\ngravity: none\nbodies:\n{}joints:\n{}springs:\n{}loads: {{ pull: {{ joint: S0, force: {load} }} }}\nstudies: {{ rest: {{ statics: {{ from: start }}, scalars: {{ x: last(S0.position) }} }} }}\n",
+            each(&|i| format!("  m{i}: {{ mass: 1 kg }}\n")),
+            each(&|i| format!("  S{i}: {{ slider: [ground, m{i}.origin], axis: [1, 0] }}\n")),
+            each(&|i| format!("  s{i}: {{ joint: S{i}, stiffness: {} N/m }}\n", if i == 0 { "1" } else { "1e10" })),
+        )
+    };
+    for (load, x) in [("0.3 N", 0.3), ("0 N", 0.0)] {
+        let outcome = run(&text(load), "rest");
+        near(outcome.scalars[0], x, 1e-9);
+        assert!(findings(&outcome, "equilibrium")[0].ends_with(": stable"), "{load}: {:?}", outcome.findings);
+    }
+}

@@ -91,11 +91,16 @@ where
         let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
         steps += more;
         let free: Vec<&Vec<f64>> = modes.iter().zip(&vectors).filter(|(mode, _)| mode.is_free()).map(|(_, x)| x).collect();
+        let count = growing(pencil);
         rounded(&mut motions, omega, &free);
+        if count == Some(0) {
+            // where nothing grows, growth is round-off
+            motions.iter_mut().for_each(|motion| motion.value.re = motion.value.re.min(0.0));
+        }
         let damped = |motion: &DampedMotion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) };
         let found: Vec<Damped> = motions.iter().map(damped).collect();
         let frequencies = report.damped(&found, wanted);
-        growth(&mut report, pencil, found.iter().filter(|mode| mode.grows()).count());
+        growth(&mut report, count, found.iter().filter(|mode| mode.grows()).count());
         (frequencies, motions.iter().map(|motion| motion.vector.iter().map(|x| x.re).collect()).collect())
     } else {
         (report.frequencies(&modes), vectors)
@@ -152,8 +157,8 @@ fn rounded(motions: &mut [DampedMotion], omega: f64, free: &[&Vec<f64>]) {
 }
 
 /// That more motions grow than are listed, or that these cannot be counted.
-fn growth(report: &mut Report<'_>, pencil: &Pencil, listed: usize) {
-    match growing(pencil) {
+fn growth(report: &mut Report<'_>, all: Option<usize>, listed: usize) {
+    match all {
         Some(all) if all > listed => report.finding(
             "unstable",
             format!("{all} motions leave the pose (as many as the stiffness has negative eigenvalues), {listed} of them are listed; `lowest` asks for more"),

@@ -218,14 +218,15 @@ where
         let mut pencil = of_metric(stiff.stiffness.clone(), stiff.rows.clone(), &stiff.metric, &stiff.row_scale);
         pencil.freedom = stiff.freedom;
         let pair = Pair::new(&pencil);
-        let below = |part: f64| pair.below(part * pair.size).unwrap_or(0);
+        let size = pair.size.max(stand.stiffness);
+        let below = |part: f64| pair.below(part * size).unwrap_or(0);
         let mut negative = below(-ZERO);
         let mut zero = below(ZERO).saturating_sub(negative);
         let mut falls = Vec::new();
         if negative + zero > 0 {
             let wanted = if zero > 0 && negative + zero <= WEAK { negative + zero } else { 1 };
             let Lowest { values, vectors, .. } = lowest(&pencil, wanted, stop).unwrap_or_default();
-            let weak = values.iter().zip(&vectors).skip(negative).filter(|(value, _)| value.abs() <= 2.0 * ZERO * pair.size);
+            let weak = values.iter().zip(&vectors).skip(negative).filter(|(value, _)| value.abs() <= 2.0 * ZERO * size);
             let followed: Vec<f64> =
                 weak.filter(|(value, x)| self.sinking.is_followed(&stand, **value, x)).map(|(value, _)| *value).collect();
             zero -= followed.len();

@@ -18,6 +18,7 @@ use super::rest::{Lost, Rest};
 use super::stability::Stability;
 use crate::geometry::Space;
 use crate::numerics::least_squares::shortest;
+use grashof_solvers::svd::Svd;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of a search.
@@ -32,6 +33,9 @@ pub(super) const NEAR: f64 = 1e-6;
 pub(super) const ROUND_OFF: f64 = 1e-14;
 /// Part of the acting stiffness that is always added, so that motions that nothing holds stay where they are.
 pub(super) const FLOOR: f64 = 1e-11;
+/// Part of the largest stiffness below which a motion is not held by any, in the last steps, and how far these go, rad or sizes.
+const SINGULAR: f64 = 1e-14;
+const FARTHEST: f64 = 0.1;
 /// Sizes beyond which a mechanism has run away.
 pub(super) const AWAY: f64 = 1e6;
 
@@ -180,9 +184,16 @@ where
     /// Newton steps as long as they halve what is unbalanced.
     pub(super) fn polish(&mut self, mut pose: Pose) -> Result<Pose, Ended> {
         for _ in 0..8 {
-            let h = self.tangent(&pose)?;
-            let y = newton_step(&h, &pose.force, 0.0);
-            let delta = &pose.basis * y;
+            if pose.force.norm() == 0.0 {
+                break;
+            }
+            let svd = Svd::new(&self.tangent(&pose)?);
+            let least = SINGULAR * svd.largest();
+            let y = svd.solve(pose.force.as_slice(), |s| if s > least { s.recip() } else { 0.0 });
+            let delta = &pose.basis * DVector::from_vec(y);
+            if self.measure(&delta) > FARTHEST {
+                break;
+            }
             let Ok(next) = self.moved(&pose, delta.as_slice()) else { break };
             if next.force.norm() > 0.5 * pose.force.norm() {
                 break;

@@ -45,6 +45,8 @@ pub(super) struct Stand {
     /// Size of the unbalanced force in D⁻¹, and what it is made of before it cancels.
     pub(super) force: f64,
     pub(super) grain: f64,
+    /// A stiffness of the order of those that act, before they cancel.
+    pub(super) stiffness: f64,
 }
 
 /// A mechanism of many bodies that rests.
@@ -93,8 +95,8 @@ where
         solved?;
         let net: Vec<f64> = self.bath.lines().map(|line| line.dot(&pull)).collect();
         let force = net.iter().zip(&self.metric).map(|(f, d)| f * f / d).sum::<f64>().sqrt();
-        let (grain, _) = self.rest.sizes();
-        Ok(Stand { position: self.rest.position(lambda), net, force, grain })
+        let (grain, stiffness) = self.rest.sizes();
+        Ok(Stand { position: self.rest.position(lambda), net, force, grain, stiffness })
     }
 
     /// The multipliers (m) that leave least unbalanced, and the pull B⁻¹(f − Gᵀλ) (nv) of the rest, by the factors at hand.

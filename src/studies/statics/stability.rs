@@ -28,6 +28,8 @@ const UNDAMPED: f64 = 1e-8;
 /// part of them by which they may fail to be opposite.
 const DOUBLE: f64 = 1e-7;
 const OPPOSITE: f64 = 1e-2;
+/// Part of the stiffness that acts below which the square of a pole is round-off.
+const SQUARE: f64 = 16.0 * f64::EPSILON;
 /// Sweeps of an eigensolver.
 const SWEEPS: usize = 10_000;
 
@@ -102,7 +104,9 @@ impl Stability {
         let Some(poles) = linear.and_then(|linear| linear.reduce(&preferred(mechanism))).ok().and_then(|r| eigenvalues(&r.a)) else {
             return;
         };
-        let (growing, still) = growing_and_still(&poles);
+        // without states the square of a pole is a stiffness, which is round-off beside those that act
+        let least = if self.symmetric && z.is_empty() { (SQUARE * self.scale).sqrt() } else { 0.0 };
+        let (growing, still) = growing_and_still(&poles, least);
         // a state may hold what falls without it
         if self.symmetric && growing <= self.negative && z.is_empty() {
             return;
@@ -123,13 +127,13 @@ impl Stability {
     }
 }
 
-/// How many motions grow, one of each pair, and how many poles are zero.
-fn growing_and_still(poles: &[Complex<f64>]) -> (usize, usize) {
+/// How many motions grow, one of each pair, and how many poles are zero, as all below `least` are.
+fn growing_and_still(poles: &[Complex<f64>], least: f64) -> (usize, usize) {
     let fastest = poles.iter().fold(0.0, |m: f64, p| m.max(p.norm()));
     let still = |i: usize| {
         let p = poles[i];
         let opposite = |(j, q): (usize, &Complex<f64>)| i != j && (p + q).norm() <= OPPOSITE * p.norm();
-        p.norm() <= ROUND_OFF * fastest || p.norm() <= DOUBLE * fastest && poles.iter().enumerate().any(opposite)
+        p.norm() <= f64::max(ROUND_OFF * fastest, least) || p.norm() <= DOUBLE * fastest && poles.iter().enumerate().any(opposite)
     };
     let grows = |i: usize| {
         let p = poles[i];
@@ -144,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_slow_pole_is_no_zero_and_a_double_zero_is_no_growth() {
-        let of = |poles: &[(f64, f64)]| growing_and_still(&poles.iter().map(|&(re, im)| Complex::new(re, im)).collect::<Vec<_>>());
+        let of = |poles: &[(f64, f64)]| growing_and_still(&poles.iter().map(|&(re, im)| Complex::new(re, im)).collect::<Vec<_>>(), 0.0);
         assert_eq!(of(&[(-2e4, 0.0), (1e-3, 0.0), (-1.0, 30.0), (-1.0, -30.0)]), (1, 0));
         assert_eq!(of(&[(-10.0, 223.0), (-10.0, -223.0), (-1e-5, 0.0)]), (0, 0));
         assert_eq!(of(&[(0.0, 100.0), (0.0, -100.0), (3e-7, 0.0), (-3e-7, 0.0)]), (0, 2));

@@ -19,7 +19,8 @@ use nalgebra::DVector;
 
 /// Forces beside the equilibrium, by what is unbalanced in it or lost to round-off.
 const CLEAR: f64 = 1e3;
-/// Longest way, rad or sizes of the mechanism.
+/// Least and longest way, rad or sizes of the mechanism: where all forces are 0 any way is above their round-off.
+const LEAST: f64 = 1e-6;
 const LONGEST: f64 = 1e-3;
 /// Part of λδ by which a force may differ from it.
 const FOLLOWS: f64 = 0.2;
@@ -27,9 +28,8 @@ const FOLLOWS: f64 = 0.2;
 /// Whether an eigenvalue λ is that of the forces; `unbalanced` is what the equilibrium leaves of forces of the size `grain`, both in the
 /// inverse of the metric. `length` is that of a way along its motion, rad or sizes, and `force` the force along the motion behind a way.
 fn is_followed(value: f64, unbalanced: f64, grain: f64, length: f64, mut force: impl FnMut(f64) -> Option<f64>) -> bool {
-    let way = CLEAR * unbalanced.max(f64::EPSILON * grain) / value.abs();
-    // without any force nothing is followed
-    if !(way > 0.0 && way * length <= LONGEST) {
+    let way = f64::max(CLEAR * unbalanced.max(f64::EPSILON * grain) / value.abs(), LEAST / length);
+    if value == 0.0 || !(way > 0.0 && way * length <= LONGEST) {
         return false;
     }
     [way, -way].into_iter().all(|way| force(way).is_some_and(|force| (force + value * way).abs() <= FOLLOWS * (value * way).abs()))
@@ -82,5 +82,7 @@ mod tests {
         assert!(!of(12.0 * off * off, &|x| -4.0 * (x + off).powi(3)));
         assert!(!of(1e-10, &|_| 0.0));
         assert!(!of(0.0, &|_| 0.0));
+        // a start without any force
+        assert!(is_followed(1e-9, 0.0, 0.0, 1.0, |way| Some(-1e-9 * way)));
     }
 }
