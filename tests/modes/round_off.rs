@@ -29,6 +29,28 @@ studies:
     }
 }
 
+#[test]
+fn a_balanced_lever_is_free_in_any_position() {
+    for angle in [0.0, 20.0, 47.0] {
+        let text = format!(
+            "grashof: 1
+name: lever
+space: planar
+gravity: [0, -9.81]
+bodies: {{ b: {{ points: {{ P: [20 cm, 0], Q: [-30 cm, 0] }}, attached: {{ p: {{ at: P, mass: 3 kg }}, q: {{ at: Q, mass: 2 kg }} }} }} }}
+joints: {{ J: {{ revolute: [ground, b.origin] }} }}
+start: {{ J.angle: {angle} deg }}
+studies: {{ plain: {{ modes: {{}} }}, damped: {{ modes: {{ damped: true }} }}, few: {{ modes: {{ methods: [lanczos] }} }} }}
+"
+        );
+        for name in ["plain", "damped", "few"] {
+            let found = study(&text, name, Coordinates::Joint);
+            let told = codes(&found);
+            assert!(told.contains(&"free-motion") && !told.contains(&"unstable"), "{angle} {name}: {:?}", found.findings);
+        }
+    }
+}
+
 /// Three slides in a row, the first with springs and dampers of the ground, the last with springs of the second.
 fn slides(first: &str, second: &str, more: &str) -> String {
     format!(

@@ -134,7 +134,8 @@ fn undamped(
     let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
         let sizes = x.abs();
         let made_of = sizes.dot(&(&held.round_off * &sizes)) + held.forces.component_div(ways).dot(&sizes.component_mul(&sizes));
-        let noise = others + ROUND_OFF * made_of + of_work(held.forces.dot(ways), x.iter().zip(ways).map(|(x, way)| x / way));
+        let noise =
+            others + ROUND_OFF * made_of + of_work(held.forces.dot(ways) + held.weights, x.iter().zip(ways).map(|(x, way)| x / way));
         Undamped { value, noise, shape: x.into_owned() }
     };
     Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())
