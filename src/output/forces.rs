@@ -182,21 +182,17 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
     }
     // as long as there is room for them beside the axes of space, else together in a line above
     let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
-    let gap = 2.0 * TURNED + 12.0;
-    let mut above = Vec::new();
-    for (kind, _, name) in KINDS.into_iter().filter(|(kind, ..)| scales.torque[*kind as usize] > 0.0) {
+    let worded = |(kind, _, name): (ForceKind, &str, &str)| {
         let most = told(scales.torque[kind as usize], drawing.torque.as_ref(), ["N m", "kN m"], 3);
-        let [long, short] = [format!("{name}: at most {most}"), format!("{name} to {most}")];
-        let fits = |text: &String| x + gap + font::width(text, letters) <= room;
-        match [&long, &short].into_iter().find(|text| fits(text)) {
-            Some(text) => x = turning(scene, kind, text, [x, y], letters) + 30.0,
-            None => above.push((kind, long.clone())),
-        }
-    }
-    let width = |text: &str| gap + font::width(text, letters) + 30.0;
-    let mut x = (room + 30.0 - above.iter().map(|(_, text)| width(text)).sum::<f64>()).max(left);
-    for (kind, text) in &above {
-        x = turning(scene, *kind, text, [x, y - 2.5 * TURNED], letters) + 30.0;
+        (kind, [format!("{name}: at most {most}"), format!("{name} to {most}")])
+    };
+    let all: Vec<_> = KINDS.into_iter().filter(|(kind, ..)| scales.torque[*kind as usize] > 0.0).map(worded).collect();
+    let width = |form: usize| all.iter().map(|(_, texts)| 2.0 * TURNED + 42.0 + font::width(&texts[form], letters)).sum::<f64>() - 30.0;
+    let beside = [0, 1].into_iter().find(|form| x + width(*form) <= room);
+    let level = if beside.is_some() { y } else { y - 2.5 * TURNED };
+    let mut from = if beside.is_some() { x } else { (room - width(0)).max(left) };
+    for (kind, texts) in &all {
+        from = turning(scene, *kind, &texts[beside.unwrap_or(0)], [from, level], letters) + 30.0;
     }
 }
 

@@ -181,7 +181,8 @@ fn taut(n: usize, span: f64, damping: f64) -> String {
 /// Decays far below the frequencies, and none at all.
 #[test]
 fn a_taut_chain_of_light_and_heavy_bars_decays_as_its_damper_says() {
-    let still = taut(110, 0.999, 0.0);
+    // drawn so taut that values without refinement are 1e-7 off
+    let still = taut(110, 0.9999, 0.0);
     let frequencies = list(&study(&still, "undamped", Coordinates::Joint), "frequencies").to_vec();
     let undamped: Vec<Complex<f64>> = frequencies.iter().map(|omega| Complex::new(0.0, *omega)).collect();
     let outcome = study(&still, "many", Coordinates::Joint);

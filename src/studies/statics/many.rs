@@ -224,14 +224,16 @@ where
         let mut zero = below(ZERO).saturating_sub(negative);
         let mut falls = Vec::new();
         if negative + zero > 0 {
-            let wanted = if zero > 0 && negative + zero <= WEAK { negative + zero } else { 1 };
-            let Lowest { values, vectors, .. } = lowest(&pencil, wanted, stop).unwrap_or_default();
-            let weak = values.iter().zip(&vectors).skip(negative).filter(|(value, _)| value.abs() <= 2.0 * ZERO * size);
-            let followed: Vec<f64> =
-                weak.filter(|(value, x)| self.sinking.is_followed(&stand, **value, x)).map(|(value, _)| *value).collect();
+            let asked = zero > 0 && negative + zero <= WEAK;
+            let wanted = if asked { negative + zero } else { 1 };
+            let Lowest { values, mut vectors, .. } = lowest(&pencil, wanted, stop).unwrap_or_default();
+            let weak = (negative..values.len()).take(if asked { zero } else { 0 });
+            let followed: Vec<usize> = weak.filter(|&i| self.sinking.is_followed(&stand, values[i], &vectors[i])).collect();
             zero -= followed.len();
-            negative += followed.iter().filter(|value| **value < 0.0).count();
-            falls = vectors.into_iter().next().unwrap_or_default();
+            negative += followed.iter().filter(|&&i| values[i] < 0.0).count();
+            // the lowest one that falls, or the first that nothing holds
+            let shown = (0..vectors.len()).find(|i| negative > 0 || !followed.contains(i));
+            falls = shown.map(|i| vectors.swap_remove(i)).unwrap_or_default();
         }
         if stop() {
             return Err(Failure::interrupted());
