@@ -5,7 +5,7 @@ use crate::kkt::columns::Columns;
 use crate::kkt::reach::{FREE, Reach};
 use std::collections::BTreeMap;
 
-/// A pivot is taken from this part of a row's largest remainder on, from the column with the fewest entries.
+/// A pivot is taken from this part of a row's largest remainder on, from the column with the fewest entries in the rows to come.
 const THRESHOLD: f64 = 0.5;
 
 /// The rows of a sparse matrix, each eliminated by the independent ones before it.
@@ -14,7 +14,7 @@ const THRESHOLD: f64 = 0.5;
 /// A remainder is never shorter than the distance of its row from those before, so that what counts as dependent is so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elimination {
-    /// Independent rows, rising.
+    /// Independent rows, in the order of their elimination.
     pub independent: Vec<usize>,
     /// Rows that depend on those before them, rising.
     pub dependent: Vec<usize>,
@@ -33,6 +33,18 @@ impl Elimination {
     /// Of rows times `scale`: an entry in column j is multiplied by `unit[j]` as well. A row depends on those before if its remainder
     /// has no entry above `tolerance`, or above that part of the row.
     pub fn new(rows: &Block, scale: &[f64], unit: &[f64], tolerance: f64) -> Self {
+        Self::in_order(0..scale.len(), rows, scale, unit, tolerance)
+    }
+
+    /// The same where no row depends on others, from the last row to the first; none where one does: which one that is would be another.
+    ///
+    /// Joints come from the ground outwards, as a rule. What a row takes on the outer side then stands in no row behind it, and nothing
+    /// fills: in the other direction each row of a long chain may keep something of all those before it.
+    pub fn of_independent(rows: &Block, scale: &[f64], unit: &[f64], tolerance: f64) -> Option<Self> {
+        Some(Self::in_order((0..scale.len()).rev(), rows, scale, unit, tolerance)).filter(|found| found.dependent.is_empty())
+    }
+
+    fn in_order(order: impl Iterator<Item = usize>, rows: &Block, scale: &[f64], unit: &[f64], tolerance: f64) -> Self {
         let n = unit.len();
         let mut counts = vec![0_usize; n];
         rows.lines().for_each(|line| line.columns.iter().for_each(|&j| counts[j] += 1));
@@ -47,7 +59,10 @@ impl Elimination {
             upper: Vec::new(),
             combined: Vec::new(),
         };
-        for (i, (line, scale)) in rows.lines().zip(scale).enumerate() {
+        for i in order {
+            let (line, scale) = (rows.line(i), scale[i]);
+            // of the columns left those count that rows to come have
+            line.columns.iter().for_each(|&j| counts[j] -= 1);
             reach.find(i as u32, line.columns, &step, &pattern);
             let mut square = 0.0;
             for (j, value) in line.entries() {
@@ -157,6 +172,28 @@ mod tests {
         let x = found.annihilated(&y);
         assert!(rows.lines().all(|line| line.dot(&x).abs() < 1e-12));
         assert!(found.free.iter().zip(&y).all(|(&j, y)| x[j] == *y));
+    }
+
+    #[test]
+    fn a_chain_does_not_fill() {
+        // each row decides the place behind, mostly, by the one before and one that stays free
+        let n = 200;
+        let mut rows = Block::new(&Sparsity::new(n, 2 * n + 1, (0..n).flat_map(|i| (0..3).map(move |k| (i, 2 * i + k)))));
+        for i in 0..n {
+            [-0.4, 0.4, 1.0].into_iter().enumerate().for_each(|(k, x)| rows.set(i, 2 * i + k, x));
+        }
+        let (scale, unit) = (vec![1.0; n], vec![1.0; 2 * n + 1]);
+        let entries = |found: &Elimination| found.lower.iter().map(Vec::len).sum::<usize>();
+        let forwards = Elimination::new(&rows, &scale, &unit, 1e-10);
+        let backwards = Elimination::of_independent(&rows, &scale, &unit, 1e-10).unwrap();
+        assert_eq!((entries(&forwards), entries(&backwards)), (n * (n + 3) / 2, 2 * n));
+        assert_eq!(forwards.free, backwards.free);
+        let free: Vec<f64> = (0..=n).map(|k| (k as f64).cos()).collect();
+        let [one, other] = [forwards, backwards].map(|found| found.annihilated(&free));
+        assert!(one.iter().zip(&other).all(|(x, y)| (x - y).abs() < 1e-14));
+        assert!(rows.lines().all(|row| row.dot(&one).abs() < 1e-14));
+        // a row that depends on others is named in the order of the rows
+        assert_eq!(Elimination::of_independent(&band(6), &[1.0; 6], &[1.0; 8], 1e-10), None);
     }
 
     #[test]

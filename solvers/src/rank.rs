@@ -56,7 +56,8 @@ impl Rank {
         }
         let root = |x: &[f64]| x.iter().map(|x| x.sqrt().recip()).collect::<Vec<f64>>();
         let (scale, unit) = (root(g_scale), root(metric));
-        let found = Elimination::new(g, &scale, &unit, tolerance);
+        let found =
+            Elimination::of_independent(g, &scale, &unit, tolerance).unwrap_or_else(|| Elimination::new(g, &scale, &unit, tolerance));
         let (rank, dependent, mobility) = (found.independent.len(), found.dependent.clone(), found.free.len());
         Self { rank, dependent, mobility, motions: Motions::Eliminated(found, unit) }
     }

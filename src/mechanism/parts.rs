@@ -149,6 +149,18 @@ pub struct Mechanism<G: Space> {
 }
 
 impl<G: Space> Mechanism<G> {
+    /// Gives back the room that its lists were grown by and do not need.
+    pub(super) fn release_spare_room(&mut self) {
+        self.bodies.shrink_to_fit();
+        self.nodes.shrink_to_fit();
+        self.steps.shrink_to_fit();
+        self.above.shrink_to_fit();
+        self.joints.shrink_to_fit();
+        self.gauges.shrink_to_fit();
+        self.rows.shrink_to_fit();
+        self.starts.shrink_to_fit();
+    }
+
     /// Velocity columns that move what a column moves, from that one on towards the ground, falling.
     pub fn road(&self, from: Option<usize>) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(from, |k| self.above[*k])

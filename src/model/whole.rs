@@ -72,6 +72,17 @@ pub struct Model {
 }
 
 impl Model {
+    /// Gives back the room that its lists were grown by and do not need.
+    pub(super) fn release_spare_room(&mut self) {
+        self.bodies.shrink_to_fit();
+        self.joints.shrink_to_fit();
+        self.springs.shrink_to_fit();
+        self.loads.shrink_to_fit();
+        self.start.shrink_to_fit();
+        self.inputs.shrink_to_fit();
+        self.checks.shrink_to_fit();
+    }
+
     /// A parameter that is set from outside although the study varies it.
     #[must_use]
     pub fn set_and_varied(&self) -> Option<&str> {

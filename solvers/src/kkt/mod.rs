@@ -49,7 +49,7 @@ use dense::Singular;
 use pivoted::Pivoted;
 use quasi::Quasi;
 
-/// Solver of M a + Gᵀλ = f, G a = γ; sized at construction, then free of allocation.
+/// Solver of M a + Gᵀλ = f, G a = γ; free of allocation behind the first factorisation.
 ///
 /// The matrix is factored as a quasi-definite one, and by elimination with pivots where M is singular; either as a full or as a sparse one,
 /// whichever is less work.
@@ -73,8 +73,8 @@ pub struct Kkt {
     blocks: Blocks,
     /// Places of the diagonal of M (nv).
     diagonal: Vec<usize>,
-    /// L D Lᵀ of the scaled [M Gᵀ; G −E].
-    form: Form,
+    /// L D Lᵀ of the scaled [M Gᵀ; G −E]. Made when it is needed.
+    form: Option<Form>,
     /// Whether it holds; else it is `pivoted` that does.
     definite: bool,
     /// Made when it is needed.
@@ -99,6 +99,27 @@ enum Further {
 enum Form {
     Full(Definite),
     Sparse(Box<Quasi>),
+}
+
+impl Form {
+    /// The cheaper one for the patterns of M and G, with the scales of the unknowns (nv + m).
+    fn new(blocks: &Blocks, scale: &[f64]) -> Self {
+        let n = blocks.order();
+        let sparse = (n > DENSE_UP_TO).then(|| blocks.whole()).and_then(|whole| {
+            let (cost, ordering) = quasi::ordered(blocks.velocities(), &whole);
+            (cost < definite_cost(n)).then(|| Self::Sparse(Box::new(Quasi::new(blocks, &whole, &ordering))))
+        });
+        let mut form = sparse.unwrap_or_else(|| Self::Full(Definite::new(blocks)));
+        form.set_scale(blocks, scale);
+        form
+    }
+
+    fn set_scale(&mut self, blocks: &Blocks, scale: &[f64]) {
+        match self {
+            Self::Full(full) => full.set_scale(scale),
+            Self::Sparse(quasi) => quasi.set_scale(blocks, scale),
+        }
+    }
 }
 
 /// Multiplications of L D Lᵀ of a full matrix of n unknowns.
@@ -146,17 +167,26 @@ impl Kkt {
     /// One for the patterns of M and G, with scales of one; sparse where that pays.
     pub fn of_blocks(mass: &Sparsity, g: &Sparsity) -> Self {
         let blocks = Blocks([mass.clone(), g.clone()]);
-        let n = blocks.order();
-        if n > DENSE_UP_TO {
-            let whole = blocks.whole();
-            let (cost, ordering) = quasi::ordered(blocks.velocities(), &whole);
-            if cost < definite_cost(n) {
-                let quasi = Quasi::new(&blocks, &whole, &ordering);
-                return Self::with(blocks, Form::Sparse(Box::new(quasi)));
-            }
+        let (nv, n) = (blocks.velocities(), blocks.order());
+        Self {
+            nv,
+            rows: n - nv,
+            diagonal: (0..nv).filter_map(|i| blocks.0[0].place(i, i)).collect(),
+            blocks,
+            scale: vec![1.0; n],
+            assembled: vec![REGULARIZATION; n - nv],
+            e: vec![REGULARIZATION; n - nv],
+            weights: vec![1.0; n - nv],
+            grown: false,
+            refinements: REFINEMENTS,
+            further: None,
+            g: Vec::new(),
+            form: None,
+            definite: false,
+            pivoted: None,
+            x: vec![0.0; n],
+            conjugate: Conjugate::default(),
         }
-        let full = Definite::new(&blocks);
-        Self::with(blocks, Form::Full(full))
     }
 
     /// Cost of a factorisation for the patterns of M and G, in multiplications of a dense one.
@@ -173,29 +203,6 @@ impl Kkt {
     pub fn least_cost(unknowns: usize, depths: &[usize]) -> usize {
         let products: usize = depths.iter().map(|depth| depth * depth).sum();
         definite_cost(unknowns).min(SPARSE_COST * products / 2)
-    }
-
-    fn with(blocks: Blocks, form: Form) -> Self {
-        let (nv, n) = (blocks.velocities(), blocks.order());
-        Self {
-            nv,
-            rows: n - nv,
-            diagonal: (0..nv).filter_map(|i| blocks.0[0].place(i, i)).collect(),
-            blocks,
-            scale: vec![1.0; n],
-            assembled: vec![REGULARIZATION; n - nv],
-            e: vec![REGULARIZATION; n - nv],
-            weights: vec![1.0; n - nv],
-            grown: false,
-            refinements: REFINEMENTS,
-            further: None,
-            g: Vec::new(),
-            form,
-            definite: false,
-            pivoted: None,
-            x: vec![0.0; n],
-            conjugate: Conjugate::default(),
-        }
     }
 
     /// Number of velocities.
@@ -219,9 +226,8 @@ impl Kkt {
             *e = REGULARIZATION * x * s * s;
         }
         self.e.copy_from_slice(&self.assembled);
-        match &mut self.form {
-            Form::Full(full) => full.set_scale(&self.scale),
-            Form::Sparse(quasi) => quasi.set_scale(&self.blocks, &self.scale),
+        if let Some(form) = &mut self.form {
+            form.set_scale(&self.blocks, &self.scale);
         }
     }
 
@@ -248,7 +254,7 @@ impl Kkt {
             self.follow_inertias(mass, g);
         }
         self.grown = grown;
-        self.definite = match &mut self.form {
+        self.definite = match self.form.get_or_insert_with(|| Form::new(&self.blocks, &self.scale)) {
             Form::Full(full) => full.factor(&self.blocks, [mass, g], &self.e),
             Form::Sparse(quasi) => quasi.factor([mass, g], &self.e),
         };
@@ -289,8 +295,8 @@ impl Kkt {
     /// x := the solution with the right-hand side x, by the factors at hand, with `refinements` against the matrix without E.
     fn apply(&mut self, refinements: usize) {
         match (&mut self.form, &mut self.pivoted) {
-            (Form::Full(full), _) if self.definite => full.solve(&self.e, &mut self.x, refinements),
-            (Form::Sparse(quasi), _) if self.definite => quasi.solve(&self.e, &mut self.x, refinements),
+            (Some(Form::Full(full)), _) if self.definite => full.solve(&self.e, &mut self.x, refinements),
+            (Some(Form::Sparse(quasi)), _) if self.definite => quasi.solve(&self.e, &mut self.x, refinements),
             (_, Some(pivoted)) => pivoted.solve(&mut self.x, refinements),
             _ => {}
         }

@@ -135,6 +135,7 @@ impl<'m, G: Space> Builder<'m, G> {
             self.mechanism.switches += 1;
         }
         self.mechanism.group();
+        self.mechanism.release_spare_room();
         Ok(self.mechanism)
     }
 

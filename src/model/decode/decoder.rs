@@ -450,10 +450,12 @@ impl<'n> Decoder<'n> {
 
     /// The finished model, with the checks of its study beside its own.
     pub(crate) fn into_model(self, of_study: &[Check<'n>]) -> Model {
-        let checks = [self.kept_checks(&self.checks), self.kept_checks(of_study)].concat();
+        let mut checks = self.kept_checks(&self.checks);
+        checks.extend(self.kept_checks(of_study));
         let mut model = self.name_space.model;
         model.checks = checks;
         model.pool = self.pool;
+        model.release_spare_room();
         model
     }
 }

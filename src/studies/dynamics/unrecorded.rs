@@ -89,6 +89,7 @@ pub(super) fn unrecorded<G: Space<S = f64>>(
     timer(false);
     chart.whole(run.node(), &mut node);
     balance.end(chart.mechanical(), &node, &run, Counts::default());
+    drop(run);
     let mut columns = vec![0.0; all.len()];
     let mut engine = Engine::new(chart.mechanical(), Control::Tolerance(1e-8));
     engine.evaluate(chart.mechanical(), node.state.at(), Stage::Velocity);
