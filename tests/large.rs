@@ -14,9 +14,13 @@ use grashof::studies::common::case::parameters;
 const GRAVITY: f64 = 9.81;
 
 /// A row of `n` four-bars with a damper in the first hinge, and one study of it.
-fn row(n: usize, damping: f64, [start, speed]: [&str; 2], study: &str) -> Model {
+fn row(n: usize, damping: f64, start: [&str; 2], study: &str) -> Model {
+    Model::parse(&text(n, damping, start, study)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn text(n: usize, damping: f64, [start, speed]: [&str; 2], study: &str) -> String {
     let each = |count: usize, line: &dyn Fn(usize) -> String| (0..count).map(line).collect::<String>();
-    let text = format!(
+    format!(
         "
 grashof: 1
 name: row
@@ -40,8 +44,7 @@ ground:
         each(n, &|i| { format!("  B{i}: {{ revolute: [v{i}.end, h{i}.start] }}\n  C{i}: {{ revolute: [h{i}.end, v{}.end] }}\n", i + 1) }),
         each(n, &|i| format!("  A{}.angle: ~{start}\n", i + 1)),
         each(n, &|i| format!("  h{i}.angle: ~0 deg\n")),
-    );
-    Model::parse(&text).unwrap_or_else(|e| panic!("{e}"))
+    )
 }
 
 fn run(model: &Model) -> Results {
@@ -70,6 +73,26 @@ fn a_row_vibrates_as_one_pendulum() {
         let linear = run(&row(n, damping, ["-90 deg", "0"], "linearize: {}, columns: [A0.angle]"));
         let [real, imaginary] = ["poles_real", "poles_imaginary"].map(|name| linear.list(name).unwrap()[0]);
         assert!((real + 0.4).abs() < 1e-9 && (imaginary.abs() - (square - 0.16).sqrt()).abs() < 1e-9, "{n}: {real} {imaginary}");
+    }
+}
+
+/// A driven row at a constant speed keeps its kinetic energy, so that the driver carries the weight alone: τ = m g cos θ + d ω. The row of
+/// 60 has a sparse G.
+#[test]
+fn a_driven_row_carries_its_weight_alone() {
+    for n in [2, 60] {
+        let columns = format!("columns: [A0.angle, crank.torque, A{n}.omega, A{n}.alpha, h{}.vx, h{}.ay]", n - 1, n / 2);
+        let text = text(n, 3.0, ["40 deg", "0"], &format!("inverse: {{ over: 25 deg, samples: 5 }}, {columns}"))
+            .replace("  A0.omega: 0\n", "")
+            + "drivers: { crank: { joint: A0, speed: 2 rad/s } }\n";
+        let results = run(&Model::parse(&text).unwrap_or_else(|e| panic!("{e}")));
+        let [angle, torque, omega, alpha, vx, ay] = [0, 1, 2, 3, 4, 5].map(|k| results.table.columns[k].values.clone());
+        for (k, angle) in angle.iter().enumerate() {
+            let right = inertia(n)[1] * GRAVITY * angle.cos() + 3.0 * 2.0;
+            assert!((torque[k] / right - 1.0).abs() < 1e-11, "{n}: {} for {right}", torque[k]);
+            let motion = [omega[k] - 2.0, alpha[k], vx[k] + 2.0 * angle.sin(), ay[k] + 4.0 * angle.sin()];
+            assert!(motion.iter().all(|x| x.abs() < 1e-11), "{n}: {motion:?}");
+        }
     }
 }
 

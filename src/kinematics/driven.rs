@@ -1,11 +1,12 @@
 //! A mechanism whose drivers leave no freedom: position, velocity, acceleration and multipliers at any time by Newton's method.
 
 use super::assemble::Assembled;
+use super::square::Square;
 use crate::dynamics::{Dynamics, Reactions, friction_pattern, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use grashof_solvers::kkt::ROUND_OFF;
-use grashof_solvers::{Block, Dims, Friction, Kkt, Lu, Pattern, Terms};
+use grashof_solvers::{Block, Dims, Friction, Kkt, Pattern, Terms};
 
 /// Newton did not reach a position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,8 +57,8 @@ struct ByReactions {
 /// How G is inverted.
 #[derive(Clone, Debug)]
 enum Solver {
-    /// As many rows as velocities: one factorisation of G, its rows scaled to unit size (rows; and the same for each entry).
-    Square { lu: Lu, scale: Vec<f64> },
+    /// As many rows as velocities: one factorisation of G, its rows scaled to unit size.
+    Square(Square),
     /// Redundant rows: the regularised system with the mass metric (nv × nv) in the place of M.
     Redundant { kkt: Box<Kkt>, metric: Box<Block>, probe: Vec<f64> },
 }
@@ -90,7 +91,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             let natural = dynamics.natural();
             let rows = dynamics.work.g.lines().zip(natural.lines());
             let scale = rows.map(|(row, natural)| unit((row.values, natural.values))).collect();
-            Solver::Square { lu: Lu::new(nv), scale }
+            Solver::Square(Square::new(dynamics.work.g.pattern(), scale))
         } else {
             // of a motion that is given, bodies without inertia are no exception
             let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern()).with_pivots();
@@ -205,13 +206,12 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             return self.dynamics.distribute(&self.a, &self.lambda, &mut self.reactions);
         }
         match &mut self.solver {
-            Solver::Square { lu, scale, .. } => {
+            Solver::Square(square) => {
                 // λ = G⁻ᵀ (f − M a), G as factored in `position`; M itself is not needed
                 self.dynamics.loads(modes);
                 self.dynamics.accelerate(&self.a, &mut self.reactions.accelerations);
                 self.dynamics.unbalanced(&self.a, &self.reactions.accelerations, &mut self.lambda);
-                lu.solve_transposed(&mut self.lambda);
-                self.lambda.iter_mut().zip(scale).for_each(|(l, s)| *l *= *s);
+                square.solve_transposed(&mut self.lambda);
             }
             Solver::Redundant { kkt, .. } => {
                 self.dynamics.forces(modes);
@@ -256,14 +256,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     fn factor(&mut self) -> Result<(), NotReached> {
         let g = &self.dynamics.work.g;
         match &mut self.solver {
-            Solver::Square { lu, scale } => {
-                let matrix = lu.matrix_mut();
-                matrix.fill(0.0);
-                for ((out, row), s) in matrix.chunks_exact_mut(scale.len().max(1)).zip(g.lines()).zip(&*scale) {
-                    row.entries().for_each(|(k, g)| out[k] = g * s);
-                }
-                lu.factor_in_place().map_err(|_| NotReached)
-            }
+            Solver::Square(square) => square.factor(g).map_err(|_| NotReached),
             Solver::Redundant { kkt, metric, .. } => kkt.factor(metric.values(), g.values()).map_err(|_| NotReached),
         }
     }
@@ -274,7 +267,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     /// space, and one of (1e-8/σ²)³ after the solver's two refinements elsewhere; σ comes from that.
     pub fn condition(&mut self) -> f64 {
         match &mut self.solver {
-            Solver::Square { lu, .. } => lu.pivot_ratio(),
+            Solver::Square(square) => square.pivot_ratio(),
             Solver::Redundant { kkt, metric, probe } => {
                 self.rhs.fill(0.0);
                 kkt.solve(probe, &self.rhs, &mut self.delta, &mut self.scratch);
@@ -293,10 +286,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
     /// Square: |det G|. Redundant: the smallest singular value that moves, down to 1e-4, by three inverse iterations.
     pub fn regularity(&mut self) -> f64 {
         match &mut self.solver {
-            Solver::Square { lu, scale } => {
-                let step = scale.len() + 1;
-                lu.matrix_mut().iter().step_by(step).map(|pivot| pivot.abs().ln()).sum()
-            }
+            Solver::Square(square) => square.log_determinant(),
             Solver::Redundant { kkt, .. } => {
                 self.rhs.fill(0.0);
                 (0..3).fold(0.0, |_, _| kkt.smallest_singular_value_that_moves(&mut self.rhs)).ln()
@@ -354,12 +344,7 @@ impl Solver {
     /// G x = `rhs` (of least size in the metric where rows are redundant).
     fn solve(&mut self, zeros: &[f64], rhs: &[f64], x: &mut [f64], scratch: &mut [f64]) {
         match self {
-            Self::Square { lu, scale, .. } => {
-                for ((x, r), s) in x.iter_mut().zip(rhs).zip(scale) {
-                    *x = r * *s;
-                }
-                lu.solve(x);
-            }
+            Self::Square(square) => square.solve(rhs, x),
             Self::Redundant { kkt, .. } => kkt.solve(zeros, rhs, x, scratch),
         }
     }

@@ -21,6 +21,7 @@ pub mod path;
 pub mod pencil;
 mod remaining;
 pub(crate) mod saddle;
+mod square;
 pub(crate) mod standing;
 mod steps;
 pub mod survey;

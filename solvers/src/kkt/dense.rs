@@ -103,8 +103,12 @@ impl<T: Number> Lu<T> {
 
     /// Smallest over largest magnitude of a pivot: a cheap sign of ill-conditioning, 1 for an orthogonal diagonal, 0 when empty.
     pub fn pivot_ratio(&self) -> f64 {
-        let (least, most) = self.inverse.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(x.abs1()), m.max(x.abs1())));
-        if most > 0.0 { least / most } else { 0.0 }
+        pivot_ratio(&self.inverse)
+    }
+
+    /// ln |det A| of the matrix factored last.
+    pub fn log_determinant(&self) -> f64 {
+        log_determinant(&self.inverse)
     }
 
     /// max |u_ij| / max |a_ij| for the matrix `a` that was factored: elimination loses log10 of it in digits (Wilkinson); near
@@ -114,6 +118,22 @@ impl<T: Number> Lu<T> {
         let upper = self.a.chunks_exact(self.n.max(1)).enumerate().flat_map(|(i, row)| &row[i..]);
         upper.fold(0.0, largest) / a.iter().fold(0.0, largest)
     }
+}
+
+/// Multiplications of a factorisation of order n, Σ k² for k < n.
+pub(super) fn cost(n: usize) -> usize {
+    n * n.saturating_sub(1) * (2 * n).saturating_sub(1) / 6
+}
+
+/// Smallest over largest magnitude of numbers, as of their reciprocals.
+pub(super) fn pivot_ratio<T: Number>(inverse: &[T]) -> f64 {
+    let (least, most) = inverse.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), x| (l.min(x.abs1()), m.max(x.abs1())));
+    if most > 0.0 { least / most } else { 0.0 }
+}
+
+/// ln |det A| by the reciprocal pivots.
+pub(super) fn log_determinant<T: Number>(inverse: &[T]) -> f64 {
+    -inverse.iter().map(|x| x.abs1().ln()).sum::<f64>()
 }
 
 impl Lu {

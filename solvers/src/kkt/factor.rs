@@ -1,11 +1,11 @@
 //! One interface to the dense and the sparse factorisation.
 
-use super::dense::{Lu, Singular};
+use super::dense::{self, Lu, Singular};
 use super::number::Number;
 use super::ordering::Ordering;
 use super::sparse::SparseLu;
 use crate::Sparsity;
-use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
+use crate::sparsity::DENSE_UP_TO;
 
 /// A factorisation A = L U of matrices of one square pattern.
 ///
@@ -37,17 +37,17 @@ impl<T: Number> Factor<T> {
         if n <= DENSE_UP_TO || pattern.is_full() {
             return Self::dense(pattern);
         }
-        let dense = dense_cost(n);
+        let dense = dense::cost(n);
         match Ordering::minimum_degree(pattern) {
-            ordering if sparse_cost(&ordering, pattern) < dense => Self::Sparse(Box::new(SparseLu::with_order(pattern, ordering))),
+            ordering if ordering.cost(pattern) < dense => Self::Sparse(Box::new(SparseLu::with_order(pattern, ordering))),
             _ => Self::dense(pattern),
         }
     }
 
     /// Cost of a factorisation in the form that [`Factor::new`] takes, in multiplications of the dense one.
     pub fn cost(pattern: &Sparsity) -> usize {
-        let dense = dense_cost(pattern.columns());
-        if pattern.is_full() { dense } else { dense.min(sparse_cost(&Ordering::minimum_degree(pattern), pattern)) }
+        let dense = dense::cost(pattern.columns());
+        if pattern.is_full() { dense } else { dense.min(Ordering::minimum_degree(pattern).cost(pattern)) }
     }
 
     /// The dense form.
@@ -102,13 +102,4 @@ impl<T: Number> Factor<T> {
             Self::Sparse(lu) => lu.fill(),
         }
     }
-}
-
-/// Σ k² for k < n.
-fn dense_cost(n: usize) -> usize {
-    n * n.saturating_sub(1) * (2 * n).saturating_sub(1) / 6
-}
-
-fn sparse_cost(ordering: &Ordering, pattern: &Sparsity) -> usize {
-    SPARSE_COST * (ordering.operations + ordering.fill + pattern.entries())
 }

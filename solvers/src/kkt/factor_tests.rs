@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::noise::Noise;
-use crate::{Factor, Number, SparseLu, Sparsity};
+use crate::{Factor, Lu, Number, SparseLu, Sparsity};
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 use std::collections::BTreeMap;
 
@@ -358,4 +358,43 @@ fn permutations_are_solved_exactly() {
         assert!((0..n).all(|j| b[j] == ((7 * j + 3) % n) as f64 / factor));
         assert_eq!(lu.fill(), n);
     }
+}
+
+#[test]
+fn rows_in_no_relation_to_columns_are_factored_without_much_fill() {
+    // loops in a row: two rows each over the three unknowns of its own and the next one's first, in an order by chance
+    let (mut noise, n) = (Noise(17), 120);
+    let mut entries = Entries::<f64>::new();
+    for row in 0..n {
+        // 49 and 120 have no common factor
+        let shuffled = row * 49 % n;
+        (0..4).map(|k| (2 * (row / 2) + k) % n).for_each(|j| _ = entries.insert((j, shuffled), noise.next()));
+        let own = entries.entry((row, shuffled)).or_default();
+        *own += own.signum();
+    }
+    let (pattern, values) = (pattern(n, &entries), values(&entries));
+    let mut sparse = SparseLu::of_rows(&pattern).expect("it is sparse");
+    let matrix = full(n, &entries);
+    let mut dense = Lu::new(n);
+    dense.factor(matrix.transpose().as_slice()).unwrap();
+    // values that change, so that pivots are kept once
+    for factor in [1.0, -2.5] {
+        let scaled: Vec<f64> = values.iter().map(|x| factor * x).collect();
+        sparse.factor(&scaled).unwrap();
+        let b: Vec<f64> = (0..n).map(|_| noise.next()).collect();
+        let right = DVector::from_vec(b.clone());
+        let (mut x, mut y) = (b.clone(), b);
+        sparse.solve(&mut x);
+        sparse.solve_transposed(&mut y);
+        assert!((&matrix * factor * DVector::from_vec(x) - &right).norm() < 1e-12 * right.norm());
+        assert!((matrix.transpose() * factor * DVector::from_vec(y) - &right).norm() < 1e-12 * right.norm());
+        let expected = dense.log_determinant() + n as f64 * f64::abs(factor).ln();
+        assert!((sparse.log_determinant() - expected).abs() < 1e-10);
+        assert!(sparse.pivot_ratio() > 0.0 && sparse.pivot_ratio() <= 1.0);
+    }
+    assert!(sparse.fill() < 10 * entries.len(), "{} of {}", sparse.fill(), entries.len());
+    assert!(SparseLu::<f64>::of_rows(&Sparsity::dense(40, 40)).is_none() && SparseLu::<f64>::of_rows(&Sparsity::empty(3, 3)).is_none());
+    let mut unknown = vec![1.0; n];
+    SparseLu::of_rows(&pattern).unwrap().solve_transposed(&mut unknown);
+    assert!(unknown.iter().all(|x: &f64| x.is_nan()));
 }

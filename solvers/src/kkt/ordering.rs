@@ -1,6 +1,7 @@
 //! The order of elimination that keeps a sparse factorisation sparse.
 
 use crate::Sparsity;
+use crate::sparsity::SPARSE_COST;
 use std::collections::BTreeSet;
 
 /// An order of elimination and what elimination on the diagonal in this order costs.
@@ -38,6 +39,11 @@ impl Ordering {
             result.order.append(&mut graph.members[pivot]);
         }
         result
+    }
+
+    /// Cost of a sparse factorisation of a matrix of this pattern, in multiplications of a dense one.
+    pub(super) fn cost(&self, pattern: &Sparsity) -> usize {
+        SPARSE_COST * (self.operations + self.fill + pattern.entries())
     }
 }
 

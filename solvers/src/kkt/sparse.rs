@@ -1,11 +1,12 @@
 //! Sparse LU factorisation, made for many matrices of one pattern.
 
 use super::columns::Columns;
-use super::dense::Singular;
+use super::dense::{self, Singular, log_determinant, pivot_ratio};
 use super::number::Number;
 use super::ordering::Ordering;
 use super::pivoting::Pivoting;
 use crate::Sparsity;
+use crate::sparsity::DENSE_UP_TO;
 
 /// At least this part of the largest entry of its column for a pivot when pivots are kept.
 const KEPT: f64 = 1e-3;
@@ -55,6 +56,19 @@ impl<T: Number> SparseLu<T> {
     /// Orders the unknowns of a square pattern. No pivots are chosen yet.
     pub fn new(pattern: &Sparsity) -> Self {
         Self::with_order(pattern, Ordering::minimum_degree(pattern))
+    }
+
+    /// One for matrices whose rows stand in no relation to their columns; none where the dense form costs less.
+    ///
+    /// The order of the columns is that for AᵀA, whose factor holds the fill of L and U whatever rows become pivots (George & Ng, SIAM J.
+    /// Sci. Stat. Comput. 6 (1985) 390-409).
+    pub fn of_rows(pattern: &Sparsity) -> Option<Self> {
+        let n = pattern.columns();
+        if n <= DENSE_UP_TO || pattern.is_full() {
+            return None;
+        }
+        let ordering = Ordering::minimum_degree(&Sparsity::of_groups(n, (0..n).map(|i| pattern.row(i))));
+        (ordering.cost(pattern) < dense::cost(n)).then(|| Self::with_order(pattern, ordering))
     }
 
     /// The same with an order found before.
@@ -121,6 +135,38 @@ impl<T: Number> SparseLu<T> {
             b[self.order[k]] = y;
             subtract(x, y, &self.upper.items[range.clone()], &self.upper_values[range]);
         }
+    }
+
+    /// b := A⁻ᵀ b = Pᵀ L⁻ᵀ U⁻ᵀ Qᵀ b; not a number where there is no factorisation.
+    pub fn solve_transposed(&mut self, b: &mut [T]) {
+        if !self.factored {
+            b.fill(T::from(f64::NAN));
+            return;
+        }
+        let x = &mut self.x[..];
+        for (k, &column) in self.order.iter().enumerate() {
+            let range = self.upper.range(k);
+            let above = dot(x, &self.upper.items[range.clone()], &self.upper_values[range]);
+            x[k] = (b[column] - above) * self.inverse[k];
+        }
+        for k in (0..x.len()).rev() {
+            let range = self.lower.range(k);
+            let below = dot(x, &self.lower.items[range.clone()], &self.lower_values[range]);
+            x[k] -= below;
+        }
+        for (b, &step) in b.iter_mut().zip(&self.step) {
+            *b = x[step as usize];
+        }
+    }
+
+    /// Smallest over largest magnitude of a pivot, as [`Lu::pivot_ratio`](super::dense::Lu::pivot_ratio).
+    pub fn pivot_ratio(&self) -> f64 {
+        pivot_ratio(&self.inverse)
+    }
+
+    /// ln |det A| of the matrix factored last.
+    pub fn log_determinant(&self) -> f64 {
+        log_determinant(&self.inverse)
     }
 
     /// Numbers of L and U with the pivots kept; column after column as in [`Pivoting`], with all patterns known.
@@ -212,6 +258,12 @@ impl<T: Number> SparseLu<T> {
             self.source.close();
         }
     }
+}
+
+/// The product of x and a sparse column.
+#[inline(always)]
+fn dot<T: Number>(x: &[T], rows: &[u32], values: &[T]) -> T {
+    rows.iter().zip(values).fold(T::ZERO, |sum, (&i, &l)| sum + l * x[i as usize])
 }
 
 /// x −= u · (sparse column).
