@@ -27,6 +27,29 @@ export async function results_stand_beside_the_mechanism_on_paper(open) {
   assert.ok(plots.top >= stage.bottom - 1 && table.top >= plots.bottom - 1, 'long tables are not behind the figures');
 }
 
+export async function letters_on_paper_have_the_size_of_text(open) {
+  const { tab } = await open('stewart_platform', { study: 'ride' });
+  await tab.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await tab.setViewportSize({ width: 688, height: 1017 });
+  await tab.emulateMedia({ media: 'print' });
+  await tab.waitForTimeout(150);
+  const drawn = () => tab.evaluate(() => {
+    const charts = [...document.querySelectorAll('svg.chart')].map((chart) => chart.getBoundingClientRect().width / chart.viewBox.baseVal.width);
+    const canvas = document.querySelector('.canvas canvas');
+    return { charts, canvas: [canvas.width, canvas.height], place: [canvas.parentElement.clientWidth, canvas.parentElement.clientHeight] };
+  });
+  const { charts, canvas, place } = await drawn();
+  assert.ok(charts.length >= 3 && charts.every((scale) => Math.abs(scale - 1) < 0.03), `charts are scaled by ${charts}`);
+  canvas.forEach((points, k) => assert.ok(Math.abs(points / place[k] - 3) < 0.05, `${canvas} points on ${place} px`));
+  await tab.emulateMedia({ media: 'screen' });
+  await tab.setViewportSize({ width: 1280, height: 900 });
+  await tab.evaluate(() => dispatchEvent(new Event('afterprint')));
+  await tab.waitForTimeout(150);
+  const screen = await drawn();
+  assert.ok(screen.charts.every((scale) => Math.abs(scale - 1) < 0.03), `behind it by ${screen.charts}`);
+  assert.deepEqual(screen.canvas, screen.place);
+}
+
 export async function nothing_is_cut_off_on_a4(open) {
   for (const [model, study] of [['crank_rocker', 'lengths'], ['stewart_platform', 'ride'], ['winch', 'fall']]) {
     const { tab } = await open(model, { study });

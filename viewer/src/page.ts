@@ -306,7 +306,6 @@ export class Page {
       if (!busy && !pressed && this.view?.stage.key(event)) event.preventDefault();
     });
     // pictures on paper are light, and all parts are open
-    const repaint = () => this.view?.stage.paint();
     let before: string | undefined;
     let closed: HTMLDetailsElement[] = [];
     addEventListener('beforeprint', () => {
@@ -314,13 +313,13 @@ export class Page {
       document.documentElement.dataset.theme = 'light';
       closed = [...document.querySelectorAll<HTMLDetailsElement>('.part:not([open])')];
       closed.forEach((part) => (part.open = true));
-      repaint();
+      this.view?.paper(true);
     });
     addEventListener('afterprint', () => {
       if (before) document.documentElement.dataset.theme = before;
       else delete document.documentElement.dataset.theme;
       closed.forEach((part) => (part.open = false));
-      repaint();
+      this.view?.paper(false);
     });
   }
 }

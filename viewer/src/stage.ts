@@ -9,6 +9,7 @@ import { Motion, falling } from './motion';
 import type { Named } from './names';
 import { digits, heading, pretty, shownIn } from './numbers';
 import { type Pace, WHOLE, pace } from './pace';
+import { PAPER } from './paper';
 import { Plane } from './plane/plane';
 import { FIRST, type Options, type Renderer } from './renderer';
 import type { Told } from './scales';
@@ -79,6 +80,7 @@ export class Stage {
   /** Whether a reader may have chosen what is shown. */
   private begun = false;
   private size: [number, number] = [0, 0];
+  private onPaper = false;
   private waiting = false;
   private run = '';
   private drawing = '';
@@ -144,7 +146,7 @@ export class Stage {
   paint(): void {
     const [width, height] = this.size;
     if (!this.renderer || width === 0) return;
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = this.ratio();
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.renderer.draw(this.clock.at, this.options, inks(), width, height);
   }
@@ -362,12 +364,24 @@ export class Stage {
     tell();
   }
 
+  /** Points of the canvas to a px of the page. */
+  private ratio(): number {
+    return this.onPaper ? PAPER.ratio : window.devicePixelRatio || 1;
+  }
+
+  /** Paints for paper, in the size of its place there, or for the screen again. */
+  paper(on: boolean): void {
+    this.onPaper = on;
+    this.fit();
+    this.paint();
+  }
+
   private fit(): void {
     const box = this.canvas.parentElement!;
-    const [width, height] = [box.clientWidth, box.clientHeight];
+    const [width, height] = this.onPaper ? [PAPER.column, PAPER.drawing] : [box.clientWidth, box.clientHeight];
     if (width === this.size[0] && height === this.size[1]) return;
     this.size = [width, height];
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = this.ratio();
     this.canvas.width = Math.round(width * ratio);
     this.canvas.height = Math.round(height * ratio);
     this.paint();

@@ -133,6 +133,12 @@ export class StudyView {
     this.plots.forEach((plot) => plot.tick());
   }
 
+  /** Draws all for paper, or for the screen again. */
+  paper(on: boolean): void {
+    this.stage.paper(on);
+    this.plots.forEach((plot) => plot.paper(on));
+  }
+
   private add(plot: Plot, own = false): void {
     const drawn = drawable(this.study, plot);
     if (!drawn) return;

@@ -4,6 +4,7 @@ import type { Clock } from '../clock';
 import { button, h, icon, s } from '../dom';
 import { pretty, words } from '../numbers';
 import { type Curve, type Layout, type View, axisOf, below, color, draw, layout, readOf, style } from './chart';
+import { PAPER } from '../paper';
 import type { Plot } from '../types';
 import type { Drawable } from './curves';
 import { saveCsv, saveSvg } from './export';
@@ -33,6 +34,7 @@ export class PlotView {
   private overlay!: SVGGElement;
   /** A place on the horizontal axis at which the values are shown; none: at the time of the motion. */
   private cursor: number | null = null;
+  private onPaper = false;
 
   /** Whether what is drawn is out of date, and whether it is in view or near. */
   private stale = false;
@@ -151,8 +153,14 @@ export class PlotView {
     return legend;
   }
 
+  /** Draws for paper, in the width of its column there, or for the screen again. */
+  paper(on: boolean): void {
+    this.onPaper = on;
+    this.fit();
+  }
+
   private fit(): void {
-    const width = Math.round(this.stage.clientWidth);
+    const width = this.onPaper ? PAPER.column : Math.round(this.stage.clientWidth);
     if (width > 0 && width !== this.view.width) {
       this.view.width = width;
       this.draw();
