@@ -36,12 +36,10 @@ fn panels(figure: &Figure) -> Vec<(String, Vec<usize>)> {
     if let Some((_, first)) = groups.first_mut() {
         first.extend(right);
     }
-    match groups.len() {
-        0 => vec![(figure.y.unit.clone(), Vec::new())],
-        1..=3 => groups,
-        // More panels would be too flat to read: one for all, with the units in the legend.
-        _ => vec![(String::new(), (0..figure.curves.len()).collect())],
+    if groups.is_empty() {
+        groups.push((figure.y.unit.clone(), Vec::new()));
     }
+    groups
 }
 
 fn layout(figure: &Figure) -> Scene {
@@ -60,9 +58,7 @@ fn layout(figure: &Figure) -> Scene {
     x.pad(if ordered && figure.x.scale == Scale::Linear { 0.0 } else { 0.05 });
     x.limit(figure.x.range);
 
-    let unit = |curve: &Curve| curve.unit.clone().unwrap_or_else(|| figure.y.unit.clone());
-    let mixed = groups.len() == 1 && figure.curves.iter().filter(|curve| !curve.right).any(|curve| unit(curve) != unit(&figure.curves[0]));
-    let mut drawn: Vec<Panel> = groups.iter().map(|(unit, indices)| panel(figure, unit, indices, mixed)).collect();
+    let mut drawn: Vec<Panel> = groups.iter().map(|(unit, indices)| panel(figure, unit, indices)).collect();
     if let (true, [only]) = (figure.equal, drawn.as_mut_slice()) {
         Ruler::share(&mut x, &mut only.y);
     }
@@ -88,7 +84,7 @@ fn layout(figure: &Figure) -> Scene {
 }
 
 /// The panel of the curves `indices`, not yet placed.
-fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
+fn panel(figure: &Figure, unit: &str, indices: &[usize]) -> Panel {
     let curves = || indices.iter().map(|index| &figure.curves[*index]);
     let within =
         |point: &&(f64, f64)| figure.x.range[0].is_none_or(|low| point.0 >= low) && figure.x.range[1].is_none_or(|high| point.0 <= high);
@@ -133,13 +129,9 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize], mixed: bool) -> Panel {
         Line { ordered: thin::is_ordered(&points), points, color, dash, right, dots }
     };
     let lines: Vec<_> = indices.iter().map(line).collect();
-    let label = |curve: &Curve| match curve.unit.as_ref().unwrap_or(&figure.y.unit) {
-        unit if mixed && !unit.is_empty() => format!("{} in {}", curve.label, super::units::pretty(unit)),
-        _ => curve.label.clone(),
-    };
     let entries = lines.iter().zip(curves()).map(|(line, curve)| {
         let side = if line.right { " (right)" } else { "" };
-        Entry { label: label(curve) + side, color: line.color, dash: line.dash, dots: line.dots }
+        Entry { label: curve.label.clone() + side, color: line.color, dash: line.dash, dots: line.dots }
     });
     // One curve whose name the axis has needs no legend.
     let alone = names.len() == 1
@@ -355,5 +347,10 @@ mod tests {
         let figure = Figure { x: axis("t", "s"), curves, ..Figure::default() };
         let svg = svg(&figure);
         assert!(svg.contains("height=\"900\"") && svg.contains(">delta in deg<") && svg.contains(">omega in rad/s<"));
+        // and however many they are
+        let units = ["m", "m/s", "N", "N m", "W"];
+        let curves = units.map(|unit| curve("x", Some(unit), vec![(0.0, 0.0), (1.0, 1.0)])).to_vec();
+        let svg = self::svg(&Figure { x: axis("t", "s"), curves, ..Figure::default() });
+        assert!(svg.contains("height=\"1680\"") && units.iter().all(|unit| svg.contains(&format!(">x in {unit}<"))), "{svg}");
     }
 }

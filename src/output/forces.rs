@@ -176,7 +176,9 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         let value = round_above(0.4 * SAMPLE * scale / (pixels * size)) * size;
         let to = x + value * pixels / scale;
         scene.shape(arrow(Signs { size: 0.8 }, [[x, y], [to, y]]), Some(color(kind)), None);
-        let text = format!("{name}: {}", told(value, drawing.force.as_ref(), ["N", "kN"], 4));
+        // these act along coordinates, and no bearing feels them
+        let without = if kind == ForceKind::Reaction && !drawing.gears.is_empty() { " without pulls of ropes and teeth" } else { "" };
+        let text = format!("{name}{without}: {}", told(value, drawing.force.as_ref(), ["N", "kN"], 4));
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }

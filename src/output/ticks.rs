@@ -11,12 +11,18 @@ pub(super) struct Tick {
     pub(super) label: String,
 }
 
-/// Marks at round numbers within `low..=high`, at most `most` of them; steps of 15, 30, 45, 60, 90... for angles in `degrees`.
+/// Marks at round numbers within `low..=high`, at most `most` of them unless only one would be left, which is no scale; steps of 15, 30,
+/// 45, 60, 90... for angles in `degrees`.
 pub(super) fn linear(low: f64, high: f64, most: usize, degrees: bool) -> Vec<Tick> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
         return Vec::new();
     }
+    (most..most + 6).map(|most| marks(low, high, most, degrees)).find(|marks| marks.len() > 1).unwrap_or_default()
+}
+
+fn marks(low: f64, high: f64, most: usize, degrees: bool) -> Vec<Tick> {
+    let span = high - low;
     let step = if degrees && span >= 60.0 { angle_step(span, most) } else { round_step(span, most) };
     // Multiples of the step by whole numbers: sums of steps would print as 0.30000000000000004.
     let tolerance = 1e-9;
@@ -93,6 +99,7 @@ mod tests {
         assert_eq!(labels(&linear(-1.05, 1.05, 5, false)), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(labels(&linear(0.0, 10.0, 4, false)), ["0.0", "2.5", "5.0", "7.5", "10.0"]);
         assert_eq!(labels(&linear(1e-7, 5e-7, 5, false)).first(), Some(&"0.0000001"));
+        assert_eq!(labels(&linear(1.5, 3.4, 1, false)), ["2", "3"], "one mark would be no scale");
         assert!(linear(3.0, 3.0, 5, false).is_empty());
         assert!(linear(f64::NAN, 3.0, 5, false).is_empty());
     }

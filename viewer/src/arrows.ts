@@ -95,6 +95,11 @@ export class Arrows {
     return (turning ? torque : force) ?? { unit: turning ? 'N m' : 'N', size: 1 };
   }
 
+  /** Whether there are gears, racks or ropes, whose forces act along coordinates, so that no bearing feels them. */
+  geared(): boolean {
+    return this.motion.scene.gears.length > 0;
+  }
+
   /** Pixels to one unit of a kind, with the slider at `part`, in a picture of some width and so many pixels to the metre. */
   pixels(kind: Kind, part: number, room: number, metre: number): number {
     const scale = this.scale(kind);

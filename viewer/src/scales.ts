@@ -30,7 +30,8 @@ function told(kind: Kind, pixels: number, arrows: Arrows): Told {
   const value = below(SAMPLE / (pixels * size));
   // forces from 1 kN on have that unit, as in the figures of the program
   const { unit: name, factor } = scaled(unit, unit === 'N' && value >= 1e3 ? Math.max(value, 1e4) : value);
-  return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}`, length: value * size * pixels };
+  const without = kind === 'reactions' && arrows.geared() ? ' without ropes and teeth' : '';
+  return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}${without}`, length: value * size * pixels };
 }
 
 /** The largest torque of a kind, if there is one. */

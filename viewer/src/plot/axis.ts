@@ -66,7 +66,10 @@ function linear(low: number, high: number, shown: Shown, gap: number): Axis {
     value: (part) => low + part * range,
     ticks(room) {
       const [from, to] = [(low - offset) * factor, (high - offset) * factor];
-      const by = step(to - from || 1, room / gap, unit);
+      // one mark alone is no scale
+      let by = step(to - from || 1, room / gap, unit);
+      const inside = () => Math.floor(to / by + 1e-9) - Math.ceil(from / by - 1e-9);
+      for (let more = 1.5; inside() < 1 && more < 6; more *= 1.5) by = step(to - from || 1, (more * room) / gap, unit);
       const decimals = Math.max(0, -Math.floor(Math.log10(by) + 1e-9));
       const out = [];
       for (let k = Math.ceil(from / by - 1e-9); k * by <= to + 1e-9 * (to - from); k++) {
