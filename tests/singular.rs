@@ -11,6 +11,7 @@ use std::fmt::Write;
 
 mod driven;
 mod passing;
+mod told;
 
 /// Integrators with what they need beside a tolerance, the tolerance, and how many tolerances they may be off where a motion does not
 /// magnify errors.

@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod bounded;
 pub mod coordinates;
+pub(crate) mod crossing;
 pub mod driven;
 mod fold;
 mod freedom;

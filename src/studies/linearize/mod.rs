@@ -18,6 +18,7 @@ use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::coordinates::coordinates;
+use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::{Pose, settled};
 use crate::kinematics::linear::{Linear, Reduced};
 use crate::kinematics::partition::{Partition, preferred, with_mass};
@@ -60,6 +61,7 @@ where
         Whole { q: start.q.clone(), v: start.v.clone(), z, modes }
     };
     findings.extend(taken_as_free(model, &mechanism, [&at.q, &at.v], &at.modes, start.size));
+    findings.extend(change_point(&mechanism, &at.q, &at.modes, (&start.metric, start.size), &study.place));
     let ids: Vec<Id> = study.columns.iter().map(|c| c.value).collect();
     let scenes = scene::wanted(case, || pose(case, &mechanism, &at));
     let bench = Bench { case, asked, mechanism: &mechanism, start: &start, ids: &ids };

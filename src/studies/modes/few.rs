@@ -10,6 +10,7 @@ use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
+use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::{Held, Pose};
 use crate::kinematics::partition::{preferred, with_mass};
 use crate::kinematics::pencil::POTENTIAL;
@@ -40,6 +41,7 @@ where
     let rest = if asked.at_equilibrium { equilibrium::<G>(case, &mechanism, &start, stop)? } else { held_start(&mechanism, &start) };
     let Still { q, z, modes, mut findings } = rest;
     findings.extend(taken_as_free(model, &mechanism, [&q, &vec![0.0; mechanism.nv]], &modes, start.size));
+    findings.extend(change_point(&mechanism, &q, &modes, (&start.metric, start.size), &study.place));
     let pose = Pose { q: &q, z: &z, modes: &modes };
     let held = Held::new(&mechanism, &mut Linearizer::new(&mechanism), pose, &start.metric, &preferred(&mechanism))
         .map_err(|_| not_finite(model, &mechanism, pose))?;

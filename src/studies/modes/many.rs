@@ -9,6 +9,7 @@ use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
+use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::Pose;
 use crate::kinematics::lowest::{self, Lowest};
 use crate::kinematics::lowest_damped::{DampedMotion, LowestDamped, growing, lowest_damped};
@@ -64,6 +65,7 @@ where
     };
     let Still { q, z, modes, mut findings } = rest;
     findings.extend(taken_as_free(model, &mechanism, [&q, &vec![0.0; mechanism.nv]], &modes, start.size));
+    findings.extend(change_point(&mechanism, &q, &modes, (&start.metric, start.size), &study.place));
     let pose = Pose { q: &q, z: &z, modes: &modes };
     let held = HeldSparse::new(model, &mechanism, pose, &start.metric).map_err(|_| not_finite(model, &mechanism, pose))?;
     let own: Vec<Coordinate> = held.independent.iter().map(|(c, _)| c.clone()).collect();

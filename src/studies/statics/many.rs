@@ -14,6 +14,7 @@ use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
+use crate::kinematics::crossing::change_point;
 use crate::kinematics::held;
 use crate::kinematics::lowest::{Lowest, lowest};
 use crate::kinematics::pair::Pair;
@@ -65,6 +66,8 @@ where
     let Some(settled) = many.settle(&start, stop)? else { return Ok(None) };
     let mut outcome = many.outcome(&watched, &settled)?;
     outcome.findings.extend(open(case, &watched, &mechanism, &start));
+    let Position { q, modes, .. } = &settled.found.stand.position;
+    outcome.findings.extend(change_point(&mechanism, q, modes, (&start.metric, start.size), &case.study.place));
     Ok(Some(outcome))
 }
 

@@ -36,6 +36,7 @@ use super::common::watched::Watched;
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
+use crate::kinematics::crossing::change_point;
 use crate::kinematics::undefined::assembled;
 use crate::mechanism::Coordinates;
 use crate::results::Failure;
@@ -136,6 +137,8 @@ where
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     let mut outcome = bench.outcome(&watched, &begin, &all)?;
     outcome.findings.extend(alone.then(|| one_equilibrium(case)));
+    let Position { q, modes, .. } = &all[0].pose.position;
+    outcome.findings.extend(change_point(&mechanism, q, modes, (&start.metric, start.size), &case.study.place));
     outcome.findings.extend(open(case, &watched, &mechanism, &start));
     Ok(outcome)
 }
