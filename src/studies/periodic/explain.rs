@@ -200,10 +200,11 @@ pub(super) fn not_driven(search: &Search<'_>) -> Failure {
 }
 
 /// What acts in time is not periodic.
-pub(super) fn not_repeated(search: &Search<'_>, t: f64) -> Failure {
+pub(super) fn not_repeated(search: &Search<'_>, t: f64, periods: u32) -> Failure {
+    let later = if periods == 1 { "one period".to_string() } else { format!("{periods} periods") };
     Failure::Study {
         code: "not-periodic",
-        message: format!("what acts on the mechanism at t = {t:.6} s acts in another way one period later"),
+        message: format!("what acts on the mechanism at t = {t:.6} s acts in another way {later} later"),
         place: format!("{}.periodic.over", search.study.place),
         help: "give the period of drivers and loads, or remove what depends on time in another way".into(),
     }

@@ -196,14 +196,16 @@ where
     }
     let mut lap = search.lap(phases, state, search.tolerance).map_err(|why| explain::broken(search, why))?;
     match repeats(&mut lap) {
-        Some(t) => Err(explain::not_repeated(search, t)),
+        Some((t, periods)) => Err(explain::not_repeated(search, t, periods)),
         None => Ok(()),
     }
 }
 
-/// The first of some times at which the accelerations of a state are others one period later.
-fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<f64> {
+/// The first of some times at which the accelerations of a state are others one period later, or so many periods: of something that
+/// changes late, or slowly; farther away by more, since the period is known to some digits.
+fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<(f64, u32)> {
     const LOOKS: usize = 7;
+    const LATER: [(u32, f64); 4] = [(1, ALIKE), (10, 1e-3), (100, 1e-3), (1000, 1e-3)];
     if lap.trajectory.phases.len() > 1 {
         // a joint that rests on a stop is told where the map is asked for
         return None;
@@ -214,15 +216,17 @@ fn repeats<G: Space<S = f64>>(lap: &mut lap::Lap<'_, G>) -> Option<f64> {
         let piece = breaks.partition_point(|b| *b <= t).clamp(1, breaks.len() - 1) - 1;
         lap.trajectory.go(t, piece).ok()?;
         let here = lap.trajectory.node.clone();
-        let mut later = here.clone();
-        later.state.t += period;
-        let phase = lap::tools(&mut lap.trajectory);
-        phase.engine.follow_modes(&mut phase.system, &mut later.state);
-        phase.engine.accelerate(&mut phase.system, &mut later).ok()?;
         let size = here.a.iter().chain(&here.zdot).fold(0.0, |m, x| f64::max(m, x.abs()));
         let both = |node: &grashof_solvers::Node| node.a.iter().chain(&node.zdot).copied().collect::<Vec<_>>();
-        if both(&here).iter().zip(both(&later)).any(|(a, b)| (a - b).abs() > ALIKE * size) {
-            return Some(t);
+        for (periods, alike) in LATER {
+            let mut later = here.clone();
+            later.state.t += f64::from(periods) * period;
+            let phase = lap::tools(&mut lap.trajectory);
+            phase.engine.follow_modes(&mut phase.system, &mut later.state);
+            phase.engine.accelerate(&mut phase.system, &mut later).ok()?;
+            if both(&here).iter().zip(both(&later)).any(|(a, b)| (a - b).abs() > alike * size) {
+                return Some((t, periods));
+            }
         }
     }
     None
