@@ -77,7 +77,7 @@ fn forces_that_are_not_periodic() {
     let loads = "drive: { joint: O, torque: 9 N m + 1 N m*sin(3 rad/s*t) }";
     told(&wheel(loads, "", "over: t, by: 2 s, of: O.omega, settle: 0 s"), false, &["one period later", "not-periodic"]);
     // what changes when the regime has long been found
-    let late = "drive: { joint: O, torque: 9 N m + if(t < 150 s, 1, 0.5)*1 N m*sin(2*pi*t/2 s) }";
+    let late = "drive: { joint: O, torque: \"9 N m + if(t < 150 s, 1, 0.5)*1 N m*sin(2*pi*t/2 s)\" }";
     told(&wheel(late, "", "over: t, by: 2 s, of: O.omega, settle: 0 s"), false, &["100 periods later", "not-periodic"]);
 }
 
