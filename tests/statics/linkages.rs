@@ -190,3 +190,25 @@ fn rest_is_rest_in_motion() {
         }
     }
 }
+
+#[test]
+fn no_path_is_drawn_through_equilibria() {
+    let outcome = run(
+        "grashof: 1
+name: two pendulums
+space: planar
+gravity: [0, -9.81 m/s^2]
+bodies:
+  a: { bar: { length: 1 m, mass: 1 kg } }
+  b: { bar: { length: 1 m, mass: 1 kg } }
+joints:
+  A: { revolute: [ground, a.start] }
+  B: { revolute: [a.end, b.start] }
+start: { A.angle: -80 deg, B.angle: 10 deg }
+studies: { rest: { statics: { from: start }, columns: [b.end.x, b.end.y], trace: [b.end] } }
+",
+        "rest",
+    );
+    let equilibria = &outcome.scenes.iter().find(|(name, _)| name == "equilibria").unwrap().1;
+    assert_eq!((equilibria.frames.count(), equilibria.traces.len()), (4, 0));
+}

@@ -57,10 +57,10 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         self.with(frames::over(self.mechanism, Span { at: self.shown_at(), ..span }, at), span.times)
     }
 
-    /// The scene of given poses, the first one drawn strongly.
+    /// The scene of given poses, the first one drawn strongly. What passes through them is no path.
     #[must_use]
     pub(crate) fn of_poses(&self, poses: &[Vec<Pose<G>>]) -> Scene {
-        self.with(frames::of_poses(poses), None)
+        Scene { traces: Vec::new(), ..self.with(frames::of_poses(poses), None) }
     }
 
     /// The place that the study asks to be shown.
