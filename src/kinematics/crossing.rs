@@ -29,7 +29,7 @@ where
     Some(Finding {
         code: "in-change-point".into(),
         message: format!(
-            "the position is a change point, where branches of the motion cross: the joints leave {} in it, but {} beside it. Stiffnesses, eigenvalues and stability are told for all of them together, which is the motion of no branch; begin beside it on one of the branches, by an exact value in `start`",
+            "the position is a change point, where branches of the motion cross: the constraints leave {} in it, but {} beside it. Stiffnesses, eigenvalues and stability are told for all of them together, which is the motion of no branch; those of a branch are found a little beside, from `start` with an exact value of 0.01 rad or more off",
             word(here),
             word(beside)
         ),

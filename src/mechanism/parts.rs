@@ -149,7 +149,7 @@ pub struct Mechanism<G: Space> {
 }
 
 impl<G: Space> Mechanism<G> {
-    /// Gives back the room that its lists were grown by and do not need.
+    /// Gives back the room that lists which are long in large mechanisms were grown by and do not need.
     pub(super) fn release_spare_room(&mut self) {
         self.bodies.shrink_to_fit();
         self.nodes.shrink_to_fit();

@@ -72,7 +72,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Gives back the room that its lists were grown by and do not need.
+    /// Gives back the room that lists which are long in large models were grown by and do not need.
     pub(super) fn release_spare_room(&mut self) {
         self.bodies.shrink_to_fit();
         self.joints.shrink_to_fit();
