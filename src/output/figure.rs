@@ -12,6 +12,9 @@ const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 640.0;
 /// What a further panel adds.
 const PANEL: f64 = 260.0;
+/// Letters of the names of curves for which an axis has room, alone and as one of several.
+const LETTERS_OF_AXIS: usize = 36;
+const LETTERS_OF_PANEL: usize = 22;
 
 /// Draws `figure` as SVG and PNG, 1000 by 640 pixels and 260 more for each further panel.
 ///
@@ -102,7 +105,8 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize]) -> Panel {
         let joined = names.join(", ");
         let mut quantities = curves().filter(|curve| !curve.right).map(|curve| &curve.quantity);
         let quantity = quantities.next().filter(|first| quantities.all(|other| other == *first)).cloned();
-        axis.label = if names.len() <= 3 && joined.chars().count() <= 36 { joined } else { quantity.unwrap_or_default() };
+        let most = if indices.len() < figure.curves.len() { LETTERS_OF_PANEL } else { LETTERS_OF_AXIS };
+        axis.label = if names.len() <= 3 && joined.chars().count() <= most { joined } else { quantity.unwrap_or_default() };
     }
     if let Some((_, quantity)) = figure.quantities.iter().find(|(known, _)| known == unit) {
         axis.label.clone_from(quantity);
@@ -347,6 +351,12 @@ mod tests {
         let figure = Figure { x: axis("t", "s"), curves, ..Figure::default() };
         let svg = svg(&figure);
         assert!(svg.contains("height=\"900\"") && svg.contains(">delta in deg<") && svg.contains(">omega in rad/s<"));
+        // where there is little room for names, so that the quantity stands for them
+        let long = ["rope_cabin.force", "rope_weight.force"]
+            .map(|name| Curve { quantity: "force".into(), ..curve(name, Some("N"), vec![(0.0, 1.0)]) });
+        let other = curve("x", Some("m"), vec![(0.0, 1.0)]);
+        let svg = self::svg(&Figure { x: axis("t", "s"), curves: [&long[..], &[other]].concat(), ..Figure::default() });
+        assert!(svg.contains(">force in N<"), "{svg}");
         // and however many they are
         let units = ["m", "m/s", "N", "N m", "W"];
         let curves = units.map(|unit| curve("x", Some(unit), vec![(0.0, 0.0), (1.0, 1.0)])).to_vec();

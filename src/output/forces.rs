@@ -27,6 +27,9 @@ const AXES: f64 = 150.0;
 /// Length of the head of an arrow, pixels.
 const HEAD: f64 = 13.0;
 
+/// What reactions lack.
+const WITHOUT: &str = "without pulls of ropes and teeth";
+
 /// Kinds with the names of their forces and of their torques.
 const KINDS: [(ForceKind, &str, &str); 2] = [(ForceKind::Load, "loads", "torques"), (ForceKind::Reaction, "reactions", "moments")];
 
@@ -167,6 +170,7 @@ fn told(value: f64, asked: Option<&ShownIn>, [unit, larger]: [&str; 2], digits: 
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
 pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut Scene, left: f64, letters: f64) {
     let (mut x, y) = (left, scene.height - 26.0);
+    let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
     for (kind, name, _) in KINDS {
         if drawing.forces.iter().all(|force| force.kind != kind || length(force) * pixels < SEEN * scales.force[kind as usize]) {
             continue;
@@ -176,14 +180,17 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         let value = round_above(0.4 * SAMPLE * scale / (pixels * size)) * size;
         let to = x + value * pixels / scale;
         scene.shape(arrow(Signs { size: 0.8 }, [[x, y], [to, y]]), Some(color(kind)), None);
-        // these act along coordinates, and no bearing feels them
-        let without = if kind == ForceKind::Reaction && !drawing.gears.is_empty() { " without pulls of ropes and teeth" } else { "" };
-        let text = format!("{name}{without}: {}", told(value, drawing.force.as_ref(), ["N", "kN"], 4));
+        let text = format!("{name}: {}", told(value, drawing.force.as_ref(), ["N", "kN"], 4));
         scene.text([to + 16.0, y + letters * font::CAPITAL / 2.0], text.clone(), letters, Anchor::Start);
+        // these act along coordinates, and no bearing feels them
+        if kind == ForceKind::Reaction && !drawing.gears.is_empty() {
+            let small = 0.67 * letters;
+            let from = f64::min(x, room - font::width(WITHOUT, small));
+            scene.text([from, scene.height - 0.4 * small], WITHOUT.to_owned(), small, Anchor::Start);
+        }
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }
     // as long as there is room for them beside the axes of space, else together in a line above
-    let room = scene.width - if drawing.axes.is_some() { AXES } else { 10.0 };
     let worded = |(kind, _, name): (ForceKind, &str, &str)| {
         let most = told(scales.torque[kind as usize], drawing.torque.as_ref(), ["N m", "kN m"], 3);
         (kind, [format!("{name}: at most {most}"), format!("{name} to {most}")])
@@ -256,6 +263,26 @@ mod tests {
         let texts: Vec<String> =
             scene.items.iter().filter_map(|item| if let Item::Text(text) = item { Some(text.text.clone()) } else { None }).collect();
         assert_eq!(texts, ["loads: 20 lbf"], "{texts:?}");
+    }
+
+    #[test]
+    fn reactions_of_geared_joints_are_told_to_lack_pulls_where_there_is_room() {
+        let reaction = Force { kind: ForceKind::Reaction, along: [100.0, 0.0], size: 100.0, ..Force::default() };
+        let mut drawing = Drawing { forces: vec![reaction], ..Drawing::default() };
+        let told = |drawing: &Drawing, left: f64| {
+            let mut scene = Scene { width: 600.0, height: 400.0, ..Scene::default() };
+            legend(drawing, 300.0, scales(drawing, 1.0), &mut scene, left, 18.0);
+            let text = |item| if let Item::Text(text) = item { Some(text) } else { None };
+            scene
+                .items
+                .into_iter()
+                .filter_map(text)
+                .find(|text| text.text == WITHOUT)
+                .map(|text| text.at[0] + font::width(WITHOUT, text.size))
+        };
+        assert_eq!(told(&drawing, 20.0), None);
+        drawing.gears.push(Default::default());
+        assert!([20.0, 500.0].iter().all(|left| told(&drawing, *left).is_some_and(|end| end <= 590.0 + 1e-9)));
     }
 
     #[test]

@@ -67,6 +67,8 @@ const NARROW = 420;
 /** Names of curves on an axis at most, and their letters. */
 const NAMES = 3;
 const SPACE = 36;
+/** The same of an axis beside others. */
+const BESIDE = 22;
 /** A line of so many points at most joins results of single runs, which have no direction. */
 const FEW = 25;
 /** How much is seen of a curve beside the chosen one. */
@@ -267,7 +269,7 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
     });
     svg.append(s('g', { 'clip-path': `url(#${id})` }, ...lines), ...marked);
     const own = panel.curves.filter((curve) => !curve.right);
-    const upright = label(said(figure.y || named(own), panel.y, panel.unit), 0, 0, 'middle');
+    const upright = label(said(figure.y || named(own, out.panels.length > 1 ? BESIDE : SPACE), panel.y, panel.unit), 0, 0, 'middle');
     upright.setAttribute('transform', `translate(12 ${top + height / 2}) rotate(-90)`);
     svg.append(upright);
     if (panel.right && figure.right) {
@@ -283,10 +285,10 @@ export function draw(figure: Figure, view: View, out: Layout, title: string): SV
 }
 
 /** What an axis says of its curves: their names if they are few, else what they are of. */
-function named(curves: Curve[]): string {
+function named(curves: Curve[], space: number): string {
   const names = [...new Set(curves.map(({ label: name }) => name))];
   const quantities = new Set(curves.map(({ quantity }) => quantity));
-  if (names.length <= NAMES && names.join(', ').length <= SPACE) return names.join(', ');
+  if (names.length <= NAMES && names.join(', ').length <= space) return names.join(', ');
   return quantities.size === 1 ? [...quantities][0]! : '';
 }
 
