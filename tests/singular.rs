@@ -9,6 +9,7 @@ use grashof::studies::common::outcome::Outcome;
 use grashof::studies::run::run_in;
 use std::fmt::Write;
 
+mod beside;
 mod driven;
 mod passing;
 mod told;

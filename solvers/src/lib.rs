@@ -36,6 +36,7 @@ pub mod sparsity;
 pub mod state;
 pub mod svd;
 pub mod system;
+pub mod weakest;
 pub mod why;
 
 #[cfg(test)]

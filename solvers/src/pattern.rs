@@ -44,7 +44,7 @@ pub struct Pattern {
     /// [`kkt::row_scale`](crate::kkt::row_scale) where nothing is known of rows but their entries; E = 1e-8 of it.
     pub g_scale: Vec<f64>,
     /// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ at the start that is not of redundant rows, see
-    /// [`Kkt::weakest`](crate::kkt::Kkt::weakest).
+    /// [`weakest`](crate::weakest::weakest).
     pub weakest: f64,
     /// Sizes of coordinates (nq): errors of q count in units of these, absolutely, since angles wind up and places drift.
     pub size_q: Vec<f64>,

@@ -6,6 +6,7 @@ use crate::dynamics::{Dynamics, Reactions, friction_pattern, slack};
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
 use grashof_solvers::kkt::ROUND_OFF;
+use grashof_solvers::weakest::weakest;
 use grashof_solvers::{Block, Dims, Friction, Kkt, Pattern, Terms};
 
 /// Newton did not reach a position at a time.
@@ -96,7 +97,7 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
             // of a motion that is given, bodies without inertia are no exception
             let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern()).with_pivots();
             kkt.set_scale(&start.metric, &g_scale);
-            let weakest = kkt.weakest(&start.metric, dynamics.work.g.values());
+            let weakest = weakest(&mut kkt, &start.metric, &g_scale, &dynamics.work.g);
             kkt.set_weakest(weakest);
             let mut metric = Box::new(Block::new(dynamics.work.mass.pattern()));
             start.metric.iter().enumerate().for_each(|(i, d)| metric.set(i, i, *d));

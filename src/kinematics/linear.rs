@@ -25,6 +25,7 @@ use super::partition::Partition;
 use crate::dynamics::{Dynamics, Linearizer, Point, RowTangent};
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Step};
+use grashof_solvers::weakest::weakest;
 use grashof_solvers::{Block, Kkt, Tangent};
 use nalgebra::DMatrix;
 
@@ -85,7 +86,7 @@ impl Linear {
         let mut kkt = Kkt::of_blocks(dynamics.work.mass.pattern(), dynamics.work.g.pattern());
         let row_scale = dynamics.row_scale(at.q, at.modes, metric);
         kkt.set_scale(metric, &row_scale);
-        let weakest = kkt.weakest(metric, dynamics.work.g.values());
+        let weakest = weakest(&mut kkt, metric, &row_scale, &dynamics.work.g);
         kkt.set_weakest(weakest);
         kkt.factor(dynamics.work.mass.values(), dynamics.work.g.values()).map_err(|_| Singular)?;
         Ok(Self {

@@ -144,7 +144,7 @@ const GROWN: f64 = 100.0;
 const ITERATIONS: usize = 4;
 
 /// σ at the start below which it is a singular position, and from which on the refinements leave round-off.
-const SINGULAR: f64 = 1e-6;
+const SINGULAR: f64 = 1e-8;
 const NEARLY_DEPENDENT: f64 = 1e-2;
 
 /// Part of σ at the start below which a position is nearer to a singular one: there solutions would multiply what states are off.
@@ -357,19 +357,49 @@ impl Kkt {
         self.conjugate = conjugate;
     }
 
-    /// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ that is not of redundant rows, with D (nv) the `metric` and `g` the values of
-    /// G at the start; 1 without rows. Values below 1e-6 are not told from 0. Factors anew, and allocates.
-    pub fn weakest(&mut self, metric: &[f64], g: &[f64]) -> f64 {
-        let mut mass = vec![0.0; self.blocks.0[0].entries()];
-        self.diagonal.iter().zip(metric).for_each(|(k, d)| mass[*k] = *d);
+    /// Estimates of the smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½, and of the smallest that is not of redundant rows, with D (nv)
+    /// the `metric` and `g` the values of G at the start; 1 without rows. The second is not good below 1e-4, which E hides. Factors anew,
+    /// and allocates.
+    pub(crate) fn weakest(&mut self, metric: &[f64], g: &[f64]) -> (f64, f64) {
+        let mass = self.diagonal_mass(metric);
         let mut vector = vec![0.0; self.rows];
         if vector.is_empty() || self.factor(&mass, g).is_err() {
-            return 1.0;
+            return (1.0, 1.0);
         }
-        (0..ITERATIONS).fold(1.0, |_, _| self.smallest_singular_value_that_moves(&mut vector))
+        let mut smallest = [1.0];
+        (0..ITERATIONS / 2).for_each(|_| self.smallest_singular_values(&mut vector, &mut smallest));
+        vector.fill(0.0);
+        (smallest[0], (0..ITERATIONS).fold(1.0, |_, _| self.smallest_singular_value_that_moves(&mut vector)))
     }
 
-    /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by [`Kkt::weakest`] of it, and as far
+    /// The smallest singular value of rows that are independent, by factors without E; 0 where they have none. The factors are of no other use.
+    pub(crate) fn weakest_of_independent(&mut self, metric: &[f64], g: &[f64]) -> f64 {
+        let mass = self.diagonal_mass(metric);
+        self.e.fill(0.0);
+        let mut vector = vec![0.0; self.rows];
+        if vector.is_empty() || self.eliminate(&mass, g).is_err() {
+            return if vector.is_empty() { 1.0 } else { 0.0 };
+        }
+        dense::start(&mut vector, 0);
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (0..ITERATIONS).fold(1.0, |_, _| {
+            let length = norm(&vector);
+            self.x[..self.nv].fill(0.0);
+            self.x[self.nv..].iter_mut().zip(&vector).for_each(|(x, y)| *x = y / length);
+            self.apply(0);
+            vector.copy_from_slice(&self.x[self.nv..]);
+            norm(&vector).sqrt().recip()
+        })
+    }
+
+    /// Values of an M that is the `metric` (nv).
+    fn diagonal_mass(&self, metric: &[f64]) -> Vec<f64> {
+        let mut mass = vec![0.0; self.blocks.0[0].entries()];
+        self.diagonal.iter().zip(metric).for_each(|(k, d)| mass[*k] = *d);
+        mass
+    }
+
+    /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by [`weakest`](crate::weakest::weakest) of it, and as far
     /// as no position is nearer to a singular one.
     pub fn set_weakest(&mut self, weakest: f64) {
         self.further = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(Further::Regular(NEARER * weakest));

@@ -299,7 +299,7 @@ fn nearly_dependent_rows_hold_to_round_off() {
             distance(a_found, a.as_slice()).max(distance(force.as_slice(), held.as_slice()))
         };
         let (mut found, mut by) = (vec![0.0; nv], vec![0.0; m]);
-        let sigma = kkt.weakest(&metric_of(&mass, nv), &g);
+        let (_, sigma) = kkt.weakest(&metric_of(&mass, nv), &g);
         let mut solved = |weakest: f64| {
             kkt.set_weakest(weakest);
             kkt.factor(&mass, &g).unwrap();

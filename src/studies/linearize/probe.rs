@@ -9,6 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::studies::common::observe::Observer;
 use grashof_solvers::Kkt;
+use grashof_solvers::weakest::weakest;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of closing, and so far closed: m or rad.
@@ -73,8 +74,9 @@ impl<'m, G: Space<S = f64>> Probe<'m, G> {
         d.terms(0.0, &at.q, &at.v, &at.modes);
         d.rates(&at.modes);
         self.gap = d.undefined(&at.modes).map(Gap::Law);
-        self.kkt.set_scale(self.metric, &d.row_scale(&at.q, &at.modes, self.metric));
-        let weakest = *self.weakest.get_or_insert_with(|| self.kkt.weakest(self.metric, d.work.g.values()));
+        let row_scale = d.row_scale(&at.q, &at.modes, self.metric);
+        self.kkt.set_scale(self.metric, &row_scale);
+        let weakest = *self.weakest.get_or_insert_with(|| weakest(&mut self.kkt, self.metric, &row_scale, &d.work.g));
         self.kkt.set_weakest(weakest);
         self.kkt.factor(d.work.mass.values(), d.work.g.values()).ok()?;
         let mut out = Answer { a: vec![0.0; m.nv], lambda: vec![0.0; m.rows.len()], ..Answer::default() };

@@ -12,6 +12,7 @@ use crate::mechanism::{Measured, Row, RowOwner, Step};
 use crate::studies::common::observe::Observer;
 use crate::studies::common::stops::PASSED;
 use ahead::Timed;
+use grashof_solvers::weakest::weakest;
 use grashof_solvers::{Dims, Friction, Kkt, Pattern, Sparsity, Terms};
 
 impl<'m, G> Mechanical<'m, G>
@@ -120,7 +121,7 @@ where
             rough: Vec::new(),
             weakest: 1.0,
         };
-        let weakest = Kkt::of_pattern(&pattern).weakest(&pattern.metric, dynamics.work.g.values());
+        let weakest = weakest(&mut Kkt::of_pattern(&pattern), &pattern.metric, &pattern.g_scale, &dynamics.work.g);
         let pattern = Pattern { weakest, ..pattern };
         let most = |f: fn(&crate::mechanism::StagedProgram) -> usize| mechanism.programs().iter().map(|p| f(p)).max().unwrap_or(0);
         let switches = most(|p| p.program.switches().len()).max(observer.program().switches().len());

@@ -1,0 +1,70 @@
+//! Starts just beside a change point, where rows are nearly dependent: motion, reactions and eigenvalues are those of the branch.
+//!
+//! The parallelogram 2-1-2 of 1, 2 and 3 kg at rest at the angle ε, with springs of 100 and 150 N m/rad on its cranks. All turn alike, and
+//! the coupler only shifts:
+//!
+//! ```text
+//! (4/3 + 8 + 4) ε̈ = −8 g cos ε − 250 ε,   ω² ≈ 250/(40/3)
+//! ```
+//!
+//! The coupler's weight comes evenly upon both cranks, F_y = −g − 2 ε̈ cos ε each at rest, and the force along it is what the right crank lacks:
+//! 4 ε̈ = −3 g cos ε − 150 ε + 2 (F_y cos ε − F_x sin ε).
+
+use crate::common::study;
+use grashof::mechanism::Coordinates;
+
+fn parallelogram(angle: f64) -> String {
+    format!(
+        "
+grashof: 1
+name: nearly flat
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: {{ A0: [0, 0], A1: [1 m, 0] }}
+bodies:
+  left: {{ bar: {{ length: 2 m, mass: 1 kg }} }}
+  coupler: {{ bar: {{ length: 1 m, mass: 2 kg }} }}
+  right: {{ bar: {{ length: 2 m, mass: 3 kg }} }}
+joints:
+  A0: {{ revolute: [ground.A0, left.start] }}
+  B0: {{ revolute: [left.end, coupler.start] }}
+  B1: {{ revolute: [coupler.end, right.end] }}
+  A1: {{ revolute: [ground.A1, right.start] }}
+springs:
+  k0: {{ joint: A0, stiffness: 100 N m/rad }}
+  k1: {{ joint: A1, stiffness: 150 N m/rad }}
+start: {{ A0.angle: {angle:e} rad, coupler.angle: ~0 deg, right.angle: ~{angle:e} rad }}
+studies:
+  fall: {{ dynamics: {{ until: 1e-5 s, every: 1e-5 s }}, columns: [A0.alpha, coupler.alpha, B1.fx, B1.fy] }}
+  linear: {{ linearize: {{ at: start }}, columns: [A0.angle] }}
+"
+    )
+}
+
+#[test]
+fn motion_and_forces_beside_a_change_point_are_those_of_the_branch() {
+    // what a position is off comes over as its part of the angle
+    for (coordinates, nearest, off) in [(Coordinates::Joint, 1e-7, 1e-8), (Coordinates::Cartesian, 1e-6, 1e-3)] {
+        for angle in [1e-3, 1e-4, 1e-5, 3e-6, 1e-6, 1e-7].into_iter().filter(|angle| *angle >= nearest) {
+            let outcome = study(&parallelogram(angle), "fall", coordinates);
+            let (sin, cos) = angle.sin_cos();
+            let alpha = -(8.0 * 9.81 * cos + 250.0 * angle) / (40.0 / 3.0);
+            let across = -9.81 - 2.0 * alpha * cos;
+            let along = (2.0 * across * cos - 3.0 * 9.81 * cos - 150.0 * angle - 4.0 * alpha) / (2.0 * sin);
+            for (found, right) in outcome.rows[0].iter().zip([alpha, 0.0, along, across]) {
+                let error = (found - right).abs() / right.abs().max(1.0);
+                assert!(error < off, "{coordinates:?}, {angle:e}: {found} is {error:e} off {right}");
+            }
+        }
+    }
+}
+
+#[test]
+fn eigenvalues_beside_a_change_point_are_those_of_the_branch() {
+    for angle in [1e-3, 1e-5, 1e-6, 3e-7] {
+        let outcome = study(&parallelogram(angle), "linear", Coordinates::Joint);
+        let poles = &outcome.lists.iter().find(|list| list.name == "poles_imaginary").expect("poles").values;
+        let right = (250.0f64 / (40.0 / 3.0)).sqrt();
+        assert!(poles.len() == 2 && poles.iter().all(|pole| (pole.abs() / right - 1.0).abs() < 1e-3), "{angle:e}: {poles:?}");
+    }
+}
