@@ -43,8 +43,9 @@ impl Svd {
                     if c.abs() > f64::EPSILON * (a * b).sqrt() {
                         rotated = true;
                         let zeta = (b - a) / (2.0 * c);
-                        let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                        let cos = t.hypot(1.0).recip();
+                        // where ζ² overflows the angle is none
+                        let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                        let cos = (1.0 + t * t).sqrt().recip();
                         rotate(&mut w, p, q, [cos, cos * t]);
                         rotate(&mut v, p, q, [cos, cos * t]);
                         (squares[p], squares[q]) = (w.column(p).norm_squared(), w.column(q).norm_squared());

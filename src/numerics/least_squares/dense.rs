@@ -30,7 +30,11 @@ pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f6
         return vec![0.0; n];
     }
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
-    let svd = Svd::new(&scaled(a, metric));
+    let rows = scaled(a, metric);
+    if damping == 0.0 && are_independent(&rows, round_off) {
+        return shortest_met(&rows, b).iter().zip(&root).map(|(x, r)| x / r).collect();
+    }
+    let svd = Svd::new(&rows);
     let largest = svd.largest();
     let least = f64::max(RANK_TOLERANCE * largest, round_off);
     let x = svd.solve(b, |s| if s > least { s / (s * s + damping * largest * largest) } else { 0.0 });
@@ -87,6 +91,15 @@ pub(super) fn are_independent(a: &DMatrix<f64>, least: f64) -> bool {
     let mut gram = a * a.transpose();
     (0..a.nrows()).for_each(|i| gram[(i, i)] -= clear * clear);
     gram.cholesky().is_some()
+}
+
+/// The shortest x with A x = b for independent rows A, by A = Rᵀ Qᵀ.
+fn shortest_met(a: &DMatrix<f64>, b: &[f64]) -> Vec<f64> {
+    let qr = a.transpose().qr();
+    let mut y = DVector::from_column_slice(b);
+    let met = qr.r().tr_solve_upper_triangular_mut(&mut y);
+    debug_assert!(met, "independent rows have no zero on the diagonal");
+    (qr.q() * y).as_slice().to_vec()
 }
 
 /// The shortest x with A x = b for independent rows A, and an orthonormal basis of what they leave open, by A = Rᵀ Qᵀ.
