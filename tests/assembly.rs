@@ -2,6 +2,7 @@
 
 mod alike;
 mod change;
+mod flat;
 mod nearer;
 mod open;
 mod sizes;

@@ -1,6 +1,7 @@
 //! Degrees of freedom: the Grübler count, the numerical rank, redundant rows, and the Grashof class of four-bars.
 
 use super::assemble::{Assembled, ChangePoint};
+use super::crossing::at_start;
 use super::freedom::{rows, undriven, with_fewer_drivers};
 use super::remaining::remaining;
 use crate::geometry::Space;
@@ -30,7 +31,8 @@ pub struct Mobility {
 /// Counts at the assembled start.
 #[must_use]
 pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Mobility {
-    let q = beside(start);
+    let crossing = at_start(mechanism, start);
+    let q = crossing.as_ref().map_or_else(|| beside(start), |crossing| &crossing.q);
     let rows = rows(mechanism, q, &start.modes, &start.metric);
     let free = undriven(mechanism, &rows, &start.metric);
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);

@@ -1,6 +1,7 @@
 //! What a mechanism is before anything moves: masses, topology, freedom, start.
 
 use super::assemble::Found;
+use super::crossing::begins_in_change_point;
 use super::held::settled;
 use super::mobility::{Grashof, Mobility, grashof, loose, mobility};
 use super::undefined::{assembled, in_state};
@@ -95,7 +96,7 @@ fn survey_in<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Result<Sur
             .iter()
             .filter_map(|j| Some((j.name.clone(), m.rows[j.rows.clone()].iter().find(|row| row.anchored)?.offset)))
             .collect(),
-        findings: start.findings().collect(),
+        findings: start.findings().chain(begins_in_change_point(m, &start)).collect(),
         stands: model
             .joints
             .iter()

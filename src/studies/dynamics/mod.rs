@@ -35,6 +35,7 @@ use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::expression::Dimension;
 use crate::geometry::{Planar, Pose, Space, Spatial};
+use crate::kinematics::crossing::begins_in_change_point;
 use crate::kinematics::laws::first_jump;
 use crate::kinematics::undefined::Gap;
 use crate::model::{Dimensions, Forward, Study, WORKS};
@@ -127,6 +128,7 @@ where
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
     findings.extend(indeterminate::open(case, &watched, &phases.first().mechanism, &phases.first().start));
+    findings.extend(begins_in_change_point(&phases.first().mechanism, &phases.first().start));
     let Kept { places, switches, rows, selected_from } = rows.recorded();
     let span = Span { ends: [from, to], times: Some([from, to]), ..Span::default() };
     let subject = Subject { case, mechanism: &phases.first().mechanism };
