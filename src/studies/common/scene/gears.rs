@@ -2,7 +2,7 @@
 //!
 //! With both hinges on one carrier, at a distance d, and wheels that turn relative to it by φ_b = ρ φ_a: teeth that run on each other
 //! turn outer gears against each other, ρ < 0, r_a + r_b = d; one with inner teeth turns like the other, ρ > 0, |r_a − r_b| = d; in
-//! both |ρ| = r_a/r_b. Wheels that turn alike and whose outlines stand apart are joined by a belt, r_a = ρ r_b.
+//! both |ρ| = r_a/r_b. Wheels that turn alike are joined by a belt or chain, r_a = ρ r_b, unless outlines show that one has inner teeth.
 
 use super::places::numbers;
 use crate::geometry::Space;
@@ -13,6 +13,8 @@ use crate::results::scene::{Body, Gear, GearKind, Shape, Wheel};
 
 /// A disc up to this multiple of a pitch circle is that of the pitch circle.
 const PITCH: f64 = 1.02;
+/// Radius of the larger wheel under a belt whose outlines do not tell it, as part of the distance of the axes.
+const UNDER_BELT: f64 = 0.2;
 
 /// The gears of a mechanism whose circles can be told. The frames of the scene are there.
 pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Gear> {
@@ -48,7 +50,7 @@ pub(super) fn outline_wheels<G: Space<S = f64>>(mechanism: &Mechanism<G>, gears:
         let pitch = |shape: &Shape| matches!(shape, Shape::Disc { radius, .. } if *radius <= PITCH * wheel.radius.abs());
         bodies[wheel.body].shapes.retain(|shape| !pitch(shape));
     }
-    for gear in gears.iter().filter(|gear| matches!(gear.kind, GearKind::Teeth | GearKind::Rack)) {
+    for gear in gears.iter().filter(|gear| !matches!(gear.kind, GearKind::Rope)) {
         for wheel in [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.body > 0 && wheel.radius > 0.0) {
             let shapes = &mut bodies[wheel.body].shapes;
             if of_bars(wheel.body, shapes) {
@@ -119,29 +121,53 @@ fn pair<G: Space<S = f64>>(
     let along = if G::VECTOR == 3 { G::dot(apart, G::vector(&first.axis)) } else { 0.0 };
     let distance = (G::dot(apart, apart) - along * along).max(0.0).sqrt();
     let turned = ratio * a.sign * b.sign * facing.signum();
-    let reaches = [a.wheel, b.wheel].map(|(body, hinge)| reach(mechanism, body, hinge));
-    if let Some([ra, rb]) = belted(turned, distance, reaches) {
-        return Some(Gear { name: name.into(), kind: GearKind::Belt, a: a.circle(first, ra, scene), b: b.circle(second, rb, scene) });
-    }
-    let [ra, rb] = radii(turned, distance)?;
-    Some(Gear { name: name.into(), kind: GearKind::Teeth, a: a.circle(first, ra, scene), b: b.circle(second, rb, scene) })
-}
-
-/// How far the outline of a wheel reaches from its hinge, m; 0 if it has none.
-fn reach<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize, hinge: G::Vector) -> f64 {
-    let body = &mechanism.bodies[body];
-    let round = match body.outline {
-        Some(Outline::Disc { center, radius, .. }) if G::vector(&center) == hinge => radius,
-        _ => 0.0,
+    let wheels = [a.wheel, b.wheel].map(|(body, hinge)| Seen::of(mechanism, body, hinge));
+    let (kind, [ra, rb]) = if turned > 0.0 && !has_inner_teeth(turned, distance, wheels) {
+        (GearKind::Belt, belted(turned, distance, wheels)?)
+    } else {
+        (GearKind::Teeth, radii(turned, distance)?)
     };
-    body.drawn.iter().map(|at| G::dot(*at - hinge, *at - hinge).sqrt()).fold(round, f64::max)
+    Some(Gear { name: name.into(), kind, a: a.circle(first, ra, scene), b: b.circle(second, rb, scene) })
 }
 
-/// Radii of two wheels under a belt, within their outlines: wheels that turn alike, of which neither is within the other.
-fn belted(ratio: f64, distance: f64, [a, b]: [f64; 2]) -> Option<[f64; 2]> {
-    let apart = ratio > 0.0 && a > 0.0 && b > 0.0 && a + b < distance;
-    let rb = b.min(a / ratio);
-    (apart && rb > 0.0 && rb.is_finite()).then_some([ratio * rb, rb])
+/// What the outline of a wheel tells of its size, m.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    /// Radius of a disc about its hinge; 0 if it has none.
+    disc: f64,
+    /// How far it reaches from its hinge; 0 without an outline.
+    reach: f64,
+    /// Whether it is fixed to the ground, which has no outline.
+    ground: bool,
+}
+
+impl Seen {
+    fn of<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize, hinge: G::Vector) -> Self {
+        let ground = body == 0;
+        let body = &mechanism.bodies[body];
+        let disc = match body.outline {
+            Some(Outline::Disc { center, radius, .. }) if G::vector(&center) == hinge => radius,
+            _ => 0.0,
+        };
+        let reach = body.drawn.iter().map(|at| G::dot(*at - hinge, *at - hinge).sqrt()).fold(disc, f64::max);
+        Self { disc, reach, ground }
+    }
+}
+
+/// Whether of two wheels that turn alike the larger one has inner teeth: it is the ground, or its disc goes around the axis of the other, or
+/// that of the other is its pitch circle.
+fn has_inner_teeth(ratio: f64, distance: f64, [a, b]: [Seen; 2]) -> bool {
+    let Some([ra, rb]) = radii(ratio, distance) else { return false };
+    let (ring, wheel, pitch) = if ra < 0.0 { (a, b, rb) } else { (b, a, ra) };
+    ring.ground || ring.disc >= distance || (wheel.disc / pitch - 1.0).abs() <= PITCH - 1.0
+}
+
+/// Radii of two wheels under a belt: within their outlines if these stand apart.
+fn belted(ratio: f64, distance: f64, [a, b]: [Seen; 2]) -> Option<[f64; 2]> {
+    let apart = a.reach + b.reach < distance;
+    let most = |wheel: Seen| if apart && wheel.reach > 0.0 { wheel.reach } else { UNDER_BELT * distance };
+    let rb = most(b).min(most(a) / ratio);
+    (rb > 0.0 && rb.is_finite()).then_some([ratio * rb, rb])
 }
 
 /// Radii of two gears, the one with inner teeth negative.
@@ -214,8 +240,27 @@ mod tests {
         assert_eq!(radii(0.5, 1.0), Some([1.0, -2.0]));
         assert_eq!(radii(1.0, 1.0), None);
         assert_eq!(radii(-1.0, 0.0), None);
-        // a belt: the smaller wheel turns four times as fast
-        assert_eq!(belted(0.25, 0.5, [0.05, 0.16]), Some([0.04, 0.16]));
-        assert_eq!((belted(0.25, 0.1, [0.04, 0.16]), belted(-1.0, 1.0, [0.1, 0.1]), belted(1.0, 1.0, [0.0, 0.1])), (None, None, None));
+    }
+
+    #[test]
+    fn wheels_that_turn_alike_are_under_a_belt_unless_one_is_seen_to_go_around_the_other() {
+        let disc = |radius: f64| Seen { disc: radius, reach: radius, ground: false };
+        // the smaller wheel turns four times as fast
+        assert_eq!(belted(0.25, 0.5, [disc(0.05), disc(0.16)]), Some([0.04, 0.16]));
+        // no outline, or one that reaches as far as the other axis, tells nothing
+        let bar = Seen { reach: 0.6, ..Seen::default() };
+        for wheels in [[Seen::default(); 2], [bar; 2]] {
+            let [ra, rb] = belted(0.5, 0.5, wheels).expect("a belt");
+            assert!((ra - 0.05).abs() < 1e-12 && (rb - 0.1).abs() < 1e-12, "{ra} {rb}");
+            assert!(!has_inner_teeth(0.5, 0.5, wheels));
+        }
+        assert_eq!(belted(0.5, 0.0, [Seen::default(); 2]), None);
+        // a ring of 1 m around a wheel of 0.5 m
+        let ground = Seen { ground: true, ..Seen::default() };
+        for wheels in [[disc(0.2), disc(1.1)], [disc(0.5), Seen::default()], [Seen::default(), ground]] {
+            assert!(has_inner_teeth(2.0, 0.5, [wheels[1], wheels[0]]) && has_inner_teeth(0.5, 0.5, wheels), "{wheels:?}");
+        }
+        // wheels that turn at the same rate have none
+        assert!(!has_inner_teeth(1.0, 0.5, [ground; 2]));
     }
 }
