@@ -1,6 +1,7 @@
 //! What is drawn moves as the mechanism does: between its frames too, and with its joints closed.
 
 mod order;
+mod stops;
 
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;

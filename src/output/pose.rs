@@ -128,6 +128,8 @@ pub struct Placement {
     pub clear: f64,
     /// Of a slide the places where stops are, of a hinge in the plane the directions in which they are.
     pub stops: [Option<[f64; 2]>; 2],
+    /// Of a slide with stops how far the outlines of the body that slides reach from its point back and ahead along the way, m; else 0.
+    pub beyond: [f64; 2],
 }
 
 /// A massless element between two points.

@@ -41,6 +41,7 @@ impl Sheet {
             sense: placement.sense,
             clear: placement.clear * self.scale,
             stops: placement.stops.map(|stop| stop.filter(is_usable)),
+            beyond: placement.beyond.map(|reach| reach * placement.along[0].hypot(placement.along[1]) * self.scale),
         })
     }
 

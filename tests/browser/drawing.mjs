@@ -97,3 +97,12 @@ export async function the_largest_moment_of_a_joint_is_told(open) {
   assert.deepEqual(told.map(({ kind }) => kind), ['reactions', 'moments']);
   assert.equal(told[1].text, 'at most 100 N m');
 }
+
+export async function modes_are_chosen_by_their_frequencies(open) {
+  const { tab } = await open('leaf', { study: 'damped' });
+  const select = tab.locator('select[aria-label=drawing]');
+  await select.waitFor();
+  const titles = await select.locator('option').allTextContents();
+  assert.ok(titles.length === 2, `${titles}`);
+  titles.forEach((title, k) => assert.match(title, new RegExp(`^mode ${k + 1}: [0-9.]+ Hz, damping ratio [0-9.]+$`)));
+}

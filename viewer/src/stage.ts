@@ -53,6 +53,12 @@ function choicesOf(study: Study): string {
   return JSON.stringify([study.table.reasons !== null, names(study), drawnRuns(study).map(({ run, index }) => [index, run.label, names(run.results!)])]);
 }
 
+/** The drawings to choose from, in words: modes with their frequencies. */
+function titlesOf({ scenes }: Results): string[] {
+  const differ = new Set(scenes.map(([, { caption }]) => caption)).size > 1;
+  return scenes.map(([name, { caption }]) => `${name.replace(/-/g, ' ')}${differ && caption ? `: ${pretty(caption)}` : ''}`);
+}
+
 /** What a reader has chosen on a stage. */
 export interface StageKept { options: Options; run: string; drawing: string; dimensions: number; look: number[] }
 
@@ -108,6 +114,7 @@ export class Stage {
     const run = drawnRuns(study).find(({ run: { label } }) => label === this.run);
     this.study = study;
     this.kept = this.keep();
+    this.entitle(run?.run.results ?? study);
     this.load(run?.run.results ?? study, Math.max(0, this.drawings.selectedIndex), true);
     return true;
   }
@@ -191,6 +198,12 @@ export class Stage {
     return this.pace?.real && independent.unit !== 's' ? `${own}, ${digits(this.pace.seconds(at), 4)} s` : own;
   }
 
+  /** Gives the drawings to choose from their titles. */
+  private entitle(results: Results): void {
+    const options = [...this.drawings.options];
+    titlesOf(results).forEach((title, k) => options[k] && (options[k].textContent = title));
+  }
+
   /** Runs of a sweep, drawings of a study. */
   private choices(): HTMLElement {
     const { study } = this;
@@ -198,7 +211,8 @@ export class Stage {
     const { drawings } = this;
     drawings.addEventListener('change', () => this.load(this.results, drawings.selectedIndex));
     const fill = (next: Results) => {
-      drawings.replaceChildren(...next.scenes.map(([name]) => h('option', {}, name.replace(/-/g, ' '))));
+      drawings.replaceChildren(...next.scenes.map(([name]) => h('option', { value: name })));
+      this.entitle(next);
       drawings.hidden = next.scenes.length < 2;
       drawings.selectedIndex = Math.max(0, next.scenes.findIndex(([name]) => name === this.kept?.drawing));
       this.load(next, Math.max(0, drawings.selectedIndex));

@@ -172,6 +172,8 @@ export interface Joint {
   stroke: [number, number] | null;
   /** Of a slide the places of its stops along the axis from a. */
   stops: [Num, Num];
+  /** Of a slide with stops how far the body that slides reaches from its point, back and ahead along the axis, if it does. */
+  beyond?: [number, number];
   /** Of a hinge in the plane the directions of its stops in the first body, rad, if it has any. */
   ends?: [Num, Num];
   /** Of what is driven the sense in which it moves at first: 0 is none. */
@@ -196,6 +198,8 @@ interface Parts<A> {
   force: Column['shown_in'];
   torque: Column['shown_in'];
   up: [number, number, number];
+  /** The run of a sweep, or frequency and damping of a mode; may be empty. */
+  caption: string;
   /** In space from where it is seen: azimuth and elevation, rad, from the first of two level axes. */
   view: { level: [[number, number, number], [number, number, number]]; azimuth: number; elevation: number } | null;
   /** The place of the motion that the study asks to be shown. */

@@ -30,17 +30,50 @@ impl Posed<'_> {
         let a = self.scene.world(poses, &joint.a);
         let on_way = |s: f64| self.view.flat(std::array::from_fn(|i| a[i] + s * axis[i]));
         let about = if planar { [0.0, 0.0, 1.0] } else { axis };
+        let beyond = if kind == SymbolKind::Slide { self.beyond(poses, joint, axis) } else { [0.0; 2] };
         Placement {
             at: self.flat(poses, if slides { &joint.b } else { &joint.a }),
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
-            way: joint.stroke.filter(|_| slides).map(|ends| ends.map(on_way)),
+            way: joint.stroke.filter(|_| slides).map(|[low, high]| [on_way(low - beyond[0]), on_way(high + beyond[1])]),
             carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
             // the middle of the arrow of what drives
             across: self.view.facing(about, 0.75).map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
             sense: joint.sense,
             stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),
+            beyond,
         }
+    }
+
+    /// How far blocks, outlines and discs of the body that slides reach from its point along the way, m: back and ahead, where it has stops.
+    /// A rod goes through what guides it.
+    fn beyond(&self, poses: &[f64], joint: &Joint, axis: [f64; 3]) -> [f64; 2] {
+        let body = joint.b.body;
+        let from = self.scene.world(poses, &joint.b);
+        let along = |v: [f64; 3]| (0..3).map(|i| axis[i] * v[i]).sum::<f64>();
+        let at = |p: &[f64]| {
+            let p = self.scene.world(poses, &Place { body, at: p.to_vec() });
+            along(std::array::from_fn(|i| p[i] - from[i]))
+        };
+        let of = |shape: &Shape| match shape {
+            Shape::Polygon { points } => points.iter().map(|p| at(p)).map(|s| [s, s]).collect(),
+            Shape::Disc { center, radius, axis: about, .. } => {
+                let tilt = about.as_ref().map_or(0.0, |about| along(self.scene.direction(poses, body, about)));
+                let reach = radius * (1.0 - tilt * tilt).max(0.0).sqrt();
+                vec![[at(center) - reach, at(center) + reach]]
+            }
+            Shape::Sphere { center, radius } => vec![[at(center) - radius, at(center) + radius]],
+            Shape::Box { center, size } => {
+                let edge = |i: usize| self.scene.direction(poses, body, &std::array::from_fn::<_, 3, _>(|k| f64::from(u8::from(i == k))));
+                let half = 0.5 * (0..size.len()).map(|i| (along(edge(i)) * size[i]).abs()).sum::<f64>();
+                vec![[at(center) - half, at(center) + half]]
+            }
+            _ => Vec::new(),
+        };
+        let all = self.scene.bodies[body].shapes.iter().flat_map(of);
+        let [back, ahead] = all.fold([0.0; 2], |[back, ahead], [low, high]| [f64::max(back, -low), f64::max(ahead, high)]);
+        let stopped = |end: usize, reach: f64| if joint.stops[end].is_some() && reach.is_finite() { reach } else { 0.0 };
+        [stopped(0, back), stopped(1, ahead)]
     }
 
     /// Where along a slide the shape of the moving body that carries it ends, measured from its point along the axis, m, and whether it ends

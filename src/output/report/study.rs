@@ -202,7 +202,8 @@ fn drawing(scene: &Scene) -> Value {
     value
 }
 
-/// Adds to joints what figures make of them: the sense of a drive, and of a hinge with stops their directions in its first body, rad.
+/// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, rad; of a slide
+/// with stops how far the body that slides reaches beyond its point, m.
 fn signs(value: &mut Value, scene: &Scene) {
     let Some(first) = scene.frames.at.first() else { return };
     let drawn = posed::at(scene, *first);
@@ -213,6 +214,9 @@ fn signs(value: &mut Value, scene: &Scene) {
         };
         if of.driven {
             joint["sense"] = json(&placement.sense);
+        }
+        if placement.beyond.iter().any(|reach| *reach > 0.0) {
+            joint["beyond"] = json(&placement.beyond);
         }
         if symbol.kind == SymbolKind::Hinge && placement.stops.iter().any(Option::is_some) {
             let [x, y, _] = scene.direction(poses, of.a.body, &[1.0]);

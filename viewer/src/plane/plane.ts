@@ -345,11 +345,11 @@ export class Plane implements Renderer {
   }
 
   /** The ends of the way of a slide. */
-  private ends({ a, axis, stroke }: Joint): [Point, Point] {
+  private ends({ a, axis, stroke, beyond = [0, 0] }: Joint): [Point, Point] {
     const at = this.point(a);
     const along = this.along(a.body, axis);
     const [low, high] = stroke ?? [0, 0];
-    return [off(at, along, low * this.scale - 24, 0), off(at, along, high * this.scale + 24, 0)];
+    return [off(at, along, (low - beyond[0]) * this.scale - 24, 0), off(at, along, (high + beyond[1]) * this.scale + 24, 0)];
   }
 
   private way(joint: Joint): void {
@@ -397,10 +397,11 @@ export class Plane implements Renderer {
   /** The stops of a joint, and what drives it. */
   private marks(joint: Joint): void {
     if (!signs.seen(joint)) return;
-    const { a, b, axis, stops, ends, driven, sense } = joint;
+    const { a, b, axis, stops, beyond, ends, driven, sense } = joint;
     const [along, turned] = [this.along(a.body, axis), this.motion.angle(a.body, this.place)];
     const slide = signs.slides(joint) ? along : null;
-    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, this.inks);
+    const reach = (beyond ?? [0, 0]).map((x) => x * this.scale) as Point;
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, reach, this.inks);
     else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), this.inks);
     if (driven) signs.drive(this.pen, this.point(slide ? b : a), slide, [[0, 1], [1, 0]], sense ?? 0, this.inks);
   }

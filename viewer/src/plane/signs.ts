@@ -116,10 +116,13 @@ export function drive(pen: Pen, at: Point, slide: Point | null, across: [Point, 
   if (sense === 0) head([...points].reverse());
 }
 
-/** The stops of a slide along a direction, at the places where it meets them: bars across the way where the box ends. */
-export function stops(pen: Pen, places: (Point | null)[], along: Point, inks: Inks): void {
+/**
+ * The stops of a slide along a direction, at the places where it meets them: bars across the way where the box ends, or what slides, so many
+ * pixels back and ahead.
+ */
+export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: Point, inks: Inks): void {
   places.forEach((at, k) => {
-    const beyond = (k === 0 ? -1 : 1) * (BOX[0] + 3);
+    const beyond = (k === 0 ? -1 : 1) * (Math.max(BOX[0], reach[k]!) + 3);
     if (at) pen.path([off(at, along, beyond, -BOX[1]), off(at, along, beyond, BOX[1])]).stroke(stopInk(inks), 3.2);
   });
 }

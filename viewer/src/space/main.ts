@@ -170,22 +170,23 @@ class Space implements Renderer {
   }
 
   /** The ground below what it holds. */
-  private bearing({ kind, a, b, axis, stroke }: Joint, inks: Inks): void {
+  private bearing({ kind, a, b, axis, stroke, beyond }: Joint, inks: Inks): void {
     const at = this.motion.world(a, this.place);
     if (SLIDES.includes(kind) && a.body === 0) {
       const along = unit(this.motion.direction(0, axis, this.place));
-      const [from, to] = (stroke ?? [0, 0]).map((s, k) => this.pixel(add(at, along, s + (k - 0.5) * 0.07 * this.size))) as [Point, Point];
+      const [from, to] = (stroke ?? [0, 0]).map((s, k) => this.pixel(add(at, along, s + (2 * k - 1) * ((beyond?.[k] ?? 0) + 0.035 * this.size)))) as [Point, Point];
       if (toward(from, to).length > 4) signs.slideway(this.pen, from, to, null, 0, inks);
     } else if (!SLIDES.includes(kind) && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.pixel(at), inks);
   }
 
   /** The stops of a slide, and what drives a joint. */
-  private marks({ kind, a, b, axis, stops, driven, sense }: Joint, inks: Inks): void {
+  private marks({ kind, a, b, axis, stops, beyond, driven, sense }: Joint, inks: Inks): void {
     const along = unit(this.motion.direction(a.body, axis, this.place));
     const seen = (v: Vector): Point => [dot(v, this.right), -dot(v, this.above)];
     const slide = SLIDES.includes(kind) ? toward([0, 0], seen(along)).along : null;
     const at = this.motion.world(a, this.place);
-    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, inks);
+    const reach = (beyond ?? [0, 0]).map((x) => x * Math.hypot(...seen(along)) * this.scale) as Point;
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, reach, inks);
     const [u, v] = facing(along, this.toEye, 0.75);
     if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), kind === 'screw' ? null : slide, [seen(u), seen(v)], sense ?? 0, inks);
   }
