@@ -1,5 +1,5 @@
 // Pinocchio (Carpentier et al. 2019) under DOP853: its constraint dynamics with the proximal solver and Baumgarte's gains, no simulator.
-// A setting is TOLERANCE:OMEGA:MU, gains 2 omega and omega^2, regularisation mu; `cost` measures set-up and an evaluation.
+// A setting is TOLERANCE:OMEGA, gains 2 omega and omega^2, or TOLERANCE:OMEGA:MU with another regularisation than 1e-9; `cost` measures set-up and an evaluation.
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/constrained-dynamics.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
@@ -128,7 +128,7 @@ int main(int count, char **words) {
             print_run(setting, built, {best});
             continue;
         }
-        double tolerance, omega, mu;
+        double tolerance, omega, mu = 1e-9;
         char colon;
         std::istringstream(setting) >> tolerance >> colon >> omega >> colon >> mu;
         Machine machine(problem, omega, mu);
