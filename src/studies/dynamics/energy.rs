@@ -295,6 +295,23 @@ fn unbalanced(march: &March, [largest, unit]: [f64; 2], place: &str) -> Option<F
     })
 }
 
+/// Part of the size, or of 1 rad, by which constraints may be open whatever the tolerance.
+const OPEN: f64 = 1e-6;
+
+/// That constraints are open by more than the tolerance explains, in a mechanism of a `size`, m: what was integrated is then no motion of it.
+pub(crate) fn open(certificate: &Certificate, size: f64, place: &str) -> Option<Finding> {
+    let tolerance = certificate.march.as_ref()?.tolerance;
+    let allowed = tolerance.map_or(MOST, |tolerance| (TOLERANCES * tolerance).clamp(OPEN, MOST)) * size.max(1.0);
+    (certificate.constraint > allowed).then(|| Finding {
+        code: "open-constraints".into(),
+        message: format!(
+            "constraints are open by {:.2e} m or rad, more than the tolerance explains: what was integrated is no motion of the mechanism; start farther from singular positions, or take another integrator or other `coordinates`",
+            certificate.constraint
+        ),
+        path: place.to_owned(),
+    })
+}
+
 /// Rows at which residuals are taken, about.
 pub(crate) const SAMPLES: usize = 128;
 
@@ -321,4 +338,20 @@ where
         march.velocity = velocity;
     }
     certificate
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn open_constraints_are_told_beyond_the_tolerance() {
+        let told = |tolerance: f64, constraint: f64, size: f64| {
+            let march = March { tolerance: Some(tolerance), ..March::default() };
+            open(&Certificate { constraint, march: Some(march), ..Certificate::default() }, size, "studies.it").is_some()
+        };
+        assert!(told(1e-8, 0.2, 1.0) && told(1e-12, 1e-5, 1.0) && !told(1e-8, 1e-5, 1.0) && !told(1e-12, 1e-7, 1.0));
+        // by parts of a large mechanism, and at most a hundredth of it
+        assert!(!told(1e-8, 5e-3, 100.0) && told(1e-2, 2.0, 100.0));
+    }
 }

@@ -125,6 +125,7 @@ where
         resolved: Some(resolution),
         ..energy::residuals(&mut trajectory, (rows.count(), rows.some_places(SAMPLES)), certificate)
     };
+    findings.extend(energy::open(&certificate, phases.first().mechanism.size(), &case.study.place));
     findings.extend(numbers.findings);
     findings.extend(rows.findings());
     findings.extend(indeterminate::open(case, &watched, &phases.first().mechanism, &phases.first().start));

@@ -140,6 +140,9 @@ impl<'a> Regime<'a> {
         };
         lap.findings.push(stability::finding(&multipliers, neighbours, &study.place));
         let some = of_rows.iter().copied().step_by((of_rows.len() / energy::SAMPLES).max(1));
+        let certificate =
+            Certificate { resolved: Some(resolution), ..energy::residuals(&mut lap.trajectory, (of_rows.len(), some), lap.certificate) };
+        lap.findings.extend(energy::open(&certificate, phases.mechanism.size(), &study.place));
         let Recorded { places, switches, rows, selected_from } = rows.recorded();
         Ok(Outcome {
             parameters: case.named(),
@@ -156,10 +159,7 @@ impl<'a> Regime<'a> {
             lists,
             extremes: watched.columns.iter().map(|&c| extremes[c].map(|e| in_variable(e, clock))).collect(),
             findings: lap.findings,
-            certificate: Certificate {
-                resolved: Some(resolution),
-                ..energy::residuals(&mut lap.trajectory, (of_rows.len(), some), lap.certificate)
-            },
+            certificate,
             events: lap.events,
             scenes,
             ..Outcome::default()
