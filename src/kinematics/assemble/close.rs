@@ -65,10 +65,6 @@ pub(super) enum Target {
 /// Size of residuals, in rad and sizes, at which a position is closed.
 pub(super) const CONVERGED: f64 = 1e-12;
 
-/// Steps that take the last digits, at most, and how many times what is open one is long where rows are nearly dependent.
-const LAST_STEPS: usize = 12;
-const LONG: f64 = 100.0;
-
 impl<'a, G: Space<S = f64>> System<'a, G> {
     pub(super) fn new(mechanism: &'a Mechanism<G>) -> Self {
         let mut dynamics = Dynamics::without_mass(mechanism);
@@ -191,11 +187,13 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             if size == 0.0 {
                 return true;
             }
+            let b: Vec<f64> = r.iter().map(|r| -r).collect();
             if size < CONVERGED.max(self.rounding(q)) {
-                self.take_last_digits(q, r, jacobian);
+                // one more step takes the last digits
+                self.dynamics.mechanism.retract(q, &step(self.round_off(), &jacobian, &b, &self.metric, 0.0));
+                self.evaluate(q);
                 return true;
             }
-            let b: Vec<f64> = r.iter().map(|r| -r).collect();
             let delta = self.bounded(step(self.round_off(), &jacobian, &b, &self.metric, damping));
             let mut trial = q.clone();
             self.dynamics.mechanism.retract(&mut trial, &delta);
@@ -219,28 +217,6 @@ impl<'a, G: Space<S = f64>> System<'a, G> {
             }
         }
         false
-    }
-
-    /// One more step of Newton's method, and as many as go on to halve where they are far longer than what is open: near a singular position
-    /// constraints feel little of what is left.
-    fn take_last_digits(&mut self, q: &mut [f64], mut r: Vec<f64>, mut jacobian: Rows) {
-        let mut last = f64::INFINITY;
-        for _ in 0..LAST_STEPS {
-            let b: Vec<f64> = r.iter().map(|r| -r).collect();
-            let delta = step(self.round_off(), &jacobian, &b, &self.metric, 0.0);
-            let length = norm(&delta);
-            if length >= 0.5 * last {
-                return;
-            }
-            self.dynamics.mechanism.retract(q, &delta);
-            self.evaluate(q);
-            if length <= LONG * norm(&r) {
-                return;
-            }
-            last = length;
-            (r, jacobian) = (Vec::new(), Rows::default());
-            self.hard(&mut r, &mut jacobian);
-        }
     }
 
     /// Rounding of coordinates, in rad and sizes: after many turns it is all that counts.
