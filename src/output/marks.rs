@@ -149,7 +149,8 @@ impl Signs {
         scene.shape(vec![end, off(end, along, -1.3 * size, 0.6 * size), off(end, along, -1.3 * size, -0.6 * size)], Some(color), None);
     }
 
-    /// Stops: bars across the way where the box or what slides ends, or radial ones beside a hinge. Places and lengths in pixels.
+    /// Stops: bars across the way where the box or what slides ends, as high as that, or radial ones beside a hinge. Places and lengths in
+    /// pixels.
     pub(super) fn stops(self, scene: &mut Scene, placement: &Placement, slides: bool) {
         let stroke = Stroke::solid(STOP, self.pen(5.0));
         let stops = placement.stops.iter().zip([-1.0, 1.0]).zip(placement.beyond);
@@ -157,7 +158,7 @@ impl Signs {
             if slides {
                 let (along, _) = direction([0.0; 2], placement.along);
                 let half = self.slide_box();
-                let at = |t: f64| off(stop, along, sense * (half[0].max(beyond) + 4.0 * self.size), t * half[1]);
+                let at = |t: f64| off(stop, along, sense * (half[0].max(beyond) + 4.0 * self.size), t * half[1].max(placement.clear));
                 scene.line(vec![at(-1.0), at(1.0)], stroke);
             } else {
                 let (along, _) = direction([0.0; 2], stop);
@@ -229,17 +230,17 @@ mod tests {
 
     #[test]
     fn stops_stand_where_the_box_or_what_slides_meets_them() {
-        let places = |beyond: [f64; 2]| {
+        let ends = |beyond: [f64; 2], clear: f64| {
             let mut scene = Scene::default();
             let stops = [Some([10.0, 0.0]), Some([90.0, 0.0])];
-            let placement = Placement { along: [1.0, 0.0], stops, beyond, ..Placement::default() };
+            let placement = Placement { along: [1.0, 0.0], stops, beyond, clear, ..Placement::default() };
             Signs { size: 1.0 }.stops(&mut scene, &placement, true);
-            let x = |item: &Item| if let Item::Path { points, .. } = item { points[0][0] } else { panic!("{item:?}") };
-            scene.items.iter().map(x).collect::<Vec<_>>()
+            let end = |item: &Item| if let Item::Path { points, .. } = item { points[1] } else { panic!("{item:?}") };
+            scene.items.iter().map(end).collect::<Vec<_>>()
         };
-        let half = Signs { size: 1.0 }.slide_box()[0];
-        assert_eq!(places([0.0, 1.0]), [10.0 - half - 4.0, 90.0 + half + 4.0]);
-        assert_eq!(places([200.0, 300.0]), [10.0 - 204.0, 90.0 + 304.0]);
+        let half = Signs { size: 1.0 }.slide_box();
+        assert_eq!(ends([0.0, 1.0], 0.0), [[10.0 - half[0] - 4.0, half[1]], [90.0 + half[0] + 4.0, half[1]]]);
+        assert_eq!(ends([200.0, 300.0], 40.0), [[10.0 - 204.0, 40.0], [90.0 + 304.0, 40.0]]);
     }
 
     #[test]

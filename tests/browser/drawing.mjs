@@ -32,7 +32,7 @@ const LOADS = [213, 94, 0];
 export async function stops_are_drawn(open) {
   const { tab } = await open('marks', { study: 'slide' });
   const found = await inked(tab, STOP);
-  assert.ok(found.count > 60, `stops of ${found.count} pixels`);
+  assert.ok(found.count > 80, `stops of ${found.count} pixels`);
   // two bars across the way of the slide, farther apart than it goes
   assert.ok(found.width > 80 && found.width > 2 * found.height, JSON.stringify(found));
   const hinge = await open('marks', { study: 'hinge' });

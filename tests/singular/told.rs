@@ -7,7 +7,7 @@ use crate::common::study;
 use grashof::mechanism::Coordinates;
 use grashof::studies::common::outcome::Outcome;
 
-fn parallelogram(angle: &str) -> String {
+pub(super) fn parallelogram(angle: &str) -> String {
     format!(
         "
 grashof: 1

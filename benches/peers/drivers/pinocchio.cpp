@@ -1,5 +1,6 @@
 // Pinocchio (Carpentier et al. 2019) under DOP853: its constraint dynamics with the proximal solver and Baumgarte's gains, no simulator.
-// A setting is TOLERANCE:OMEGA, gains 2 omega and omega^2, or TOLERANCE:OMEGA:MU with another regularisation than 1e-9; `cost` measures set-up and an evaluation.
+// A setting is TOLERANCE:OMEGA, gains 2 omega and omega^2, or TOLERANCE:OMEGA:MU with another regularisation than 1e-9; `cost` measures
+// set-up and an evaluation.
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/constrained-dynamics.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>

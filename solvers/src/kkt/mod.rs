@@ -399,8 +399,8 @@ impl Kkt {
         mass
     }
 
-    /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by [`weakest`](crate::weakest::weakest) of it, and as far
-    /// as no position is nearer to a singular one.
+    /// Lets solutions go on until rows hold to round-off where they are nearly dependent at the start, by the σ that
+    /// [`weakest`](crate::weakest::weakest) finds there, and as far as no position is nearer to a singular one.
     pub fn set_weakest(&mut self, weakest: f64) {
         self.further = (SINGULAR..NEARLY_DEPENDENT).contains(&weakest).then_some(Further::Regular(NEARER * weakest));
     }

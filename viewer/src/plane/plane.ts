@@ -401,7 +401,7 @@ export class Plane implements Renderer {
     const [along, turned] = [this.along(a.body, axis), this.motion.angle(a.body, this.place)];
     const slide = signs.slides(joint) ? along : null;
     const reach = (beyond ?? [0, 0]).map((x) => x * this.scale) as Point;
-    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, reach, this.inks);
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, reach, this.clear(joint), this.inks);
     else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), this.inks);
     if (driven) signs.drive(this.pen, this.point(slide ? b : a), slide, [[0, 1], [1, 0]], sense ?? 0, this.inks);
   }

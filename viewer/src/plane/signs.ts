@@ -118,12 +118,13 @@ export function drive(pen: Pen, at: Point, slide: Point | null, across: [Point, 
 
 /**
  * The stops of a slide along a direction, at the places where it meets them: bars across the way where the box ends, or what slides, so many
- * pixels back and ahead.
+ * pixels back and ahead, and as high as that, at least `clear` pixels to either side.
  */
-export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: Point, inks: Inks): void {
+export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: Point, clear: number, inks: Inks): void {
+  const half = Math.max(BOX[1], clear);
   places.forEach((at, k) => {
     const beyond = (k === 0 ? -1 : 1) * (Math.max(BOX[0], reach[k]!) + 3);
-    if (at) pen.path([off(at, along, beyond, -BOX[1]), off(at, along, beyond, BOX[1])]).stroke(stopInk(inks), 3.2);
+    if (at) pen.path([off(at, along, beyond, -half), off(at, along, beyond, half)]).stroke(stopInk(inks), 3.2);
   });
 }
 

@@ -186,7 +186,7 @@ class Space implements Renderer {
     const slide = SLIDES.includes(kind) ? toward([0, 0], seen(along)).along : null;
     const at = this.motion.world(a, this.place);
     const reach = (beyond ?? [0, 0]).map((x) => x * Math.hypot(...seen(along)) * this.scale) as Point;
-    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, reach, inks);
+    if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, reach, 0, inks);
     const [u, v] = facing(along, this.toEye, 0.75);
     if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), kind === 'screw' ? null : slide, [seen(u), seen(v)], sense ?? 0, inks);
   }
