@@ -51,3 +51,17 @@ fn eigenvalues_beside_a_change_point_are_those_of_the_branch() {
         assert!(poles.len() == 2 && poles.iter().all(|pole| (pole.abs() / right - 1.0).abs() < 1e-3), "{angle:e}: {poles:?}");
     }
 }
+
+/// However near a start is, and whatever the coordinates: constraints stay closed, or a motion that is none is told.
+#[test]
+fn no_linkage_is_taken_apart_in_silence() {
+    for coordinates in ["joint", "cartesian", "minimal"] {
+        for angle in [1e-5, 1e-7, 1e-8, 2e-9, 1e-9, 3e-10] {
+            let text = parallelogram(angle).replace("1e-5 s, every: 1e-5 s", &format!("0.1 s, every: 0.02 s, coordinates: {coordinates}"));
+            let outcome = study(&text, "fall", Coordinates::Joint);
+            let open = outcome.certificate.constraint;
+            let told = outcome.stopped.is_some() || outcome.findings.iter().any(|f| f.code == "open-constraints");
+            assert!(open < 1e-4 || told, "{coordinates}, {angle:e}: open by {open:e}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::rows::Level;
 use grashof_solvers::svd::Svd;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, QR};
 
 /// Part of the largest singular value below which a direction counts as not determined.
 const RANK_TOLERANCE: f64 = 1e-10;
@@ -96,23 +96,25 @@ pub(super) fn are_independent(a: &DMatrix<f64>, least: f64) -> bool {
 /// The shortest x with A x = b for independent rows A, by A = Rᵀ Qᵀ.
 fn shortest_met(a: &DMatrix<f64>, b: &[f64]) -> Vec<f64> {
     let qr = a.transpose().qr();
-    let mut y = DVector::from_column_slice(b);
-    let met = qr.r().tr_solve_upper_triangular_mut(&mut y);
-    debug_assert!(met, "independent rows have no zero on the diagonal");
-    (qr.q() * y).as_slice().to_vec()
+    (qr.q() * along(&qr, b)).as_slice().to_vec()
 }
 
-/// The shortest x with A x = b for independent rows A, and an orthonormal basis of what they leave open, by A = Rᵀ Qᵀ.
+/// The same, and an orthonormal basis of what the rows leave open.
 fn met(a: &DMatrix<f64>, b: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
     let (rows, columns) = a.shape();
     let qr = a.transpose().qr();
-    let mut y = DVector::zeros(columns);
-    y.rows_mut(0, rows).copy_from_slice(b);
-    let met = qr.r().tr_solve_upper_triangular_mut(&mut y.rows_mut(0, rows));
-    debug_assert!(met, "independent rows have no zero on the diagonal");
     let mut transposed = DMatrix::identity(columns, columns);
     qr.q_tr_mul(&mut transposed);
-    (transposed.tr_mul(&y).as_slice().to_vec(), transposed.rows(rows, columns - rows).transpose())
+    let way = transposed.rows(0, rows).tr_mul(&along(&qr, b));
+    (way.as_slice().to_vec(), transposed.rows(rows, columns - rows).transpose())
+}
+
+/// Parts y of x along the columns of Q, of Rᵀ y = b.
+fn along(qr: &QR<f64, Dyn, Dyn>, b: &[f64]) -> DVector<f64> {
+    let mut y = DVector::from_column_slice(b);
+    let met = qr.r().tr_solve_upper_triangular_mut(&mut y);
+    debug_assert!(met, "independent rows have no zero on the diagonal");
+    y
 }
 
 /// Motions that rows A leave open, as columns that are orthonormal in the metric; A is rows × metric.len(), row-major. Singular
@@ -202,6 +204,19 @@ mod tests {
         // x + y = 2 twice; metric (1, 4): the shortest is (1.6, 0.4)
         let x = shortest(&[1.0, 1.0, 2.0, 2.0], &[2.0, 4.0], &[1.0, 4.0], 0.0);
         assert!((x[0] - 1.6).abs() < 1e-14 && (x[1] - 0.4).abs() < 1e-14, "{x:?}");
+    }
+
+    #[test]
+    fn independent_rows_have_the_solution_of_singular_values() {
+        let (rows, columns) = (7, 12);
+        let a: Vec<f64> = (0..rows * columns).map(|k| ((3 * k + k * k / 5) as f64).sin()).collect();
+        let metric: Vec<f64> = (0..columns).map(|k| 10f64.powi(k % 4 - 2)).collect();
+        let b: Vec<f64> = (0..rows).map(|k| k as f64 - 2.5).collect();
+        assert!(are_independent(&scaled(&a, &metric), 0.0));
+        let svd = Svd::new(&scaled(&a, &metric));
+        let right = svd.solve(&b, f64::recip);
+        let found = shortest(&a, &b, &metric, 0.0);
+        assert!(found.iter().zip(&right).zip(&metric).all(|((x, y), d)| (x * d.sqrt() - y).abs() < 1e-12 * (1.0 + y.abs())), "{found:?}");
     }
 
     #[test]
