@@ -13,12 +13,11 @@ use std::fmt;
 /// How far beside a position rows are looked at, rad or sizes of the mechanism.
 const BESIDE: f64 = 0.02;
 
-/// Part of it that must be left when the constraints are met.
-const BACK: f64 = 1e-3;
-
-/// Steps of Newton's method onto the constraints, and Φ, rad or sizes, with which it has come there.
-const STEPS: usize = 12;
+/// Steps of Newton's method onto the constraints, and Φ and the last step, rad or sizes, with which it has come there. Where nothing can move
+/// it leads back to the position itself, by steps that only halve.
+const STEPS: usize = 16;
 const CLOSED: f64 = 1e-11;
+const SETTLED: f64 = 1e-8;
 
 /// Directions of motions, in no special relation to each other.
 const PHASES: [f64; 3] = [0.3, 1.7, 2.9];
@@ -94,17 +93,14 @@ fn crossing<G: Space<S = f64>>(m: &Mechanism<G>, q: &[f64], modes: &[i32], metri
         let parts: Vec<f64> = (0..rank.mobility).map(|k| (2.4 * k as f64 + phase).cos()).collect();
         let way = rank.motion(&parts);
         let most = farthest(&way);
-        let mut way: Vec<f64> = way.iter().map(|v| BESIDE * v / most).collect();
+        let way: Vec<f64> = way.iter().map(|v| BESIDE * v / most).collect();
         let mut there = q.to_vec();
         m.retract(&mut there, &way);
+        let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             dynamics.position(&there, modes);
             let open = dynamics.work.phi.iter().zip(&row_unit).fold(0.0, |most, (phi, unit)| f64::max(most, phi.abs() * unit));
-            if open <= CLOSED {
-                // where nothing can move the way leads back
-                if farthest(&way) < BACK * BESIDE {
-                    break;
-                }
+            if open <= CLOSED && last <= SETTLED {
                 let scale = dynamics.row_scale(&there, modes, metric);
                 let mobility = Rank::new(&dynamics.work.g, metric, &scale, RANK_TOLERANCE).mobility;
                 if mobility < least.0 {
@@ -118,7 +114,7 @@ fn crossing<G: Space<S = f64>>(m: &Mechanism<G>, q: &[f64], modes: &[i32], metri
             let gamma: Vec<f64> = dynamics.work.phi.iter().map(|phi| -phi).collect();
             kkt.solve(&zeros, &gamma, &mut delta, &mut mu);
             m.retract(&mut there, &delta);
-            way.iter_mut().zip(&delta).for_each(|(way, delta)| *way += delta);
+            last = farthest(&delta);
         }
     }
     let (beside, q) = least;

@@ -58,3 +58,32 @@ fn a_straight_linkage_without_motions_is_no_change_point() {
     assert_eq!((found.mobility.freedom, found.mobility.redundant.len()), (3, 1));
     assert!(found.findings.iter().all(|f| f.code != "change-point"), "{:?}", found.findings);
 }
+
+/// The same beside a pendulum that moves freely, and is so long that little counts as closed.
+#[test]
+fn a_straight_linkage_beside_a_long_pendulum_is_no_change_point() {
+    for length in [1.0, 0.3, 0.1, 0.01] {
+        let text = format!(
+            "grashof: 1
+name: straight
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: {{ A: [0, 0], E: [{} m, 0], P: [0, 5 m] }}
+bodies:
+  a: {{ bar: {{ length: {length} m, mass: 1 kg }} }}
+  b: {{ bar: {{ length: {length} m, mass: 1 kg }} }}
+  p: {{ bar: {{ length: 20 m, mass: 1 kg }} }}
+joints:
+  A: {{ revolute: [ground.A, a.start] }}
+  B: {{ revolute: [a.end, b.start] }}
+  E: {{ revolute: [b.end, ground.E] }}
+  P: {{ revolute: [ground.P, p.start] }}
+start: {{ a.angle: ~0 deg, b.angle: ~0 deg, P.angle: ~-90 deg }}
+",
+            2.0 * length
+        );
+        let found = surveyed(&text);
+        assert_eq!(found.mobility.freedom, 2, "{length}");
+        assert!(found.findings.iter().all(|f| f.code != "change-point"), "{length}: {:?}", found.findings);
+    }
+}
