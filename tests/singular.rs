@@ -11,6 +11,7 @@ use std::fmt::Write;
 
 mod beside;
 mod driven;
+mod near;
 mod passing;
 mod told;
 

@@ -1,6 +1,7 @@
 //! What a mechanism can do by its constraints: assembly, mobility, driven motion along a path, the linear motion about a pose.
 
 pub mod assemble;
+pub(crate) mod beside;
 pub mod bounded;
 pub mod coordinates;
 pub(crate) mod crossing;

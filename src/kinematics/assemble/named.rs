@@ -47,6 +47,11 @@ impl<G: Space<S = f64>> System<'_, G> {
         }
     }
 
+    /// Whether exact values leave nothing to look for.
+    pub(super) fn all_named_exactly(&self) -> bool {
+        self.named.iter().all(|named| *named == Some(Named::Exactly))
+    }
+
     /// Whether what is held names the coordinate of a column.
     pub(super) fn is_named(&self, column: usize) -> bool {
         match self.named[column] {

@@ -56,12 +56,12 @@ impl<G: Space<S = f64>> System<'_, G> {
     }
 
     /// Looks for an assembly that misses the guesses as little as the settled position `q`, and is nearer to the drawn pose; `from` is where
-    /// the search began, `targets` what is asked for. Where each loop has a guess, beside those that only say where free motions stand, it has
-    /// been chosen.
+    /// the search began, `targets` what is asked for. Where exact values name all coordinates there is no other one; where each loop has a
+    /// guess, beside those that only say where free motions stand, it has been chosen.
     pub(super) fn look_nearer(&mut self, from: &[f64], targets: &[Target], q: &mut Vec<f64>) {
         let m = self.dynamics.mechanism;
         let guessed = self.guessed();
-        if m.nv > MOST || guessed >= self.closings() && guessed > self.free(q) {
+        if m.nv > MOST || self.all_named_exactly() || guessed >= self.closings() && guessed > self.free(q) {
             return;
         }
         let settled = std::mem::replace(&mut self.targets, targets.to_vec());

@@ -31,8 +31,17 @@ pub(crate) fn shortest_beyond(round_off: f64, a: &[f64], b: &[f64], metric: &[f6
     }
     let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
     let rows = scaled(a, metric);
-    if damping == 0.0 && are_independent(&rows, round_off) {
-        return shortest_met(&rows, b).iter().zip(&root).map(|(x, r)| x / r).collect();
+    if damping == 0.0 {
+        let met = if are_independent(&rows, round_off) {
+            Some(shortest_met(&rows, b))
+        } else if are_independent(&rows.transpose(), round_off) {
+            Some(least_missed(rows.clone(), b))
+        } else {
+            None
+        };
+        if let Some(x) = met {
+            return x.iter().zip(&root).map(|(x, r)| x / r).collect();
+        }
     }
     let svd = Svd::new(&rows);
     let largest = svd.largest();
@@ -99,7 +108,19 @@ fn shortest_met(a: &DMatrix<f64>, b: &[f64]) -> Vec<f64> {
     (qr.q() * along(&qr, b)).as_slice().to_vec()
 }
 
-/// The same, and an orthonormal basis of what the rows leave open.
+/// The x that makes |A x − b|² least for independent columns A, by A = Q R.
+fn least_missed(a: DMatrix<f64>, b: &[f64]) -> Vec<f64> {
+    let n = a.ncols();
+    let qr = a.qr();
+    let mut right = DVector::from_column_slice(b);
+    qr.q_tr_mul(&mut right);
+    let mut x = right.rows(0, n).into_owned();
+    let solved = qr.r().solve_upper_triangular_mut(&mut x);
+    debug_assert!(solved, "independent columns have no zero on the diagonal");
+    x.as_slice().to_vec()
+}
+
+/// The shortest x with A x = b for independent rows A, and an orthonormal basis of what the rows leave open.
 fn met(a: &DMatrix<f64>, b: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
     let (rows, columns) = a.shape();
     let qr = a.transpose().qr();
@@ -215,6 +236,18 @@ mod tests {
         assert!(are_independent(&scaled(&a, &metric), 0.0));
         let svd = Svd::new(&scaled(&a, &metric));
         let right = svd.solve(&b, f64::recip);
+        let found = shortest(&a, &b, &metric, 0.0);
+        assert!(found.iter().zip(&right).zip(&metric).all(|((x, y), d)| (x * d.sqrt() - y).abs() < 1e-12 * (1.0 + y.abs())), "{found:?}");
+    }
+
+    #[test]
+    fn independent_columns_have_the_solution_of_singular_values() {
+        let (rows, columns) = (11, 6);
+        let a: Vec<f64> = (0..rows * columns).map(|k| ((3 * k + k * k / 5) as f64).sin()).collect();
+        let metric: Vec<f64> = (0..columns).map(|k| 10f64.powi(k % 4 - 2)).collect();
+        let b: Vec<f64> = (0..rows).map(|k| k as f64 - 2.5).collect();
+        assert!(are_independent(&scaled(&a, &metric).transpose(), 0.0));
+        let right = Svd::new(&scaled(&a, &metric)).solve(&b, f64::recip);
         let found = shortest(&a, &b, &metric, 0.0);
         assert!(found.iter().zip(&right).zip(&metric).all(|((x, y), d)| (x * d.sqrt() - y).abs() < 1e-12 * (1.0 + y.abs())), "{found:?}");
     }

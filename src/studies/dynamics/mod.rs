@@ -35,6 +35,7 @@ use super::common::scene::{self, Span, Subject};
 use super::common::watched::{Watched, in_variable, unresolved};
 use crate::expression::Dimension;
 use crate::geometry::{Planar, Pose, Space, Spatial};
+use crate::kinematics::beside::other_beginning;
 use crate::kinematics::crossing::begins_in_change_point;
 use crate::kinematics::laws::first_jump;
 use crate::kinematics::undefined::Gap;
@@ -130,6 +131,7 @@ where
     findings.extend(rows.findings());
     findings.extend(indeterminate::open(case, &watched, &phases.first().mechanism, &phases.first().start));
     findings.extend(begins_in_change_point(&phases.first().mechanism, &phases.first().start));
+    findings.extend(other_beginning(&phases.first().mechanism, &phases.first().start, setup::resolution(plan.settings.control)));
     let Kept { places, switches, rows, selected_from } = rows.recorded();
     let span = Span { ends: [from, to], times: Some([from, to]), ..Span::default() };
     let subject = Subject { case, mechanism: &phases.first().mechanism };

@@ -17,6 +17,7 @@ use crate::dynamics::{Differentiable, Dynamics, Linearizer, Point};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
+use crate::kinematics::beside::state_beside;
 use crate::kinematics::coordinates::coordinates;
 use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::{Pose, settled};
@@ -30,7 +31,7 @@ use crate::numerics::slope::slope;
 use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::stops::taken_as_free;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
 
 /// Longest steps of differences, of the value or of 1.
@@ -76,6 +77,7 @@ where
             "look for a value of the wrong unit or sign among springs, dampers and masses",
         )
     })?;
+    findings.extend(bench.other_poles(&at, &reduced, &poles));
     let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values, ..List::default() };
@@ -175,6 +177,20 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let reduced = linear.reduce(&partition.independent).map_err(|_| undetermined())?;
         let answer = probe.answer(at, &reduced.partition.independent, false).ok_or_else(undetermined)?;
         Ok((answer, reduced))
+    }
+
+    /// That other poles belong to a state which the constraints cannot tell from this one.
+    fn other_poles(&self, at: &Whole, reduced: &Reduced, poles: &[Complex<f64>]) -> Option<Finding> {
+        let m = self.mechanism;
+        let beside = state_beside(m, [&at.q, &at.v], &at.modes, &self.start.metric, self.start.size)?;
+        let mut there = Whole { q: beside.q.clone(), v: beside.v.clone(), ..at.clone() };
+        let mut probe = Probe::new(self.case.model, m, self.case.parameters, self.ids, &self.start.metric);
+        let answer = probe.answer(&mut there, &[], false)?;
+        let Whole { q, v, z, modes } = &there;
+        let point = Point { t: 0.0, q, v, z, a: &answer.a, lambda: &answer.lambda, modes };
+        let linear = Linear::new(m, &mut Linearizer::new(m), &point, &self.start.metric).ok()?;
+        let others = eigenvalues(&linear.reduce(&reduced.partition.independent).ok()?.a)?;
+        beside.other_eigenvalues([poles, &others], "1/s", |p| p * p, &self.case.study.place)
     }
 
     /// A, B, C and D with their names, and that differences have not found them.

@@ -9,6 +9,8 @@ use super::round_off::{self, ROUND_OFF, of_work};
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
+use crate::kinematics::assemble::Assembled;
+use crate::kinematics::beside::state_beside;
 use crate::kinematics::coordinates::{Coordinate, coordinates};
 use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::{Held, Pose};
@@ -17,7 +19,8 @@ use crate::kinematics::pencil::POTENTIAL;
 use crate::kinematics::undefined::{assembled, not_finite};
 use crate::mechanism::Coordinates;
 use crate::model::{Eigensolver, Modes};
-use crate::results::Failure;
+use crate::numerics::eigenvalues::eigenvalues;
+use crate::results::{Failure, Finding};
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::stops::taken_as_free;
@@ -58,6 +61,7 @@ where
         let noise = (&held.round_off * &ways + &held.forces) * BALANCED;
         report.balance(held.unbalanced.iter().zip(noise.iter().copied()));
     }
+    report.findings.extend(other_eigenvalues(case, &mechanism, &start, pose, asked.damped, &held));
     let wanted = asked.lowest.unwrap_or(own.len()).min(own.len());
     let potential = held.circulation() <= POTENTIAL;
     let mut drawn: Vec<DVector<f64>> = Vec::new();
@@ -85,6 +89,26 @@ where
         .map(|x| picture::picture(case, &mechanism, pose, &(&held.partition.p * x), close))
         .collect();
     Ok(report.outcome(case, &mechanism, &frequencies, held.residual, scenes))
+}
+
+/// That other eigenvalues belong to a pose which the constraints cannot tell from this one.
+fn other_eigenvalues<G: Space<S = f64>>(
+    case: Case<'_>,
+    m: &Differentiable<G>,
+    start: &Assembled,
+    pose: Pose<'_>,
+    damped: bool,
+    held: &Held,
+) -> Option<Finding> {
+    let other = state_beside(m, [pose.q, &vec![0.0; m.nv]], pose.modes, &start.metric, start.size)?;
+    let pose = Pose { q: &other.q, ..pose };
+    let there = Held::new(m, &mut Linearizer::new(m), pose, &start.metric, &held.partition.independent).ok()?;
+    if damped {
+        let [here, there] = [eigenvalues(&state_matrix(held, true)?)?, eigenvalues(&state_matrix(&there, true)?)?];
+        return other.other_eigenvalues([&here, &there], "1/s", |p| p * p, &case.study.place);
+    }
+    let values = |held: &Held| eigenvalues(&held.mass.clone().cholesky()?.solve(&held.stiffness));
+    other.other_eigenvalues([&values(held)?, &values(&there)?], "1/s^2", |x| x, &case.study.place)
 }
 
 /// Modes by all methods; the first one's. `ways` are 1 rad or the size of the mechanism.

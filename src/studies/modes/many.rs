@@ -7,6 +7,7 @@ use super::rest::held_start;
 use super::round_off::{self, ROUND_OFF, of_work};
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
+use crate::kinematics::beside::{Beside, state_beside};
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
 use crate::kinematics::crossing::change_point;
@@ -17,11 +18,12 @@ use crate::kinematics::partition::without_mass;
 use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
 use crate::kinematics::undefined::not_finite;
 use crate::model::{Eigensolver, Model, Modes};
-use crate::results::Failure;
+use crate::results::{Failure, Finding};
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
 use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium_of_many};
+use grashof_solvers::{Block, Line};
 use nalgebra::{Complex, DVector};
 
 /// Bodies from which on the lowest modes alone are found, by sparse matrices, unless the study says otherwise; and how many.
@@ -31,6 +33,8 @@ const LOWEST: usize = 12;
 const MASSLESS: f64 = 1e-13;
 /// |μ| of a free motion, as part of the largest, up to which it is 0: a double one, and so known to half of the digits.
 const RIGID: f64 = 1e-7;
+/// How far another pose that the constraints cannot tell from one may be off, rad or sizes, where that one is not called nearly singular.
+const LOOSE: f64 = 1e-12;
 /// Re μ below this part of |μ| is round-off.
 const UNDAMPED: f64 = 1e-10;
 
@@ -84,13 +88,19 @@ where
         report.balance(held.unbalanced.iter().zip(own.iter().map(|c| BALANCED * held.work / way(c))));
     }
     let wanted = asked.lowest.unwrap_or(LOWEST);
-    let Lowest { values, mut vectors, mut steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(|| not_found(stop))?;
+    let other = state_beside(&mechanism, [&q, &vec![0.0; mechanism.nv]], &modes, &start.metric, start.size);
+    let not_found = || not_found(stop, other.as_ref());
+    let Lowest { values, mut vectors, mut steps } = lowest::lowest(pencil, wanted, stop).ok_or_else(not_found)?;
+    report.findings.extend(other.as_ref().and_then(|other| {
+        let there = HeldSparse::new(model, &mechanism, Pose { q: &other.q, ..pose }, &start.metric).ok()?;
+        other_eigenvalues(other, [&held, &there], (&values, &vectors), &study.place)
+    }));
     report.list("eigenvalues", "1/s^2", values.clone());
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
     let others = round_off::by_others(&values);
     let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x, others)).collect();
     let (frequencies, drawn) = if asked.damped {
-        let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(|| not_found(stop))?;
+        let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(not_found)?;
         steps += more;
         let free: Vec<&Vec<f64>> = modes.iter().zip(&vectors).filter(|(mode, _)| mode.is_free()).map(|(_, x)| x).collect();
         let count = growing(pencil);
@@ -120,6 +130,43 @@ where
         .map(|x| picture(case, &mechanism, pose, &DVector::from_vec(x), &mut close))
         .collect();
     Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
+}
+
+/// That other eigenvalues belong to a pose which the constraints cannot tell from this one: of each of these, with its vector x (nv), to first order
+///
+/// ```text
+/// xᵀMx Δλ = xᵀ(ΔK − λ ΔM) x + 2 μᵀΔG x,   K x + Gᵀμ = λ M x
+/// ```
+fn other_eigenvalues(
+    other: &Beside,
+    [held, there]: [&HeldSparse; 2],
+    (values, vectors): (&[f64], &[Vec<f64>]),
+    place: &str,
+) -> Option<Finding> {
+    if held.ways != there.ways {
+        return None;
+    }
+    let (here, there) = (&held.pencil, &there.pencil);
+    let mut closing = here.closing();
+    let of = |matrix: &Block, y: &[f64], x: &[f64]| matrix.lines().zip(y).map(|(line, y)| y * along(&line, x)).sum::<f64>();
+    let moved = values.iter().zip(vectors).map(|(&value, x)| {
+        let borne = here.mass.lines().zip(here.stiffness.lines()).map(|(m, k)| value * along(&m, x) - along(&k, x));
+        let (mut a, mut mu) = (vec![0.0; x.len()], vec![0.0; here.row_scale.len()]);
+        if let Some(kkt) = &mut closing {
+            kkt.solve(&borne.collect::<Vec<f64>>(), &vec![0.0; mu.len()], &mut a, &mut mu);
+        }
+        let all = |p: &Pencil| of(&p.stiffness, x, x) - value * of(&p.mass, x, x) + 2.0 * of(&p.rows, &mu, x);
+        value + (all(there) - all(here)) / of(&here.mass, x, x)
+    });
+    let complex = |x: f64| Complex::new(x, 0.0);
+    let there: Vec<Complex<f64>> = moved.map(complex).collect();
+    let here: Vec<Complex<f64>> = values.iter().copied().map(complex).collect();
+    other.other_eigenvalues([&here, &there], "1/s^2", |x| x, place)
+}
+
+/// A row of a matrix times a vector.
+fn along(line: &Line<'_, f64>, x: &[f64]) -> f64 {
+    line.entries().map(|(j, k)| k * x[j]).sum()
 }
 
 /// A mode by its vector (nv), which is turned so that its largest coordinate is positive; `others` is round-off by the other modes.
@@ -181,10 +228,19 @@ where
     DVector::from_iterator(independent.len(), independent.iter().map(|(_, line)| line.iter().map(|(j, s)| x[*j] * *s).sum()))
 }
 
-/// The iteration for the lowest modes has been stopped, or does not converge.
-fn not_found(stop: &dyn Fn() -> bool) -> Failure {
+/// The iteration for the lowest modes has been stopped, or does not converge; `beside` is another pose that the constraints cannot tell from
+/// the one at hand.
+fn not_found(stop: &dyn Fn() -> bool, beside: Option<&Beside>) -> Failure {
     if stop() {
         return Failure::interrupted();
+    }
+    if let Some(Beside { far, .. }) = beside.filter(|beside| beside.far > LOOSE) {
+        return Failure::numerical(
+            format!(
+                "the lowest modes cannot be found: so near to a singular position the constraints hold the pose to {far:.0e} rad, or sizes of the mechanism, only"
+            ),
+            "take a pose farther from the singular one",
+        );
     }
     Failure::numerical(
         "the lowest modes cannot be found: the iteration does not converge",
