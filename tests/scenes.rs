@@ -1,7 +1,9 @@
 //! What is drawn moves as the mechanism does: between its frames too, and with its joints closed.
 
+mod held;
 mod order;
 mod stops;
+mod welded;
 
 use crate::common::{columns, model, study};
 use grashof::mechanism::Coordinates;

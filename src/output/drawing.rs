@@ -94,6 +94,14 @@ pub(super) fn position(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
     pen.scene.items
 }
 
+/// The names of a drawing where they stand, with their leader lines.
+pub(super) fn names(drawing: &Drawing, plan: &Plan) -> Vec<Item> {
+    let Pen { letters, .. } = lettered(drawing, plan);
+    let mut scene = Scene::default();
+    letters.draw(&mut scene);
+    scene.items
+}
+
 fn layout(drawing: &Drawing) -> Scene {
     let plan = plan(drawing);
     let Pen { letters, mut scene, .. } = lettered(drawing, &plan);
@@ -278,7 +286,7 @@ impl Pen<'_> {
             self.anchors(link, ends);
             self.signs.link(&mut self.scene, link.kind, ends, turned);
             self.letters.avoid_line(&ends, Obstacle::Body);
-            if link.kind == LinkKind::Torsion {
+            if link.kind.turns() && near(ends[0], ends[1]) {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
             }
         }
@@ -286,7 +294,7 @@ impl Pen<'_> {
 
     /// The ground at the ends of a spring or damper, where no joint has its bearing.
     fn anchors(&mut self, link: &super::pose::Link, ends: [Point; 2]) {
-        if link.kind == LinkKind::Torsion {
+        if link.kind.turns() {
             return;
         }
         let joints = self.drawing.joints.iter().filter(|joint| joint.grounded);

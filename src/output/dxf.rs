@@ -2,8 +2,7 @@
 
 mod entities;
 
-use super::drawing::plan;
-use super::naming;
+use super::drawing::{names, plan};
 use super::outlines::hull;
 use super::pose::{Drawing, FormKind, Symbol, SymbolKind};
 use super::scene::{Item, Scene as Sheet};
@@ -14,8 +13,10 @@ use entities::{Entities, Layer};
 
 /// How signs look here: only their lines are used.
 const LINES: Looks = Looks { fill: [255; 3], edge: [0; 3], strong: true, strength: 1.0 };
-/// Height of letters in pixels of the drawing.
-const LETTERS: f64 = 14.0;
+/// Height of a capital letter, which CAD programs ask for, as part of the font size.
+const CAPITAL: f64 = 0.7;
+/// What clears the way of a leader line on a sheet.
+const PAPER: [u8; 3] = [255; 3];
 
 /// The text of a DXF file of the first position of a drawing.
 #[must_use]
@@ -85,9 +86,15 @@ pub fn write_dxf(drawing: &Drawing) -> String {
             out.path(Layer::Paths, &points.into_iter().map(back).collect::<Vec<_>>(), false);
         }
     }
-    for name in naming::all(drawing, &sheet, signs.size) {
-        let [x, y] = back(name.at);
-        out.text(Layer::Names, [x + 0.7 * name.reach * mm, y + 0.7 * name.reach * mm], LETTERS * mm, &name.text);
+    for item in names(drawing, &plan) {
+        match item {
+            Item::Text(text) => out.text(Layer::Names, back(text.at), CAPITAL * text.size * mm, &text.text),
+            Item::Path { points, stroke, .. } if stroke.is_none_or(|stroke| stroke.color != PAPER) => {
+                out.path(Layer::Names, &points.into_iter().map(back).collect::<Vec<_>>(), false);
+            }
+            Item::Circle { at, radius, .. } => out.circle(Layer::Names, back(at), radius * mm),
+            Item::Path { .. } | Item::Veil { .. } => {}
+        }
     }
     out.file()
 }

@@ -6,7 +6,7 @@ use super::scene::{Anchor, Color, INK, Scene, Stroke};
 use super::symbols::{Signs, direction, off};
 use super::thin::Point;
 use crate::results::ShownIn;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Of springs and dampers.
 pub(super) const RUST: Color = [150, 60, 20];
@@ -18,13 +18,18 @@ const STOP: Color = [176, 20, 40];
 const BELT: Color = [70, 70, 76];
 /// A centre line: long, short.
 const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
+/// Nearer hinges are one for a clutch, in units of signs.
+const AROUND: f64 = 40.0;
 /// Coils of a spring, whatever its length: one that is pulled is seen to be.
 const COILS: u32 = 8;
 
 impl Signs {
     /// A spring, a damper, or both.
     pub(super) fn link(self, scene: &mut Scene, kind: LinkKind, [a, b]: [Point; 2], turned: [f64; 2]) {
-        [a, b].into_iter().for_each(|end| scene.circle(end, 4.0 * self.size, Some(RUST), None));
+        let about_hinge = kind == LinkKind::Clutch && direction(a, b).1 < AROUND * self.size;
+        if kind != LinkKind::Brake && !about_hinge {
+            [a, b].into_iter().for_each(|end| scene.circle(end, 4.0 * self.size, Some(RUST), None));
+        }
         let (along, _) = direction(a, b);
         match kind {
             LinkKind::Spring => self.spring(scene, [a, b]),
@@ -41,6 +46,12 @@ impl Signs {
             }
             LinkKind::Rod => scene.line(vec![a, b], Stroke::solid(RUST, self.pen(2.6))),
             LinkKind::Torsion => self.spiral(scene, a, turned),
+            LinkKind::Shaft => {
+                let (middle, _) = self.shaft(scene, [a, b], 24.0);
+                self.spiral(scene, middle, turned);
+            }
+            LinkKind::Clutch => self.clutch(scene, [a, b], turned),
+            LinkKind::Brake => self.brake(scene, [a, b], turned[0]),
         }
     }
 
@@ -76,6 +87,62 @@ impl Signs {
             [at[0] + radius * angle.cos(), at[1] - radius * angle.sin()]
         });
         scene.line(points.collect(), Stroke::solid(RUST, self.pen(2.0)));
+    }
+
+    /// A line between two hinges with a gap in its middle; gives the middle, and the direction.
+    fn shaft(self, scene: &mut Scene, [a, b]: [Point; 2], gap: f64) -> (Point, Point) {
+        let (along, length) = direction(a, b);
+        let half = gap * self.size;
+        for ends in [[a, off(a, along, 0.5 * length - half, 0.0)], [b, off(a, along, 0.5 * length + half, 0.0)]] {
+            if 0.5 * length > half {
+                scene.line(ends.to_vec(), Stroke::dashed(RUST, self.pen(1.8), CENTRE));
+            }
+        }
+        (off(a, along, 0.5 * length, 0.0), along)
+    }
+
+    /// Two plates: in the middle between two hinges, or around one, the inner one turning with the second body.
+    fn clutch(self, scene: &mut Scene, [a, b]: [Point; 2], turned: [f64; 2]) {
+        if direction(a, b).1 < AROUND * self.size {
+            for (angle, radius) in [(turned[0], 23.0), (turned[1], 16.0)] {
+                self.shoes(scene, a, angle, radius);
+            }
+            return;
+        }
+        let (middle, along) = self.shaft(scene, [a, b], 4.0);
+        for side in [-4.0 * self.size, 4.0 * self.size] {
+            let end = |t: f64| off(middle, along, side, t * self.size);
+            scene.line(vec![end(-14.0), end(14.0)], Stroke::solid(RUST, self.pen(4.0)));
+        }
+    }
+
+    /// Two shoes on both sides of a hinge, on the first body, or one above what slides from a to b.
+    fn brake(self, scene: &mut Scene, [a, b]: [Point; 2], turned: f64) {
+        let (along, length) = direction(a, b);
+        if length < 1.0 {
+            self.shoes(scene, a, turned, 20.0);
+            for side in [0.0, PI] {
+                let at = |radius: f64| off(a, [(turned + side).cos(), -(turned + side).sin()], radius * self.size, 0.0);
+                scene.line(vec![at(20.0), at(30.0)], Stroke::solid(RUST, self.pen(2.4)));
+            }
+            return;
+        }
+        let up = if along[0] < 0.0 { 1.0 } else { -1.0 };
+        let [half, height] = self.slide_box();
+        let at = |s: f64, t: f64| off(b, along, s, up * (height + t * self.size));
+        scene.line(vec![at(-0.7 * half, 4.0), at(0.7 * half, 4.0)], Stroke::solid(RUST, self.pen(5.0)));
+        scene.line(vec![at(0.0, 4.0), at(0.0, 16.0)], Stroke::solid(RUST, self.pen(2.4)));
+    }
+
+    /// Thick arcs on both sides of a hinge.
+    fn shoes(self, scene: &mut Scene, at: Point, angle: f64, radius: f64) {
+        for side in [angle, angle + PI] {
+            let on = |k: i32| {
+                let (sin, cos) = (side + f64::from(k) * 0.1).sin_cos();
+                [at[0] + radius * self.size * cos, at[1] - radius * self.size * sin]
+            };
+            scene.line((-7..=7).map(on).collect(), Stroke::solid(RUST, self.pen(4.4)));
+        }
     }
 
     /// The arrow of what drives a joint: about a hinge, or along a slide above its box. Gives its line.
@@ -241,6 +308,31 @@ mod tests {
         let half = Signs { size: 1.0 }.slide_box();
         assert_eq!(ends([0.0, 1.0], 0.0), [[10.0 - half[0] - 4.0, half[1]], [90.0 + half[0] + 4.0, half[1]]]);
         assert_eq!(ends([200.0, 300.0], 40.0), [[10.0 - 204.0, 40.0], [90.0 + 304.0, 40.0]]);
+    }
+
+    #[test]
+    fn clutches_are_plates_between_two_hinges_or_arcs_around_one() {
+        let points = |kind: LinkKind, ends: [Point; 2]| -> Vec<Vec<Point>> {
+            let mut scene = Scene::default();
+            Signs { size: 1.0 }.link(&mut scene, kind, ends, [0.0, 1.0]);
+            let of = |item: Item| if let Item::Path { points, .. } = item { Some(points) } else { None };
+            scene.items.into_iter().filter_map(of).collect()
+        };
+        let apart = points(LinkKind::Clutch, [[0.0, 0.0], [200.0, 0.0]]);
+        let plates: Vec<_> = apart.iter().filter(|line| line[0][0] == line[1][0]).collect();
+        assert!(apart.len() == 4 && plates.len() == 2 && plates.iter().all(|line| (line[0][0] - 100.0).abs() < 5.0), "{apart:?}");
+        let distance = |line: &Vec<Point>| line[0][0].hypot(line[0][1]);
+        let around = points(LinkKind::Clutch, [[0.0, 0.0], [0.0, 0.0]]);
+        assert_eq!(around.iter().map(|line| distance(line).round()).collect::<Vec<_>>(), [23.0, 23.0, 16.0, 16.0]);
+        assert_eq!(points(LinkKind::Brake, [[0.0, 0.0], [0.0, 0.0]]).len(), 4);
+        // above the box, whichever way the slide goes
+        for from in [-50.0, 50.0] {
+            let shoe = points(LinkKind::Brake, [[from, 0.0], [0.0, 0.0]]);
+            assert!(shoe.iter().flatten().all(|p| p[1] < -Signs { size: 1.0 }.slide_box()[1]), "{shoe:?}");
+        }
+        // the spiral of a shaft stands in its middle
+        let shaft = points(LinkKind::Shaft, [[0.0, 0.0], [200.0, 0.0]]);
+        assert!(shaft.len() == 3 && shaft[2].iter().all(|p| (p[0] - 100.0).hypot(p[1]) < 24.5), "{shaft:?}");
     }
 
     #[test]

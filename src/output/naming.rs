@@ -4,7 +4,7 @@ use super::lettering::{Name, Named};
 use super::marks::RUST;
 use super::measure::encloses;
 use super::outlines::hull;
-use super::pose::{Drawing, FormKind, LinkKind, Outline, SymbolKind};
+use super::pose::{Drawing, FormKind, Outline, SymbolKind};
 use super::scene::INK;
 use super::sheet::{Sheet, body_color, corners, near};
 use super::symbols::{BAR, circle, shaded};
@@ -38,7 +38,7 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
     }
     for link in &drawing.links {
         if let Some(ends) = sheet.ends(link) {
-            let reach = if link.kind == LinkKind::Torsion { 28.0 } else { 19.0 } * size.max(0.6);
+            let reach = if link.kind.turns() { 28.0 } else { 19.0 } * size.max(0.6);
             let (also, of) = (along(ends).to_vec(), Named::Part(vec![ends.to_vec()]));
             names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, reach, color: RUST, of });
         }

@@ -143,7 +143,7 @@ pub struct Link {
     pub grounded: [bool; 2],
     /// Its ends, for each position; only the first is drawn, but for rods.
     pub poses: Vec<[[f64; 2]; 2]>,
-    /// Of a spring about a hinge: angles of the two bodies, rad, for each position.
+    /// Of what turns: angles of the two bodies, rad, for each position.
     pub turned: Vec<[f64; 2]>,
 }
 
@@ -161,6 +161,20 @@ pub enum LinkKind {
     Rod,
     /// A spiral.
     Torsion,
+    /// A line with a spiral in its middle.
+    Shaft,
+    /// Two plates that face each other, on a line between two places or around one.
+    Clutch,
+    /// Shoes on both sides of a hinge, or above what slides.
+    Brake,
+}
+
+impl LinkKind {
+    /// Whether it acts on turning alone, so that the ground at its ends is that of the joints.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        matches!(self, Self::Torsion | Self::Shaft | Self::Clutch | Self::Brake)
+    }
 }
 
 /// Gears, a pinion and its rack, wheels under a belt, or a rope on its drum, in the first position.

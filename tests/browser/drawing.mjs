@@ -24,6 +24,7 @@ async function inked(tab, wanted) {
   }, wanted);
 }
 const STOP = [176, 20, 40];
+const RUST = [150, 60, 20];
 const DRIVE = [0, 112, 84];
 /** Of bearings: a quarter of --faint on --paper. */
 const BEARING = [229, 232, 234];
@@ -40,6 +41,21 @@ export async function stops_are_drawn(open) {
   assert.ok(count > 30, `stops of ${count} pixels at a hinge`);
   const none = await open('crank_rocker', { study: 'one-turn' });
   assert.equal((await inked(none.tab, STOP)).count, 0);
+}
+
+export async function clutches_brakes_and_shafts_are_drawn(open) {
+  const inks = {};
+  for (const study of ['apart', 'together', 'brake', 'shoe', 'shaft', 'none']) {
+    const { tab } = await open('held', { study });
+    await tab.evaluate(() => { const names = [...document.querySelectorAll('label')].find((label) => label.textContent.includes('names')).querySelector('input'); if (names.checked) names.click(); });
+    inks[study] = await inked(tab, RUST);
+  }
+  assert.equal(inks.none.count, 0);
+  // two plates across a line, arcs around one place, shoes, a spiral in a line
+  for (const study of ['apart', 'together', 'brake', 'shoe', 'shaft']) assert.ok(inks[study].count > 30, `${study}: ${JSON.stringify(inks[study])}`);
+  // thin lines are paler; plates stand upright in the middle
+  assert.ok(inks.apart.width < 15 && inks.apart.height > 15, JSON.stringify(inks.apart));
+  for (const study of ['together', 'brake', 'shoe', 'shaft']) assert.ok(inks[study].width < 50 && inks[study].height < 50, `${study}: ${JSON.stringify(inks[study])}`);
 }
 
 export async function what_drives_a_joint_is_drawn(open) {

@@ -404,6 +404,29 @@ studies:
   slide: { dynamics: { until: 1 s, every: 5 ms }, columns: [time, W.position] }
   hinge: { variant: hinge, dynamics: { until: 1 s, every: 5 ms }, columns: [time] }
 `,
+  // what holds joints: one sign to a study
+  held: `grashof: 1
+name: held
+space: planar
+gravity: none
+ground: { A: [0, 0], B: [1 m, 0] }
+bodies: { left: { disc: { radius: 20 cm, mass: 1 kg } }, right: { disc: { radius: 20 cm, mass: 1 kg } } }
+joints: { A: { revolute: [ground.A, left.origin] }, B: { revolute: [ground.B, right.origin] } }
+start: { A.omega: 1 rad/s, B.omega: 0 rad/s }
+variants:
+  apart: { clutches: { it: { between: [A, B], torque: 1 N m } } }
+  together: { ground: { B: [0, 0] }, clutches: { it: { between: [A, B], torque: 1 N m } } }
+  brake: { clutches: { it: { joint: A, torque: 1 N m } } }
+  shoe: { joints: { A: { revolute: null, slider: [ground.A, left.origin], axis: [1, 0] } }, start: { A.omega: null, A.velocity: 0.1 m/s }, clutches: { it: { joint: A, force: 1 N } } }
+  shaft: { springs: { it: { stretch: B.angle - A.angle, stiffness: 1 N m/rad } } }
+studies:
+  none: { dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+  apart: { variant: apart, dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+  together: { variant: together, dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+  brake: { variant: brake, dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+  shoe: { variant: shoe, dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+  shaft: { variant: shaft, dynamics: { until: 0.1 s, every: 10 ms }, columns: [time] }
+`,
   // a cylinder that is driven out
   sleeve: `grashof: 1
 name: sleeve

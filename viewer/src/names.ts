@@ -176,7 +176,7 @@ export class Names {
         const [from, to] = [motion.world(a, place), motion.world(b, place)];
         return [0, 1, 2].map((i) => from[i]! + s * (to[i]! - from[i]!)) as Vector;
       };
-      if (name !== '') this.others.push({ name, of: 'link', spots: (kind === 'torsion' ? [0.5] : ALONG).map((s) => spot(between(s))), color: (inks) => inks.rust });
+      if (name !== '') this.others.push({ name, of: 'link', spots: (kind === 'torsion' || kind === 'brake' ? [0.5] : ALONG).map((s) => spot(between(s))), color: (inks) => inks.rust });
     }
     // the one path of a joint or body that is named goes without a name of its own
     const known = new Set([...joints, ...bodies].map(({ name }) => name));

@@ -183,7 +183,7 @@ export interface Joint {
   damped: boolean;
 }
 
-export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion';
+export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion' | 'shaft' | 'clutch' | 'brake';
 export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';

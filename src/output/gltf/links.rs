@@ -24,7 +24,8 @@ pub(super) struct Moving {
 
 /// What is seen of links and gears.
 pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
-    let links = scene.links.iter().filter(|link| link.kind != LinkKind::Torsion).map(|link| {
+    let about_hinges = |kind| matches!(kind, LinkKind::Torsion | LinkKind::Clutch | LinkKind::Brake);
+    let links = scene.links.iter().filter(|link| !about_hinges(link.kind)).map(|link| {
         let ends = frames.iter().map(|poses| [scene.world(poses, &link.a), scene.world(poses, &link.b)]).collect();
         (link.name.clone(), matches!(link.kind, LinkKind::Spring | LinkKind::SpringDamper), ends)
     });

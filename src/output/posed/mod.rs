@@ -119,6 +119,9 @@ impl Posed<'_> {
                 scene::LinkKind::SpringDamper => LinkKind::SpringDamper,
                 scene::LinkKind::Rod => LinkKind::Rod,
                 scene::LinkKind::Torsion => LinkKind::Torsion,
+                scene::LinkKind::Shaft => LinkKind::Shaft,
+                scene::LinkKind::Clutch => LinkKind::Clutch,
+                scene::LinkKind::Brake => LinkKind::Brake,
             };
             let ends = |poses: &&[f64]| [self.flat(poses, &link.a), self.flat(poses, &link.b)];
             let turned = |poses: &&[f64]| [link.a.body, link.b.body].map(|body| self.angle(poses, body));

@@ -84,6 +84,12 @@ pub enum LinkKind {
     Rod,
     /// A spring or damper that turns about a hinge.
     Torsion,
+    /// A spring or damper between the turning of two hinges that stand apart.
+    Shaft,
+    /// What may hold two joints to each other.
+    Clutch,
+    /// What may hold a joint: both ends at its hinge, or from its first body to what slides.
+    Brake,
 }
 
 /// Two bodies that move each other by teeth, a belt or a rope.

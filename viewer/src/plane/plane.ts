@@ -223,8 +223,8 @@ export class Plane implements Renderer {
   /** A spring or damper, with the ground at its ends where no joint has its bearing. */
   private link({ kind, a, b }: Link): void {
     const [from, to] = [this.point(a), this.point(b)];
-    if (kind === 'torsion') {
-      signs.spiral(this.pen, from, this.motion.angle(a.body, this.place), this.motion.angle(b.body, this.place), this.inks);
+    if (signs.turns(kind)) {
+      signs.turning(this.pen, kind, [from, to], [a, b].map(({ body }) => this.motion.angle(body, this.place)) as Point, this.inks);
       return;
     }
     const bearings = this.motion.scene.joints.filter((joint) => signs.seen(joint) && (joint.a.body === 0 || joint.b.body === 0)).map((joint) => this.point(signs.slides(joint) ? joint.b : joint.a));

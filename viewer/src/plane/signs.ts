@@ -7,6 +7,8 @@ import { type Pen, type Point, off, toward } from './pen';
 
 /** Half the length and half the width of the box of a slide. */
 const BOX: Point = [13, 8];
+/** Dashes of centre lines. */
+const CENTRE = [11, 3.5, 2, 3.5];
 /** Dashes of pitch circles; radius of the rim of a wheel with inner teeth, as a multiple of that of its pitch circle, as in the figures. */
 const PITCH = [8, 3, 1.5, 3];
 const RIM = 1.08;
@@ -194,8 +196,57 @@ export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): 
   }
 }
 
+/** Whether a link acts on turning alone, or holds a joint. */
+export function turns(kind: LinkKind): boolean {
+  return kind === 'torsion' || kind === 'shaft' || kind === 'clutch' || kind === 'brake';
+}
+
+/** A spring about a hinge or between two, a clutch, or a brake, between bodies that stand at two angles. */
+export function turning(pen: Pen, kind: LinkKind, [a, b]: [Point, Point], [first, second]: Point, inks: Inks): void {
+  const { along, length } = toward(a, b);
+  if (kind === 'torsion') spiral(pen, a, first, second, inks);
+  if (kind === 'shaft') spiral(pen, shaft(pen, a, b, 16, inks), first, second, inks);
+  if (kind === 'clutch') {
+    if (length < 26) {
+      shoes(pen, a, first, 15, inks);
+      shoes(pen, a, second, 10.5, inks);
+      return;
+    }
+    const middle = shaft(pen, a, b, 3, inks);
+    for (const side of [-2.7, 2.7]) pen.path([off(middle, along, side, -9), off(middle, along, side, 9)]).stroke(inks.rust, 2.8);
+  }
+  if (kind === 'brake' && length < 1) {
+    shoes(pen, a, first, 13, inks);
+    for (const way of [[Math.cos(first), -Math.sin(first)], [-Math.cos(first), Math.sin(first)]] as Point[]) pen.path([off(a, way, 13, 0), off(a, way, 20, 0)]).stroke(inks.rust, 1.7);
+  } else if (kind === 'brake') {
+    const up = along[0] < 0 ? 1 : -1;
+    const at = (s: number, t: number) => off(b, along, s, up * (BOX[1] + t));
+    pen.path([at(-0.7 * BOX[0], 3), at(0.7 * BOX[0], 3)]).stroke(inks.rust, 3.4);
+    pen.path([at(0, 3), at(0, 11)]).stroke(inks.rust, 1.7);
+  }
+}
+
+/** A line between two hinges with a gap in its middle, which it gives. */
+function shaft(pen: Pen, a: Point, b: Point, half: number, inks: Inks): Point {
+  const { along, length } = toward(a, b);
+  [a, b].forEach((end) => pen.circle(end, 2.6).fill(inks.rust));
+  if (0.5 * length > half) {
+    pen.path([a, off(a, along, 0.5 * length - half, 0)]).stroke(inks.rust, 1.3, CENTRE);
+    pen.path([b, off(a, along, 0.5 * length + half, 0)]).stroke(inks.rust, 1.3, CENTRE);
+  }
+  return off(a, along, 0.5 * length, 0);
+}
+
+/** Thick arcs on both sides of a hinge. */
+function shoes(pen: Pen, at: Point, angle: number, radius: number, inks: Inks): void {
+  for (const side of [angle, angle + Math.PI]) {
+    const arc = Array.from({ length: 15 }, (_, k): Point => [at[0] + radius * Math.cos(side + 0.1 * (k - 7)), at[1] - radius * Math.sin(side + 0.1 * (k - 7))]);
+    pen.path(arc).stroke(inks.rust, 3);
+  }
+}
+
 /** A spring about a hinge: from the first body outside to the second one inside, wound by the angle between them. */
-export function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): void {
+function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): void {
   const [inner, outer, turn] = [7, 16, 2 * Math.PI];
   const to = b + 2 * turn - turn * Math.floor((b - a) / turn);
   const points = Array.from({ length: 61 }, (_, k): Point => {

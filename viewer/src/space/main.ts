@@ -154,7 +154,7 @@ class Space implements Renderer {
         this.rod(items, p, q, inks);
         continue;
       }
-      const draw = () => (kind === 'torsion' ? signs.spiral(pen, this.pixel(p), this.turned(a.body), this.turned(b.body), inks) : signs.link(pen, kind, this.pixel(p), this.pixel(q), inks));
+      const draw = () => (signs.turns(kind) ? signs.turning(pen, kind, [this.pixel(p), this.pixel(q)], [this.turned(a.body), this.turned(b.body)], inks) : signs.link(pen, kind, this.pixel(p), this.pixel(q), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));

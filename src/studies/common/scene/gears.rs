@@ -21,15 +21,16 @@ pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
     if scene.frames.count() == 0 {
         return Vec::new();
     }
+    let welded = Welded::of(mechanism);
     let rows = mechanism.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
     rows.filter_map(|row| {
         let RowKind::Ratio { first, second, ratio } = row.kind else { return None };
         let of_gauge = |gauge: usize| mechanism.joints.iter().find(|joint| joint.slots.first() == Some(&gauge));
         let (first, second) = (of_gauge(first)?, of_gauge(second)?);
         match (first.kind, second.kind) {
-            ("revolute", "revolute") => pair(mechanism, scene, &row.label, first, second, ratio),
-            ("revolute", "slider") if is_rope(model, &row.label) => rope(&row.label, first, second, ratio, scene),
-            ("revolute", "slider") => rack(&row.label, first, second, ratio, scene),
+            ("revolute", "revolute") => pair(mechanism, (scene, &welded), &row.label, [first, second], ratio),
+            ("revolute", "slider") if is_rope(model, &row.label) => rope(&row.label, [first, second], ratio, (scene, &welded)),
+            ("revolute", "slider") => rack(&row.label, [first, second], ratio, (scene, &welded)),
             _ => None,
         }
     })
@@ -66,6 +67,26 @@ fn is_rope(model: &Model, name: &str) -> bool {
     model.couplings.iter().any(|coupling| coupling.name == name && matches!(coupling.kind, CouplingKind::Rack { rope: true, .. }))
 }
 
+/// For each body that one of the bodies welded to it which stands for all of them.
+struct Welded(Vec<usize>);
+
+impl Welded {
+    fn of<G: Space>(mechanism: &Mechanism<G>) -> Self {
+        let mut of: Vec<usize> = (0..mechanism.bodies.len()).collect();
+        for joint in mechanism.joints.iter().filter(|joint| joint.kind == "fixed") {
+            let (kept, gone) = (of[joint.a.0].min(of[joint.b.0]), of[joint.a.0].max(of[joint.b.0]));
+            of.iter_mut().filter(|body| **body == gone).for_each(|body| *body = kept);
+        }
+        Self(of)
+    }
+
+    /// What carries both of two joints: the body on one side of each, or bodies welded to each other.
+    fn carrier<G: Space>(&self, first: &Joint<G>, second: &Joint<G>) -> Option<usize> {
+        let of = |side: (usize, G::Vector)| self.0[side.0];
+        [first.a, first.b].map(of).into_iter().find(|body| [second.a, second.b].map(of).contains(body))
+    }
+}
+
 /// A wheel on its hinge: its side of the joint and that of the carrier, and 1 if the wheel is the second body.
 struct Hung<G: Space> {
     wheel: (usize, G::Vector),
@@ -85,11 +106,12 @@ fn own<G: Space<S = f64>>(scene: &Scene, body: usize, v: [f64; 3]) -> Vec<f64> {
 }
 
 impl<G: Space<S = f64>> Hung<G> {
-    /// The wheel of a hinge whose other body is the carrier.
-    fn on(joint: &Joint<G>, carrier: usize) -> Option<Self> {
-        match carrier {
-            _ if joint.a.0 == carrier => Some(Self { wheel: joint.b, carrier: joint.a, sign: 1.0 }),
-            _ if joint.b.0 == carrier => Some(Self { wheel: joint.a, carrier: joint.b, sign: -1.0 }),
+    /// The wheel of a hinge whose other body is welded to the carrier.
+    fn on(joint: &Joint<G>, carrier: usize, welded: &Welded) -> Option<Self> {
+        let is_carrier = |side: (usize, G::Vector)| welded.0[side.0] == carrier;
+        match [joint.a, joint.b].map(is_carrier) {
+            [true, _] => Some(Self { wheel: joint.b, carrier: joint.a, sign: 1.0 }),
+            [_, true] => Some(Self { wheel: joint.a, carrier: joint.b, sign: -1.0 }),
             _ => None,
         }
     }
@@ -104,22 +126,24 @@ impl<G: Space<S = f64>> Hung<G> {
 /// Two gears.
 fn pair<G: Space<S = f64>>(
     mechanism: &Mechanism<G>,
-    scene: &Scene,
+    (scene, welded): (&Scene, &Welded),
     name: &str,
-    first: &Joint<G>,
-    second: &Joint<G>,
+    [first, second]: [&Joint<G>; 2],
     ratio: f64,
 ) -> Option<Gear> {
-    let carrier = [first.a.0, first.b.0].into_iter().find(|body| *body == second.a.0 || *body == second.b.0)?;
-    let (a, b) = (Hung::on(first, carrier)?, Hung::on(second, carrier)?);
-    // in space the axes of both are told in the carrier only if it is the first body of both
-    let facing = if G::VECTOR == 3 { (0..3).map(|i| first.axis[i] * second.axis[i]).sum::<f64>() } else { 1.0 };
+    let carrier = welded.carrier(first, second)?;
+    let (a, b) = (Hung::on(first, carrier, welded)?, Hung::on(second, carrier, welded)?);
+    let in_plane = G::VECTOR == 2;
+    let axes = [first, second].map(|joint| if in_plane { [0.0, 0.0, 1.0] } else { direction(scene, joint) });
+    let dot = |x: [f64; 3], y: [f64; 3]| (0..3).map(|i| x[i] * y[i]).sum::<f64>();
+    let facing = dot(axes[0], axes[1]);
     if facing.abs() < 1.0 - 1e-6 {
         return None;
     }
-    let apart = b.carrier.1 - a.carrier.1;
-    let along = if G::VECTOR == 3 { G::dot(apart, G::vector(&first.axis)) } else { 0.0 };
-    let distance = (G::dot(apart, apart) - along * along).max(0.0).sqrt();
+    let [from, to] = [a.carrier, b.carrier].map(|at| scene.world(scene.frame(0), &super::places::place::<G>(at)));
+    let apart: [f64; 3] = std::array::from_fn(|i| to[i] - from[i]);
+    let along = dot(apart, axes[0]);
+    let distance = (dot(apart, apart) - along * along).max(0.0).sqrt();
     let turned = ratio * a.sign * b.sign * facing.signum();
     let wheels = [a.wheel, b.wheel].map(|(body, hinge)| Seen::of(mechanism, body, hinge));
     let (kind, [ra, rb]) = if turned > 0.0 && !has_inner_teeth(turned, distance, wheels) {
@@ -198,9 +222,9 @@ struct Wound<G: Space> {
 
 impl<G: Space<S = f64>> Wound<G> {
     /// Of the hinge of a wheel and a slide across its axis.
-    fn of(pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Self> {
-        let carrier = [pinion.a.0, pinion.b.0].into_iter().find(|body| *body == slide.a.0 || *body == slide.b.0)?;
-        let (wheel, moved) = (Hung::on(pinion, carrier)?, Hung::on(slide, carrier)?);
+    fn of([pinion, slide]: [&Joint<G>; 2], radius: f64, (scene, welded): (&Scene, &Welded)) -> Option<Self> {
+        let carrier = welded.carrier(pinion, slide)?;
+        let (wheel, moved) = (Hung::on(pinion, carrier, welded)?, Hung::on(slide, carrier, welded)?);
         let (u, n) = (direction(scene, slide), if G::VECTOR == 3 { direction(scene, pinion) } else { [0.0, 0.0, 1.0] });
         let across = (0..3).map(|i| u[i] * n[i]).sum::<f64>().abs() < 1e-6;
         let touched = [u[1] * n[2] - u[2] * n[1], u[2] * n[0] - u[0] * n[2], u[0] * n[1] - u[1] * n[0]];
@@ -209,8 +233,9 @@ impl<G: Space<S = f64>> Wound<G> {
 }
 
 /// A pinion and its rack: the line along the slide that the pinion touches.
-fn rack<G: Space<S = f64>>(name: &str, pinion: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
-    let wound = Wound::of(pinion, slide, radius, scene)?;
+fn rack<G: Space<S = f64>>(name: &str, joints: [&Joint<G>; 2], radius: f64, in_scene: (&Scene, &Welded)) -> Option<Gear> {
+    let (scene, [pinion, _]) = (in_scene.0, joints);
+    let wound = Wound::of(joints, radius, in_scene)?;
     let Wound { wheel, moved, axis, touched, radius: signed } = &wound;
     let world = |at| scene.world(scene.frame(0), &super::places::place::<G>(at));
     let center = world(wheel.wheel);
@@ -221,8 +246,9 @@ fn rack<G: Space<S = f64>>(name: &str, pinion: &Joint<G>, slide: &Joint<G>, radi
 }
 
 /// A drum and the end of its rope, which is at the joint of what slides.
-fn rope<G: Space<S = f64>>(name: &str, drum: &Joint<G>, slide: &Joint<G>, radius: f64, scene: &Scene) -> Option<Gear> {
-    let wound = Wound::of(drum, slide, radius, scene)?;
+fn rope<G: Space<S = f64>>(name: &str, joints: [&Joint<G>; 2], radius: f64, in_scene: (&Scene, &Welded)) -> Option<Gear> {
+    let (scene, [drum, _]) = (in_scene.0, joints);
+    let wound = Wound::of(joints, radius, in_scene)?;
     let (body, at) = wound.moved.wheel;
     let axis = own::<G>(scene, body, wound.axis.map(|x| wound.radius.signum() * x));
     let end = Wheel { body, at: numbers::<G>(at), radius: 0.0, axis };

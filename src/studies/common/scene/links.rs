@@ -1,4 +1,4 @@
-//! Springs, dampers and massless rods.
+//! Springs, dampers, massless rods, clutches and brakes.
 
 use super::anchors::to_ground;
 use super::places::{place, same};
@@ -10,35 +10,37 @@ use crate::results::Scene;
 use crate::results::scene::{Link, LinkKind, Place};
 use crate::studies::common::case::Case;
 
+/// Hinges that are nearer are one, as part of the size of the mechanism.
+const NEAR: f64 = 1e-9;
+
 /// Shortest spring along a slide, as part of the size of the mechanism.
 const SHORTEST: f64 = 0.1;
 
 /// The massless elements of a mechanism. The frames of the scene are there.
 ///
 /// A spring over an expression has a place where that is of the coordinates of one point or two, of one joint, or of the angles of one
-/// body or two about one hinge.
+/// body or two about one hinge, or of two hinges.
 pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
     let springs = mechanism.stretches.iter().zip(&case.model.springs).filter_map(|(stretch, spring)| {
         let rest = (stretch.moving.is_none() && spring.rest.is_some()).then_some(stretch.rest);
-        let (turns, [a, b], rest) = match (&spring.on, stretch.of) {
+        let (turning, [a, b], rest) = match (&spring.on, stretch.of) {
             (&SpringOn::Joint(joint), _) => {
                 let joint = &mechanism.joints[joint];
-                let (turns, ends) = at_joint(mechanism, scene, joint, joint.kind != "slider");
-                (turns, ends, rest.map(|rest| rest - joint.zero))
+                let (turning, ends) = at_joint(mechanism, scene, joint, joint.kind != "slider");
+                (turning, ends, rest.map(|rest| rest - joint.zero))
             }
             (SpringOn::Between(..), StretchOf::Gauge(gauge)) => {
                 let gauge = &mechanism.gauges[gauge];
                 let Measured::Distance { pa, pb } = gauge.measured else { return None };
-                (false, [place::<G>((gauge.a, pa)), place::<G>((gauge.b, pb))], rest)
+                (None, [place::<G>((gauge.a, pa)), place::<G>((gauge.b, pb))], rest)
             }
             (&SpringOn::Stretch(id), _) => {
-                let (turns, ends) = stretched(case, mechanism, scene, id)?;
-                (turns, ends, None)
+                let (turning, ends) = stretched(case, mechanism, scene, id)?;
+                (turning, ends, None)
             }
             _ => return None,
         };
-        let kind = if turns { LinkKind::Torsion } else { kind(spring) };
-        Some(Link { name: spring.name.clone(), kind, a, b, rest })
+        Some(Link { name: spring.name.clone(), kind: turning.unwrap_or(kind(spring)), a, b, rest })
     });
     let rods = mechanism.joints.iter().filter(|joint| joint.kind == "distance").map(|joint| Link {
         name: joint.name.clone(),
@@ -47,17 +49,31 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         b: place::<G>(joint.b),
         rest: None,
     });
-    springs.chain(rods).collect()
+    let clutches = case.model.clutches.iter().map(|clutch| {
+        let [first, second] = clutch.joints.map(|joint| &mechanism.joints[joint]);
+        let (kind, [a, b]) = if clutch.joints[0] == clutch.joints[1] {
+            (LinkKind::Brake, at_joint(mechanism, scene, first, first.kind != "slider").1)
+        } else {
+            (LinkKind::Clutch, [first, second].map(moved))
+        };
+        Link { name: clutch.name.clone(), kind, a, b, rest: None }
+    });
+    springs.chain(rods).chain(clutches).collect()
 }
 
-/// Whether a spring turns about a hinge, and the places of its ends.
-type Ends = (bool, [Place; 2]);
+/// What a spring about hinges is, none for one along its ends, and the places of its ends.
+type Ends = (Option<LinkKind>, [Place; 2]);
+
+/// Where a joint is on the body that it moves.
+fn moved<G: Space<S = f64>>(joint: &Joint<G>) -> Place {
+    place::<G>(if joint.b.0 == 0 { joint.a } else { joint.b })
+}
 
 /// A spring over the coordinate of a joint: about its point, or from the first body to what slides.
 fn at_joint<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, joint: &Joint<G>, turns: bool) -> Ends {
     let [a, b] = [place::<G>(joint.a), place::<G>(joint.b)];
     if turns {
-        return (true, [a, b]);
+        return (Some(LinkKind::Torsion), [a, b]);
     }
     let along = G::vector(&joint.axis);
     let way = |poses: &[f64]| {
@@ -69,11 +85,11 @@ fn at_joint<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, joint: &
     let ends = ways.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], way| [low.min(*way), high.max(*way)]);
     let shortest = SHORTEST * mechanism.size();
     if ways.is_empty() || ends[0] > shortest || ends[1] < -shortest {
-        return (false, [a, b]);
+        return (None, [a, b]);
     }
     // what slides over the point of the first body is held from beyond its way
     let beyond = joint.a.1 + along * (ends[0] - 2.0 * shortest);
-    (false, [place::<G>((joint.a.0, beyond)), b])
+    (None, [place::<G>((joint.a.0, beyond)), b])
 }
 
 /// The spring of an expression of positions, if it has a place.
@@ -95,10 +111,10 @@ fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
     }
     let on = |p: PointRef| (p.body, mechanism.bodies[p.body].points[p.point].1);
     match (&points[..], &turned[..], &joints[..]) {
-        (&[a, b], [], []) => Some((false, [a, b].map(|p| place::<G>(on(p))))),
-        (&[a], [], []) => to_ground(case, mechanism, scene, id, a).map(|ends| (false, ends)),
-        ([], &[a, b], []) => hinge(mechanism, a, b).map(|ends| (true, ends)),
-        ([], &[a], []) => hinge(mechanism, 0, a).map(|ends| (true, ends)),
+        (&[a, b], [], []) => Some((None, [a, b].map(|p| place::<G>(on(p))))),
+        (&[a], [], []) => to_ground(case, mechanism, scene, id, a).map(|ends| (None, ends)),
+        ([], &[a, b], []) => hinge(mechanism, a, b).map(|ends| (Some(LinkKind::Torsion), ends)),
+        ([], &[a], []) => hinge(mechanism, 0, a).map(|ends| (Some(LinkKind::Torsion), ends)),
         ([], [], &[(joint, slot)]) => {
             let joint = &mechanism.joints[joint];
             let turns = match (joint.kind, slot) {
@@ -107,6 +123,16 @@ fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
                 _ => return None,
             };
             Some(at_joint(mechanism, scene, joint, turns))
+        }
+        ([], [], &[(first, 0), (second, 0)]) => {
+            let joints = [first, second].map(|joint| &mechanism.joints[joint]);
+            if scene.frames.count() == 0 || joints.iter().any(|joint| !matches!(joint.kind, "revolute" | "cylindrical")) {
+                return None;
+            }
+            let ends = joints.map(moved);
+            let [a, b] = [&ends[0], &ends[1]].map(|end| scene.world(scene.frame(0), end));
+            let apart = (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt() > NEAR * mechanism.size();
+            Some((Some(if apart { LinkKind::Shaft } else { LinkKind::Torsion }), ends))
         }
         _ => None,
     }
