@@ -324,6 +324,38 @@ mod tests {
         }
     }
 
+    /// Blocks in a row, each of which is full and of any sign, joined to the next by rows without a diagonal: as bodies of a chain are by the rows of joints.
+    #[test]
+    fn rows_between_blocks_do_not_chain_them_together() {
+        let (blocks, size, joined) = (60, 12, 4);
+        let (mut noise, mut entries) = (Noise(3), Vec::new());
+        let order = blocks * size;
+        for block in 0..blocks {
+            for i in 0..size {
+                for j in 0..=i {
+                    let x = noise.next();
+                    let (i, j) = (block * size + i, block * size + j);
+                    entries.push((i, j, x));
+                    if i != j {
+                        entries.push((j, i, x));
+                    }
+                }
+            }
+        }
+        for (joint, row) in (0..blocks - 1).flat_map(|joint| (0..joined).map(move |k| (joint, joint * joined + k))) {
+            // all of a block, and a few of the next one
+            for i in (0..size).map(|i| joint * size + i).chain((0..joined).map(|i| (joint + 1) * size + i)) {
+                let x = noise.next();
+                entries.extend([(i, order + row, x), (order + row, i, x)]);
+            }
+        }
+        let rows = (blocks - 1) * joined;
+        let factors = Indefinite::new(order + rows, entries.iter().copied());
+        assert!(factors.negative() >= rows);
+        let longest = factors.steps.iter().flat_map(|step| &step.lines).map(|(_, line)| line.len()).max();
+        assert!(longest <= Some(2 * size + 2 * joined), "{longest:?}");
+    }
+
     #[test]
     fn zero_diagonals_take_pivots_of_two_columns() {
         // [A Gᵀ; G 0] with regular rows has one for each of them
