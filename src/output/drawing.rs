@@ -288,6 +288,9 @@ impl Pen<'_> {
             self.letters.avoid_line(&ends, Obstacle::Body);
             if link.kind.turns() && near(ends[0], ends[1]) {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
+            } else if link.kind == LinkKind::Brake {
+                let [half, height] = self.signs.slide_box();
+                self.letters.avoid(ends[1], [0.7 * half, 12.0 * self.signs.size], [0.0, -height - 10.0 * self.signs.size]);
             }
         }
     }
