@@ -324,7 +324,8 @@ mod tests {
         }
     }
 
-    /// Blocks in a row, each of which is full and of any sign, joined to the next by rows without a diagonal: as bodies of a chain are by the rows of joints.
+    /// Blocks in a row, each of which is full and of any sign, joined to the next by rows without a diagonal: as bodies of a chain are by
+    /// the rows of joints.
     #[test]
     fn rows_between_blocks_do_not_chain_them_together() {
         let (blocks, size, joined) = (60, 12, 4);

@@ -27,8 +27,10 @@ const OF_LARGEST: f64 = 1e-12;
 /// Part of velocities that is open without a word, however small the tolerance.
 const ALLOWED: f64 = 1e-8;
 
-/// Part of accelerations that is open without a word while bodies move: they are of one moment.
-const OTHERWISE: f64 = 1e-4;
+/// Part of accelerations that is open without a word: from rest, where of light structures digits are lost to their masses, and while bodies
+/// move, when they are of one moment.
+const FROM_REST: f64 = 1e-6;
+const MOVING: f64 = 1e-4;
 
 /// A state that constraints cannot tell from a given one.
 pub(crate) struct Beside {
@@ -83,26 +85,34 @@ impl Beside {
 }
 
 /// That a motion begins with other velocities, or from rest accelerations, in a state which the constraints cannot tell from its start, by more
-/// than this part of the largest; or with quite other accelerations.
+/// than this part of the largest; or with quite other accelerations. Where forces are in balance, accelerations are round-off, and count beside
+/// those that the forces would give without the constraints.
 pub(crate) fn other_beginning<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assembled, allowed: f64) -> Option<Finding> {
     let other = state_beside(m, [&start.q, &start.v], &start.modes, &start.metric, start.size)?;
-    let accelerations = [accelerations(m, [&start.q, &start.v], start)?, accelerations(m, [&other.q, &other.v], start)?];
+    let [here, there] = [accelerations(m, [&start.q, &start.v], start)?, accelerations(m, [&other.q, &other.v], start)?];
     let units = m.units(start.size);
     let largest = |a: &mut dyn Iterator<Item = f64>| a.zip(&units).fold(0.0, |most, (a, unit)| f64::max(most, a.abs() / unit));
-    let off = |[here, there]: [&[f64]; 2]| largest(&mut here.iter().zip(there).map(|(a, b)| a - b)) / largest(&mut here.iter().copied());
+    let off = |here: &[f64], there: &[f64]| largest(&mut here.iter().zip(there).map(|(a, b)| a - b));
+    let part = |off: f64, of: f64| if of > 0.0 { off / of } else { 0.0 };
     let moves = start.v.iter().any(|v| *v != 0.0);
-    let by_velocities = if moves { off([&start.v, &other.v]) } else { 0.0 };
-    let by_accelerations = off([&accelerations[0], &accelerations[1]]);
-    let allowed = allowed.max(ALLOWED);
+    let by_velocities = part(off(&start.v, &other.v), largest(&mut start.v.iter().copied()));
+    let size = f64::max(largest(&mut here.found.iter().copied()), largest(&mut here.free.iter().copied()));
+    let by_accelerations = part(off(&here.found, &there.found), size);
     let told = |what: &str, part: f64| other.finding(&format!("its {what} differ by {part:.1e} of the largest"), "start");
-    if by_velocities > allowed {
+    if by_velocities > allowed.max(ALLOWED) {
         return Some(told("velocities", by_velocities));
     }
-    (by_accelerations > if moves { OTHERWISE } else { allowed }).then(|| told("accelerations", by_accelerations))
+    (by_accelerations > if moves { MOVING } else { allowed.max(FROM_REST) }).then(|| told("accelerations", by_accelerations))
 }
 
-/// Accelerations (nv) at coordinates (nq) and velocities (nv) next to a start; none if they are not determined.
-fn accelerations<G: Space<S = f64>>(m: &Mechanism<G>, [q, v]: [&[f64]; 2], start: &Assembled) -> Option<Vec<f64>> {
+/// Accelerations (nv), and D⁻¹f (nv): about what they would be without the constraints.
+struct Accelerations {
+    found: Vec<f64>,
+    free: Vec<f64>,
+}
+
+/// Accelerations at coordinates (nq) and velocities (nv) next to a start; none if they are not determined.
+fn accelerations<G: Space<S = f64>>(m: &Mechanism<G>, [q, v]: [&[f64]; 2], start: &Assembled) -> Option<Accelerations> {
     let (modes, metric) = (&start.modes, &start.metric);
     let mut dynamics = Dynamics::new(m);
     dynamics.work.z.copy_from_slice(&m.state_starts);
@@ -116,7 +126,7 @@ fn accelerations<G: Space<S = f64>>(m: &Mechanism<G>, [q, v]: [&[f64]; 2], start
     kkt.factor(work.mass.values(), work.g.values()).ok()?;
     let (mut a, mut lambda) = (vec![0.0; m.nv], vec![0.0; m.rows.len()]);
     kkt.solve(&work.force, &work.gamma, &mut a, &mut lambda);
-    Some(a)
+    Some(Accelerations { found: a, free: work.force.iter().zip(metric).map(|(f, d)| f / d).collect() })
 }
 
 /// A state at time 0 (q: nq, v: nv) that the constraints cannot tell from a given one; none where they hold it well. `metric` is D (nv), `size`

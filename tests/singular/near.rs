@@ -70,6 +70,24 @@ fn eigenvalues_that_round_off_decides_on_are_told() {
     assert!(worst > 1e-5 && silent >= 10, "{worst:e}, {silent}");
 }
 
+/// The eigenvalue that is told to be as good, 1/s².
+fn other(outcome: &Outcome) -> f64 {
+    let finding = outcome.findings.iter().find(|f| f.code == "nearly-singular").expect("a finding");
+    let (_, rest) = finding.message.split_once(" 1/s^2 is ").expect("an eigenvalue");
+    rest.split_once(". ").expect("a sentence").0.parse().expect("a number")
+}
+
+#[test]
+fn full_and_sparse_matrices_tell_the_same_other_eigenvalue() {
+    for from_singular in [3e-4, 2e-4] {
+        let [full, sparse] = ["modes", "lanczos"].map(|name| study(&equal_arms(from_singular), name, Coordinates::Joint));
+        let own = full.lists.iter().find(|list| list.name == "eigenvalues").expect("eigenvalues").values[0];
+        // by how much it is another one: to first order in the second
+        let [full, sparse] = [&full, &sparse].map(|outcome| other(outcome) - own);
+        assert!((full - sparse).abs() < 0.1 * full.abs(), "{from_singular:e}: {full:e} {sparse:e}");
+    }
+}
+
 #[test]
 fn linear_models_and_motions_tell_that_round_off_decides() {
     for (from_singular, expected) in [(0.1, false), (1e-6, true)] {

@@ -132,7 +132,8 @@ where
     Ok(Some(report.outcome(case, &mechanism, &frequencies, held.residual, scenes)))
 }
 
-/// That other eigenvalues belong to a pose which the constraints cannot tell from this one: of each of these, with its vector x (nv), to first order
+/// That other eigenvalues belong to a pose which the constraints cannot tell from this one: of each of these, with its vector x (nv), to
+/// first order
 ///
 /// ```text
 /// xᵀMx Δλ = xᵀ(ΔK − λ ΔM) x + 2 μᵀΔG x,   K x + Gᵀμ = λ M x
