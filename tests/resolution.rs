@@ -308,3 +308,35 @@ studies:
     assert!(unresolved.is_empty(), "{unresolved:?}");
     assert_eq!(outcome.certificate.resolved.map(|resolution| resolution.open), Some(0));
 }
+
+/// 1/(w + (θ - 1.2345)²) is over a part p of its height 1/w within √(w (1/p - 1)) of its middle: slopes alone are seen beside it.
+#[test]
+fn conditions_that_hold_in_a_narrow_peak_are_met() {
+    for w in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8] {
+        for part in [0.5, 0.99, 0.9999] {
+            let text = format!(
+                "
+grashof: 1
+name: narrow peak
+space: planar
+gravity: none
+bodies: {{ a: {{ bar: {{ length: 1 m }} }} }}
+joints: {{ A: {{ revolute: [ground, a.start] }} }}
+drivers: {{ D: {{ joint: A, speed: 1 rad/s }} }}
+measures: {{ m: '1/({w:e} + (A.angle/1 rad - 1.2345)^2)' }}
+studies:
+  it:
+    kinematics: {{ over: 3 turn, samples: 1 }}
+    columns: [A.angle]
+    scalars: {{ begin: first(m > {over:e}), long: integral(m > {over:e}) }}
+",
+                over = part / w
+            );
+            let outcome = study(&text, "it", Coordinates::Joint);
+            let half = f64::sqrt(w * (1.0 / part - 1.0));
+            let [begin, long] = outcome.scalars[..2] else { panic!("two scalars") };
+            assert!((begin - (1.2345 - half)).abs() < 1e-6 * half + 1e-12, "{w:e}, {part}: begins at {begin}");
+            assert!((long / (2.0 * half) - 1.0).abs() < 1e-5, "{w:e}, {part}: {long} for {}", 2.0 * half);
+        }
+    }
+}

@@ -34,6 +34,11 @@ const HEARD: f64 = 0.4337;
 const NEARER: usize = 12;
 const NEARER_BY: f64 = 0.25;
 
+/// Part of what a distance varies by on a stretch up to which the polynomial may leave it out where the distance is far from zero: what is
+/// left out of a narrow peak whose slopes alone are seen is far more. And part of its size below which it does not vary.
+const UNDERSTOOD: f64 = 0.01;
+const FLAT: f64 = 1e-12;
+
 /// Nodes of the path to a first stretch.
 const NODES_TO_A_STRETCH: usize = 4;
 
@@ -370,13 +375,14 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
             let size = seen.size(k);
             let least = values.iter().fold(f64::INFINITY, |m, y| m.min(*y));
             let settled = !size.is_finite() || size <= self.floor[k] || self.left.contains(&switch);
-            let most = values.iter().fold(f64::NEG_INFINITY, |m, y| m.max(*y));
-            if settled || least > 2.0 * (most - least) {
+            let varies = values.iter().fold(f64::NEG_INFINITY, |m, y| m.max(*y)) - least;
+            let understood = varies <= self.floor[k].max(FLAT * size) || self.basis.tail(&values) <= UNDERSTOOD * varies;
+            if settled || understood && least > 2.0 * varies {
                 continue;
             }
             // between its values it may come lower than all of them
             let (s, low) = self.basis.dip(&values);
-            if least.min(low) > 4.0 * self.basis.rough(&values) {
+            if understood && least.min(low) > 4.0 * self.basis.rough(&values) {
                 continue;
             }
             if self.basis.tail(&values) > self.floor[k].max(WIDTH * size) {
