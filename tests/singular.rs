@@ -10,9 +10,11 @@ use grashof::studies::run::run_in;
 use std::fmt::Write;
 
 mod beside;
+mod branch;
 mod driven;
 mod near;
 mod passing;
+mod rest;
 mod told;
 
 /// Integrators with what they need beside a tolerance, the tolerance, and how many tolerances they may be off where a motion does not
@@ -27,6 +29,14 @@ const SCHEMES: [(&str, f64, f64); 8] = [
     ("newmark", 1e-6, 500.0),
     ("rk4", 1e-6, 1000.0),
 ];
+
+/// A study, whether it stops on its way or not.
+fn run_to_its_end_or_not(text: &str, name: &str) -> Outcome {
+    let model = model(text, Some(name));
+    let study = model.study.clone().expect("the study");
+    run_in(Case::new(&model, &study, &parameters(&model)), Coordinates::Joint, &|| false)
+        .unwrap_or_else(|f| panic!("{name}: {}", f.reason()))
+}
 
 const CHARTS: [&str; 3] = ["joint", "cartesian", "minimal"];
 

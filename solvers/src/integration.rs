@@ -250,6 +250,11 @@ impl Integration {
         &self.crossed
     }
 
+    /// Tells that there is no singular position until `t` (s), whatever is seen of rows that come near one.
+    pub fn regular_until(&mut self, t: f64) {
+        self.scheme.regular_until(t);
+    }
+
     /// The step proposed next, s.
     pub fn proposed(&self) -> f64 {
         self.h

@@ -71,6 +71,9 @@ pub trait Scheme {
         false
     }
 
+    /// Is told that there is no singular position until `t` (s), whatever is seen of rows that come near one.
+    fn regular_until(&mut self, _t: f64) {}
+
     /// Order of convergence of q and v at present.
     fn order(&self) -> usize;
 

@@ -32,6 +32,10 @@ const ALLOWED: f64 = 1e-8;
 const FROM_REST: f64 = 1e-6;
 const MOVING: f64 = 1e-4;
 
+/// Part of the displacement into which forces at rest draw that is open without a word: only its direction counts. And part of reactions.
+const DRAWN: f64 = 1e-3;
+const REACTIONS: f64 = 1e-6;
+
 /// A state that constraints cannot tell from a given one.
 pub(crate) struct Beside {
     /// Coordinates (nq).
@@ -89,15 +93,12 @@ impl Beside {
 /// those that the forces would give without the constraints.
 pub(crate) fn other_beginning<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assembled, allowed: f64) -> Option<Finding> {
     let other = state_beside(m, [&start.q, &start.v], &start.modes, &start.metric, start.size)?;
-    let [here, there] = [accelerations(m, [&start.q, &start.v], start)?, accelerations(m, [&other.q, &other.v], start)?];
+    let by_mass = |q: &[f64], v: &[f64]| solved(m, start, [q, v, &m.state_starts], &start.modes, Resisted::Mass);
+    let [here, there] = [by_mass(&start.q, &start.v)?, by_mass(&other.q, &other.v)?];
     let units = m.units(start.size);
-    let largest = |a: &mut dyn Iterator<Item = f64>| a.zip(&units).fold(0.0, |most, (a, unit)| f64::max(most, a.abs() / unit));
-    let off = |here: &[f64], there: &[f64]| largest(&mut here.iter().zip(there).map(|(a, b)| a - b));
-    let part = |off: f64, of: f64| if of > 0.0 { off / of } else { 0.0 };
     let moves = start.v.iter().any(|v| *v != 0.0);
-    let by_velocities = part(off(&start.v, &other.v), largest(&mut start.v.iter().copied()));
-    let size = f64::max(largest(&mut here.found.iter().copied()), largest(&mut here.free.iter().copied()));
-    let by_accelerations = part(off(&here.found, &there.found), size);
+    let by_velocities = part(off(&start.v, &other.v, &units), largest(&start.v, &units));
+    let by_accelerations = part(off(&here.x, &there.x, &units), here.drawn(start, &units));
     let told = |what: &str, part: f64| other.finding(&format!("its {what} differ by {part:.1e} of the largest"), "start");
     if by_velocities > allowed.max(ALLOWED) {
         return Some(told("velocities", by_velocities));
@@ -105,28 +106,111 @@ pub(crate) fn other_beginning<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assem
     (by_accelerations > if moves { MOVING } else { allowed.max(FROM_REST) }).then(|| told("accelerations", by_accelerations))
 }
 
-/// Accelerations (nv), and D⁻¹f (nv): about what they would be without the constraints.
-struct Accelerations {
-    found: Vec<f64>,
-    free: Vec<f64>,
+/// That forces draw a mechanism at rest another way from a position which the constraints cannot tell from its start.
+pub(crate) fn other_sinking<G: Space<S = f64>>(m: &Mechanism<G>, start: &Assembled) -> Option<Finding> {
+    let rest = vec![0.0; m.nv];
+    let other = state_beside(m, [&start.q, &rest], &start.modes, &start.metric, start.size)?;
+    let by_metric = |q: &[f64]| solved(m, start, [q, &rest, &m.state_starts], &start.modes, Resisted::Metric);
+    let [here, there] = [by_metric(&start.q)?, by_metric(&other.q)?];
+    let units = m.units(start.size);
+    let part = part(off(&here.x, &there.x, &units), here.drawn(start, &units));
+    (part > DRAWN).then(|| other.finding(&format!("from there forces draw it another way, by {part:.1e} of the first one"), "start"))
 }
 
-/// Accelerations at coordinates (nq) and velocities (nv) next to a start; none if they are not determined.
-fn accelerations<G: Space<S = f64>>(m: &Mechanism<G>, [q, v]: [&[f64]; 2], start: &Assembled) -> Option<Accelerations> {
-    let (modes, metric) = (&start.modes, &start.metric);
+/// That an equilibrium at coordinates (nq) and states (nz) has other reactions in a position which the constraints cannot tell from it.
+pub(crate) fn other_reactions<G: Space<S = f64>>(
+    m: &Mechanism<G>,
+    start: &Assembled,
+    [q, z]: [&[f64]; 2],
+    modes: &[i32],
+    place: &str,
+) -> Option<Finding> {
+    let rest = vec![0.0; m.nv];
+    let other = state_beside(m, [q, &rest], modes, &start.metric, start.size)?;
+    let by_metric = |q: &[f64]| solved(m, start, [q, &rest, z], modes, Resisted::Metric);
+    let [here, there] = [by_metric(q)?, by_metric(&other.q)?];
+    // forces, and moments by the size
+    let of_rows: Vec<f64> = m.rows.iter().map(|row| if row.angular { start.size } else { 1.0 }).collect();
+    let of_motions: Vec<f64> = m.units(start.size).iter().map(|unit| start.size / unit).collect();
+    let size = f64::max(largest(&here.lambda, &of_rows), largest(&here.force, &of_motions));
+    let part = part(off(&here.lambda, &there.lambda, &of_rows), size);
+    (part > REACTIONS).then(|| other.finding(&format!("its reactions differ by {part:.1e} of the largest"), place))
+}
+
+/// Largest |x|, each in its own unit.
+fn largest(x: &[f64], units: &[f64]) -> f64 {
+    x.iter().zip(units).fold(0.0, |most, (x, unit)| f64::max(most, x.abs() / unit))
+}
+
+/// Largest difference, each in its own unit.
+fn off(here: &[f64], there: &[f64], units: &[f64]) -> f64 {
+    largest(&here.iter().zip(there).map(|(a, b)| a - b).collect::<Vec<f64>>(), units)
+}
+
+fn part(off: f64, of: f64) -> f64 {
+    if of > 0.0 { off / of } else { 0.0 }
+}
+
+/// What resists motions: M gives accelerations; D, which is regular without mass as well, the way into which forces draw what rests.
+#[derive(Clone, Copy)]
+enum Resisted {
+    Mass,
+    Metric,
+}
+
+/// x and λ with M x + Gᵀλ = f, G x = γ; or with D in the place of M.
+struct Solved {
+    /// x (nv).
+    x: Vec<f64>,
+    /// λ (rows).
+    lambda: Vec<f64>,
+    /// f (nv).
+    force: Vec<f64>,
+}
+
+impl Solved {
+    /// Size of x, at least that of D⁻¹f, about what it would be without the constraints.
+    fn drawn(&self, start: &Assembled, units: &[f64]) -> f64 {
+        let free: Vec<f64> = self.force.iter().zip(&start.metric).map(|(f, d)| f / d).collect();
+        f64::max(largest(&self.x, units), largest(&free, units))
+    }
+}
+
+/// The linear equations at coordinates (nq), velocities (nv) and states (nz); none if they have no solution.
+fn solved<G: Space<S = f64>>(
+    m: &Mechanism<G>,
+    start: &Assembled,
+    [q, v, z]: [&[f64]; 3],
+    modes: &[i32],
+    resisted: Resisted,
+) -> Option<Solved> {
+    let metric = &start.metric;
     let mut dynamics = Dynamics::new(m);
-    dynamics.work.z.copy_from_slice(&m.state_starts);
+    dynamics.work.z.copy_from_slice(z);
     dynamics.terms(0.0, q, v, modes);
     let scale = dynamics.row_scale(q, modes, metric);
-    let mut kkt = Kkt::of_blocks(&mass_pattern(m), &row_pattern(m));
+    let by_metric = diagonal(m.nv);
+    let mut kkt = match resisted {
+        Resisted::Mass => Kkt::of_blocks(&mass_pattern(m), &row_pattern(m)),
+        Resisted::Metric => Kkt::of_blocks(&by_metric, &row_pattern(m)),
+    };
     kkt.set_scale(metric, &scale);
     let sigma = weakest(&mut kkt, metric, &scale, &dynamics.work.g);
     kkt.set_weakest(sigma);
     let work = &dynamics.work;
-    kkt.factor(work.mass.values(), work.g.values()).ok()?;
-    let (mut a, mut lambda) = (vec![0.0; m.nv], vec![0.0; m.rows.len()]);
-    kkt.solve(&work.force, &work.gamma, &mut a, &mut lambda);
-    Some(Accelerations { found: a, free: work.force.iter().zip(metric).map(|(f, d)| f / d).collect() })
+    let resistance = match resisted {
+        Resisted::Mass => work.mass.values(),
+        Resisted::Metric => metric,
+    };
+    kkt.factor(resistance, work.g.values()).ok()?;
+    let (mut x, mut lambda) = (vec![0.0; m.nv], vec![0.0; m.rows.len()]);
+    kkt.solve(&work.force, &work.gamma, &mut x, &mut lambda);
+    Some(Solved { x, lambda, force: work.force.clone() })
+}
+
+/// The pattern of a diagonal matrix.
+fn diagonal(n: usize) -> Sparsity {
+    Sparsity::new(n, n, (0..n).map(|i| (i, i)))
 }
 
 /// A state at time 0 (q: nq, v: nv) that the constraints cannot tell from a given one; none where they hold it well. `metric` is D (nv), `size`
@@ -142,7 +226,7 @@ where
     dynamics.time(0.0, modes);
     dynamics.position(q, modes);
     let scale = dynamics.row_scale(q, modes, metric);
-    let mut kkt = Kkt::of_blocks(&Sparsity::new(m.nv, m.nv, (0..m.nv).map(|i| (i, i))), dynamics.work.g.pattern());
+    let mut kkt = Kkt::of_blocks(&diagonal(m.nv), dynamics.work.g.pattern());
     kkt.set_scale(metric, &scale);
     let sigma = weakest(&mut kkt, metric, &scale, &dynamics.work.g);
     if sigma > WELL_HELD {

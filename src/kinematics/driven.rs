@@ -295,6 +295,14 @@ impl<'m, G: Space<S = f64>> Driven<'m, G> {
         }
     }
 
+    /// The sign of det G at the position found last; 0 where rows are redundant.
+    pub(super) fn side(&self) -> f64 {
+        match &self.solver {
+            Solver::Square(square) => square.determinant_sign(),
+            Solver::Redundant { .. } => 0.0,
+        }
+    }
+
     /// What a residual of each row counts by: rad, and sizes.
     pub(super) fn row_unit(&self) -> &[f64] {
         &self.row_unit

@@ -3,6 +3,7 @@
 pub mod assemble;
 pub(crate) mod beside;
 pub mod bounded;
+mod branch;
 pub mod coordinates;
 pub(crate) mod crossing;
 pub mod driven;

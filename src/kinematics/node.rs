@@ -19,6 +19,12 @@ pub struct PathPoint {
     pub turns: Vec<f64>,
     /// How regular the constraints are: [`Driven::regularity`].
     pub regularity: f64,
+    /// Sign of det G, which changes in singular positions alone; 0 where rows are redundant.
+    pub side: f64,
+    /// Whether the path needs the node to keep to its branch: a longer step would lead to another one.
+    pub narrow: bool,
+    /// Whether a change point lies between the node before and this one.
+    pub crosses: bool,
 }
 
 /// Pivot ratio below which a position counts as singular: rates would keep fewer than half of their digits.
@@ -37,8 +43,8 @@ impl<G: Space<S = f64>> Driven<'_, G> {
                 }
             }
         }
-        let regularity = self.regularity();
-        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity }
+        let (regularity, side) = (self.regularity(), self.side());
+        PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity, side, narrow: false, crosses: false }
     }
 
     /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.

@@ -2,9 +2,10 @@
 //!
 //! From one node to the next the position is predicted by v h + ½ a h² and corrected by Newton. A step counts only if the
 //! correction is small against the move and the new velocity is near the predicted one: another branch, or the far side of
-//! a dead point, fails both and the step is cut. Where steps shrink to nothing the driver cannot go on (a dead point); a
+//! a dead point, fails both and the step is cut; where branches come near each other, `branch` tells them apart. Where steps shrink to nothing the driver cannot go on (a dead point); a
 //! change point, where two branches cross at an angle, is stepped over on the smooth branch.
 
+use super::branch::{Branch, behind};
 use super::driven::{Driven, NotReached};
 use super::fold::fold;
 use super::laws::{Jump, first_jump, jump_beside};
@@ -217,12 +218,17 @@ fn march<G: Space<S = f64>>(
             h = left;
         }
         let t = if h == left { to } else { last.t + h };
-        match step(driven, modes, last, t, &mut delta) {
-            Ok(node) => {
+        let reached = step(driven, modes, last, t, &mut delta).map(|node| behind(driven, modes, &nodes, node, &mut delta));
+        match reached {
+            Ok(Branch::Same(node)) => {
                 nodes.push(node);
                 h = if (1.6 * h).abs() < longest.abs() { 1.6 * h } else { longest };
             }
-            Err(NotReached) => {
+            Ok(Branch::Other(own, next)) if !own.is_empty() => {
+                nodes.extend(own);
+                h = next;
+            }
+            Ok(Branch::Other(..)) | Err(NotReached) => {
                 if let Some([before, behind]) = over_kink(driven, modes, last, t, &mut delta) {
                     nodes.extend((before.t != last.t).then_some(before).into_iter().chain([behind]));
                     continue;
@@ -230,6 +236,7 @@ fn march<G: Space<S = f64>>(
                 // a range that ends in a change point is followed to beyond it
                 if h == left
                     && let Ok(node) = step(driven, modes, last, to + around_reach(driven, &last.v, to), &mut delta)
+                    && let Branch::Same(node) = behind(driven, modes, &nodes, node, &mut delta)
                 {
                     nodes.push(node);
                     return Ok((nodes, End::Reached));

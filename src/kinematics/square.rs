@@ -82,6 +82,14 @@ impl Square {
         }
     }
 
+    /// The sign of det G.
+    pub(super) fn determinant_sign(&self) -> f64 {
+        match &self.form {
+            Form::Full(lu) => lu.determinant_sign(),
+            Form::Sparse { lu, .. } => lu.determinant_sign(),
+        }
+    }
+
     /// ln |det G| of the scaled rows.
     pub(super) fn log_determinant(&self) -> f64 {
         match &self.form {

@@ -63,6 +63,9 @@ impl Standing {
             a: vec![0.0; ahead.v.len()],
             turns: turns.clone(),
             regularity: 0.0,
+            side: 0.0,
+            narrow: false,
+            crosses: false,
         };
         Some([behind.unwrap_or_else(rest), ahead])
     }

@@ -15,7 +15,7 @@ use grashof::mechanism::Coordinates;
 use grashof::studies::common::outcome::Outcome;
 use std::f64::consts::FRAC_PI_2;
 
-fn equal_arms(from_singular: f64) -> String {
+pub(super) fn equal_arms(from_singular: f64) -> String {
     format!(
         "
 grashof: 1

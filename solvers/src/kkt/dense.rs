@@ -136,7 +136,18 @@ pub(super) fn log_determinant<T: Number>(inverse: &[T]) -> f64 {
     -inverse.iter().map(|x| x.abs1().ln()).sum::<f64>()
 }
 
+/// −1 for an odd number of negative pivots, else 1.
+pub(super) fn pivot_sign(inverse: &[f64]) -> f64 {
+    inverse.iter().fold(1.0, |sign, x| if *x < 0.0 { -sign } else { sign })
+}
+
 impl Lu {
+    /// The sign of det A of the matrix factored last, 1 or −1.
+    pub fn determinant_sign(&self) -> f64 {
+        let exchanged = self.swap.iter().enumerate().filter(|(k, with)| k != *with).count();
+        if exchanged % 2 == 0 { pivot_sign(&self.inverse) } else { -pivot_sign(&self.inverse) }
+    }
+
     /// Estimate of the smallest singular value σ of A by `steps` inverse iterations, at least one.
     ///
     /// `left` (n) comes in as a guess, best the result of the last call (zeros: a start of its own); on return Aᵀ·left = σ·right

@@ -52,6 +52,30 @@ pub struct SparseLu<T: Number> {
 /// Why pivots cannot be kept.
 struct Unfit;
 
+impl SparseLu<f64> {
+    /// The sign of det A of the matrix factored last, 1 or −1: of the pivots and of both permutations.
+    pub fn determinant_sign(&self) -> f64 {
+        let steps: Vec<usize> = self.step.iter().map(|step| *step as usize).collect();
+        dense::pivot_sign(&self.inverse) * permutation_sign(&self.order) * permutation_sign(&steps)
+    }
+}
+
+/// 1 for an even permutation, −1 for an odd one: each cycle of length k is k − 1 exchanges.
+fn permutation_sign(order: &[usize]) -> f64 {
+    let mut seen = vec![false; order.len()];
+    let mut sign = 1.0;
+    for first in 0..order.len() {
+        let mut at = first;
+        while !std::mem::replace(&mut seen[at], true) {
+            at = order[at];
+            if at != first {
+                sign = -sign;
+            }
+        }
+    }
+    sign
+}
+
 impl<T: Number> SparseLu<T> {
     /// Orders the unknowns of a square pattern. No pivots are chosen yet.
     pub fn new(pattern: &Sparsity) -> Self {

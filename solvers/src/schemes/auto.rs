@@ -175,6 +175,10 @@ impl Scheme for Auto {
         if self.on { self.implicit.work(step, out) } else { self.explicit.work(step, out) }
     }
 
+    fn regular_until(&mut self, t: f64) {
+        self.explicit.regular_until(t);
+    }
+
     fn order(&self) -> usize {
         if self.on { self.implicit.order() } else { self.explicit.order() }
     }

@@ -302,6 +302,10 @@ impl Scheme for Dop853 {
         self.work.add(step, out)
     }
 
+    fn regular_until(&mut self, t: f64) {
+        self.crossing.regular_until(t);
+    }
+
     fn order(&self) -> usize {
         8
     }

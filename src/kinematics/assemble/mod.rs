@@ -77,12 +77,19 @@ impl Assembled {
 
     /// What a reader should know of the start.
     pub(crate) fn findings(&self) -> impl Iterator<Item = Finding> {
-        let finding = |code: &'static str, message: String| Finding { code: code.into(), message, path: "start".into() };
-        let change = self.change.iter().map(move |change| finding("change-point", change.message()));
-        let missed = self.found.iter().filter(|found| found.guess && found.is_far(self.size));
-        let turned = self.turned.iter().map(move |(body, angle)| finding("turned-start", turned::message(body, *angle)));
-        change.chain(missed.map(move |found| finding("guess-missed", found.missed()))).chain(turned)
+        self.change.iter().map(|change| of_start("change-point", change.message())).chain(self.not_as_meant())
     }
+
+    /// Where it may be another one than was meant.
+    pub(crate) fn not_as_meant(&self) -> impl Iterator<Item = Finding> {
+        let missed = self.found.iter().filter(|found| found.guess && found.is_far(self.size));
+        let turned = self.turned.iter().map(|(body, angle)| of_start("turned-start", turned::message(body, *angle)));
+        missed.map(|found| of_start("guess-missed", found.missed())).chain(turned)
+    }
+}
+
+fn of_start(code: &'static str, message: String) -> Finding {
+    Finding { code: code.into(), message, path: "start".into() }
 }
 
 /// The mechanism of a model at given parameters (in file order) with its assembled start; the start fixes the anchors of its rows.

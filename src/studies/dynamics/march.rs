@@ -14,6 +14,7 @@ use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
 use super::watch::swept;
+use super::way::Way;
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::kinematics::held::settled;
@@ -27,6 +28,9 @@ use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Pro
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
+
+/// Part of a time by which a step may miss the one at which it should end.
+const ENDED: f64 = 1e-13;
 
 /// What a run has left.
 pub(crate) struct Recorded<'m, G: Space<S = f64>> {
@@ -177,11 +181,15 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
                 return Ok(self.course.stopped_by(&mut chart, &node, &at_once));
             }
         }
+        let from_start = first && self.plan.fixed_step().is_none() && state.t == 0.0 && state.q == phase.start.q;
+        let way = if from_start { Way::of(phase, self.plan.until) } else { Way::default() };
         let ended = loop {
             if (self.stop)() {
                 break After::Stopped(format!("interrupted at t = {} s", node.state.t));
             }
-            let progress = match run.advance(chart.system(), self.plan.until) {
+            let until = way.prepare(&mut run, node.state.t * (1.0 + ENDED)).unwrap_or(self.plan.until);
+            let progress = match run.advance(chart.system(), until) {
+                Ok(Progress::End) if until < self.plan.until => Progress::Step,
                 Ok(progress) => progress,
                 Err(halt) => {
                     self.undefined = self.gap(&mut chart, &run, halt.t);

@@ -21,6 +21,7 @@ pub(crate) mod system;
 pub(crate) mod trajectory;
 mod unrecorded;
 mod watch;
+mod way;
 
 pub use setup::{is_available, method};
 pub use unrecorded::Unrecorded;

@@ -57,6 +57,7 @@ where
         findings = rest.findings;
         Whole { q: rest.q, v: vec![0.0; mechanism.nv], z: rest.z, modes: rest.modes }
     } else {
+        findings.extend(start.not_as_meant());
         let z = mechanism.state_starts.clone();
         let modes = settled(&mechanism, [&start.q, &start.v, &z], &start.modes);
         Whole { q: start.q.clone(), v: start.v.clone(), z, modes }

@@ -10,5 +10,5 @@ use crate::studies::statics::Still;
 pub(super) fn held_start<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) -> Still {
     let z = mechanism.state_starts.clone();
     let modes = settled(mechanism, [&start.q, &vec![0.0; mechanism.nv], &z], &start.modes);
-    Still { q: start.q.clone(), z, modes, findings: Vec::new() }
+    Still { q: start.q.clone(), z, modes, findings: start.not_as_meant().collect() }
 }

@@ -4,7 +4,7 @@ use super::explain::{Names, place, six, undefined};
 use super::grip::{self, Gripped};
 use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
-use super::rest::{Lost, Rest};
+use super::rest::{Lost, Position, Rest};
 use super::search::{Ended, Found};
 use crate::dynamics::Differentiable;
 use crate::expression::Id;
@@ -30,6 +30,8 @@ pub(super) struct Bench<'a, 'm, G: Space<S = f64>> {
     pub(super) held: Option<Vec<usize>>,
     /// Whether it moves away from the start without end, so that what is found elsewhere is not what it settles in.
     away: bool,
+    /// Whether the way from the start leads across a change point.
+    crossed: bool,
 }
 
 /// What a search from the start has come to.
@@ -48,7 +50,14 @@ where
     pub(super) fn new(case: Case<'a>, mechanism: &'m Differentiable<G>, start: &Assembled, ids: &[Id]) -> Self {
         let observer = Observer::new(case.model, mechanism, case.parameters, ids);
         let system = Mechanical::new(mechanism, start, observer, Vec::new());
-        Self { case, rest: Rest::new(system, start.size), names: Names::new(case.model, mechanism, &start.metric), held: None, away: false }
+        Self {
+            case,
+            rest: Rest::new(system, start.size),
+            names: Names::new(case.model, mechanism, &start.metric),
+            held: None,
+            away: false,
+            crossed: false,
+        }
     }
 
     /// Why the start, or what is next to it, cannot be evaluated.
@@ -64,7 +73,9 @@ where
             Ok(begin) => begin,
             Err(lost) => return Err(self.lost(lost, start)),
         };
-        let mut searched = self.search(&begin, stop);
+        self.rest.crossed = false;
+        let mut searched = self.search(&begin, start, stop);
+        self.crossed = self.rest.crossed;
         // a state that keeps its value while the position is sought may not let it rest anywhere
         let near = match &searched {
             Ok((found, _)) => Some(&found.pose),
@@ -124,14 +135,16 @@ where
         Some(Finding { code: "held-by-friction".into(), message, path: self.case.study.place.clone() })
     }
 
-    /// The equilibrium from a pose, and the ridge before it; else the pose where least is unbalanced, and why.
-    fn search(&mut self, begin: &Pose, stop: &dyn Fn() -> bool) -> Result<(Found, Option<Found>), Box<Failed>> {
+    /// The equilibrium from the pose of a start, and the ridge before it; else the pose where least is unbalanced, and why.
+    fn search(&mut self, begin: &Pose, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<(Found, Option<Found>), Box<Failed>> {
         let at_begin = |why: Ended| Box::new((begin.clone(), why));
         if self.rest.is_balanced(begin).map_err(at_begin)? {
             let found = self.rest.polish(begin.clone()).and_then(|pose| self.rest.judged(pose));
             return Ok((found.map_err(at_begin)?, None));
         }
-        let why = match self.rest.descend(begin, stop) {
+        let Position { z, modes, .. } = &begin.position;
+        let beside = self.rest.along_a_branch(&begin.position, start).and_then(|q| self.rest.at(&q, z, modes).ok());
+        let why = match self.rest.descend(beside.as_ref().unwrap_or(begin), stop) {
             Ok(found) if found.stability.negative > 0 => {
                 return Ok(match self.pushed(&found, stop) {
                     Some(below) => (below, Some(found)),
@@ -196,6 +209,10 @@ where
                            Newton's method finds elsewhere, into which it does not fall; start nearer to the one that is meant, or give what \
                            moves away a stop (`limits`)";
             add("does-not-settle", message.into(), place);
+        }
+        if self.crossed {
+            let message = "the way from the start leads across a change point, where branches of the motion cross: what is given lies straight on;                            others may be found from a start beyond that point";
+            add("crosses-change-point", message.into(), place);
         }
         let rests = self.rest.rests(&found.pose.position);
         for ((state, rate), _) in model.states.iter().zip(&found.pose.position.drift).zip(rests).filter(|(_, rests)| !rests) {

@@ -7,6 +7,7 @@ use super::explain::{Names, undefined, verdict};
 use super::report::{Report, Told, not_stable, one_equilibrium, without_friction};
 use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
+use super::singular::{of_equilibrium, of_start};
 use super::sinking::{Sinking, Stand, of_metric};
 use crate::dynamics::Differentiable;
 use crate::expression::Id;
@@ -14,7 +15,6 @@ use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
 use crate::kinematics::bounded::assembled_for_gauges;
 use crate::kinematics::coordinates::Coordinate;
-use crate::kinematics::crossing::change_point;
 use crate::kinematics::held;
 use crate::kinematics::lowest::{Lowest, lowest};
 use crate::kinematics::pair::Pair;
@@ -66,8 +66,9 @@ where
     let Some(settled) = many.settle(&start, stop)? else { return Ok(None) };
     let mut outcome = many.outcome(&watched, &settled)?;
     outcome.findings.extend(open(case, &watched, &mechanism, &start));
-    let Position { q, modes, .. } = &settled.found.stand.position;
-    outcome.findings.extend(change_point(&mechanism, q, modes, (&start.metric, start.size), &case.study.place));
+    let position = &settled.found.stand.position;
+    outcome.findings.extend(of_start(&mechanism, &start, &position.q));
+    outcome.findings.extend(of_equilibrium(&mechanism, &start, position, &case.study.place));
     Ok(Some(outcome))
 }
 
@@ -94,6 +95,7 @@ where
         findings.push(not_stable(case, found.negative > 0, &many.verdict(&found)));
     }
     findings.extend(without_friction(case));
+    findings.extend(of_start(mechanism, start, &found.stand.position.q));
     let Position { q, z, mut modes, .. } = found.stand.position;
     modes.truncate(start.modes.len());
     Ok(Some(Still { q, z, modes, findings }))
@@ -160,7 +162,7 @@ where
         if held.pencil.circulation() > POTENTIAL {
             return Ok(None);
         }
-        let (found, passed) = match self.search(&begin, stop)? {
+        let (found, passed) = match self.search(&begin, start, stop)? {
             Ok(both) => both,
             Err(Ended::Stopped) => return Err(Failure::interrupted()),
             Err(Ended::Lost(lost)) => return Err(self.lost(lost, start)),
@@ -178,9 +180,14 @@ where
         Ok(Some(Settled { begin: begin.position, found, passed }))
     }
 
-    /// The equilibrium from a stand, and the ridge before it.
-    fn search(&mut self, begin: &Stand, stop: &dyn Fn() -> bool) -> Result<Result<(Found, Option<Found>), Ended>, Failure> {
-        let ended = self.sinking.settled(begin, stop);
+    /// The equilibrium from the stand of a start, and the ridge before it.
+    fn search(
+        &mut self,
+        begin: &Stand,
+        start: &Assembled,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Result<(Found, Option<Found>), Ended>, Failure> {
+        let ended = self.sinking.settled(begin, start, stop);
         let (stand, stays) = match ended {
             Ok(both) => both,
             Err(why) => return Ok(Err(why)),

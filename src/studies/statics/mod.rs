@@ -7,7 +7,7 @@
 //!
 //! 1. A start that is in balance stays where it is, be it stable or not.
 //! 2. Else the mechanism sinks from there as in a viscous bath. Where that ends exactly on a ridge, it is pushed off it, along the
-//!    motion that falls fastest, and sinks on.
+//!    motion that falls fastest, and sinks on. From a change point it sinks along one of the branches that cross there (`singular`).
 //! 3. If it does not come to rest, as where forces without an energy drive it round and round, Newton's method takes over, first
 //!    from the start, then from places all over its motion.
 //! 4. First-order states follow the position as far as they can. Where one that acts on a force does not rest there, as that of an
@@ -17,6 +17,7 @@
 //! exact friction holds is an equilibrium, with rows that hold what sticks (`grip`); smooth laws of friction do not act.
 
 mod bench;
+mod branch;
 mod explain;
 mod grain;
 mod grip;
@@ -26,6 +27,7 @@ mod pose;
 mod report;
 mod rest;
 mod search;
+mod singular;
 mod sinking;
 mod stability;
 mod states;
@@ -36,7 +38,6 @@ use super::common::watched::Watched;
 use crate::dynamics::Differentiable;
 use crate::geometry::Space;
 use crate::kinematics::assemble::Assembled;
-use crate::kinematics::crossing::change_point;
 use crate::kinematics::undefined::assembled;
 use crate::mechanism::Coordinates;
 use crate::results::Failure;
@@ -52,6 +53,7 @@ use report::one_equilibrium;
 use rest::Position;
 pub(crate) use rest::Still;
 use search::Found;
+use singular::{of_equilibrium, of_start};
 
 /// The equilibrium into which a mechanism falls from its assembled start, for a study of whatever kind.
 ///
@@ -85,7 +87,7 @@ where
     }
     let Settled { mut found, .. } = bench.settle(start, stop)?;
     found.stability.by_motion(&found.pose, mechanism, &start.metric);
-    let findings = bench.findings(&found);
+    let findings = bench.findings(&found).into_iter().chain(of_start(mechanism, start, &found.pose.position.q)).collect();
     let Position { q, z, mut modes, .. } = found.pose.position;
     modes.truncate(start.modes.len());
     Ok(Still { q, z, modes, findings })
@@ -137,8 +139,8 @@ where
     all.iter_mut().for_each(|found| found.stability.by_motion(&found.pose, &mechanism, &start.metric));
     let mut outcome = bench.outcome(&watched, &begin, &all)?;
     outcome.findings.extend(alone.then(|| one_equilibrium(case)));
-    let Position { q, modes, .. } = &all[0].pose.position;
-    outcome.findings.extend(change_point(&mechanism, q, modes, (&start.metric, start.size), &case.study.place));
+    outcome.findings.extend(of_start(&mechanism, &start, &all[0].pose.position.q));
+    outcome.findings.extend(of_equilibrium(&mechanism, &start, &all[0].pose.position, &case.study.place));
     outcome.findings.extend(open(case, &watched, &mechanism, &start));
     Ok(outcome)
 }

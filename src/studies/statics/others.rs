@@ -3,6 +3,7 @@
 //! Each place is reached from the equilibrium at hand by a walk along the constraints in a direction of its own, so that nothing is
 //! taken apart on the way. Directions are a fixed sequence: the same model gives the same list.
 
+use super::branch::ACROSS;
 use super::pose::Pose;
 use super::rest::Rest;
 use super::search::{Ended, Found};
@@ -125,12 +126,18 @@ where
             if size <= 0.0 {
                 break;
             }
-            delta *= left.min(STRIDE) / size;
-            match self.moved(&pose, delta.as_slice()) {
-                Ok(next) => pose = next,
-                Err(_) => break,
-            }
-            left -= STRIDE;
+            delta /= size;
+            let mut stride = left.min(STRIDE);
+            let next = loop {
+                match self.moved(&pose, (&delta * stride).as_slice()) {
+                    // another branch may be reached across a change point alone
+                    Ok(next) if stride > ACROSS && !self.stays(&pose, &next) => stride *= 0.5,
+                    next => break next,
+                }
+            };
+            let Ok(next) = next else { break };
+            pose = next;
+            left -= stride;
         }
         pose
     }

@@ -61,6 +61,8 @@ pub(super) struct Rest<'m, G: Space<S = f64>> {
     pub(super) tangent: Tangent,
     /// Velocities and accelerations (nv).
     pub(super) zeros: Vec<f64>,
+    /// Whether a descent has led across a change point.
+    pub(super) crossed: bool,
 }
 
 impl<'m, G> Rest<'m, G>
@@ -72,7 +74,7 @@ where
         let dims = system.dims();
         let unit = system.pattern().size_v.clone();
         let (state, terms, tangent) = (State::new(dims), Terms::new(dims, system.pattern()), Tangent::new(system.pattern()));
-        Self { size, unit, state, terms, tangent, zeros: vec![0.0; dims.v], system }
+        Self { size, unit, state, terms, tangent, zeros: vec![0.0; dims.v], crossed: false, system }
     }
 
     /// Holds contacts where they stand, rad or m.

@@ -13,6 +13,7 @@
 //!
 //! Newton's method with damping, min |H y − h|² + μ|y|², makes |h| smaller and ends in equilibria of any kind.
 
+use super::branch::ACROSS;
 use super::pose::Pose;
 use super::rest::{Lost, Rest};
 use super::stability::Stability;
@@ -116,7 +117,10 @@ where
                 let pose = self.polish(pose)?;
                 return self.judged(pose);
             }
-            match self.tried(&pose, &h, &y) {
+            let tried = self.tried(&pose, &h, &y);
+            let stays = tried.as_ref().is_none_or(|(next, _)| self.stays(&pose, next));
+            self.crossed |= !stays && length <= ACROSS;
+            match tried.filter(|_| stays || length <= ACROSS) {
                 Some((next, ratio)) if ratio > 0.1 => {
                     way += length;
                     if way > AWAY {
@@ -222,8 +226,9 @@ where
                 y /= long;
             }
             let delta = &pose.basis * &y;
+            let short = self.measure(&delta) <= ACROSS;
             match self.moved(&pose, delta.as_slice()) {
-                Ok(next) if next.force.norm() < pose.force.norm() => {
+                Ok(next) if next.force.norm() < pose.force.norm() && (short || self.stays(&pose, &next)) => {
                     let gained = 1.0 - next.force.norm() / pose.force.norm();
                     pose = next;
                     damping = (damping * 0.1).max(1e-12);

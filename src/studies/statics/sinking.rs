@@ -16,6 +16,7 @@ use super::rest::{CLOSED, Lost, Position, Rest};
 use super::search::{AWAY, CLOSE, Ended, FLOOR, LONGEST, NEAR, ROUND_OFF, STEPS};
 use crate::dynamics::Dynamics;
 use crate::geometry::{Pose, Space};
+use crate::kinematics::assemble::Assembled;
 use crate::kinematics::pair::Pair;
 use crate::kinematics::pencil::Pencil;
 use crate::kinematics::saddle::Saddle;
@@ -148,13 +149,14 @@ where
         Ok(Pencil { mass: self.bath.clone(), ..pencil })
     }
 
-    /// The equilibrium from a stand, and whether that is the stand itself.
-    pub(super) fn settled(&mut self, begin: &Stand, stop: &dyn Fn() -> bool) -> Result<(Stand, bool), Ended> {
+    /// The equilibrium from the stand of a start, and whether that is the stand itself.
+    pub(super) fn settled(&mut self, begin: &Stand, start: &Assembled, stop: &dyn Fn() -> bool) -> Result<(Stand, bool), Ended> {
         let pencil = self.pencil(begin)?;
         if self.is_balanced(begin, &Pair::new(&pencil)) {
             return Ok((self.polish(begin.clone())?, true));
         }
-        Ok((self.descend(begin, stop)?, false))
+        let beside = self.rest.along_a_branch(&begin.position, start).and_then(|q| self.at(&q, &start.modes).ok());
+        Ok((self.descend(beside.as_ref().unwrap_or(begin), stop)?, false))
     }
 
     /// The way to the equilibrium of the linearised forces is within round-off of the position.

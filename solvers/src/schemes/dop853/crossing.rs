@@ -78,6 +78,11 @@ impl Crossing {
         self.place.is_some()
     }
 
+    /// Takes what is met until `t` (s) for no singular position.
+    pub(super) fn regular_until(&mut self, t: f64) {
+        (self.place, self.beyond, self.rejected) = (None, self.beyond.max(t), 0);
+    }
+
     /// Forgets the past.
     pub(super) fn forget(&mut self, engine: &Engine) {
         self.weakest.restart(engine);
