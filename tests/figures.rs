@@ -326,19 +326,19 @@ studies: { go: { dynamics: { until: 1 ms, every: 1 ms }, show: [loads], view: to
 #[test]
 fn a_guide_ends_with_the_body_that_carries_it() {
     let text = "grashof: 1
-name: cylinder
+name: rail
 space: planar
 gravity: none
-bodies: { barrel: { bar: { length: 70 cm, mass: 12 kg } }, rod: { bar: { length: 70 cm, mass: 6 kg } } }
-joints: { C: { revolute: [ground, barrel.start] }, S: { slider: [barrel.start, rod.start], axis: [1, 0] } }
-drivers: { pump: { joint: S, rise: { by: 45 cm, during: 8 s, law: poly5 } }, hold: { joint: C, angle: 0 deg } }
+bodies: { rail: { bar: { length: 70 cm, mass: 12 kg } }, carriage: { mass: 6 kg, inertia: 1 kg m^2 } }
+joints: { C: { revolute: [ground, rail.start] }, S: { slider: [rail.start, carriage.origin], axis: [1, 0] } }
+drivers: { pump: { joint: S, rise: { by: 48 cm, during: 8 s, law: poly5 } }, hold: { joint: C, angle: 0 deg } }
 start: { S.position: 20 cm }
 studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
 ";
     let drawing = drawn(text, "lift").1;
     let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
     let (Some([from, to]), Some(([start, end], true))) = (slide.way, slide.carrier) else { panic!("{slide:?}") };
-    assert!((to[0] - from[0] - 0.45).abs() < 1e-9 && start == [0.0; 2] && (end[0] - 0.7).abs() < 1e-12, "{slide:?}");
+    assert!((to[0] - from[0] - 0.48).abs() < 1e-9 && start == [0.0; 2] && (end[0] - 0.7).abs() < 1e-12, "{slide:?}");
     // width, begin and end of the strokes; the guide is the widest of all
     let svg = render_drawing(&drawing).expect("a picture").svg;
     let after = |line: &str, name: &str| line.split(name).nth(1).map(|rest| rest.split('"').next().unwrap_or_default().to_owned());
@@ -350,8 +350,38 @@ studies: { lift: { kinematics: { over: 8 s, samples: 20 } } }
     let strokes = svg.lines().filter_map(stroke);
     let reach = |(width, _, end): (f64, f64, f64)| end + 0.5 * width;
     let guide = strokes.clone().max_by(|a, b| a.0.total_cmp(&b.0)).expect("strokes");
-    let barrel = strokes.filter(|(width, ..)| *width > 10.0).min_by(|a, b| a.1.total_cmp(&b.1)).expect("the barrel");
-    assert!(guide.0 > barrel.0 && (reach(guide) - reach(barrel)).abs() < 4.0, "{guide:?}, {barrel:?}: {svg}");
+    let rail = strokes.filter(|(width, ..)| *width > 10.0).min_by(|a, b| a.1.total_cmp(&b.1)).expect("the rail");
+    assert!(guide.0 > rail.0 && (reach(guide) - reach(rail)).abs() < 4.0, "{guide:?}, {rail:?}: {svg}");
+}
+
+/// At whatever ends of cylinder and rod the model names it: the slide is at the mouth of the cylinder, and its way is what of the rod passes there.
+#[test]
+fn a_rod_slides_in_the_mouth_of_its_cylinder() {
+    for (slider, position) in
+        [("[barrel.start, rod.start]", "20 cm"), ("[barrel.start, rod.end]", "90 cm"), ("[barrel.end, rod.start]", "-50 cm")]
+    {
+        let text = format!(
+            "grashof: 1
+name: cylinder
+space: planar
+gravity: none
+bodies: {{ barrel: {{ bar: {{ length: 70 cm, mass: 12 kg }} }}, rod: {{ bar: {{ length: 70 cm, mass: 6 kg }} }} }}
+joints: {{ C: {{ revolute: [ground, barrel.start] }}, S: {{ slider: {slider}, axis: [1, 0] }} }}
+drivers: {{ pump: {{ joint: S, rise: {{ by: 45 cm, during: 8 s, law: poly5 }} }}, hold: {{ joint: C, angle: 0 deg }} }}
+start: {{ S.position: {position} }}
+studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }} }} }}
+"
+        );
+        let drawing = drawn(&text, "lift").1;
+        let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
+        let mouth = slide.at[0];
+        let (Some([from, to]), Some((ends, true))) = (slide.way, slide.carrier) else { panic!("{slide:?}") };
+        assert!(slide.at[1].abs() < 1e-12 && ((from[0] - to[0]).abs() - 0.45).abs() < 1e-9, "{slider}: {slide:?}");
+        assert!((mouth - 0.7).abs() < 1e-12, "{slider}: {slide:?}");
+        let [low, high] = [ends[0][0].min(ends[1][0]), ends[0][0].max(ends[1][0])];
+        assert!((low - 0.2).abs() < 1e-12 && (high - 0.9).abs() < 1e-12, "{slider}: {slide:?}");
+        assert!([from, to].iter().all(|end| (low - 1e-9..=high + 1e-9).contains(&end[0])), "{slider}: {slide:?}");
+    }
 }
 
 #[test]

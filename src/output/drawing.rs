@@ -185,6 +185,9 @@ impl Pen<'_> {
         }
         for (symbol, placement) in &joints {
             self.signs.pin(&mut self.scene, symbol.kind, placement, &ink);
+            if symbol.turns && ink.strong {
+                self.signs.thread(&mut self.scene, placement, &ink);
+            }
             self.letters.pin(placement.at, strong);
             if strong {
                 let half = 1.2 * self.signs.pin_radius(true);
@@ -210,7 +213,9 @@ impl Pen<'_> {
             }
             if ink.strong {
                 let body = Self::looks(body_color(symbol.way_body), 1.0);
-                self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement.clear);
+                if !symbol.telescopes {
+                    self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement.clear);
+                }
                 let [half, height] = self.signs.slide_box();
                 self.letters.avoid(placement.at, [half + 2.0, height + 4.0], [0.0; 2]);
                 let below =

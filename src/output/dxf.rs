@@ -48,7 +48,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
             rounded(&mut out, Layer::Joints, &longer(way, &placement, 11.0 * signs.size).map(back), 13.0 * signs.size * mm);
         }
         let guide = longer(way, &placement, signs.slide_box()[0] + 14.0 * signs.size);
-        if symbol.kind == SymbolKind::Slide && !symbol.way_grounded {
+        if symbol.kind == SymbolKind::Slide && !symbol.way_grounded && !symbol.telescopes {
             rounded(&mut out, Layer::Joints, &guide.map(back), signs.guide_width() * mm);
         }
         let ground = |scene: &mut Sheet| {
@@ -64,6 +64,9 @@ pub fn write_dxf(drawing: &Drawing) -> String {
                 signs.slider(scene, &placement, &LINES);
             }
             signs.pin(scene, symbol.kind, &placement, &LINES);
+            if symbol.turns {
+                signs.thread(scene, &placement, &LINES);
+            }
         };
         signed(&mut out, Layer::Joints, &back, mm, pin);
     }

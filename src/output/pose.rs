@@ -89,6 +89,8 @@ pub struct Symbol {
     pub turns: bool,
     /// It has viscous damping.
     pub damped: bool,
+    /// It is of a rod in its cylinder, without a guide.
+    pub telescopes: bool,
     /// Where it is, for each position.
     pub poses: Vec<Placement>,
 }

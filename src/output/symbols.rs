@@ -71,7 +71,8 @@ impl Signs {
                 circle(*center, *radius)
             }
             FormKind::Mass { center, radius } => {
-                let radius = radius.max(5.0 * self.size);
+                // no pin
+                let radius = radius.max(1.4 * self.pin_radius(true));
                 scene.circle(
                     *center,
                     radius,
@@ -169,6 +170,20 @@ impl Signs {
         let half = self.slide_box();
         let fill = if looks.strong { pale(GREY, 0.28) } else { [250; 3] };
         scene.shape(corners(placement, half), Some(fill), Some(Stroke::solid(looks.edge, self.pen(2.4))));
+    }
+
+    /// The thread of a screw along its axis, over its box: a line that winds about it.
+    pub(super) fn thread(self, scene: &mut Scene, placement: &Placement, looks: &Looks) {
+        /// Turns that are drawn, and points of one.
+        const TURNS: u32 = 4;
+        const POINTS: u32 = 12;
+        let (along, _) = direction([0.0; 2], placement.along);
+        let [half, height] = [1.25 * self.slide_box()[0], 0.45 * self.slide_box()[1]];
+        let wave = (0..=TURNS * POINTS).map(|k| {
+            let turn = f64::from(k) / f64::from(POINTS) * std::f64::consts::TAU;
+            off(placement.at, along, half * (2.0 * f64::from(k) / f64::from(TURNS * POINTS) - 1.0), height * turn.sin())
+        });
+        scene.line(wave.collect(), Stroke::solid(looks.edge, self.pen(1.8)));
     }
 
     /// A slot between two points: a white groove with a dark edge.

@@ -442,7 +442,7 @@ export async function scales_of_space_stand_below_the_mechanism(open) {
 }
 
 export async function names_stand_beside_their_joints_and_keep_their_sides(open) {
-  for (const [model, study, count] of [['stewart_platform', 'ride', 12], ['jansen_leg', 'step', 7], ['arm', 'lift', 8], ['inline_four', 'firing', 9], ['andrews', 'squeeze', 7], ['short', 'turn', 4]]) {
+  for (const [model, study, count] of [['stewart_platform', 'ride', 18], ['jansen_leg', 'step', 7], ['arm', 'lift', 8], ['inline_four', 'firing', 13], ['andrews', 'squeeze', 7], ['short', 'turn', 4]]) {
     const { tab } = await open(model, { study });
     const every = await namesOver(tab, 60);
     const all = every.map((names) => names.filter(({ of }) => of === 'joint'));

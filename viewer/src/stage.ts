@@ -26,6 +26,8 @@ const NAMES: Record<Kind, string> = { velocities: 'velocities', accelerations: '
 /** Height of the drawing as a part of its width: at least, and at most. */
 const FLAT = 0.55;
 const TALL = 1;
+/** One that is flatter has the whole width of the page. */
+const BROAD = 0.3;
 const PLAY = 'M4 2.5v11l9-5.5z';
 const PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
 
@@ -87,6 +89,8 @@ export class Stage {
   private begun = false;
   private size: [number, number] = [0, 0];
   private onPaper = false;
+  /** Height of the highest drawing so far, as a part of its width. */
+  private highest = 0;
   private waiting = false;
   private run = '';
   private drawing = '';
@@ -195,7 +199,12 @@ export class Stage {
     const { independent } = this.results;
     const { unit, size } = shownIn(independent);
     const own = `${independent.name || 'swing'} ${digits(at / size, 5)} ${pretty(unit)}`.trim();
-    return this.pace?.real && independent.unit !== 's' ? `${own}, ${digits(this.pace.seconds(at), 4)} s` : own;
+    if (!this.pace?.real || independent.unit === 's') return own;
+    const { motion, pace } = this;
+    const [begin, end] = [motion?.begin ?? at, motion?.end ?? at].map((x) => pace.seconds(x)) as [number, number];
+    const seconds = pace.seconds(at);
+    // round-off of the instants of rows beside zero
+    return `${own}, ${digits(Math.abs(seconds) < 1e-9 * Math.abs(end - begin) ? 0 : seconds, 4)} s`;
   }
 
   /** Gives the drawings to choose from their titles. */
@@ -299,9 +308,17 @@ export class Stage {
   /** Makes the drawing as high as the mechanism asks for; of several runs or modes as high as the highest so far, so that it stays. */
   private shape(): void {
     const box = this.canvas.parentElement!;
-    const before = Number(box.style.getPropertyValue('--aspect') || FLAT);
-    const own = Math.min(this.renderer?.aspect() ?? FLAT, TALL);
-    if (own > before || !box.style.getPropertyValue('--aspect')) box.style.setProperty('--aspect', String(Math.max(own, before)));
+    this.highest = Math.max(this.highest, Math.min(this.renderer?.aspect() ?? FLAT, TALL));
+    const broad = this.highest < BROAD;
+    this.element.classList.toggle('broad', broad);
+    box.style.setProperty('--aspect', String(broad ? this.highest : Math.max(this.highest, FLAT)));
+    box.style.setProperty('--paper', `${this.heightOnPaper()}px`);
+  }
+
+  /** Height of the drawing on paper, px, with room for scales and names. */
+  private heightOnPaper(): number {
+    const { width, room, height: [least, most] } = PAPER;
+    return Math.round(Math.min(Math.max(this.highest * width + room, least), most));
   }
 
   /** Speeds to choose from: parts of that of the motion, or how long positions are shown that have no time; the one that was chosen stays. */
@@ -392,12 +409,11 @@ export class Stage {
 
   private fit(): void {
     const box = this.canvas.parentElement!;
-    const [width, height] = this.onPaper ? [PAPER.column, PAPER.drawing] : [box.clientWidth, box.clientHeight];
-    if (width === this.size[0] && height === this.size[1]) return;
+    const [width, height] = this.onPaper ? [PAPER.width, this.heightOnPaper()] : [box.clientWidth, box.clientHeight];
+    const points = [width, height].map((length) => Math.round(length * this.ratio())) as [number, number];
+    if (width === this.size[0] && height === this.size[1] && points[0] === this.canvas.width && points[1] === this.canvas.height) return;
     this.size = [width, height];
-    const ratio = this.ratio();
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
+    [this.canvas.width, this.canvas.height] = points;
     this.paint();
   }
 

@@ -181,6 +181,8 @@ export interface Joint {
   cut: boolean;
   driven: boolean;
   damped: boolean;
+  /** Of a slide: whether it is of a rod in its cylinder, which needs no guide. */
+  telescopes?: boolean;
 }
 
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion' | 'shaft' | 'clutch' | 'brake';

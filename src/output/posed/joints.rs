@@ -18,6 +18,7 @@ impl Posed<'_> {
                 driven: joint.driven,
                 turns: joint.kind == "screw",
                 damped: joint.damped,
+                telescopes: joint.telescopes,
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })
         })

@@ -30,7 +30,8 @@ pub struct Joint {
     pub name: String,
     /// Its kind as in the model file: `revolute`.
     pub kind: Cow<'static, str>,
-    /// Its point in the first body, which is the ground if one of the two is, unless the joint is a slot or has two axes.
+    /// Its point in the first body, which is the ground if one of the two is, unless the joint is a slot or has two axes; of a cylinder and
+    /// its rod, the rod. Of a slide it is a point of the guide, which in space stands beside what is solid.
     pub a: Place,
     /// Its point in the second body.
     pub b: Place,
@@ -53,6 +54,9 @@ pub struct Joint {
     pub sense: f64,
     /// Whether it has viscous damping.
     pub damped: bool,
+    /// Of a slide: whether it is of a rod in its cylinder, which needs no guide beside them.
+    #[serde(default)]
+    pub telescopes: bool,
 }
 
 /// A massless element between two places.

@@ -15,6 +15,10 @@ import { type Rack, type Toothed, rackLine, toothed } from './teeth';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
+/** Least height or width of what is seen, as a part of the other. */
+const FLATTEST = 0.2;
+/** Least radius of a point mass, which is no pin, pixels. */
+const MASS = 7.5;
 /** Room below the mechanism for the scale and for the largest symbol of a joint, pixels. */
 const BELOW = 38;
 /** About where the scale of lengths ends. */
@@ -269,7 +273,7 @@ export class Plane implements Renderer {
     if (low[0] > high[0]) return { low: [-1, -1], high: [1, 1] };
     const size = Math.max(high[0] - low[0], high[1] - low[1], this.least);
     for (const i of [0, 1] as const) {
-      const lacking = (size > this.least ? 0.3 : 1) * size - (high[i] - low[i]);
+      const lacking = (size > this.least ? FLATTEST : 1) * size - (high[i] - low[i]);
       if (lacking > 0) [low[i], high[i]] = [low[i] - lacking / 2, high[i] + lacking / 2];
     }
     return { low, high };
@@ -324,7 +328,7 @@ export class Plane implements Renderer {
         break;
       }
       case 'mass':
-        pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, 5)).fill(massInk(this.inks)).stroke(this.inks.ink, 1.2);
+        pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, MASS)).fill(massInk(this.inks)).stroke(this.inks.ink, 1.2);
         break;
       default: {
         const center = this.point({ body, at: shape.center });
@@ -353,8 +357,8 @@ export class Plane implements Renderer {
   }
 
   private way(joint: Joint): void {
-    const { a, kind } = joint;
-    if (signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
+    const { a, kind, telescopes } = joint;
+    if (!telescopes && signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
   }
 
   /** Those of hinges on the ground, and of rods without mass. */

@@ -266,13 +266,16 @@ class Space implements Renderer {
   }
 
   /** What shows a joint: a short round pin along its axis, a knob without one. */
-  private pin({ kind, a, axis, stroke, driven }: Joint, inks: Inks): Face[] {
-    if (kind === 'distance' || kind === 'free' || kind === 'fixed') return [];
+  private pin({ kind, a, axis, stroke, driven, telescopes }: Joint, inks: Inks): Face[] {
+    if (telescopes || kind === 'distance' || kind === 'free' || kind === 'fixed') return [];
     const at: Vector = [a.at[0] ?? 0, a.at[1] ?? 0, a.at[2] ?? 0];
     const color = driven ? inks.accent : mixed(inks.ink, inks.paper, 0.35);
     const r = 0.017 * this.size;
     if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return ball(at, 1.35 * r, color);
     const along = unit([axis[0]!, axis[1]!, axis[2]!]);
+    // a thread: rings on a core
+    if (kind === 'screw') return [...tube(add(at, along, -3 * r), add(at, along, 3 * r), 0.75 * r, 0.75 * r, 12, color),
+      ...[-2.2, -1.1, 0, 1.1, 2.2].flatMap((k) => tube(add(at, along, (k - 0.25) * r), add(at, along, (k + 0.25) * r), 1.3 * r, 1.3 * r, 12, color))];
     if (!SLIDES.includes(kind)) return tube(add(at, along, -1.9 * r), add(at, along, 1.9 * r), r, r, 12, color);
     // a guide in the colour of the body that it belongs to
     const [low, high] = stroke ?? [0, 0];

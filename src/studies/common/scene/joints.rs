@@ -1,5 +1,6 @@
 //! Joints as they are drawn, with the strokes of slides.
 
+use super::guides::seen;
 use super::places::place;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
@@ -31,9 +32,11 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 driven: drivers.chain(case.model.motors.iter().map(|m| m.joint)).any(|driven| driven == index),
                 sense: 0.0,
                 damped: said.damping.is_some_and(|damping| case.value(damping) != 0.0),
+                telescopes: false,
             };
             drawn.stroke = stroke(scene, &drawn);
-            if drawn.on_ground { from_ground(scene, drawn) } else { drawn }
+            let drawn = if drawn.on_ground { from_ground(scene, drawn) } else { drawn };
+            seen(scene, drawn)
         })
         .collect()
 }

@@ -5,6 +5,7 @@ mod arrows;
 mod asked;
 mod frames;
 mod gears;
+mod guides;
 mod joints;
 mod links;
 mod places;

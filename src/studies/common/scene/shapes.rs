@@ -8,6 +8,10 @@ use crate::results::scene::{Body, Shape};
 
 /// Radius of the largest point mass, as part of the size of the mechanism.
 const LARGEST: f64 = 0.035;
+/// Width of an arm to a point mass beside its body, as part of the size of the mechanism.
+const ARM: f64 = 0.008;
+/// Distance of a centre of mass from the joint of a body without a shape from which on the body is drawn as an arm, as part of the size.
+const APART: f64 = 1e-3;
 /// Thickness of a thin bar, as part of its width.
 const THIN: f64 = 0.02;
 
@@ -20,6 +24,8 @@ pub(super) fn bodies<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>)
     bodies
         .map(|(index, (body, masses))| {
             let mut shapes = if index == 0 { Vec::new() } else { shapes(mechanism, index) };
+            let arms: Vec<Shape> = masses.iter().filter_map(|(at, _)| arm(mechanism, &shapes, &numbers::<G>(*at))).collect();
+            shapes.splice(0..0, arms);
             shapes.extend(masses.into_iter().map(|(at, mass)| Shape::Mass {
                 at: numbers::<G>(at),
                 mass,
@@ -35,9 +41,44 @@ fn masses<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, index: usi
     let (body, said) = (&mechanism.bodies[index], &model.bodies[index]);
     // one that slides is seen by the box of its slide
     let slides = mechanism.joints.iter().any(|j| (j.a.0 == index || j.b.0 == index) && j.kind == "slider");
-    let itself = (index > 0 && !slides && said.shape.is_none() && said.inertia.is_empty()).then_some((body.bare.com, body.bare.mass));
+    let itself = index > 0 && !slides && said.shape.is_none() && (said.inertia.is_empty() || is_an_arm(mechanism, index));
+    let itself = itself.then_some((body.bare.com, body.bare.mass));
     let attached = body.attached.iter().map(|a| (a.mass.com, a.mass.mass));
     itself.into_iter().chain(attached).filter(|(_, mass)| *mass > 0.0).collect()
+}
+
+/// Whether a body without a shape has one joint, away from its centre of mass, and nothing else that shows where it is.
+fn is_an_arm<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> bool {
+    let body = &mechanism.bodies[index];
+    let [only] = of_body(mechanism, index)[..] else { return false };
+    let away = only - body.bare.com;
+    body.drawn.is_empty() && G::dot(away, away).sqrt() > APART * mechanism.size()
+}
+
+/// What leads from the shapes of a body to a point mass beside them.
+fn arm<G: Space<S = f64>>(mechanism: &Mechanism<G>, shapes: &[Shape], mass: &[f64]) -> Option<Shape> {
+    if shapes.iter().any(|shape| holds(shape, mass)) {
+        return None;
+    }
+    let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let nearer = |points: &[Vec<f64>]| points.iter().min_by(|a, b| gap(a, mass).total_cmp(&gap(b, mass))).cloned();
+    let from = |shape: &Shape| match shape {
+        Shape::Bar { from, to, .. } | Shape::Cylinder { from, to, .. } => {
+            let ends = [from, to].map(|end| std::array::from_fn(|i| end.get(i).copied().unwrap_or(0.0)));
+            Some(nearest([&ends[0], &ends[1]], mass))
+        }
+        // a plate has room for what is among its corners
+        Shape::Hull { points } => {
+            let middle: Vec<f64> = (0..mass.len()).map(|i| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64).collect();
+            let reach = points.iter().map(|p| gap(&middle, p)).fold(0.0, f64::max);
+            nearer(points).filter(|_| gap(&middle, mass) > reach * (1.0 + 1e-6))
+        }
+        Shape::Polygon { points } => nearer(points),
+        Shape::Disc { center, .. } | Shape::Box { center, .. } | Shape::Sphere { center, .. } => Some(center.clone()),
+        Shape::Mass { .. } => None,
+    };
+    let from = nearer(&shapes.iter().filter_map(from).collect::<Vec<_>>())?;
+    Some(Shape::Bar { from, to: mass.to_vec(), width: Some(ARM * mechanism.size()) })
 }
 
 /// The shapes of a moving body: its outline, and what reaches from there to joints and points outside of it.
