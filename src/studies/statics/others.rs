@@ -3,7 +3,6 @@
 //! Each place is reached from the equilibrium at hand by a walk along the constraints in a direction of its own, so that nothing is
 //! taken apart on the way. Directions are a fixed sequence: the same model gives the same list.
 
-use super::branch::ACROSS;
 use super::pose::Pose;
 use super::rest::Rest;
 use super::search::{Ended, Found};
@@ -21,6 +20,8 @@ const DENSE: usize = 64;
 /// Longest walk, rad or sizes, and its steps.
 const WALK: f64 = 1.2 * PI;
 const STRIDE: f64 = 0.25;
+/// Steps of a walk are not halved below this.
+const SHORTEST: f64 = 1e-4;
 /// Equilibria nearer than this to each other are the same.
 const SAME: f64 = 1e-5;
 
@@ -129,9 +130,10 @@ where
             delta /= size;
             let mut stride = left.min(STRIDE);
             let next = loop {
-                match self.moved(&pose, (&delta * stride).as_slice()) {
+                let way = &delta * stride;
+                match self.moved(&pose, way.as_slice()) {
                     // another branch may be reached across a change point alone
-                    Ok(next) if stride > ACROSS && !self.stays(&pose, &next) => stride *= 0.5,
+                    Ok(next) if stride > SHORTEST && !self.stays(&pose, way.as_slice(), &next) => stride *= 0.5,
                     next => break next,
                 }
             };

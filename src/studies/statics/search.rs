@@ -13,7 +13,6 @@
 //!
 //! Newton's method with damping, min |H y − h|² + μ|y|², makes |h| smaller and ends in equilibria of any kind.
 
-use super::branch::ACROSS;
 use super::pose::Pose;
 use super::rest::{Lost, Rest};
 use super::stability::Stability;
@@ -118,9 +117,8 @@ where
                 return self.judged(pose);
             }
             let tried = self.tried(&pose, &h, &y);
-            let stays = tried.as_ref().is_none_or(|(next, _)| self.stays(&pose, next));
-            self.crossed |= !stays && length <= ACROSS;
-            match tried.filter(|_| stays || length <= ACROSS) {
+            let delta = &pose.basis * &y;
+            match tried.filter(|(next, _)| self.stays(&pose, delta.as_slice(), next)) {
                 Some((next, ratio)) if ratio > 0.1 => {
                     way += length;
                     if way > AWAY {
@@ -226,9 +224,8 @@ where
                 y /= long;
             }
             let delta = &pose.basis * &y;
-            let short = self.measure(&delta) <= ACROSS;
             match self.moved(&pose, delta.as_slice()) {
-                Ok(next) if next.force.norm() < pose.force.norm() && (short || self.stays(&pose, &next)) => {
+                Ok(next) if next.force.norm() < pose.force.norm() && self.stays(&pose, delta.as_slice(), &next) => {
                     let gained = 1.0 - next.force.norm() / pose.force.norm();
                     pose = next;
                     damping = (damping * 0.1).max(1e-12);
