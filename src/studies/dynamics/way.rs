@@ -10,7 +10,6 @@ use crate::kinematics::driven::Driven;
 use crate::kinematics::path::Path;
 use crate::kinematics::standing::Standing;
 use grashof_solvers::Integration;
-use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
 /// Steps between two nodes that the path needs to keep to its branch.
 const PARTS: u32 = 8;
@@ -34,14 +33,8 @@ impl Way {
             return Self::default();
         }
         let mut driven = Driven::new(m, start);
-        driven.dynamics.time(0.0, &start.modes);
-        driven.dynamics.position(&start.q, &start.modes);
-        let scale = driven.dynamics.row_scale(&start.q, &start.modes, &start.metric);
-        if Rank::new(&driven.dynamics.work.g, &start.metric, &scale, RANK_TOLERANCE).mobility > 0 {
-            return Self::default();
-        }
         let mut modes = start.modes.clone();
-        // one that ends, as at a dead point, is told by the run itself
+        // a start whose rows leave a motion has no path, and one that ends, as at a dead point, is told by the run itself
         let Ok(path) = Path::trace(&mut driven, &mut modes, until, Standing::of(start).as_ref()) else { return Self::default() };
         let mut way = Self { known: path.last().is_some_and(|last| last >= until), ..Self::default() };
         for two in path.nodes.windows(2).filter(|two| two[0].t >= 0.0) {
@@ -60,7 +53,10 @@ impl Way {
     pub(super) fn prepare(&self, run: &mut Integration, t: f64) -> Option<f64> {
         if self.known {
             let next = self.crossings.get(self.crossings.partition_point(|[_, behind]| *behind <= t));
-            run.regular_until(next.map_or(f64::INFINITY, |[before, _]| *before));
+            let until = next.map_or(f64::INFINITY, |[before, _]| *before);
+            if until > t {
+                run.regular_until(until);
+            }
         }
         self.ends.get(self.ends.partition_point(|end| *end <= t)).copied()
     }

@@ -211,7 +211,8 @@ where
             add("does-not-settle", message.into(), place);
         }
         if self.crossed {
-            let message = "the way from the start leads across a change point, where branches of the motion cross: what is given lies straight on;                            others may be found from a start beyond that point";
+            let message = "the way from the start leads across a change point, where branches of the motion cross: what is given lies straight on; \
+                           others may be found from a start beyond that point";
             add("crosses-change-point", message.into(), place);
         }
         let rests = self.rest.rests(&found.pose.position);

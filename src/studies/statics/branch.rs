@@ -24,15 +24,6 @@ const ACROSS: f64 = 1e-4;
 const PART: f64 = 0.6;
 const STEPS: usize = 60;
 
-/// Part of a row that is not in others from which on it is independent of them.
-const INDEPENDENT: f64 = 1e-9;
-
-/// Independent rows of a pose (by number, of nv entries each), with the motions P that are left.
-struct Frame {
-    chosen: Vec<usize>,
-    border: Vec<f64>,
-}
-
 impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
@@ -43,8 +34,7 @@ where
         if self.terms.phi.is_empty() || from.basis.ncols() == 0 || to.basis.ncols() != from.basis.ncols() {
             return true;
         }
-        let Some(frame) = self.frame(from) else { return true };
-        let [Some((side, before)), Some((other, behind))] = [from, to].map(|pose| self.determinant(pose, &frame)) else { return true };
+        let [Some((side, before)), Some((other, behind))] = [from, to].map(|pose| self.determinant(pose, from)) else { return true };
         if side == other {
             return true;
         }
@@ -71,7 +61,7 @@ where
                 return false;
             }
             let Ok(next) = self.moved(&pose, (along * (stride / size)).as_slice()) else { return false };
-            let Some((_, there)) = self.frame(&next).and_then(|frame| self.determinant(&next, &frame)) else { return true };
+            let Some((_, there)) = self.determinant(&next, &next) else { return true };
             let falls = (value - there).exp() - 1.0;
             // it turns away before it has vanished
             if falls <= 0.0 {
@@ -84,20 +74,12 @@ where
         false
     }
 
-    fn frame(&mut self, pose: &Pose) -> Option<Frame> {
-        let nv = self.zeros.len();
-        let chosen = independent(&self.rows_at(pose), nv);
-        let root: Vec<f64> = self.system.pattern().metric.iter().map(|d| d.sqrt()).collect();
-        let moves = pose.basis.ncols();
-        let border = (0..moves).flat_map(|k| (0..nv).map(move |i| (i, k))).map(|(i, k)| pose.basis[(i, k)] * root[i]).collect();
-        (chosen.len() + moves == nv).then_some(Frame { chosen, border })
-    }
-
-    /// The sign and ln |det| of the rows at a pose with the motions of another one.
-    fn determinant(&mut self, pose: &Pose, frame: &Frame) -> Option<(f64, f64)> {
+    /// The sign and ln |det| of the rows at a pose that are independent in another one, with the motions of that.
+    fn determinant(&mut self, pose: &Pose, of: &Pose) -> Option<(f64, f64)> {
         let (nv, rows) = (self.zeros.len(), self.rows_at(pose));
-        let mut whole: Vec<f64> = frame.chosen.iter().flat_map(|row| &rows[row * nv..(row + 1) * nv]).copied().collect();
-        whole.extend(&frame.border);
+        let metric = &self.system.pattern().metric;
+        let mut whole: Vec<f64> = of.independent.iter().flat_map(|row| &rows[row * nv..(row + 1) * nv]).copied().collect();
+        of.basis.column_iter().for_each(|motion| whole.extend(motion.iter().zip(metric).map(|(p, d)| p * d.sqrt())));
         let mut lu = Lu::new(nv);
         lu.factor(&whole).ok().map(|()| (lu.determinant_sign(), lu.log_determinant()))
     }
@@ -111,27 +93,4 @@ where
         rows.chunks_exact_mut(metric.len()).for_each(|row| row.iter_mut().zip(metric).for_each(|(g, d)| *g /= d.sqrt()));
         rows
     }
-}
-
-/// Rows (of nv entries) that do not depend on those before them, by Gram and Schmidt.
-fn independent(rows: &[f64], nv: usize) -> Vec<usize> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let (mut chosen, mut known) = (Vec::new(), Vec::<Vec<f64>>::new());
-    for (index, row) in rows.chunks_exact(nv).enumerate() {
-        let mut left = row.to_vec();
-        // twice is enough
-        for _ in 0..2 {
-            for unit in &known {
-                let part = dot(&left, unit);
-                left.iter_mut().zip(unit).for_each(|(x, u)| *x -= part * u);
-            }
-        }
-        let size = dot(&left, &left).sqrt();
-        if size > INDEPENDENT * dot(row, row).sqrt() {
-            left.iter_mut().for_each(|x| *x /= size);
-            known.push(left);
-            chosen.push(index);
-        }
-    }
-    chosen
 }

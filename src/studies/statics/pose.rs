@@ -31,6 +31,8 @@ const STEPS: usize = 40;
 pub(super) struct Pose {
     /// Where it is.
     pub(super) position: Position,
+    /// Rows that do not depend on others.
+    pub(super) independent: Vec<usize>,
     /// P (nv × n).
     pub(super) basis: DMatrix<f64>,
     /// h (n).
@@ -171,7 +173,8 @@ where
         let scaled: Vec<f64> = force.iter().zip(&root).map(|(f, r)| f / r).collect();
         let lambda = if m == 0 { Vec::new() } else { shortest_beyond(RANK_TOLERANCE, &transposed, &scaled, e, 0.0) };
         let (grain, stiffness) = self.sizes();
-        Pose { position: self.position(lambda), force: basis.transpose() * DVector::from_column_slice(force), basis, grain, stiffness }
+        let force = basis.transpose() * DVector::from_column_slice(force);
+        Pose { position: self.position(lambda), independent: left.independent, basis, force, grain, stiffness }
     }
 }
 
