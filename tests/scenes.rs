@@ -1,5 +1,6 @@
 //! What is drawn moves as the mechanism does: between its frames too, and with its joints closed.
 
+mod gears;
 mod held;
 mod order;
 mod stops;
@@ -169,50 +170,6 @@ fn a_motion_that_repeats_itself_in_the_grid_is_not_taken_for_rest() {
     assert!(scene.frames.count() > 384, "{}", scene.frames.count());
 }
 
-const GEARS: &str = "grashof: 1
-name: gears
-space: planar
-gravity: none
-ground: { O: [0, 0], P: [0.3 m, 0] , W: [0, -0.1 m] }
-bodies:
-  sun: { disc: { radius: 0.1 m } }
-  wheel: { disc: { radius: 0.2 m } }
-  arm: { bar: { length: 0.3 m } }
-  bar: { plate: { size: [1 m, 0.02 m] } }
-joints:
-  S: { revolute: [ground.O, sun] }
-  Q: { revolute: [ground.P, wheel] }
-  W: { slider: [ground.W, bar], axis: [1, 0] }
-couplings:
-  mesh: { gear: [S, Q], ratio: -0.5 }
-  rack: { rack: [S, W], radius: -0.1 m }
-drivers: { drive: { joint: S, speed: 1 rad/s } }
-studies: { turn: { kinematics: { over: 1 turn, samples: 10 } } }
-";
-
-#[test]
-fn pitch_circles_follow_from_the_ratio() {
-    let text = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
-    let outcome = study(&text, "turn", Coordinates::Joint);
-    let scene = &outcome.scenes[0].1;
-    let [mesh, rack] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
-    assert!((mesh.a.radius - 0.1).abs() < 1e-12 && (mesh.b.radius - 0.2).abs() < 1e-12, "{mesh:?}");
-    let touched = scene.world(scene.frame(0), &Place { body: rack.b.body, at: rack.b.at.clone() });
-    assert!(rack.kind == GearKind::Rack && (rack.a.radius - 0.1).abs() < 1e-12, "{rack:?}");
-    // the lowest point of a wheel that turns counter-clockwise moves to the right: with a radius below 0 the rack moves to the left
-    assert!((touched[0]).abs() < 1e-12 && (touched[1] - 0.1).abs() < 1e-12, "{touched:?}");
-}
-
-#[test]
-fn a_wheel_with_inner_teeth_is_no_disc() {
-    let (_, scene) = scenes("planetary_gear", "turn").remove(0);
-    let inner = scene.gears.iter().flat_map(|gear| [&gear.a, &gear.b]).find(|wheel| wheel.radius < 0.0).expect("the ring");
-    let discs = |body: usize| scene.bodies[body].shapes.iter().filter(|shape| matches!(shape, Shape::Disc { .. })).count();
-    assert_eq!((scene.bodies[inner.body].name.as_str(), discs(inner.body)), ("ring", 0));
-    // lengths are shown in the unit that the model asks for
-    assert_eq!(scene.length.map(|length| (length.unit, length.size)), Some(("mm".into(), 1e-3)));
-}
-
 #[test]
 fn a_crankshaft_is_bars_about_its_axis_and_its_pins() {
     let (_, scene) = scenes("inline_four", "shaking").remove(0);
@@ -223,20 +180,6 @@ fn a_crankshaft_is_bars_about_its_axis_and_its_pins() {
     // every end is on the axis or as far from it as the crank is long
     let far = ends.iter().flatten().map(|p| p[1].hypot(p[2]));
     assert!(far.clone().all(|r| r < 1e-9 || (r - 0.043).abs() < 1e-9) && far.filter(|r| *r > 0.01).count() == 4 * 4, "{ends:?}");
-}
-
-#[test]
-fn a_rope_ends_at_what_it_moves() {
-    let racked = GEARS.replace("  arm: { bar: { length: 0.3 m } }\n", "");
-    let text = racked.replace("rack: { rack: [S, W], radius: -0.1 m }", "rope: { rope: [S, W], radius: -0.1 m }");
-    let outcome = study(&text, "turn", Coordinates::Joint);
-    let scene = &outcome.scenes[0].1;
-    let [_, rope] = &scene.gears[..] else { panic!("{:?}", scene.gears) };
-    assert!(rope.kind == GearKind::Rope && (rope.a.radius - 0.1).abs() < 1e-12, "{rope:?}");
-    assert_eq!((&rope.b.at, &rope.b.axis), (&vec![0.0, 0.0], &vec![-1.0, 0.0]));
-    // it moves as a rack does
-    let rack = study(&racked, "turn", Coordinates::Joint);
-    assert_eq!(scene.frames, rack.scenes[0].1.frames);
 }
 
 /// A winch in space, seen from the front: x to the right, z upwards.

@@ -6,7 +6,7 @@ use super::naming;
 use super::picture::Picture;
 use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind};
 use super::raster::RenderError;
-use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
+use super::scene::{Color, GREY, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin::Point;
@@ -170,6 +170,9 @@ impl Pen<'_> {
             let more = 11.0 * self.signs.size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
             let own = if symbol.way_grounded { ink } else { Self::looks(body_color(symbol.way_body), strength) };
+            if symbol.framed && !symbol.way_grounded {
+                self.signs.slot_frame(&mut self.scene, way, &own);
+            }
             self.signs.slot(&mut self.scene, way, &Looks { fill: ink.fill, ..own });
             if strong {
                 if symbol.way_grounded {
@@ -231,17 +234,18 @@ impl Pen<'_> {
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
             // in the plane it stands in front of bodies with an outline
             if self.drawing.axes.is_some() {
-                self.signs.ground(&mut self.scene, placement.at);
+                self.signs.ground(&mut self.scene, placement.at, false);
             }
-            self.letters.avoid(placement.at, [28.0 * size, 22.0 * size], [0.0, 22.0 * size]);
+            let side = if symbol.above { -1.0 } else { 1.0 };
+            self.letters.avoid(placement.at, [28.0 * size, 22.0 * size], [0.0, side * 22.0 * size]);
         }
     }
 
     /// The bearings of hinges in the plane, which stand in front of all bodies with an outline: behind one they would not be seen.
     fn bearings(&mut self, joints: &[(&Symbol, Placement)]) {
         let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
-        for (_, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
-            self.signs.ground(&mut self.scene, placement.at);
+        for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
+            self.signs.ground(&mut self.scene, placement.at, symbol.above);
         }
     }
 
@@ -255,7 +259,8 @@ impl Pen<'_> {
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
             let forms = body.poses.get(pose).map_or(&[][..], Vec::as_slice);
-            forms.iter().filter_map(move |form| Some((body_color(index), form.depth, sheet.form(form)?)))
+            let color = if index == 0 { GREY } else { body_color(index) };
+            forms.iter().filter_map(move |form| Some((color, form.depth, sheet.form(form)?)))
         });
         let mut all: Vec<_> = bodies.chain(rods).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -289,7 +294,8 @@ impl Pen<'_> {
             let Some(ends) = self.sheet.ends(link) else { continue };
             let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
             self.anchors(link, ends);
-            self.signs.link(&mut self.scene, link.kind, ends, turned);
+            let cylinder = link.cylinder.first().copied().unwrap_or_default();
+            self.signs.link(&mut self.scene, link.kind, ends, turned, cylinder);
             self.letters.avoid_line(&ends, Obstacle::Body);
             if link.kind.turns() && near(ends[0], ends[1]) {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);

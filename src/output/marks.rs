@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 /// Of springs and dampers.
 pub(super) const RUST: Color = [150, 60, 20];
 /// Of what drives.
-const DRIVE: Color = [0, 112, 84];
+pub(super) const DRIVE: Color = [0, 112, 84];
 /// Of stops.
 const STOP: Color = [176, 20, 40];
 /// Of belts and ropes.
@@ -20,15 +20,18 @@ const BELT: Color = [70, 70, 76];
 const CENTRE: &[f64] = &[16.0, 5.0, 3.0, 5.0];
 /// Nearer hinges are one for a clutch, in units of signs.
 const AROUND: f64 = 40.0;
+/// Radius at which the stops of a hinge end, in units of signs.
+const SWING: f64 = 44.0;
 /// Coils of a spring, whatever its length: one that is pulled is seen to be.
 const COILS: u32 = 8;
 
 impl Signs {
-    /// A spring, a damper, or both.
-    pub(super) fn link(self, scene: &mut Scene, kind: LinkKind, [a, b]: [Point; 2], turned: [f64; 2]) {
+    /// A massless element; of what turns with the angles of its bodies, of an actuator with the length of its cylinder, as part of its own.
+    pub(super) fn link(self, scene: &mut Scene, kind: LinkKind, [a, b]: [Point; 2], turned: [f64; 2], cylinder: f64) {
         let about_hinge = kind == LinkKind::Clutch && direction(a, b).1 < AROUND * self.size;
         if kind != LinkKind::Brake && !about_hinge {
-            [a, b].into_iter().for_each(|end| scene.circle(end, 4.0 * self.size, Some(RUST), None));
+            let color = if kind == LinkKind::Actuator { DRIVE } else { RUST };
+            [a, b].into_iter().for_each(|end| scene.circle(end, 4.0 * self.size, Some(color), None));
         }
         let (along, _) = direction(a, b);
         match kind {
@@ -44,6 +47,7 @@ impl Signs {
                     scene.line(vec![off(end, along, 0.0, -aside), off(end, along, 0.0, aside)], Stroke::solid(RUST, self.pen(2.6)));
                 }
             }
+            LinkKind::Actuator => self.actuator(scene, [a, b], cylinder),
             LinkKind::Rod => scene.line(vec![a, b], Stroke::solid(RUST, self.pen(2.6))),
             LinkKind::Torsion => self.spiral(scene, a, turned),
             LinkKind::Shaft => {
@@ -74,6 +78,19 @@ impl Signs {
         scene.line(vec![at(0.65, -10.0), at(0.35, -10.0), at(0.35, 10.0), at(0.65, 10.0)], stroke);
         scene.line(vec![at(0.55, 0.0), b], stroke);
         scene.line(vec![at(0.55, -7.0), at(0.55, 7.0)], Stroke::solid(RUST, self.pen(3.6)));
+    }
+
+    /// A cylinder from a, and its rod to b.
+    fn actuator(self, scene: &mut Scene, [a, b]: [Point; 2], cylinder: f64) {
+        let (along, length) = direction(a, b);
+        let half = (11.0 * self.size).min(0.2 * length);
+        let at = |s: f64, t: f64| off(a, along, s * length, t * half);
+        let mouth = if cylinder.is_finite() { cylinder.clamp(0.0, 1.0) } else { 0.0 };
+        let foot = (0.08 * mouth).min(10.0 * self.size / length.max(1.0));
+        let edge = Stroke::solid(DRIVE, self.pen(2.4));
+        scene.line(vec![a, at(foot, 0.0)], Stroke::solid(DRIVE, self.pen(5.0)));
+        scene.line(vec![at(mouth, 0.0), b], Stroke::solid(DRIVE, self.pen(5.0)));
+        scene.shape(vec![at(foot, -1.0), at(mouth, -1.0), at(mouth, 1.0), at(foot, 1.0)], Some([226, 240, 235]), Some(edge));
     }
 
     /// A spring about a hinge: from the first body outside to the second one inside, wound by the angle between them.
@@ -183,7 +200,7 @@ impl Signs {
         let at = |s: f64, t: f64| -> Point {
             if slides {
                 let side = if along[0] >= 0.0 { -8.0 } else { 8.0 };
-                return off(placement.at, along, -self.slide_box()[0] - 38.0 * size * s, size * (side + 6.0 * t));
+                return off(placement.at, along, -self.slide_box()[0].max(placement.back) - 38.0 * size * s, size * (side + 6.0 * t));
             }
             let ((sin, cos), radius) = ((3.0 + 1.8 * s).sin_cos(), size * (27.0 + 7.5 * t));
             [placement.at[0] + radius * (cos * u[0] + sin * v[0]), placement.at[1] + radius * (cos * u[1] + sin * v[1])]
@@ -216,10 +233,18 @@ impl Signs {
         scene.shape(vec![end, off(end, along, -1.3 * size, 0.6 * size), off(end, along, -1.3 * size, -0.6 * size)], Some(color), None);
     }
 
-    /// Stops: bars across the way where the box or what slides ends, as high as that, or radial ones beside a hinge. Places and lengths in
-    /// pixels.
+    /// Stops: bars across the way where the box or what slides ends, as high as that, or radial ones beside a hinge, between which an arc is
+    /// its range. Places and lengths in pixels.
     pub(super) fn stops(self, scene: &mut Scene, placement: &Placement, slides: bool) {
         let stroke = Stroke::solid(STOP, self.pen(5.0));
+        if let ([Some(first), _], Some(swing)) = (placement.stops, placement.swing) {
+            let from = (-first[1]).atan2(first[0]);
+            let on = |k: u32| {
+                let (s, c) = (from + swing.min(TAU) * f64::from(k) / 48.0).sin_cos();
+                [placement.at[0] + SWING * self.size * c, placement.at[1] - SWING * self.size * s]
+            };
+            scene.line((0..=48).map(on).collect(), Stroke::solid(STOP, self.pen(1.6)));
+        }
         let stops = placement.stops.iter().zip([-1.0, 1.0]).zip(placement.beyond);
         for (stop, sense, beyond) in stops.filter_map(|((stop, sense), beyond)| Some(((*stop)?, sense, beyond))) {
             if slides {
@@ -230,14 +255,14 @@ impl Signs {
             } else {
                 let (along, _) = direction([0.0; 2], stop);
                 let at = |s: f64| off(placement.at, along, s * self.size, -sense * (self.size * super::symbols::BAR * 0.5 + 3.0));
-                scene.line(vec![at(16.0), at(44.0)], stroke);
+                scene.line(vec![at(16.0), at(SWING)], stroke);
             }
         }
     }
 
     /// Pitch circles and lines, and where they touch; belts and ropes.
     pub(super) fn gear(self, scene: &mut Scene, gear: &Gear) {
-        let stroke = Stroke::dashed(INK, self.pen(1.8), CENTRE);
+        let stroke = Stroke::dashed(INK, self.pen(1.3), CENTRE);
         gear.circles.iter().for_each(|circle| scene.line(circle.clone(), stroke));
         gear.rims.iter().for_each(|rim| scene.line(rim.clone(), Stroke::solid(INK, self.pen(2.5))));
         gear.line.iter().for_each(|line| scene.line(line.to_vec(), stroke));
@@ -314,7 +339,7 @@ mod tests {
     fn clutches_are_plates_between_two_hinges_or_arcs_around_one() {
         let points = |kind: LinkKind, ends: [Point; 2]| -> Vec<Vec<Point>> {
             let mut scene = Scene::default();
-            Signs { size: 1.0 }.link(&mut scene, kind, ends, [0.0, 1.0]);
+            Signs { size: 1.0 }.link(&mut scene, kind, ends, [0.0, 1.0], 0.5);
             let of = |item: Item| if let Item::Path { points, .. } = item { Some(points) } else { None };
             scene.items.into_iter().filter_map(of).collect()
         };

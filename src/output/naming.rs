@@ -1,16 +1,18 @@
 //! What is named in a drawing, and where: joints, one label to a place, bodies and links.
 
 use super::lettering::{Name, Named};
-use super::marks::RUST;
+use super::marks::{DRIVE, RUST};
 use super::measure::encloses;
 use super::outlines::hull;
-use super::pose::{Drawing, FormKind, Outline, SymbolKind};
+use super::pose::{Drawing, FormKind, LinkKind, Outline, SymbolKind};
 use super::scene::INK;
 use super::sheet::{Sheet, body_color, corners, near};
-use super::symbols::{BAR, circle, shaded};
+use super::symbols::{BAR, circle, off, shaded};
 use super::thin::Point;
 
-/// Names of one place that stand side by side.
+/// Directions from the middle of a ring to where its name may stand.
+const RIM: [Point; 4] = [[0.6, -0.8], [0.6, 0.8], [-0.6, -0.8], [-0.6, 0.8]];
+/// Names of one place that stand side by side, if there are more than one more.
 const TOGETHER: usize = 3;
 
 /// All names of the strong position, `size` being that of the signs. Joints first: their names have the least choice.
@@ -40,7 +42,8 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         if let Some(ends) = sheet.ends(link) {
             let reach = if link.kind.turns() { 28.0 } else { 19.0 } * size.max(0.6);
             let (also, of) = (along(ends).to_vec(), Named::Part(vec![ends.to_vec()]));
-            names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, reach, color: RUST, of });
+            let color = if link.kind == LinkKind::Actuator { DRIVE } else { RUST };
+            names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, reach, color, of });
         }
     }
     names
@@ -55,7 +58,9 @@ fn forms(body: &Outline, sheet: &Sheet) -> Vec<(f64, FormKind)> {
 fn line(form: &FormKind) -> Vec<Point> {
     let outline = match form {
         FormKind::Plate { points } => hull(points),
-        FormKind::Disc { center, radius, .. } | FormKind::Mass { center, radius } => circle(*center, *radius),
+        FormKind::Disc { center, radius, .. } | FormKind::Gear { center, radius, .. } | FormKind::Mass { center, radius } => {
+            circle(*center, *radius)
+        }
         FormKind::Bar { .. } | FormKind::Area { .. } | FormKind::Wheel { .. } => corners(form),
     };
     let closed = outline.first().copied().filter(|_| outline.len() > 2);
@@ -64,16 +69,17 @@ fn line(form: &FormKind) -> Vec<Point> {
 
 /// Whether what is behind a shape is not seen.
 fn hides(form: &FormKind) -> bool {
-    !matches!(form, FormKind::Wheel { .. })
+    !matches!(form, FormKind::Wheel { .. } | FormKind::Gear { rim: Some(_), .. })
 }
 
-/// Places along a bar that are as good for its name as its middle.
+/// Places along a bar that are as good for its name as its middle, or on the rim of a ring.
 fn beside(forms: &[FormKind]) -> Vec<Point> {
     match forms {
         [form @ (FormKind::Bar { .. } | FormKind::Plate { .. }), ..] => match line(form)[..] {
             [a, b] => along([a, b]).to_vec(),
             _ => Vec::new(),
         },
+        [FormKind::Gear { center, rim: Some(rim), .. }, ..] => RIM[1..].iter().map(|way| off(*center, *way, *rim, 0.0)).collect(),
         _ => Vec::new(),
     }
 }
@@ -100,8 +106,7 @@ fn joints(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         }
     }
     let joined = |names: Vec<&str>| {
-        let more = if names.len() > TOGETHER { ", ..." } else { "" };
-        names[..names.len().min(TOGETHER)].join(", ") + more
+        if names.len() <= TOGETHER + 1 { names.join(", ") } else { names[..TOGETHER].join(", ") + ", ..." }
     };
     places
         .into_iter()
@@ -119,7 +124,8 @@ fn middle(forms: &[FormKind], size: f64) -> Option<(Point, f64)> {
     match forms {
         [] => None,
         [FormKind::Bar { .. }, ..] => Some((center(&corners(&forms[0])), beside)),
-        [FormKind::Disc { center, .. }, ..] => Some((*center, 13.0)),
+        [FormKind::Gear { center, rim: Some(rim), .. }, ..] => Some((off(*center, RIM[0], *rim, 0.0), 4.0)),
+        [FormKind::Disc { center, .. } | FormKind::Gear { center, .. }, ..] => Some((*center, 13.0)),
         [FormKind::Mass { center, radius }] => Some((*center, radius.max(5.0 * size) + 4.0)),
         [FormKind::Plate { points }, ..] => {
             let hull = hull(points);

@@ -64,6 +64,9 @@ pub enum FormKind {
     Wheel { outline: Vec<[f64; 2]>, face: Vec<[f64; 2]> },
     /// A circle with a spoke to `spoke` on its rim, which tells how it is turned.
     Disc { center: [f64; 2], radius: f64, spoke: Option<[f64; 2]> },
+    /// A wheel with teeth: its pitch circle and outline, and a point on a line from its centre that tells how it is turned. A ring with inner
+    /// teeth has a `rim` around them in its place.
+    Gear { center: [f64; 2], radius: f64, teeth: usize, outline: Vec<[f64; 2]>, spoke: Option<[f64; 2]>, rim: Option<f64> },
     /// A point mass.
     Mass { center: [f64; 2], radius: f64 },
 }
@@ -91,6 +94,10 @@ pub struct Symbol {
     pub damped: bool,
     /// It is of a rod in its cylinder, without a guide.
     pub telescopes: bool,
+    /// Of a hinge of the frame: its bearing stands above it, as a rack is below.
+    pub above: bool,
+    /// Of a slot: the body that it is cut into has no area of its own around it.
+    pub framed: bool,
     /// Where it is, for each position.
     pub poses: Vec<Placement>,
 }
@@ -132,6 +139,10 @@ pub struct Placement {
     pub stops: [Option<[f64; 2]>; 2],
     /// Of a slide with stops how far the outlines of the body that slides reach from its point back and ahead along the way, m; else 0.
     pub beyond: [f64; 2],
+    /// Of a slide with damping how far they reach back, m; else 0.
+    pub back: f64,
+    /// Of a hinge in the plane with two stops the angle between them, rad.
+    pub swing: Option<f64>,
 }
 
 /// A massless element between two points.
@@ -147,6 +158,8 @@ pub struct Link {
     pub poses: Vec<[[f64; 2]; 2]>,
     /// Of what turns: angles of the two bodies, rad, for each position.
     pub turned: Vec<[f64; 2]>,
+    /// Of an actuator: length of its cylinder as part of what is between its ends, for each position.
+    pub cylinder: Vec<f64>,
 }
 
 /// What a massless element looks like.
@@ -161,6 +174,8 @@ pub enum LinkKind {
     SpringDamper,
     /// A bar between two pins.
     Rod,
+    /// A cylinder with its rod.
+    Actuator,
     /// A spiral.
     Torsion,
     /// A line with a spiral in its middle.

@@ -28,6 +28,7 @@ impl Sheet {
     /// The placement in pixels; directions keep their lengths.
     pub(super) fn placement(&self, placement: &Placement) -> Option<Placement> {
         let turned = |[x, y]: [f64; 2]| if is_usable(&[x, y]) { [x, -y] } else { [0.0; 2] };
+        let along = |reach: f64| reach * placement.along[0].hypot(placement.along[1]) * self.scale;
         let way = placement.way.filter(|way| way.iter().all(is_usable)).map(|way| way.map(|end| self.point(end)));
         is_usable(&placement.at).then(|| Placement {
             at: self.point(placement.at),
@@ -41,7 +42,9 @@ impl Sheet {
             sense: placement.sense,
             clear: placement.clear * self.scale,
             stops: placement.stops.map(|stop| stop.filter(is_usable)),
-            beyond: placement.beyond.map(|reach| reach * placement.along[0].hypot(placement.along[1]) * self.scale),
+            beyond: placement.beyond.map(along),
+            back: along(placement.back),
+            swing: placement.swing,
         })
     }
 
@@ -59,6 +62,14 @@ impl Sheet {
             FormKind::Disc { center, radius: r, spoke } => {
                 FormKind::Disc { center: at(center)?, radius: radius(*r)?, spoke: spoke.as_ref().and_then(at) }
             }
+            FormKind::Gear { center, radius: r, teeth, outline, spoke, rim } => FormKind::Gear {
+                center: at(center)?,
+                radius: radius(*r)?,
+                teeth: *teeth,
+                outline: self.points(outline),
+                spoke: spoke.as_ref().and_then(at),
+                rim: rim.and_then(radius),
+            },
             FormKind::Mass { center, radius: r } => FormKind::Mass { center: at(center)?, radius: radius(*r)? },
         })
     }
@@ -103,12 +114,12 @@ pub(super) fn is_usable(point: &[f64; 2]) -> bool {
 
 /// Points around a shape.
 pub(super) fn corners(kind: &FormKind) -> Vec<[f64; 2]> {
+    let around = |[x, y]: [f64; 2], r: f64| vec![[x - r, y], [x + r, y], [x, y - r], [x, y + r]];
     match kind {
         FormKind::Bar { from, to, .. } => vec![*from, *to],
         FormKind::Plate { points } | FormKind::Area { points, .. } | FormKind::Wheel { outline: points, .. } => points.clone(),
-        FormKind::Disc { center: [x, y], radius: r, .. } | FormKind::Mass { center: [x, y], radius: r } => {
-            vec![[x - r, *y], [x + r, *y], [*x, y - r], [*x, y + r]]
-        }
+        FormKind::Disc { center, radius, .. } | FormKind::Mass { center, radius } => around(*center, *radius),
+        FormKind::Gear { center, radius, rim, .. } => around(*center, rim.unwrap_or(*radius)),
     }
 }
 

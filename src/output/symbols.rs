@@ -4,11 +4,14 @@ use super::outlines::hull;
 use super::pose::{FormKind, Placement, SymbolKind};
 use super::scene::{Color, GREY, INK, Scene, Stroke, pale};
 use super::thin::Point;
+use std::f64::consts::TAU;
 
 /// The width of a bar in a drawing of full size.
 pub(super) const BAR: f64 = 20.0;
 /// Half length and half height of a sliding box.
 const BOX: [f64; 2] = [24.0, 16.0];
+/// Teeth that are closer are not drawn, pixels.
+const CLOSE: f64 = 5.0;
 
 /// How a part is drawn in one position.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +73,23 @@ impl Signs {
                 }
                 circle(*center, *radius)
             }
+            FormKind::Gear { center, radius, teeth, outline, spoke, rim: outer } => {
+                let fill = spoke.map(|_| pale(looks.fill, if looks.strong { 0.7 } else { 0.4 }));
+                let edge = Some(Stroke::solid(looks.edge, rim / 3.0));
+                if TAU * radius / *teeth as f64 > CLOSE {
+                    scene.shape(outline.clone(), fill, edge);
+                } else {
+                    scene.circle(*center, radius.max(1.0), fill, edge);
+                }
+                if let Some(outer) = outer {
+                    // a line, as what is within it stays to be seen
+                    scene.shape(around(*center, *outer, 96), None, thin);
+                }
+                if let Some(spoke) = spoke {
+                    scene.line(vec![*center, *spoke], Stroke::solid(looks.edge, rim / 2.0));
+                }
+                circle(*center, outer.unwrap_or(*radius))
+            }
             FormKind::Mass { center, radius } => {
                 // no pin
                 let radius = radius.max(1.4 * self.pin_radius(true));
@@ -106,12 +126,13 @@ impl Signs {
         outline
     }
 
-    /// The bearing of the frame below a pivot.
-    pub(super) fn ground(self, scene: &mut Scene, at: Point) {
-        let (half, height) = (20.0 * self.size, 34.0 * self.size);
-        let foot = at[1] + height;
+    /// The bearing of the frame below a pivot, or above it.
+    pub(super) fn ground(self, scene: &mut Scene, at: Point, above: bool) {
+        let side = if above { -1.0 } else { 1.0 };
+        let (half, height) = (side * 20.0 * self.size, 34.0 * self.size);
+        let (foot, more) = (at[1] + side * height, side * 8.0 * self.size);
         scene.shape(vec![at, [at[0] - half, foot], [at[0] + half, foot]], Some([238, 238, 238]), Some(Stroke::solid(INK, self.pen(2.2))));
-        self.hatched(scene, [at[0] - half - 8.0 * self.size, foot], [at[0] + half + 8.0 * self.size, foot]);
+        self.hatched(scene, [at[0] - half - more, foot], [at[0] + half + more, foot]);
     }
 
     /// Width of a line of a sign.
@@ -180,10 +201,16 @@ impl Signs {
         let (along, _) = direction([0.0; 2], placement.along);
         let [half, height] = [1.25 * self.slide_box()[0], 0.45 * self.slide_box()[1]];
         let wave = (0..=TURNS * POINTS).map(|k| {
-            let turn = f64::from(k) / f64::from(POINTS) * std::f64::consts::TAU;
+            let turn = f64::from(k) / f64::from(POINTS) * TAU;
             off(placement.at, along, half * (2.0 * f64::from(k) / f64::from(TURNS * POINTS) - 1.0), height * turn.sin())
         });
         scene.line(wave.collect(), Stroke::solid(looks.edge, self.pen(1.8)));
+    }
+
+    /// What a slot is cut into, where its body has no area of its own.
+    pub(super) fn slot_frame(self, scene: &mut Scene, way: [Point; 2], looks: &Looks) {
+        scene.line(way.to_vec(), Stroke::solid(looks.edge, 34.0 * self.size));
+        scene.line(way.to_vec(), Stroke::solid(looks.fill, 30.0 * self.size));
     }
 
     /// A slot between two points: a white groove with a dark edge.
@@ -228,9 +255,14 @@ fn corners(placement: &Placement, half: [f64; 2]) -> Vec<Point> {
     [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[s, t]| off(placement.at, along, s * half[0], t * half[1])).to_vec()
 }
 
+/// So many points around a circle, and the first one again.
+fn around(center: Point, radius: f64, count: u32) -> Vec<Point> {
+    (0..=count).map(|k| TAU * f64::from(k) / f64::from(count)).map(|a| off(center, [a.cos(), a.sin()], radius, 0.0)).collect()
+}
+
 /// Points around a circle, the first one again at the end.
 pub(super) fn circle(center: Point, radius: f64) -> Vec<Point> {
-    (0..=16).map(|k| f64::from(k) * std::f64::consts::TAU / 16.0).map(|a| off(center, [a.cos(), a.sin()], radius, 0.0)).collect()
+    around(center, radius, 16)
 }
 
 /// The line at `distance` on the lower side of `way`, or on the right of an upright one.

@@ -326,7 +326,7 @@ function depth(points, around, out = false) {
 export async function teeth_mesh(open) {
   const trains = [
     ['planetary_gear', { ring: 72, planet1: 27, planet2: 27, planet3: 27, sun: 18 }, [1, 2, 3].flatMap((k) => [['sun', `planet${k}`], ['ring', `planet${k}`]])],
-    ['train', { pinion: 20, wheel: 55, bar: 20, one: 0, other: 0 }, [['pinion', 'wheel'], ['bar', 'pinion']]],
+    ['train', { pinion: 20, wheel: 55, bar: 20 }, [['pinion', 'wheel'], ['bar', 'pinion']]],
   ];
   for (const [model, teeth, pairs] of trains) {
     const { tab } = await open(model);

@@ -3,8 +3,8 @@
 // same, the later one is left out.
 
 import type { Motion, Vector } from './motion';
-import { type Pen, type Point, off } from './plane/pen';
-import { type Inks, bodyInks, pathInk } from './theme';
+import { type Pen, type Point, hull, off } from './plane/pen';
+import { type Inks, bodyInks, driveInk, pathInk } from './theme';
 import type { Shape } from './types';
 
 /** Left, top, right, bottom. */
@@ -14,7 +14,7 @@ export type Box = [number, number, number, number];
 export interface Named { text: string; at: Point; box: Box; of: 'joint' | Other['of'] }
 
 /** Joints that are at one place all the time, by the first of them, or something else; how wide their names are, how much room signs take, and where names stand. */
-interface Group { text: string; at(place: number): Vector; width: number; room: number; points: Point[]; side: number; other: Other | null }
+interface Group { text: string; at(place: number): Vector; width: number; room: number; points: Point[]; side: number; other: Other | null; bodies: number[] }
 
 /** A body, spring or path with its name and the places where that may stand. */
 interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; color(inks: Inks): string; body?: number }
@@ -22,8 +22,11 @@ interface Other { name: string; of: 'body' | 'link' | 'path'; spots: Spot[]; col
 /** A place on a body where its name may stand, and its places over the motion; on what is wide the name lies within. */
 interface Spot { at(place: number): Vector; places: Vector[]; wide: boolean }
 
-/** The line of a body, or the edge of what is wide, at the places that are looked at. */
-interface Part { body: number; closed: boolean; lines: Vector[][] }
+/** The line of a body, or the edge of what is wide, at the places that are looked at; of what is solid its corners. */
+interface Part { body: number; closed: boolean; solid: boolean; lines: Vector[][] }
+
+/** A part as it is seen. */
+interface SeenPart { body: number; closed: boolean; lines: Point[][]; boxes: Box[] }
 
 /** Where a point is seen at a place of the motion. */
 type Seen = (at: Vector, place: number) => Point;
@@ -31,7 +34,7 @@ type Seen = (at: Vector, place: number) => Point;
 /** Places of the motion that are looked at, and comparisons of a name with a joint, at most. */
 const LOOKS = 24;
 const MOST = 3e6;
-/** Joints that are no farther apart, pixels, have one text, of so many names. */
+/** Joints that are no farther apart, pixels, have one text, of so many names if there are more than one more. */
 const ONE = 4;
 const TOGETHER = 3;
 /** Room around a joint, pixels, which is its sign's. */
@@ -47,8 +50,8 @@ const SIDES = 16;
 const NEAR = 8;
 /** The side of a name that lies on its body. */
 const ON = 16;
-/** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, to stand nearer to a wrong joint, or to a wrong body. */
-const COST = { name: 10, edge: 12, joint: 9, wrong: 9, astray: 3.5 };
+/** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
+const COST = { name: 10, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
@@ -98,7 +101,7 @@ function spots(shape: Shape): { places: number[][]; wide: boolean } {
     case 'hull': return shape.points.length === 2 ? { places: along(shape.points[0]!, shape.points[1]!), wide: false } : { places: [middle(shape.points)], wide: shape.points.length > 2 };
     case 'polygon': return { places: [middle(shape.points)], wide: true };
     case 'mass': return { places: [shape.at], wide: false };
-    case 'disc': return { places: [shape.center, ...circle(shape.center, RIM * shape.radius, ROUND)], wide: true };
+    case 'disc': case 'gear': return { places: [...(shape.radius > 0 ? [shape.center] : []), ...circle(shape.center, RIM * Math.abs(shape.radius), ROUND)], wide: true };
     default: return { places: [shape.center], wide: true };
   }
 }
@@ -115,9 +118,28 @@ function outline(shape: Shape): { line: number[][]; closed: boolean } {
     case 'bar': case 'cylinder': return { line: [shape.from, shape.to], closed: false };
     case 'hull': case 'polygon': return { line: shape.points, closed: shape.points.length > 2 && shape.points[0]!.length === 2 };
     case 'mass': return { line: [shape.at], closed: false };
-    case 'disc': return shape.center.length > 2 ? { line: [shape.center], closed: false } : { line: circle(shape.center, shape.radius, EDGES), closed: true };
+    case 'disc': case 'gear': return shape.center.length > 2 ? { line: [shape.center], closed: false } : { line: circle(shape.center, Math.abs(shape.radius), EDGES), closed: true };
     default: return { line: [shape.center], closed: false };
   }
+}
+
+/** Corners of what is solid in space; none of a bar, which is its line. */
+function corners(shape: Shape): number[][] {
+  const beside = (center: number[], radius: number) => [0, 1, 2].flatMap((axis) => [-radius, radius].map((x) => center.map((c, i) => (i === axis ? c + x : c))));
+  switch (shape.kind) {
+    case 'hull': return shape.points.length > 2 ? shape.points : [];
+    case 'box': return Array.from({ length: 8 }, (_, k) => shape.center.map((c, i) => c + ((k >> i) % 2 ? 0.5 : -0.5) * (shape.size[i] ?? 0)));
+    // a cube about what is round is near enough
+    case 'cylinder': return [...beside(shape.from, shape.radius), ...beside(shape.to, shape.radius)];
+    case 'disc': case 'sphere': return beside(shape.center, shape.radius);
+    default: return [];
+  }
+}
+
+/** The box around points. */
+function around(points: Point[]): Box {
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 }
 
 /** How far a point is from a line in the picture; 0 within an edge. */
@@ -135,15 +157,22 @@ function away([x, y]: Point, line: Point[], closed: boolean): number {
 
 /** How large a line is in the picture. */
 function extent(line: Point[]): number {
-  const [xs, ys] = [line.map(([x]) => x), line.map(([, y]) => y)];
-  return Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
+  const [left, top, right, bottom] = around(line);
+  return Math.hypot(right - left, bottom - top);
+}
+
+/** Whether the middle of a box, or one of its ends, lies within a part that is wide, at a place that is looked at. */
+function covers({ closed, lines, boxes }: SeenPart, look: number, box: Box): boolean {
+  if (!closed || !overlap(boxes[look]!, box)) return false;
+  const [y, line] = [(box[1] + box[3]) / 2, lines[look]!];
+  return [box[0], (box[0] + box[2]) / 2, box[2]].some((x) => away([x, y], line, true) === 0);
 }
 
 export class Names {
   /** What was drawn last. */
   drawn: Named[] = [];
   private groups: Group[] = [];
-  private readonly joints: (Spot & { name: string; room: number })[];
+  private readonly joints: (Spot & { name: string; room: number; bodies: number[] })[];
   private readonly others: Other[];
   /** The names that were left out last. */
   private hidden = new Set<string>();
@@ -151,19 +180,24 @@ export class Names {
   /** The places of the motion that are looked at, and where bodies are there. */
   private readonly looks: number[];
   private readonly parts: Part[];
+  /** Parts in the present view; in space names keep clear of those of other bodies, whatever is in front. */
+  private seenParts: SeenPart[] = [];
+  private readonly inSpace: boolean;
 
   constructor(motion: Motion) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
     const { bodies, links, traces } = motion.scene;
+    this.inSpace = motion.scene.dimensions === 3;
     const looks = Math.max(1, Math.min(LOOKS, Math.floor(MOST / (SIDES * Math.max(joints.length + bodies.length, 1) ** 2))));
     const at = motion.sampled(looks);
     this.looks = at;
     const spot = (of: (place: number) => Vector, wide = false): Spot => ({ at: of, places: at.map(of), wide });
-    this.joints = joints.map(({ name, b, driven, ends }) => ({ name, room: driven || ends ? MARKS : 0, ...spot((place) => motion.world(b, place)) }));
+    this.joints = joints.map(({ name, a, b, driven, ends }) => ({ name, room: driven || ends ? MARKS : 0, bodies: [a.body, b.body], ...spot((place) => motion.world(b, place)) }));
     this.parts = bodies.flatMap(({ shapes: [shape] }, body): Part[] => {
       if (body === 0 || !shape) return [];
-      const { line, closed } = outline(shape);
-      return [{ body, closed, lines: at.map((place) => line.map((own) => motion.world({ body, at: own }, place))) }];
+      const solid = this.inSpace ? corners(shape) : [];
+      const { line, closed } = solid.length > 0 ? { line: solid, closed: true } : outline(shape);
+      return [{ body, closed, solid: solid.length > 0, lines: at.map((place) => line.map((own) => motion.world({ body, at: own }, place))) }];
     });
     this.others = bodies.flatMap(({ name, shapes: [shape], color }, body): Other[] => {
       if (body === 0 || !shape) return [];
@@ -176,7 +210,7 @@ export class Names {
         const [from, to] = [motion.world(a, place), motion.world(b, place)];
         return [0, 1, 2].map((i) => from[i]! + s * (to[i]! - from[i]!)) as Vector;
       };
-      if (name !== '') this.others.push({ name, of: 'link', spots: (kind === 'torsion' || kind === 'brake' ? [0.5] : ALONG).map((s) => spot(between(s))), color: (inks) => inks.rust });
+      if (name !== '') this.others.push({ name, of: 'link', spots: (kind === 'torsion' || kind === 'brake' ? [0.5] : ALONG).map((s) => spot(between(s))), color: (inks) => (kind === 'actuator' ? driveInk(inks) : inks.rust) });
     }
     // the one path of a joint or body that is named goes without a name of its own
     const known = new Set([...joints, ...bodies].map(({ name }) => name));
@@ -223,6 +257,11 @@ export class Names {
   /** Finds the side of each name in a view. */
   private arrange(pen: Pen, pixel: Seen, size: Point, paths: boolean): void {
     const before = new Map(this.groups.map(({ text, side }) => [text, side]));
+    this.seenParts = this.parts.map(({ body, closed, solid, lines }) => {
+      const flat = lines.map((line, k) => line.map((p) => pixel(p, this.looks[k]!)));
+      const edges = solid ? flat.map(hull) : flat;
+      return { body, closed, lines: edges, boxes: edges.map(around) };
+    });
     this.groups = this.together(pen, pixel);
     const taken: Box[][] = [];
     const take = (group: Group) => group.points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(group.side, at, group), size)));
@@ -234,14 +273,13 @@ export class Names {
     const others = this.others.filter(({ of }) => of !== 'path' || paths);
     const area = [...joints.map(({ width }) => width), ...others.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
     if (area > NAMED * size[0] * size[1]) return;
-    const parts = this.parts.map(({ body, closed, lines }) => ({ body, closed, lines: lines.map((line, k) => line.map((p) => pixel(p, this.looks[k]!))) }));
     for (const other of others) {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
       const groups = all.map(({ at, places, wide }, k) => {
-        const group: Group = { text, at, width, room: 0, points: this.seen(places, pixel), side: 0, other };
+        const group: Group = { text, at, width, room: 0, points: this.seen(places, pixel), side: 0, other, bodies: other.body === undefined ? [] : [other.body] };
         const cost = this.choose(group, wide ? ON + 1 : SIDES, before.get(text), taken, size) + NEXT * k;
-        return { group, cost, all: other.body === undefined ? cost : cost + this.astray(group, other.body, parts, size) };
+        return { group, cost, all: other.body === undefined ? cost : cost + this.astray(group, other.body, size) };
       });
       const best = groups.reduce((a, b) => (b.all < a.all ? b : a));
       if (best.cost > CROWDED) continue;
@@ -276,6 +314,7 @@ export class Names {
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
       for (const other of taken[k] ?? []) if (overlap(box, other, 1)) sum += COST.name;
+      if (this.inSpace && group.bodies.length > 0) sum += COST.over * this.seenParts.filter((part) => !group.bodies.includes(part.body) && covers(part, k, box)).length;
       const away = toBox(own, box).far;
       for (const { points } of this.groups) {
         const at = points[k]!;
@@ -288,7 +327,8 @@ export class Names {
   }
 
   /** How bad it is that a name, or the place where it begins, is nearer to other bodies than to its own, or within a smaller one. */
-  private astray(group: Group, body: number, parts: { body: number; closed: boolean; lines: Point[][] }[], size: Point): number {
+  private astray(group: Group, body: number, size: Point): number {
+    const parts = this.seenParts;
     const own = parts.find((part) => part.body === body);
     if (!own) return 0;
     let wrong = 0;
@@ -301,8 +341,8 @@ export class Names {
       const taken = (part: typeof own) => {
         const other = part.lines[k]!;
         const near = away(middle, other, part.closed);
-        // what is larger is behind
-        if (near === 0 && extent(other) >= most) return false;
+        // what is larger is behind in the plane
+        if (!this.inSpace && near === 0 && extent(other) >= most) return false;
         if (own.closed && gap === 0) return near === 0;
         return near < gap || (!own.closed && away(at, other, part.closed) < SIGN);
       };
@@ -313,19 +353,20 @@ export class Names {
 
   /** The joints in groups that are at one place all the time. */
   private together(pen: Pen, pixel: Seen): Group[] {
-    const groups: { names: string[]; at: Group['at']; points: Point[]; room: number }[] = [];
-    for (const { name, at, places, room } of this.joints) {
+    const groups: { names: string[]; at: Group['at']; points: Point[]; room: number; bodies: number[] }[] = [];
+    for (const { name, at, places, room, bodies } of this.joints) {
       const points = this.seen(places, pixel);
       const near = (p: Point, k: number) => Math.hypot(p[0] - points[k]![0], p[1] - points[k]![1]) < ONE;
       const known = groups.find((group) => group.points.every(near));
       if (known) {
         known.names.push(name);
         known.room = Math.max(known.room, room);
-      } else groups.push({ names: [name], at, points, room });
+        known.bodies.push(...bodies);
+      } else groups.push({ names: [name], at, points, room, bodies: [...bodies] });
     }
-    return groups.map(({ names, at, points, room }) => {
-      const text = names.slice(0, TOGETHER).join(', ') + (names.length > TOGETHER ? ', ...' : '');
-      return { text, at, points, room, width: pen.width(text), side: 0, other: null };
+    return groups.map(({ names, at, points, room, bodies }) => {
+      const text = names.length <= TOGETHER + 1 ? names.join(', ') : `${names.slice(0, TOGETHER).join(', ')}, ...`;
+      return { text, at, points, room, width: pen.width(text), side: 0, other: null, bodies };
     });
   }
 }

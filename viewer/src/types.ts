@@ -156,6 +156,8 @@ export type Shape =
   | { kind: 'hull'; points: number[][]; faces?: number[][] }
   | { kind: 'polygon'; points: number[][] }
   | { kind: 'disc'; center: number[]; radius: number; axis: number[] | null; thickness: Num }
+  /** In the plane: the radius of the pitch circle, less than 0 with inner teeth, and the direction of the first one. */
+  | { kind: 'gear'; center: number[]; radius: number; teeth: number; first: number }
   | { kind: 'box'; center: number[]; size: number[] }
   | { kind: 'cylinder'; from: number[]; to: number[]; radius: number }
   | { kind: 'sphere'; center: number[]; radius: number }
@@ -174,8 +176,15 @@ export interface Joint {
   stops: [Num, Num];
   /** Of a slide with stops how far the body that slides reaches from its point, back and ahead along the axis, if it does. */
   beyond?: [number, number];
-  /** Of a hinge in the plane the directions of its stops in the first body, rad, if it has any. */
+  /** Of a damped slide how far back. */
+  back?: number;
+  /** Of a hinge in the plane the directions of its stops in the first body, rad, if it has any, and the angle between both. */
   ends?: [Num, Num];
+  swing?: Num;
+  /** Whether its bearing stands above it. */
+  above?: boolean;
+  /** Whether a slot is drawn with what it is cut into. */
+  framed?: boolean;
   /** Of what is driven the sense in which it moves at first: 0 is none. */
   sense?: number;
   cut: boolean;
@@ -185,7 +194,7 @@ export interface Joint {
   telescopes?: boolean;
 }
 
-export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'torsion' | 'shaft' | 'clutch' | 'brake';
+export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'actuator' | 'torsion' | 'shaft' | 'clutch' | 'brake';
 export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';

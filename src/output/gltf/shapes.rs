@@ -4,7 +4,7 @@ use super::mesh::{Mesh, V, plus};
 use super::solids::{Outline, around};
 use crate::output::outlines::hull;
 use crate::results::Scene;
-use crate::results::scene::{Place, Shape};
+use crate::results::scene::{Place, Shape, rim, wheel};
 
 /// Width of a bar, thickness of a body of the plane, and radius of a pin, as parts of the size of the mechanism.
 const WIDTH: f64 = 0.035;
@@ -95,6 +95,18 @@ impl<'a> Builder<'a> {
             Shape::Hull { points } => around(&hull(&points.iter().map(flat).collect::<Vec<_>>()), half),
             Shape::Polygon { points } => points.iter().map(flat).collect(),
             Shape::Disc { center, radius, .. } | Shape::Sphere { center, radius } => around(&[flat(center)], *radius),
+            Shape::Gear { center, radius, teeth, first } => {
+                let outline = wheel(flat(center), *radius, *teeth, *first);
+                if *radius > 0.0 {
+                    return mesh.prism(&outline, heights);
+                }
+                // a ring from its teeth to its rim
+                let rim: Outline = outline.iter().map(|p| out(flat(center), *p, rim(*radius, *teeth))).collect();
+                for (k, next) in (1..outline.len()).chain([0]).enumerate() {
+                    mesh.prism(&[outline[k], rim[k], rim[next], outline[next]], heights);
+                }
+                return;
+            }
             Shape::Mass { at, radius, .. } => {
                 let more = THICKNESS * self.size;
                 return mesh.prism(&around(&[flat(at)], *radius), [heights[0] - more, heights[1] + more]);
@@ -130,11 +142,20 @@ impl<'a> Builder<'a> {
                 let half = 0.5 * thickness.unwrap_or(0.0).max(THICKNESS * self.size);
                 mesh.tube(plus(v(center), -half, axis), plus(v(center), half, axis), *radius);
             }
+            // in the plane alone
+            Shape::Gear { .. } => {}
             Shape::Box { center, size } => mesh.cuboid(v(center), v(size)),
             Shape::Cylinder { from, to, radius } => mesh.tube(v(from), v(to), *radius),
             Shape::Sphere { center, radius } | Shape::Mass { at: center, radius, .. } => mesh.ball(v(center), *radius),
         }
     }
+}
+
+/// The point of a circle about `center` that is beside another one, m.
+fn out(center: [f64; 2], at: [f64; 2], radius: f64) -> [f64; 2] {
+    let [x, y] = [at[0] - center[0], at[1] - center[1]];
+    let length = x.hypot(y);
+    [center[0] + radius * x / length, center[1] + radius * y / length]
 }
 
 /// A place with three numbers.
@@ -147,8 +168,10 @@ fn points(shape: &Shape) -> Vec<&Vec<f64>> {
     match shape {
         Shape::Bar { from, to, .. } | Shape::Cylinder { from, to, .. } => vec![from, to],
         Shape::Hull { points } | Shape::Polygon { points } => points.iter().collect(),
-        Shape::Disc { center: at, .. } | Shape::Box { center: at, .. } | Shape::Sphere { center: at, .. } | Shape::Mass { at, .. } => {
-            vec![at]
-        }
+        Shape::Disc { center: at, .. }
+        | Shape::Gear { center: at, .. }
+        | Shape::Box { center: at, .. }
+        | Shape::Sphere { center: at, .. }
+        | Shape::Mass { at, .. } => vec![at],
     }
 }

@@ -4,11 +4,13 @@ use super::Posed;
 use crate::output::polytope;
 use crate::output::pose::{Form, FormKind};
 use crate::output::view::{across, cross, dot};
-use crate::results::scene::{Place, Shape};
+use crate::results::scene::{Place, Shape, rim, wheel};
 use std::f64::consts::TAU;
 
 /// Corners of a circle.
 const CORNERS: usize = 96;
+/// Length of the line that shows how a gear is turned, as part of its pitch radius.
+const SPOKE: f64 = 0.8;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
 
@@ -53,6 +55,20 @@ impl Posed<'_> {
                     vec![Form { kind: FormKind::Disc { center, radius: *radius, spoke }, depth: -8f64.sqrt() * radius }]
                 }
             },
+            Shape::Gear { center, radius, teeth, first } => {
+                let flat = |p: [f64; 2]| self.view.flat(world(&p));
+                let outline = wheel([center[0], center[1]], *radius, *teeth, *first).into_iter().map(flat).collect();
+                let ring = *radius < 0.0;
+                let kind = FormKind::Gear {
+                    center: self.view.flat(world(center)),
+                    radius: radius.abs(),
+                    teeth: *teeth,
+                    outline,
+                    spoke: (!ring).then(|| flat([center[0] + SPOKE * radius, center[1]])),
+                    rim: ring.then(|| rim(*radius, *teeth)),
+                };
+                vec![Form { kind, depth: -8f64.sqrt() * radius.abs() }]
+            }
             Shape::Box { center, size } => {
                 let edges: [[f64; 3]; 3] = std::array::from_fn(|i| {
                     let mut e = [0.0; 3];

@@ -3,7 +3,7 @@
 use super::Posed;
 use crate::output::pose::Gear;
 use crate::output::winding::{self, Drum};
-use crate::results::scene::{self, GearKind, Wheel};
+use crate::results::scene::{self, GearKind, Shape, Wheel};
 
 /// Radius of the rim of a wheel with inner teeth, as a multiple of that of its pitch circle.
 const RIM: f64 = 1.08;
@@ -45,7 +45,9 @@ impl Posed<'_> {
                 // a gear within one with inner teeth touches it on the far side
                 let reach = if gear.b.radius < 0.0 { -gear.a.radius } else { gear.a.radius.abs() };
                 let mesh = self.view.flat(std::array::from_fn(|i| a[i] + reach / length * d[i]));
-                let inner = [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.radius < 0.0);
+                // those with teeth have it about these
+                let toothed = |wheel: &Wheel| self.scene.bodies[wheel.body].shapes.iter().any(|shape| matches!(shape, Shape::Gear { .. }));
+                let inner = [&gear.a, &gear.b].into_iter().filter(|wheel| wheel.radius < 0.0 && !toothed(wheel));
                 let rims = inner.map(|wheel| around(wheel, RIM * wheel.radius.abs())).collect();
                 Gear { circles: vec![circle(&gear.a), circle(&gear.b)], rims, mesh: Some(mesh), ..Gear::default() }
             }

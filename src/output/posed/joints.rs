@@ -2,7 +2,8 @@
 
 use super::Posed;
 use crate::output::pose::{Placement, Symbol, SymbolKind};
-use crate::results::scene::{Joint, Place, Shape};
+use crate::output::winding;
+use crate::results::scene::{GearKind, Joint, Place, Shape};
 
 impl Posed<'_> {
     pub(super) fn joints(&self) -> impl Iterator<Item = Symbol> {
@@ -19,6 +20,8 @@ impl Posed<'_> {
                 turns: joint.kind == "screw",
                 damped: joint.damped,
                 telescopes: joint.telescopes,
+                above: self.stands_above(joint),
+                framed: kind == SymbolKind::Slot && !self.scene.bodies[joint.a.body].shapes.iter().any(is_area),
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })
         })
@@ -31,7 +34,9 @@ impl Posed<'_> {
         let a = self.scene.world(poses, &joint.a);
         let on_way = |s: f64| self.view.flat(std::array::from_fn(|i| a[i] + s * axis[i]));
         let about = if planar { [0.0, 0.0, 1.0] } else { axis };
-        let beyond = if kind == SymbolKind::Slide { self.beyond(poses, joint, axis) } else { [0.0; 2] };
+        let reach = if kind == SymbolKind::Slide { self.extent_along(poses, joint, axis) } else { [0.0; 2] };
+        let beyond = std::array::from_fn(|end| if joint.stops[end].is_some() { reach[end] } else { 0.0 });
+        let stops = joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) });
         Placement {
             at: self.flat(poses, if slides { &joint.b } else { &joint.a }),
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
@@ -41,14 +46,16 @@ impl Posed<'_> {
             across: self.view.facing(about, 0.75).map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
             sense: joint.sense,
-            stops: joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) }),
+            swing: joint.stops[0].zip(joint.stops[1]).map(|(a, b)| b - a).filter(|_| !slides && stops.iter().all(Option::is_some)),
+            stops,
             beyond,
+            back: if joint.damped { reach[0] } else { 0.0 },
         }
     }
 
-    /// How far blocks, outlines and discs of the body that slides reach from its point along the way, m: back and ahead, where it has stops.
+    /// How far blocks, outlines and discs of the body that slides reach from its point along the way, m: back and ahead.
     /// A rod goes through what guides it.
-    fn beyond(&self, poses: &[f64], joint: &Joint, axis: [f64; 3]) -> [f64; 2] {
+    fn extent_along(&self, poses: &[f64], joint: &Joint, axis: [f64; 3]) -> [f64; 2] {
         let body = joint.b.body;
         let from = self.scene.world(poses, &joint.b);
         let along = |v: [f64; 3]| (0..3).map(|i| axis[i] * v[i]).sum::<f64>();
@@ -63,7 +70,7 @@ impl Posed<'_> {
                 let reach = radius * (1.0 - tilt * tilt).max(0.0).sqrt();
                 vec![[at(center) - reach, at(center) + reach]]
             }
-            Shape::Sphere { center, radius } => vec![[at(center) - radius, at(center) + radius]],
+            Shape::Gear { center, radius, .. } | Shape::Sphere { center, radius } => vec![[at(center) - radius, at(center) + radius]],
             Shape::Box { center, size } => {
                 let edge = |i: usize| self.scene.direction(poses, body, &std::array::from_fn::<_, 3, _>(|k| f64::from(u8::from(i == k))));
                 let half = 0.5 * (0..size.len()).map(|i| (along(edge(i)) * size[i]).abs()).sum::<f64>();
@@ -73,8 +80,7 @@ impl Posed<'_> {
         };
         let all = self.scene.bodies[body].shapes.iter().flat_map(of);
         let [back, ahead] = all.fold([0.0; 2], |[back, ahead], [low, high]| [f64::max(back, -low), f64::max(ahead, high)]);
-        let stopped = |end: usize, reach: f64| if joint.stops[end].is_some() && reach.is_finite() { reach } else { 0.0 };
-        [stopped(0, back), stopped(1, ahead)]
+        [back, ahead].map(|reach| if reach.is_finite() { reach } else { 0.0 })
     }
 
     /// Where along a slide the shape of the moving body that carries it ends, measured from its point along the axis, m, and whether it ends
@@ -126,10 +132,26 @@ impl Posed<'_> {
         };
         let of = |shape: &Shape| match shape {
             Shape::Polygon { points } => points.iter().map(|p| reach(p)).fold(0.0, f64::max),
-            Shape::Disc { center, radius, .. } | Shape::Sphere { center, radius } => reach(center) + radius,
+            Shape::Disc { center, radius, .. } | Shape::Gear { center, radius, .. } | Shape::Sphere { center, radius } => {
+                reach(center) + radius
+            }
             _ => 0.0,
         };
         self.scene.bodies[joint.b.body].shapes.iter().map(of).filter(|x| x.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// Whether the bearing of a hinge stands above it: in the plane under a wheel whose rack is below.
+    fn stands_above(&self, joint: &Joint) -> bool {
+        let wheel = if joint.a.body == 0 { joint.b.body } else { joint.a.body };
+        let Some(poses) = self.frames.first().filter(|_| self.scene.dimensions == 2 && wheel != 0) else { return false };
+        self.scene.gears.iter().any(|gear| {
+            let (_, [x, y, _]) = match gear.kind {
+                GearKind::Rack if gear.a.body == wheel => winding::pitch_line(self.scene, poses, gear),
+                _ => return false,
+            };
+            let [u, v, _] = self.scene.world(poses, &Place { body: wheel, at: gear.a.at.clone() });
+            v - y > (x - u).abs()
+        })
     }
 
     /// The direction in the plane that the second body has on a stop: from the hinge to its middle.
@@ -148,14 +170,25 @@ impl Posed<'_> {
     }
 }
 
+/// Whether a shape has room for a slot.
+fn is_area(shape: &Shape) -> bool {
+    match shape {
+        Shape::Hull { points } => points.len() > 2,
+        Shape::Polygon { .. } | Shape::Disc { .. } | Shape::Gear { .. } | Shape::Box { .. } => true,
+        Shape::Bar { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } | Shape::Mass { .. } => false,
+    }
+}
+
 /// Points of a shape.
 fn points(shape: &Shape) -> Vec<&Vec<f64>> {
     match shape {
         Shape::Bar { from, to, .. } | Shape::Cylinder { from, to, .. } => vec![from, to],
         Shape::Hull { points } | Shape::Polygon { points } => points.iter().collect(),
-        Shape::Disc { center: at, .. } | Shape::Box { center: at, .. } | Shape::Sphere { center: at, .. } | Shape::Mass { at, .. } => {
-            vec![at]
-        }
+        Shape::Disc { center: at, .. }
+        | Shape::Gear { center: at, .. }
+        | Shape::Box { center: at, .. }
+        | Shape::Sphere { center: at, .. }
+        | Shape::Mass { at, .. } => vec![at],
     }
 }
 

@@ -11,6 +11,9 @@ use super::view::View;
 use crate::results::Scene;
 use crate::results::scene::{self, Place};
 
+/// Length of the cylinder of an actuator, as part of the shortest distance of its ends.
+const CYLINDER: f64 = 0.8;
+
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
 pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
@@ -118,12 +121,17 @@ impl Posed<'_> {
                 scene::LinkKind::Damper => LinkKind::Damper,
                 scene::LinkKind::SpringDamper => LinkKind::SpringDamper,
                 scene::LinkKind::Rod => LinkKind::Rod,
+                scene::LinkKind::Actuator => LinkKind::Actuator,
                 scene::LinkKind::Torsion => LinkKind::Torsion,
                 scene::LinkKind::Shaft => LinkKind::Shaft,
                 scene::LinkKind::Clutch => LinkKind::Clutch,
                 scene::LinkKind::Brake => LinkKind::Brake,
             };
             let ends = |poses: &&[f64]| [self.flat(poses, &link.a), self.flat(poses, &link.b)];
+            let cylinder = |poses: &&[f64]| {
+                let [a, b] = [&link.a, &link.b].map(|end| self.scene.world(poses, end));
+                CYLINDER * link.rest.unwrap_or(0.0) / (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
+            };
             let turned = |poses: &&[f64]| [link.a.body, link.b.body].map(|body| self.angle(poses, body));
             Link {
                 name: link.name.clone(),
@@ -131,6 +139,7 @@ impl Posed<'_> {
                 grounded: [&link.a, &link.b].map(|end| end.body == 0),
                 poses: self.frames.iter().map(ends).collect(),
                 turned: self.frames.iter().map(turned).collect(),
+                cylinder: self.frames.iter().map(cylinder).collect(),
             }
         })
     }

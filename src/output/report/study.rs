@@ -202,8 +202,9 @@ fn drawing(scene: &Scene) -> Value {
     value
 }
 
-/// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, rad; of a slide
-/// with stops how far the body that slides reaches beyond its point, m.
+/// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, rad, and the angle
+/// between them; of a slide how far the body that slides reaches beyond its point, m: to its stops, and back to its dashpot; whether a bearing
+/// stands above its hinge, and a slot has a frame.
 fn signs(value: &mut Value, scene: &Scene) {
     let Some(first) = scene.frames.at.first() else { return };
     let drawn = posed::at(scene, *first);
@@ -218,8 +219,17 @@ fn signs(value: &mut Value, scene: &Scene) {
         if placement.beyond.iter().any(|reach| *reach > 0.0) {
             joint["beyond"] = json(&placement.beyond);
         }
+        if placement.back > 0.0 {
+            joint["back"] = json(&placement.back);
+        }
+        for (key, holds) in [("above", symbol.above), ("framed", symbol.framed)] {
+            if holds {
+                joint[key] = true.into();
+            }
+        }
         if symbol.kind == SymbolKind::Hinge && placement.stops.iter().any(Option::is_some) {
             let [x, y, _] = scene.direction(poses, of.a.body, &[1.0]);
+            joint["swing"] = json(&placement.swing);
             joint["ends"] = json(&placement.stops.map(|stop| stop.map(|[u, v]| v.atan2(u) - y.atan2(x))));
         }
     }

@@ -7,10 +7,12 @@ mod frames;
 mod named;
 mod parts;
 mod shape;
+mod teeth;
 
 pub use frames::{Frames, interpolate};
 pub use parts::{Arrow, ArrowKind, Body, Gear, GearKind, Joint, Link, LinkKind, Place, Trace, Wheel};
 pub use shape::Shape;
+pub(crate) use teeth::{rack, rim, wheel};
 
 use crate::results::ShownIn;
 use serde::{Deserialize, Serialize};

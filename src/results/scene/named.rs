@@ -11,6 +11,7 @@ enum Kinds {
     Hull { points: Vec<Vec<f64>> },
     Polygon { points: Vec<Vec<f64>> },
     Disc { center: Vec<f64>, radius: f64, axis: Option<Vec<f64>>, thickness: Option<f64> },
+    Gear { center: Vec<f64>, radius: f64, teeth: usize, first: f64 },
     Box { center: Vec<f64>, size: Vec<f64> },
     Cylinder { from: Vec<f64>, to: Vec<f64>, radius: f64 },
     Sphere { center: Vec<f64>, radius: f64 },

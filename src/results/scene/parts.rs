@@ -70,7 +70,7 @@ pub struct Link {
     pub a: Place,
     /// Its second end.
     pub b: Place,
-    /// Free length of a spring, m, or rest angle of a torsion spring, rad, if it does not change; length of a rod.
+    /// Free length of a spring, m, or rest angle of a torsion spring, rad, if it does not change; shortest length of an actuator, m.
     pub rest: Option<f64>,
 }
 
@@ -86,6 +86,8 @@ pub enum LinkKind {
     SpringDamper,
     /// A distance that is held.
     Rod,
+    /// A distance that is prescribed: a cylinder with its rod.
+    Actuator,
     /// A spring or damper that turns about a hinge.
     Torsion,
     /// A spring or damper between the turning of two hinges that stand apart.

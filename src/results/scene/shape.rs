@@ -14,6 +14,9 @@ pub enum Shape {
     Polygon { points: Vec<Vec<f64>> },
     /// A disc; in space with the unit `axis` of its turning, and its `thickness` if it has one.
     Disc { center: Vec<f64>, radius: f64, axis: Option<Vec<f64>>, thickness: Option<f64> },
+    /// A wheel with teeth in the plane: the radius of its pitch circle, negative with inner teeth, and the direction of its `first` tooth in the
+    /// body, rad. `output/` and the page draw involutes of 20°.
+    Gear { center: Vec<f64>, radius: f64, teeth: usize, first: f64 },
     /// A box along the axes of the body.
     Box { center: Vec<f64>, size: Vec<f64> },
     /// A round bar.

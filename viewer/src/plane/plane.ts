@@ -7,11 +7,12 @@ import { type Named, Names } from '../names';
 import { FIRST, type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, PATHS, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
-import type { Gear, Joint, Link, Place, Shape, Trace } from '../types';
+import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
+import { cylinder } from './cylinder';
 import { type Bounds, type Fitted, type Tip, fitted } from './fit';
 import { LEVEL, Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
-import { type Rack, type Toothed, rackLine, toothed } from './teeth';
+import { type Gear as Toothed, outline, rim } from './teeth';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
@@ -37,7 +38,7 @@ const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
 function depth(shape: Shape): number {
   switch (shape.kind) {
     case 'mass': return Number.MAX_VALUE;
-    case 'disc': case 'sphere': return -Math.sqrt(8) * shape.radius;
+    case 'disc': case 'gear': case 'sphere': return -Math.sqrt(8) * Math.abs(shape.radius);
     case 'box': return -Math.hypot(shape.size[0] ?? 0, shape.size[1] ?? 0);
     case 'hull': case 'polygon': {
       const span = (i: number) => Math.max(...shape.points.map((p) => p[i]!)) - Math.min(...shape.points.map((p) => p[i]!));
@@ -65,7 +66,6 @@ export class Plane implements Renderer {
   private readonly names: Names;
   private inks!: Inks;
   private told: Told[] = [];
-  private readonly gears: { wheels: Toothed[]; racks: Rack[] };
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
@@ -74,7 +74,6 @@ export class Plane implements Renderer {
     this.bounds = this.measure();
     const { low, high } = this.bounds;
     this.least = LEAST * Math.max(high[0] - low[0], high[1] - low[1]);
-    this.gears = toothed(motion);
     const at = motion.sampled(PATH);
     this.paths = motion.scene.traces.map((trace) => ({ trace, at, points: at.map((place) => motion.world(trace, place).slice(0, 2) as Point) }));
   }
@@ -122,11 +121,14 @@ export class Plane implements Renderer {
   }
 
   wheels(): { body: string; teeth: number; outline: Point[] }[] {
-    const name = (body: number) => this.motion.scene.bodies[body]!.name;
-    return [
-      ...this.gears.wheels.map(({ wheel: { body }, teeth, outline }) => ({ body: name(body), teeth, outline: outline.map((at) => this.point({ body, at })) })),
-      ...this.gears.racks.map((rack) => ({ body: name(rack.gear.b.body), teeth: rack.pinion.teeth, outline: this.rackLine(rack) })),
-    ];
+    const { bodies, gears } = this.motion.scene;
+    const toothed = (body: number) => bodies[body]!.shapes.flatMap((shape) => (shape.kind === 'gear' ? [shape] : []));
+    const wheels = bodies.flatMap(({ name }, body) => toothed(body).map((wheel) => ({ body: name, teeth: wheel.teeth, outline: this.outline(body, wheel) })));
+    const racks = gears.filter(({ kind }) => kind === 'rack').flatMap(({ a, b }) => {
+      const [shape, { name }] = [bodies[b.body]!.shapes[0], bodies[b.body]!];
+      return shape?.kind === 'polygon' ? toothed(a.body).map(({ teeth }) => ({ body: name, teeth, outline: shape.points.map((at) => this.point({ body: b.body, at })) })) : [];
+    });
+    return [...wheels, ...racks];
   }
 
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
@@ -147,12 +149,10 @@ export class Plane implements Renderer {
     scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
-    const wheels = new Set(this.gears.wheels.map(({ wheel }) => wheel.body));
     // what is large lies below
-    const shapes = scene.bodies.flatMap((body, index) => body.shapes.filter((shape) => shape.kind !== 'disc' || !wheels.has(index)).map((shape) => ({ depth: depth(shape), draw: () => this.shape(index, shape) })));
+    const shapes = scene.bodies.flatMap((body, index) => body.shapes.map((shape) => ({ depth: depth(shape), draw: () => this.shape(index, shape) })));
     const rods = scene.links.filter(({ kind }) => kind === 'rod').map((rod) => ({ depth: 0, draw: () => this.rod(rod) }));
-    const toothed = this.gears.wheels.map((wheel) => ({ depth: -Math.sqrt(8) * Math.abs(wheel.wheel.radius), draw: () => this.wheel(wheel) }));
-    const bodies = [...toothed, ...shapes, ...rods].sort((a, b) => a.depth - b.depth);
+    const bodies = [...shapes, ...rods].sort((a, b) => a.depth - b.depth);
     for (const behind of this.motion.behind) {
       this.place = behind;
       pen.faintlyAll(PALE, () => bodies.forEach((one) => one.draw()));
@@ -160,7 +160,6 @@ export class Plane implements Renderer {
     this.place = place;
     // bearings stand in front of all that has an outline, and behind bars
     [...bodies, { depth: -Number.MIN_VALUE, draw: () => this.bearings() }].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
-    this.gears.racks.forEach((rack) => signs.rack(pen, this.rackLine(rack), inks));
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.filter(({ kind }) => kind !== 'rod').forEach((link) => this.link(link));
@@ -199,21 +198,30 @@ export class Plane implements Renderer {
     });
   }
 
-  /** A wheel with its teeth, which takes the place of its disc. */
-  private wheel({ wheel, teeth, outline }: Toothed): void {
-    const { fill, edge } = this.colors(wheel.body);
-    const pitch = (2 * Math.PI * Math.abs(wheel.radius) * this.scale) / (teeth || 1);
-    const points = pitch > CLOSE ? outline.map((at) => this.point({ body: wheel.body, at })) : [];
-    signs.gear(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, points, this.along(wheel.body, [1, 0]), wheel.radius < 0, this.paler(fill, 0.7), edge);
+  /** A wheel with its teeth. */
+  private wheel(body: number, wheel: Toothed): void {
+    const { fill, edge } = this.colors(body);
+    const radius = Math.abs(wheel.radius) * this.scale;
+    const points = (2 * Math.PI * radius) / wheel.teeth > CLOSE ? this.outline(body, wheel) : [];
+    const around = wheel.radius < 0 ? rim(wheel) * this.scale : null;
+    signs.gear(this.pen, this.point({ body, at: wheel.center }), radius, points, this.along(body, [1, 0]), around, this.paler(fill, 0.7), edge);
   }
 
-  private rackLine(rack: Rack): Point[] {
-    return rackLine(rack, this.motion, this.place).map(([x, y]) => this.pixel(x, y));
+  private outline(body: number, wheel: Toothed): Point[] {
+    return outline(wheel).map((at) => this.point({ body, at }));
   }
 
-  /** Belts around wheels, and ropes that leave their drums. */
+  /** Belts around wheels, ropes that leave their drums, pitch circles and lines of what has no teeth. */
   private wound({ kind, a, b }: Gear): void {
     const [ra, rb] = [a.radius, b.radius].map((radius) => Math.abs(radius) * this.scale) as [number, number];
+    const bare = ({ body }: Wheel) => !this.motion.scene.bodies[body]!.shapes.some((shape) => shape.kind === 'gear');
+    const wheels = kind === 'teeth' ? [a, b] : kind === 'rack' ? [a] : [];
+    for (const wheel of wheels.filter(bare)) signs.pitch(this.pen, this.point(wheel), Math.abs(wheel.radius) * this.scale, wheel.radius < 0, this.inks);
+    if (kind === 'rack' && bare(a)) {
+      const [center, from, along] = [this.point(a), this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0])];
+      const at = (center[0] - from[0]) * along[0] + (center[1] - from[1]) * along[1];
+      signs.pitchLine(this.pen, off(from, along, at - 2 * ra, 0), off(from, along, at + 2 * ra, 0), this.inks);
+    }
     if (kind === 'belt') signs.belt(this.pen, this.point(a), ra, this.point(b), rb, this.inks);
     if (kind === 'rope') signs.rope(this.pen, this.point(a), ra, this.point(b), this.along(b.body, b.axis?.length ? b.axis : [1, 0]), this.inks);
   }
@@ -225,7 +233,8 @@ export class Plane implements Renderer {
   }
 
   /** A spring or damper, with the ground at its ends where no joint has its bearing. */
-  private link({ kind, a, b }: Link): void {
+  private link(link: Link): void {
+    const { kind, a, b } = link;
     const [from, to] = [this.point(a), this.point(b)];
     if (signs.turns(kind)) {
       signs.turning(this.pen, kind, [from, to], [a, b].map(({ body }) => this.motion.angle(body, this.place)) as Point, this.inks);
@@ -235,7 +244,7 @@ export class Plane implements Renderer {
     for (const [end, other, body] of [[from, to, a.body], [to, from, b.body]] as const) {
       if (body === 0 && !bearings.some((at) => Math.hypot(at[0] - end[0], at[1] - end[1]) < 1)) signs.anchor(this.pen, end, toward(other, end).along, this.inks);
     }
-    signs.link(this.pen, kind, from, to, this.inks);
+    signs.link(this.pen, kind, from, to, cylinder(link, this.motion, this.place), this.inks);
   }
 
   /** Where a point is seen at a place of the motion, the present one. */
@@ -327,6 +336,9 @@ export class Plane implements Renderer {
         pen.path(points([[x - w, y - h], [x + w, y - h], [x + w, y + h], [x - w, y + h]]), true).fill(this.paler(fill, 0.85)).stroke(edge, 1.5);
         break;
       }
+      case 'gear':
+        this.wheel(body, shape);
+        break;
       case 'mass':
         pen.circle(this.point({ body, at: shape.at }), Math.max(shape.radius * this.scale, MASS)).fill(massInk(this.inks)).stroke(this.inks.ink, 1.2);
         break;
@@ -365,7 +377,7 @@ export class Plane implements Renderer {
   private bearings(): void {
     const { joints, links } = this.motion.scene;
     const hinges = joints.filter((joint) => signs.seen(joint) && !signs.slides(joint));
-    for (const { a, b } of [...hinges, ...links.filter(({ kind }) => kind === 'rod')]) for (const end of [a, b]) if (end.body === 0) signs.bearing(this.pen, this.point(end), this.inks);
+    for (const { a, b, above } of [...hinges, ...links.filter(({ kind }) => kind === 'rod').map((rod) => ({ ...rod, above: false }))]) for (const end of [a, b]) if (end.body === 0) signs.bearing(this.pen, this.point(end), this.inks, above);
   }
 
   /** How far the outlines of the body that slides reach from the way to its lower side, pixels. */
@@ -379,12 +391,14 @@ export class Plane implements Renderer {
     };
     return Math.max(0, ...this.motion.scene.bodies[b.body]!.shapes.flatMap((shape) => {
       if (shape.kind === 'polygon') return shape.points.map(reach);
-      return shape.kind === 'disc' || shape.kind === 'sphere' ? [reach(shape.center) + shape.radius * this.scale] : [];
+      return shape.kind === 'disc' || shape.kind === 'gear' || shape.kind === 'sphere' ? [reach(shape.center) + shape.radius * this.scale] : [];
     }));
   }
 
   private slot(joint: Joint): void {
-    if (joint.kind === 'pin-in-slot') signs.slot(this.pen, ...this.ends(joint), joint.a.body === 0 ? null : this.colors(joint.a.body).edge, this.inks);
+    if (joint.kind !== 'pin-in-slot') return;
+    if (joint.framed && joint.a.body !== 0) signs.slotFrame(this.pen, ...this.ends(joint), this.colors(joint.a.body));
+    signs.slot(this.pen, ...this.ends(joint), joint.a.body === 0 ? null : this.colors(joint.a.body).edge, this.inks);
   }
 
   private box(joint: Joint): void {
@@ -395,18 +409,18 @@ export class Plane implements Renderer {
   }
 
   private dashpot(joint: Joint): void {
-    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), signs.slides(joint) ? this.along(joint.a.body, joint.axis) : null, this.inks);
+    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), signs.slides(joint) ? this.along(joint.a.body, joint.axis) : null, (joint.back ?? 0) * this.scale, this.inks);
   }
 
   /** The stops of a joint, and what drives it. */
   private marks(joint: Joint): void {
     if (!signs.seen(joint)) return;
-    const { a, b, axis, stops, beyond, ends, driven, sense } = joint;
+    const { a, b, axis, stops, beyond, ends, swing, driven, sense } = joint;
     const [along, turned] = [this.along(a.body, axis), this.motion.angle(a.body, this.place)];
     const slide = signs.slides(joint) ? along : null;
     const reach = (beyond ?? [0, 0]).map((x) => x * this.scale) as Point;
     if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, reach, this.clear(joint), this.inks);
-    else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), this.inks);
+    else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), swing ?? null, this.inks);
     if (driven) signs.drive(this.pen, this.point(slide ? b : a), slide, [[0, 1], [1, 0]], sense ?? 0, this.inks);
   }
 

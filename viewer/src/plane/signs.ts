@@ -9,7 +9,7 @@ import { type Pen, type Point, off, toward } from './pen';
 const BOX: Point = [13, 8];
 /** Dashes of centre lines. */
 const CENTRE = [11, 3.5, 2, 3.5];
-/** Dashes of pitch circles; radius of the rim of a wheel with inner teeth, as a multiple of that of its pitch circle, as in the figures. */
+/** Dashes of pitch circles; radius of the rim of a ring without teeth, as a multiple of that of its pitch circle, as in the figures. */
 const PITCH = [8, 3, 1.5, 3];
 const RIM = 1.08;
 
@@ -24,11 +24,12 @@ export function hatched(pen: Pen, a: Point, b: Point, inks: Inks): void {
   pen.path([a, b]).stroke(inks.soft, 1.6);
 }
 
-/** The bearing of the frame below a hinge. */
-export function bearing(pen: Pen, at: Point, inks: Inks): void {
-  const foot = at[1] + 20;
+/** The bearing of the frame below a hinge, or above it. */
+export function bearing(pen: Pen, at: Point, inks: Inks, above = false): void {
+  const side = above ? -1 : 1;
+  const foot = at[1] + side * 20;
   pen.path([at, [at[0] - 12, foot], [at[0] + 12, foot]], true).fill(mixed(inks.paper, inks.faint, 0.25)).stroke(inks.soft, 1.4);
-  hatched(pen, [at[0] - 17, foot], [at[0] + 17, foot], inks);
+  hatched(pen, [at[0] - side * 17, foot], [at[0] + side * 17, foot], inks);
 }
 
 /** A piece of ground at the end of a link that comes along a direction. */
@@ -63,6 +64,11 @@ export function foot(pen: Pen, at: Point, along: Point, inks: Inks): void {
 export function box(pen: Pen, at: Point, along: Point, inks: Inks): void {
   const corner = (s: number, t: number) => off(at, along, s * BOX[0], t * BOX[1]);
   pen.path([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)], true).fill(mixed(inks.paper, inks.faint, 0.3)).stroke(inks.ink, 1.6);
+}
+
+/** What a slot is cut into, where its body has no area of its own. */
+export function slotFrame(pen: Pen, a: Point, b: Point, { fill, edge }: { fill: string; edge: string }): void {
+  pen.path([a, b]).stroke(edge, 25).stroke(fill, 22);
 }
 
 /** A slot between two points, in the ground hatched. */
@@ -130,8 +136,14 @@ export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: P
   });
 }
 
-/** The stops of a hinge in the plane, in the directions in which it meets them: radial bars beside it. */
-export function ends(pen: Pen, at: Point, angles: (number | null)[], inks: Inks): void {
+/** The stops of a hinge in the plane, in the directions in which it meets them: radial bars beside it, between which an arc is its range. */
+export function ends(pen: Pen, at: Point, angles: (number | null)[], swing: number | null, inks: Inks): void {
+  const from = angles[0];
+  if (from !== null && from !== undefined && swing !== null) {
+    const turn = Math.min(swing, 2 * Math.PI);
+    const on = (k: number): Point => [at[0] + 28 * Math.cos(from + (turn * k) / 48), at[1] - 28 * Math.sin(from + (turn * k) / 48)];
+    pen.path(Array.from({ length: 49 }, (_, k) => on(k))).stroke(stopInk(inks), 1.1);
+  }
   angles.forEach((angle, k) => {
     if (angle === null) return;
     const along: Point = [Math.cos(angle), -Math.sin(angle)];
@@ -141,14 +153,14 @@ export function ends(pen: Pen, at: Point, angles: (number | null)[], inks: Inks)
 }
 
 /**
- * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, or bent about a hinge, to its upper left,
- * where its bearing is not.
+ * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, or what slides, so many pixels back, or bent
+ * about a hinge, to its upper left, where its bearing is not.
  */
-export function dashpot(pen: Pen, center: Point, slide: Point | null, inks: Inks): void {
+export function dashpot(pen: Pen, center: Point, slide: Point | null, back: number, inks: Inks): void {
   const color = inks.rust;
   // s from what moves to what holds it, t across
   const at = ([s, t]: Point): Point => {
-    if (slide) return off(center, slide, -BOX[0] - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
+    if (slide) return off(center, slide, -Math.max(BOX[0], back) - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
     const [angle, radius] = [3 - 1.8 * s, 19 + 5.5 * t];
     return [center[0] + radius * Math.cos(angle), center[1] - radius * Math.sin(angle)];
   };
@@ -179,8 +191,22 @@ function damper(pen: Pen, a: Point, along: Point, from: number, to: number, acro
   pen.path([p((low + high) / 2, -4), p((low + high) / 2, 4)]).stroke(color, 2.6);
 }
 
-/** A spring, a damper or both between two points. Springs about a hinge are spirals. */
-export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, inks: Inks): void {
+/** A cylinder from a, as long as a part of the whole, and its rod to b. */
+function actuator(pen: Pen, a: Point, b: Point, part: number, inks: Inks): void {
+  const color = driveInk(inks);
+  const { along, length } = toward(a, b);
+  const [half, mouth] = [Math.min(7, 0.2 * length), Math.min(part, 1) * length];
+  const foot = Math.min(0.08 * mouth, 7);
+  const at = (s: number, t: number) => off(a, along, s, t * half);
+  pen.path([a, at(foot, 0)]).stroke(color, 3.2);
+  pen.path([at(mouth, 0), b]).stroke(color, 3.2);
+  pen.path([at(foot, -1), at(mouth, -1), at(mouth, 1), at(foot, 1)], true).fill(mixed(inks.paper, color, 0.15)).stroke(color, 1.6);
+  [a, b].forEach((point) => pen.circle(point, 2.6).fill(color));
+}
+
+/** A spring, a damper or both between two points, or an actuator, of which the cylinder takes a part. Springs about a hinge are spirals. */
+export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, part: number, inks: Inks): void {
+  if (kind === 'actuator') return actuator(pen, a, b, part, inks);
   const color = inks.rust;
   const { along, length } = toward(a, b);
   const end = Math.min(0.2 * length, 16);
@@ -257,18 +283,24 @@ function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): void {
 }
 
 /** A wheel: its teeth along an outline, if there are any, its pitch circle, and a line that shows how it turns; of a ring also its rim. */
-export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, inner: boolean, fill: string, color: string): void {
+export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, rim: number | null, fill: string, color: string): void {
   const wheel = outline.length > 0 ? pen.path(outline, true) : pen.circle(center, radius);
-  if (!inner) wheel.fill(fill);
-  if (outline.length > 0 || !inner) wheel.stroke(color, 1.2);
+  if (rim === null) wheel.fill(fill);
+  if (outline.length > 0 || rim === null) wheel.stroke(color, 1.2);
   pen.circle(center, radius).stroke(color, 0.8, PITCH);
-  if (inner) pen.circle(center, RIM * radius).stroke(color, 1.8);
+  if (rim !== null) pen.circle(center, rim).stroke(color, 1.8);
   else pen.path([center, off(center, turned, 0.8 * radius, 0)]).stroke(color, 1);
 }
 
-/** A rack along its line. */
-export function rack(pen: Pen, line: Point[], inks: Inks): void {
-  pen.path(line).stroke(inks.soft, 1.5);
+/** The pitch circle of a wheel without teeth; of a ring also its rim. */
+export function pitch(pen: Pen, center: Point, radius: number, inner: boolean, inks: Inks): void {
+  pen.circle(center, radius).stroke(inks.soft, 0.8, PITCH);
+  if (inner) pen.circle(center, RIM * radius).stroke(inks.soft, 1.8);
+}
+
+/** The pitch line of a rack without teeth. */
+export function pitchLine(pen: Pen, a: Point, b: Point, inks: Inks): void {
+  pen.path([a, b]).stroke(inks.soft, 0.8, PITCH);
 }
 
 /** A belt around two wheels: their outer tangents, and the arcs between these. */

@@ -20,6 +20,8 @@ function faces(shape: Shape, thin: number, { body: color, mass }: Colors): Face[
     case 'bar': return tube(vector(shape.from), vector(shape.to), Math.max((shape.width ?? 0) / 2, thin), Math.max((shape.width ?? 0) / 2, thin), 10, color);
     case 'cylinder': return tube(vector(shape.from), vector(shape.to), shape.radius, shape.radius, SIDES, color);
     case 'sphere': return ball(vector(shape.center), shape.radius, color);
+    // in the plane alone
+    case 'gear': return [];
     case 'mass': return ball(vector(shape.at), Math.max(shape.radius, 1.6 * thin), mass);
     case 'box': return box(vector(shape.center), vector(shape.size), color);
     case 'polygon': return shape.points.length > 2 ? sheet(shape.points.map(vector), color) : [];

@@ -4,6 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
+import { cylinder } from '../plane/cylinder';
 import { Pen, type Point, toward } from '../plane/pen';
 import * as signs from '../plane/signs';
 import { type Options, PALE, type Renderer } from '../renderer';
@@ -148,13 +149,14 @@ class Space implements Renderer {
     this.place = place;
     const items = bodies();
     motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body)));
-    for (const { kind, a, b } of motion.scene.links) {
+    for (const link of motion.scene.links) {
+      const { kind, a, b } = link;
       const [p, q] = [motion.world(a, place), motion.world(b, place)];
       if (kind === 'rod') {
         this.rod(items, p, q, inks);
         continue;
       }
-      const draw = () => (signs.turns(kind) ? signs.turning(pen, kind, [this.pixel(p), this.pixel(q)], [this.turned(a.body), this.turned(b.body)], inks) : signs.link(pen, kind, this.pixel(p), this.pixel(q), inks));
+      const draw = () => (signs.turns(kind) ? signs.turning(pen, kind, [this.pixel(p), this.pixel(q)], [this.turned(a.body), this.turned(b.body)], inks) : signs.link(pen, kind, this.pixel(p), this.pixel(q), cylinder(link, motion, place), inks));
       items.push({ depth: this.depth(scaled(add(p, q), 0.5)), draw });
     }
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
@@ -192,11 +194,12 @@ class Space implements Renderer {
   }
 
   /** The damping of a joint. */
-  private dashpot({ kind, a, b, axis }: Joint, inks: Inks): void {
+  private dashpot({ kind, a, b, axis, back }: Joint, inks: Inks): void {
     const at = this.motion.world(b, this.place);
     const along = this.motion.direction(a.body, axis, this.place);
-    const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], [dot(along, this.right), -dot(along, this.above)]).along : null;
-    signs.dashpot(this.pen, this.pixel(at), slide, inks);
+    const flat: Point = [dot(along, this.right), -dot(along, this.above)];
+    const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], flat).along : null;
+    signs.dashpot(this.pen, this.pixel(at), slide, (back ?? 0) * Math.hypot(...flat) * this.scale, inks);
   }
 
   /** Direction of the x axis of a body in the picture, rad. */

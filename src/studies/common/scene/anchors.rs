@@ -1,4 +1,4 @@
-//! Springs over an expression of the coordinates of one point: where on the ground their other end is.
+//! Springs and couplings over an expression of the coordinates of points: between which places they act.
 //!
 //! The stretch s of a spring from an anchor c is s = |p − c| − l, of which |∇s| = 1 and ∇∇s = (1 − n nᵀ)/|p − c| with n = ∇s. So the
 //! curvature across n tells how far away c is; without any, s is measured from a line or plane, as that of a tyre on its road.
@@ -27,22 +27,31 @@ const AWAY: f64 = 1.5;
 struct Stretch<'a, G: Space<S = f64>> {
     pool: Pool,
     id: Id,
-    point: PointRef,
+    /// 1, or −1 for one that is shorter at a greater distance.
+    sign: f64,
+    /// The points, with their places.
+    points: Vec<(PointRef, [f64; 3])>,
     case: Case<'a>,
     mechanism: &'a Mechanism<G>,
 }
 
 impl<G: Space<S = f64>> Stretch<'_, G> {
-    /// At a place of the point at time 0.
+    /// At a place of its last point at time 0.
     fn at(&mut self, p: [f64; 3]) -> f64 {
+        let last = self.points.len() - 1;
+        self.points[last].1 = p;
         for (input, quantity) in self.case.model.inputs.iter().enumerate() {
             match quantity {
-                Quantity::Point { at, axis, order: 0 } if *at == self.point => self.pool.give(input as u32, p[*axis]),
+                Quantity::Point { at, axis, order: 0 } => {
+                    if let Some((_, p)) = self.points.iter().find(|(point, _)| point == at) {
+                        self.pool.give(input as u32, p[*axis]);
+                    }
+                }
                 Quantity::Time => self.pool.give(input as u32, 0.0),
                 _ => {}
             }
         }
-        self.pool.values_with_tables(&[self.id], self.case.parameters, &self.mechanism.tables)[0]
+        self.sign * self.pool.values_with_tables(&[self.id], self.case.parameters, &self.mechanism.tables)[0]
     }
 
     /// Its gradient, by differences over a step, m.
@@ -97,7 +106,7 @@ pub(super) fn to_ground<G: Space<S = f64>>(
     let (end, size) = (place::<G>((body, at)), mechanism.size());
     let places = || (0..scene.frames.count()).map(|i| scene.world(scene.frame(i), &end)).filter(|p| p.iter().all(|x| x.is_finite()));
     let first = places().next()?;
-    let mut stretch = Stretch { pool: case.model.pool.clone(), id, point, case, mechanism };
+    let mut stretch = Stretch { pool: case.model.pool.clone(), id, sign: 1.0, points: vec![(point, first)], case, mechanism };
     let gradient = stretch.gradient(first, STEP * size);
     let length = dot(gradient, gradient).sqrt();
     if !(length > 0.0 && length.is_finite()) {
@@ -121,6 +130,38 @@ pub(super) fn to_ground<G: Space<S = f64>>(
         foot
     };
     Some([Place { body: 0, at: foot[..G::VECTOR].to_vec() }, Place { body, at: numbers::<G>(at) }])
+}
+
+/// The ends of an expression that is the distance of a point from another one, or from a place on the ground, but for what it takes off
+/// from that over time; none for any other.
+pub(super) fn distance<G: Space<S = f64>>(
+    case: Case<'_>,
+    mechanism: &Mechanism<G>,
+    scene: &Scene,
+    id: Id,
+    points: &[PointRef],
+) -> Option<[Place; 2]> {
+    let ends: Vec<Place> = points.iter().map(|p| place::<G>((p.body, mechanism.bodies[p.body].points[p.point].1))).collect();
+    let places: Vec<[f64; 3]> = ends.iter().map(|end| scene.world(scene.frame(0), end)).collect();
+    let (size, last) = (mechanism.size(), *places.last()?);
+    [1.0, -1.0].into_iter().find_map(|sign| {
+        let points = points.iter().copied().zip(places.iter().copied()).collect();
+        let mut stretch = Stretch { pool: case.model.pool.clone(), id, sign, points, case, mechanism };
+        let gradient = stretch.gradient(last, STEP * size);
+        let length = dot(gradient, gradient).sqrt();
+        if length.is_nan() || (length - 1.0).abs() > 1e-6 {
+            return None;
+        }
+        let found = stretch.anchor(last, gradient.map(|x| x / length), size)?;
+        match &ends[..] {
+            [end] => Some([Place { body: 0, at: found[..G::VECTOR].to_vec() }, end.clone()]),
+            [from, to] => {
+                let apart: [f64; 3] = std::array::from_fn(|i| found[i] - places[0][i]);
+                (dot(apart, apart).sqrt() <= AGREES * size).then(|| [from.clone(), to.clone()])
+            }
+            _ => None,
+        }
+    })
 }
 
 /// Unit directions across one; the first in the plane.

@@ -115,7 +115,7 @@ fn corners(shape: &Shape) -> Option<(Vec<Vec<f64>>, f64)> {
             };
             Some(((0..1 << center.len()).map(corner).collect(), 0.0))
         }
-        Shape::Disc { .. } | Shape::Sphere { .. } | Shape::Mass { .. } => None,
+        Shape::Disc { .. } | Shape::Gear { .. } | Shape::Sphere { .. } | Shape::Mass { .. } => None,
     }
 }
 

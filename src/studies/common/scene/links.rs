@@ -1,11 +1,11 @@
 //! Springs, dampers, massless rods, clutches and brakes.
 
-use super::anchors::to_ground;
+use super::anchors::{distance, to_ground};
 use super::places::{place, same};
 use crate::expression::Id;
 use crate::geometry::Space;
 use crate::mechanism::{Joint, Measured, Mechanism, StretchOf};
-use crate::model::{self, PointRef, Quantity, SpringLaw, SpringOn};
+use crate::model::{self, CouplingKind, PointRef, Quantity, SpringLaw, SpringOn};
 use crate::results::Scene;
 use crate::results::scene::{Link, LinkKind, Place};
 use crate::studies::common::case::Case;
@@ -58,7 +58,37 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         };
         Link { name: clutch.name.clone(), kind, a, b, rest: None }
     });
-    springs.chain(rods).chain(clutches).collect()
+    springs.chain(rods).chain(clutches).chain(actuators(case, mechanism, scene)).collect()
+}
+
+/// The couplings that hold two points at a distance, or prescribe it over time.
+fn actuators<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
+    if scene.frames.count() == 0 {
+        return Vec::new();
+    }
+    let of = |coupling: &model::Coupling| {
+        let CouplingKind::Zero(id) = coupling.kind else { return None };
+        let (mut points, mut moves): (Vec<PointRef>, bool) = (Vec::new(), false);
+        for input in case.model.pool.inputs_of(&[id]) {
+            match case.model.inputs[input as usize] {
+                Quantity::Point { at, order: 0, .. } if !points.contains(&at) => points.push(at),
+                Quantity::Point { order: 0, .. } => {}
+                Quantity::Time => moves = true,
+                _ => return None,
+            }
+        }
+        // what moves last
+        points.sort_by_key(|point| point.body != 0);
+        let [a, b] = distance(case, mechanism, scene, id, &points)?;
+        let length = |index: usize| {
+            let [a, b] = [&a, &b].map(|end| scene.world(scene.frame(index), end));
+            (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
+        };
+        let shortest = (0..scene.frames.count()).map(length).filter(|x| x.is_finite()).reduce(f64::min)?;
+        let (kind, rest) = if moves { (LinkKind::Actuator, Some(shortest)) } else { (LinkKind::Rod, None) };
+        Some(Link { name: coupling.name.clone(), kind, a, b, rest })
+    };
+    case.model.couplings.iter().filter_map(of).collect()
 }
 
 /// What a spring about hinges is, none for one along its ends, and the places of its ends.

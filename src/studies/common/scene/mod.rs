@@ -12,6 +12,7 @@ mod places;
 mod senses;
 mod shafts;
 mod shapes;
+mod teeth;
 mod traces;
 mod turn;
 
@@ -90,6 +91,7 @@ impl<G: Space<S = f64>> Subject<'_, G> {
         scene.arrows = arrows::arrows(case, mechanism);
         scene.gears = gears::gears(case.model, mechanism, &scene);
         gears::outline_wheels(mechanism, &scene.gears, &mut scene.bodies);
+        teeth::cut(&mut scene);
         shafts::outline_shafts(mechanism, &mut scene);
         scene.traces = traces::traces(case, mechanism, &scene);
         if let Some(shown) = turn::first_cycle(&scene) {

@@ -74,7 +74,9 @@ fn arm<G: Space<S = f64>>(mechanism: &Mechanism<G>, shapes: &[Shape], mass: &[f6
             nearer(points).filter(|_| gap(&middle, mass) > reach * (1.0 + 1e-6))
         }
         Shape::Polygon { points } => nearer(points),
-        Shape::Disc { center, .. } | Shape::Box { center, .. } | Shape::Sphere { center, .. } => Some(center.clone()),
+        Shape::Disc { center, .. } | Shape::Gear { center, .. } | Shape::Box { center, .. } | Shape::Sphere { center, .. } => {
+            Some(center.clone())
+        }
         Shape::Mass { .. } => None,
     };
     let from = nearer(&shapes.iter().filter_map(from).collect::<Vec<_>>())?;
@@ -175,7 +177,7 @@ fn holds(shape: &Shape, p: &[f64]) -> bool {
             let across: Vec<f64> = r.iter().zip(&d).map(|(r, d)| r - along * d).collect();
             (-1e-6..=1.0 + 1e-6).contains(&along) && length(&across) <= width.unwrap_or(0.0) * 0.5 + 1e-6 * size
         }
-        Shape::Disc { center, radius, .. } | Shape::Sphere { center, radius } => {
+        Shape::Disc { center, radius, .. } | Shape::Gear { center, radius, .. } | Shape::Sphere { center, radius } => {
             let from: Vec<f64> = p.iter().zip(center).map(|(p, c)| p - c).collect();
             length(&from) <= radius * (1.0 + 1e-6)
         }

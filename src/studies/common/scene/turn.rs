@@ -130,7 +130,9 @@ fn of_shape(body: usize, shape: &Shape) -> Vec<Place> {
     let points = match shape {
         Shape::Bar { from, to, .. } | Shape::Cylinder { from, to, .. } => vec![from.clone(), to.clone()],
         Shape::Hull { points } | Shape::Polygon { points } => points.clone(),
-        Shape::Disc { center: at, .. } | Shape::Sphere { center: at, .. } | Shape::Mass { at, .. } => vec![at.clone()],
+        Shape::Disc { center: at, .. } | Shape::Gear { center: at, .. } | Shape::Sphere { center: at, .. } | Shape::Mass { at, .. } => {
+            vec![at.clone()]
+        }
         Shape::Box { center, size } => {
             let corner = |signs: &[f64]| center.iter().zip(size).zip(signs).map(|((c, size), sign)| c + 0.5 * sign * size).collect();
             vec![corner(&[1.0, 1.0, 1.0]), corner(&[-1.0, 1.0, 1.0]), corner(&[1.0, -1.0, 1.0]), corner(&[1.0, 1.0, -1.0])]
