@@ -16,6 +16,9 @@ use grashof_solvers::Kkt;
 /// Mechanisms of fewer bodies are not looked at: there each tree costs next to nothing.
 const FEW: usize = 16;
 
+/// Of roads with so many columns at most none is worth cutting: the three or six columns and as many rows of a free body cost more.
+const SHORT: usize = 4;
+
 /// Lengths of roads that are tried.
 const DEPTHS: [usize; 5] = [2, 4, 6, 8, 16];
 
@@ -33,13 +36,16 @@ pub fn cheapest(model: &Model, parameters: &[f64]) -> Coordinates {
 }
 
 fn among<G: Space<S = f64>>(model: &Model, parameters: &[f64]) -> Coordinates {
+    let Ok(plain) = build::<G>(model, parameters, Coordinates::Joint) else { return Coordinates::Joint };
+    if depths(&plain).into_iter().all(|above| above < SHORT) {
+        return Coordinates::Joint;
+    }
     let cost = |mechanism: &Mechanism<G>| Kkt::cost(&mass_pattern(mechanism), &row_pattern(mechanism));
     let bounded = DEPTHS.into_iter().map(Coordinates::Bounded).filter_map(|tree| {
         let mechanism = build::<G>(model, parameters, tree).ok()?;
         Some((cost(&mechanism), tree))
     });
     let Some((least, tree)) = bounded.min_by_key(|(cost, _)| *cost) else { return Coordinates::Joint };
-    let Ok(plain) = build::<G>(model, parameters, Coordinates::Joint) else { return Coordinates::Joint };
     // the pattern of a long road has the square of its length: it is not made where that is seen to be too much
     let at_least = Kkt::least_cost(plain.nv + plain.rows.len(), &depths(&plain));
     if CHEAPER * least <= at_least || CHEAPER * least <= cost(&plain) { tree } else { Coordinates::Joint }

@@ -29,9 +29,7 @@ pub(super) fn velocity<G: Space<S = f64>>(
     let looped = mechanism.joints.iter().any(|joint| joint.tree.is_none());
     let rest = if looped { system.rest(q) } else { Level::default() };
     let levels = [system.what_holds(), system.guessed_rates(), rest];
-    let mut v = in_turn(&levels, &system.metric, zeros);
-    // once more takes the last digits
-    v = in_turn(&levels, &system.metric, v);
+    let v = in_turn(&levels, &system.metric, zeros);
     let change = system.change(q, &v, &levels);
     if let Ok(Some((v, point))) = change {
         return Ok((v, Some(point)));

@@ -33,7 +33,8 @@ pub(crate) fn step(round_off: f64, rows: &Rows, b: &[f64], metric: &[f64], dampi
     shortest_beyond(round_off, &rows.to_dense(metric.len()), b, metric, damping)
 }
 
-/// x + δ with the shortest δ (in the metric) that makes |A x − b|² least for the first level, among those for the second, and so on.
+/// x + δ with the shortest δ (in the metric) that makes |A x − b|² least for the first level, among those for the second, and so on; once
+/// more from there, which takes the last digits.
 #[must_use]
 pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64> {
     if metric.len() > FEW
@@ -41,24 +42,29 @@ pub(crate) fn in_turn(levels: &[Level], metric: &[f64], x: Vec<f64>) -> Vec<f64>
     {
         return x;
     }
+    let x = dense::in_turn(levels, metric, x);
     dense::in_turn(levels, metric, x)
 }
 
 /// The same where the rows of all levels but the last can be met together; none where they cannot.
 fn sparsely_in_turn(levels: &[Level], metric: &[f64], x: &[f64]) -> Option<Vec<f64>> {
-    let missing: Vec<Vec<f64>> = levels.iter().map(|level| level.missing(x)).collect();
-    if missing.iter().flatten().all(|b| *b == 0.0) {
+    if levels.iter().flat_map(|level| level.missing(x)).all(|b| b == 0.0) {
         return Some(x.to_vec());
     }
     let last = levels.iter().rposition(|level| !level.rows.is_empty())?;
-    let groups = levels.iter().zip(&missing).take(last + 1).enumerate().map(|(k, (level, b))| {
+    let groups = levels[..=last].iter().enumerate().map(|(k, level)| {
         let slack = if k == last && k > 0 { Slack::Some(1.0) } else { Slack::None { round_off: level.round_off } };
-        Group { rows: &level.rows, b, slack }
+        Group { rows: &level.rows, b: &level.b, slack }
     });
     let groups: Vec<Group> = groups.collect();
     let weight = if last > 0 { SHORT } else { 1.0 };
-    let delta = sparse::solve(&groups, metric, weight)?;
-    let x: Vec<f64> = x.iter().zip(&delta).map(|(x, delta)| x + delta).collect();
+    let mut saddle = sparse::Saddle::new(&groups, metric, weight)?;
+    let mut closer = |x: &[f64]| -> Option<Vec<f64>> {
+        let missing: Vec<f64> = levels[..=last].iter().flat_map(|level| level.missing(x)).collect();
+        let delta = saddle.solve(&[], &missing);
+        delta.iter().all(|x| x.is_finite()).then(|| x.iter().zip(&delta).map(|(x, delta)| x + delta).collect())
+    };
+    let x = closer(x).and_then(|x| closer(&x))?;
     let holds = |level: &Level| {
         let scale = 1.0 + level.b.iter().fold(0.0, |m, b| f64::max(m, b.abs()));
         level.missing(&x).iter().all(|off| off.abs() <= MET * scale)
