@@ -6,7 +6,7 @@ use super::naming;
 use super::picture::Picture;
 use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind};
 use super::raster::RenderError;
-use super::scene::{Color, GREY, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
+use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin::Point;
@@ -166,6 +166,9 @@ impl Pen<'_> {
             self.below(symbol, placement, &ink);
         }
         self.forms(pose, strength, &joints);
+        if !strong {
+            self.actuators(pose, strength);
+        }
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.kind == SymbolKind::Slot) {
             let more = 11.0 * self.signs.size;
             let way = symbols::longer(placement.way.unwrap_or([placement.at; 2]), placement, more);
@@ -176,7 +179,7 @@ impl Pen<'_> {
             self.signs.slot(&mut self.scene, way, &Looks { fill: ink.fill, ..own });
             if strong {
                 if symbol.way_grounded {
-                    self.signs.hatched_below(&mut self.scene, way, 12.0);
+                    self.signs.hatched_below(&mut self.scene, way, 12.0, false);
                 }
                 self.letters.avoid_line(&way, Obstacle::Body);
             }
@@ -217,20 +220,26 @@ impl Pen<'_> {
             if ink.strong {
                 let body = Self::looks(body_color(symbol.way_body), 1.0);
                 if !symbol.telescopes {
-                    self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement.clear);
+                    self.signs.slideway(&mut self.scene, way, (!symbol.way_grounded).then_some(&body), placement);
                 }
                 let [half, height] = self.signs.slide_box();
                 self.letters.avoid(placement.at, [half + 2.0, height + 4.0], [0.0; 2]);
-                let below =
-                    if symbol.way_grounded { symbols::lower_side(way, (24.0 * size).max(placement.clear + 6.0 * size)) } else { way };
+                let side = if placement.upper { -1.0 } else { 1.0 };
+                let below = if symbol.way_grounded {
+                    symbols::lower_side(way, side * (24.0 * size).max(placement.clear + 6.0 * size))
+                } else {
+                    way
+                };
                 self.letters.avoid_line(&below, Obstacle::Body);
                 if symbol.grounded && !symbol.way_grounded {
                     let (along, _) = symbols::direction([0.0; 2], placement.along);
                     let foot = [symbols::off(placement.at, along, -half, 0.0), symbols::off(placement.at, along, half, 0.0)];
-                    self.signs.hatched_below(&mut self.scene, foot, 18.0);
+                    self.signs.hatched_below(&mut self.scene, foot, 18.0, false);
                 }
             }
-            self.signs.slider(&mut self.scene, placement, ink);
+            if ink.strong || symbol.boxed {
+                self.signs.slider(&mut self.scene, placement, ink);
+            }
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
             // in the plane it stands in front of bodies with an outline
             if self.drawing.axes.is_some() {
@@ -259,8 +268,13 @@ impl Pen<'_> {
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
             let forms = body.poses.get(pose).map_or(&[][..], Vec::as_slice);
-            let color = if index == 0 { GREY } else { body_color(index) };
-            forms.iter().filter_map(move |form| Some((color, form.depth, sheet.form(form)?)))
+            let color = body_color(index);
+            let first = body.poses.first().map_or(&[][..], Vec::as_slice);
+            let shown = forms
+                .iter()
+                .enumerate()
+                .filter_map(move |(k, form)| if pose == 0 { Some(form.clone()) } else { form.as_ghost(first.get(k)) });
+            shown.filter_map(move |form| Some((color, form.depth, sheet.form(&form)?)))
         });
         let mut all: Vec<_> = bodies.chain(rods).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -288,14 +302,23 @@ impl Pen<'_> {
         }
     }
 
+    /// The lines of actuators in a pale position.
+    fn actuators(&mut self, pose: usize, strength: f64) {
+        for link in self.drawing.links.iter().filter(|link| link.kind == LinkKind::Actuator) {
+            if let Some(ends) = link.poses.get(pose).filter(|ends| ends.iter().all(is_usable)) {
+                let line = ends.map(|end| self.sheet.point(end)).to_vec();
+                self.letters.avoid_line(&line, Obstacle::Shade);
+                self.scene.line(line, Stroke::solid(pale(marks::DRIVE, strength), self.signs.pen(3.0)));
+            }
+        }
+    }
+
     /// Springs and dampers; of all positions over each other they would be a thicket.
     fn links(&mut self) {
         for link in self.drawing.links.iter().filter(|link| link.kind != LinkKind::Rod) {
             let Some(ends) = self.sheet.ends(link) else { continue };
-            let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
             self.anchors(link, ends);
-            let cylinder = link.cylinder.first().copied().unwrap_or_default();
-            self.signs.link(&mut self.scene, link.kind, ends, turned, cylinder);
+            self.signs.link(&mut self.scene, link, ends);
             self.letters.avoid_line(&ends, Obstacle::Body);
             if link.kind.turns() && near(ends[0], ends[1]) {
                 self.letters.avoid(ends[0], [26.0 * self.signs.size; 2], [0.0; 2]);
@@ -332,7 +355,7 @@ impl Pen<'_> {
             self.letters.avoid_line(&arrow, Obstacle::Sign);
         }
         if symbol.damped {
-            let line = self.signs.dashpot(&mut self.scene, placement, slides);
+            let line = self.signs.dashpot(&mut self.scene, placement, slides, symbol.way_grounded);
             self.letters.avoid_line(&line, Obstacle::Sign);
         }
     }
@@ -376,110 +399,4 @@ impl Pen<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::pose::{Form, Link, Outline, Trace};
-    use super::*;
-
-    fn plate(points: Vec<[f64; 2]>) -> Vec<Form> {
-        vec![Form { kind: FormKind::Plate { points }, depth: 0.0 }]
-    }
-
-    fn named(name: &str, poses: Vec<Vec<Form>>) -> Outline {
-        Outline { name: name.into(), poses }
-    }
-
-    #[test]
-    fn odd_mechanisms_make_a_picture_all_the_same() {
-        let nan = f64::NAN;
-        let symbol = |at| Symbol {
-            kind: SymbolKind::Slide,
-            driven: true,
-            poses: vec![Placement { at, ..Placement::default() }],
-            ..Symbol::default()
-        };
-        for at in [[0.0, 0.0], [nan, 1.0], [1e300, 0.0]] {
-            let round = Form { kind: FormKind::Disc { center: at, radius: nan, spoke: Some(at) }, depth: nan };
-            let body = named("b", vec![plate(vec![at]), vec![round], plate(vec![at, at, at])]);
-            let trace = Trace { name: "p".into(), points: vec![at, [0.5, 0.5], [nan, nan]] };
-            let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
-            let gear = super::super::pose::Gear {
-                circles: vec![vec![at; 3]],
-                rims: Vec::new(),
-                line: Some([at; 2]),
-                mesh: Some(at),
-                belt: vec![at; 3],
-                rope: Some([at; 2]),
-            };
-            let (joints, gears) = (vec![symbol(at)], vec![gear]);
-            let drawing = Drawing { bodies: vec![body], joints, traces: vec![trace], links: vec![link], gears, ..Drawing::default() };
-            let svg = super::super::svg::write_svg(&layout(&drawing));
-            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        }
-        assert!(layout(&Drawing::default()).height > 0.0);
-    }
-
-    fn texts(drawing: &Drawing) -> Vec<String> {
-        let items = layout(drawing).items.into_iter();
-        items.filter_map(|item| if let super::super::scene::Item::Text(text) = item { Some(text.text) } else { None }).collect()
-    }
-
-    #[test]
-    fn more_names_than_can_be_read_are_left_out() {
-        let names = |count: u32| {
-            let body = |k| named(&format!("rod {k}"), vec![plate(vec![[f64::from(k), 0.0], [f64::from(k), 1.0]])]);
-            let drawing = Drawing { bodies: (0..=count).map(body).collect(), ..Drawing::default() };
-            texts(&drawing).iter().filter(|text| text.starts_with("rod")).count()
-        };
-        assert_eq!((names(5), names(5000)), (5, 0));
-    }
-
-    #[test]
-    fn joints_at_one_place_have_one_label() {
-        let symbol =
-            |name: &str, at| Symbol { name: name.into(), poses: vec![Placement { at, ..Placement::default() }], ..Symbol::default() };
-        let drawing = Drawing { joints: vec![symbol("A", [0.0; 2]), symbol("B", [1.0, 0.0]), symbol("C", [0.0; 2])], ..Drawing::default() };
-        let texts = texts(&drawing);
-        assert!(texts.contains(&"A, C".into()) && texts.contains(&"B".into()) && !texts.contains(&"C".into()), "{texts:?}");
-    }
-
-    #[test]
-    fn each_of_several_paths_has_its_name() {
-        let trace = |name: &str, y: f64| Trace { name: name.into(), points: vec![[0.0, y], [1.0, y]] };
-        let body = named("rod", vec![plate(vec![[0.0, 0.0], [1.0, 0.0]])]);
-        let of = |traces| texts(&Drawing { bodies: vec![Outline::default(), body.clone()], traces, ..Drawing::default() });
-        let one = of(vec![trace("rod", 1.0)]);
-        assert_eq!(one.iter().filter(|text| text.contains("rod")).count(), 1, "{one:?}");
-        let two = of(vec![trace("rod", 1.0), trace("rod.end", 2.0)]);
-        assert!(["rod", "path of rod", "rod.end"].iter().all(|name| two.contains(&(*name).into())), "{two:?}");
-    }
-
-    #[test]
-    fn a_guide_has_the_colour_of_its_body() {
-        let way = Placement { way: Some([[0.0, 0.0], [1.0, 0.0]]), along: [1.0, 0.0], ..Placement::default() };
-        let edge = |way_body| Pen::looks(body_color(way_body), 1.0).edge;
-        let drawn = |way_grounded| {
-            let slide = Symbol { kind: SymbolKind::Slide, way_grounded, way_body: 2, poses: vec![way], ..Symbol::default() };
-            let items = layout(&Drawing { joints: vec![slide], ..Drawing::default() }).items;
-            items.iter().any(|item| matches!(item, Item::Path { stroke: Some(stroke), .. } if stroke.color == edge(2)))
-        };
-        assert!(drawn(false) && !drawn(true));
-    }
-
-    #[test]
-    fn paths_are_told_apart() {
-        let all: Vec<_> = (0..30).map(path_stroke).collect();
-        assert!((0..30).all(|i| !all[..i].contains(&all[i])));
-        let arrows = [super::super::pose::ForceKind::Load, super::super::pose::ForceKind::Reaction].map(forces::color);
-        assert!(all.iter().all(|(color, _)| !arrows.contains(color)));
-    }
-
-    #[test]
-    fn both_axes_have_one_scale() {
-        let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        let drawing = Drawing { bodies: vec![named("", vec![plate(square)])], ..Drawing::default() };
-        let scene = layout(&drawing);
-        let super::super::scene::Item::Path { points, .. } = &scene.items[0] else { panic!("a body first") };
-        let (width, height) = (points[1][0] - points[0][0], points[2][1] - points[1][1]);
-        assert!((width.abs() - height.abs()).abs() < 1e-9, "{points:?}");
-    }
-}
+mod tests;

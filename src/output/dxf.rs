@@ -53,7 +53,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
         }
         let ground = |scene: &mut Sheet| {
             if symbol.kind == SymbolKind::Slide && symbol.way_grounded {
-                signs.slideway(scene, guide, None, placement.clear);
+                signs.slideway(scene, guide, None, &placement);
             } else if symbol.kind != SymbolKind::Slide && stands(symbol) {
                 signs.ground(scene, placement.at, symbol.above);
             }
@@ -72,9 +72,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
     }
     for link in &drawing.links {
         let Some(ends) = sheet.ends(link) else { continue };
-        let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
-        let cylinder = link.cylinder.first().copied().unwrap_or_default();
-        signed(&mut out, Layer::Links, &back, mm, |scene| signs.link(scene, link.kind, ends, turned, cylinder));
+        signed(&mut out, Layer::Links, &back, mm, |scene| signs.link(scene, link, ends));
     }
     for gear in drawing.gears.iter().map(|gear| sheet.gear(gear)) {
         gear.circles

@@ -1,7 +1,7 @@
 //! Signs beside the bodies: springs and dampers, what drives, stops, gears, the axes of space, the scale.
 
 use super::font;
-use super::pose::{Gear, LinkKind, Placement};
+use super::pose::{Gear, Link, LinkKind, Placement};
 use super::scene::{Anchor, Color, INK, Scene, Stroke};
 use super::symbols::{Signs, direction, off};
 use super::thin::Point;
@@ -26,8 +26,10 @@ const SWING: f64 = 44.0;
 const COILS: u32 = 8;
 
 impl Signs {
-    /// A massless element; of what turns with the angles of its bodies, of an actuator with the length of its cylinder, as part of its own.
-    pub(super) fn link(self, scene: &mut Scene, kind: LinkKind, [a, b]: [Point; 2], turned: [f64; 2], cylinder: f64) {
+    /// A massless element between two points; in the first position.
+    pub(super) fn link(self, scene: &mut Scene, link: &Link, [a, b]: [Point; 2]) {
+        let kind = link.kind;
+        let turned = link.turned.first().copied().filter(|t| t.iter().all(|x| x.is_finite())).unwrap_or_default();
         let about_hinge = kind == LinkKind::Clutch && direction(a, b).1 < AROUND * self.size;
         if kind != LinkKind::Brake && !about_hinge {
             let color = if kind == LinkKind::Actuator { DRIVE } else { RUST };
@@ -47,7 +49,7 @@ impl Signs {
                     scene.line(vec![off(end, along, 0.0, -aside), off(end, along, 0.0, aside)], Stroke::solid(RUST, self.pen(2.6)));
                 }
             }
-            LinkKind::Actuator => self.actuator(scene, [a, b], cylinder),
+            LinkKind::Actuator => self.actuator(scene, [a, b], link.cylinder.first().copied().unwrap_or_default(), link.stages),
             LinkKind::Rod => scene.line(vec![a, b], Stroke::solid(RUST, self.pen(2.6))),
             LinkKind::Torsion => self.spiral(scene, a, turned),
             LinkKind::Shaft => {
@@ -80,17 +82,23 @@ impl Signs {
         scene.line(vec![at(0.55, -7.0), at(0.55, 7.0)], Stroke::solid(RUST, self.pen(3.6)));
     }
 
-    /// A cylinder from a, and its rod to b.
-    fn actuator(self, scene: &mut Scene, [a, b]: [Point; 2], cylinder: f64) {
+    /// Tubes that slide in each other, the first as long as a part of what is between a and b, the last one a rod.
+    fn actuator(self, scene: &mut Scene, [a, b]: [Point; 2], tube: f64, stages: usize) {
         let (along, length) = direction(a, b);
         let half = (11.0 * self.size).min(0.2 * length);
         let at = |s: f64, t: f64| off(a, along, s * length, t * half);
-        let mouth = if cylinder.is_finite() { cylinder.clamp(0.0, 1.0) } else { 0.0 };
-        let foot = (0.08 * mouth).min(10.0 * self.size / length.max(1.0));
-        let edge = Stroke::solid(DRIVE, self.pen(2.4));
-        scene.line(vec![a, at(foot, 0.0)], Stroke::solid(DRIVE, self.pen(5.0)));
-        scene.line(vec![at(mouth, 0.0), b], Stroke::solid(DRIVE, self.pen(5.0)));
-        scene.shape(vec![at(foot, -1.0), at(mouth, -1.0), at(mouth, 1.0), at(foot, 1.0)], Some([226, 240, 235]), Some(edge));
+        let tube = if tube.is_finite() { tube.clamp(0.0, 1.0) } else { 0.0 };
+        let last = stages.max(2) - 1;
+        let mouth = |k: usize| tube + (1.0 - tube) * k as f64 / last as f64;
+        let foot = (0.08 * tube).min(10.0 * self.size / length.max(1.0));
+        let (edge, rod) = (Stroke::solid(DRIVE, self.pen(2.4)), Stroke::solid(DRIVE, self.pen(5.0)));
+        scene.line(vec![a, at(foot, 0.0)], rod);
+        scene.line(vec![at(mouth(last - 1), 0.0), b], rod);
+        for k in (0..last).rev() {
+            let (from, to) = (if k == 0 { foot } else { mouth(k - 1) }, mouth(k));
+            let wide = 1.0 - 0.8 * k as f64 / last as f64;
+            scene.shape(vec![at(from, -wide), at(to, -wide), at(to, wide), at(from, wide)], Some([226, 240, 235]), Some(edge));
+        }
     }
 
     /// A spring about a hinge: from the first body outside to the second one inside, wound by the angle between them.
@@ -192,7 +200,7 @@ impl Signs {
 
     /// The damping of a joint: a small dashpot behind the box of a slide, or bent about a hinge where the arrow of a drive has its gap.
     /// Gives its middle line.
-    pub(super) fn dashpot(self, scene: &mut Scene, placement: &Placement, slides: bool) -> Vec<Point> {
+    pub(super) fn dashpot(self, scene: &mut Scene, placement: &Placement, slides: bool, grounded: bool) -> Vec<Point> {
         let size = self.size;
         let (along, _) = direction([0.0; 2], placement.along);
         let [u, v] = placement.across;
@@ -218,6 +226,11 @@ impl Signs {
         line(vec![(1.0, -0.9), (1.0, 0.9)], 2.4);
         if !slides {
             line(vec![(0.0, 0.0), (0.0, -2.4)], 2.4);
+        } else if grounded {
+            // the hatch of the ground
+            for t in [-0.9, -0.3, 0.3, 0.9] {
+                line(vec![(1.0, t), (1.2, t + 0.5)], 1.4);
+            }
         }
         run(0.0, 1.0, 0.0).map(|(s, t)| at(s, t)).collect()
     }
@@ -240,10 +253,13 @@ impl Signs {
         if let ([Some(first), _], Some(swing)) = (placement.stops, placement.swing) {
             let from = (-first[1]).atan2(first[0]);
             let on = |k: u32| {
-                let (s, c) = (from + swing.min(TAU) * f64::from(k) / 48.0).sin_cos();
-                [placement.at[0] + SWING * self.size * c, placement.at[1] - SWING * self.size * s]
+                let turned = swing * f64::from(k) / 96.0;
+                let (s, c) = (from + turned).sin_cos();
+                // of more than a turn a spiral
+                let radius = SWING * self.size * if swing > TAU { 1.0 + 0.2 * turned / TAU } else { 1.0 };
+                [placement.at[0] + radius * c, placement.at[1] - radius * s]
             };
-            scene.line((0..=48).map(on).collect(), Stroke::solid(STOP, self.pen(1.6)));
+            scene.line((0..=96).map(on).collect(), Stroke::solid(STOP, self.pen(1.6)));
         }
         let stops = placement.stops.iter().zip([-1.0, 1.0]).zip(placement.beyond);
         for (stop, sense, beyond) in stops.filter_map(|((stop, sense), beyond)| Some(((*stop)?, sense, beyond))) {
@@ -339,7 +355,8 @@ mod tests {
     fn clutches_are_plates_between_two_hinges_or_arcs_around_one() {
         let points = |kind: LinkKind, ends: [Point; 2]| -> Vec<Vec<Point>> {
             let mut scene = Scene::default();
-            Signs { size: 1.0 }.link(&mut scene, kind, ends, [0.0, 1.0], 0.5);
+            let link = Link { kind, turned: vec![[0.0, 1.0]], cylinder: vec![0.5], ..Link::default() };
+            Signs { size: 1.0 }.link(&mut scene, &link, ends);
             let of = |item: Item| if let Item::Path { points, .. } = item { Some(points) } else { None };
             scene.items.into_iter().filter_map(of).collect()
         };
@@ -365,7 +382,7 @@ mod tests {
         let at = [100.0, 100.0];
         let points = |placement: &Placement, slides: bool| {
             let mut scene = Scene::default();
-            let line = Signs { size: 1.0 }.dashpot(&mut scene, placement, slides);
+            let line = Signs { size: 1.0 }.dashpot(&mut scene, placement, slides, true);
             let of = |item: &Item| if let Item::Path { points, .. } = item { points.clone() } else { panic!("{item:?}") };
             assert!(scene.items.len() >= 5 && line.len() > 2, "{:?}", scene.items);
             scene.items.iter().flat_map(of).collect::<Vec<_>>()

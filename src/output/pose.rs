@@ -50,6 +50,20 @@ pub struct Form {
     pub depth: f64,
 }
 
+impl Form {
+    /// How a shape is shown in a pale position: wheels without their teeth, and those that stay in their place not at all, which would fill
+    /// the gaps between the teeth of the `strong` position.
+    pub(super) fn as_ghost(&self, strong: Option<&Self>) -> Option<Self> {
+        let FormKind::Gear { center, radius, spoke, rim, .. } = &self.kind else { return Some(self.clone()) };
+        let rests = |other: &Self| matches!(&other.kind, FormKind::Gear { center: at, .. } if (at[0] - center[0]).hypot(at[1] - center[1]) <= 1e-6 * radius);
+        if strong.is_some_and(rests) {
+            return None;
+        }
+        let kind = FormKind::Disc { center: *center, radius: rim.unwrap_or(*radius), spoke: *spoke };
+        Some(Self { kind, depth: self.depth })
+    }
+}
+
 /// Shapes.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
@@ -96,6 +110,8 @@ pub struct Symbol {
     pub telescopes: bool,
     /// Of a hinge of the frame: its bearing stands above it, as a rack is below.
     pub above: bool,
+    /// Of a slide: what slides is seen by its box alone, in pale positions too.
+    pub boxed: bool,
     /// Of a slot: the body that it is cut into has no area of its own around it.
     pub framed: bool,
     /// Where it is, for each position.
@@ -133,8 +149,10 @@ pub struct Placement {
     pub across: [[f64; 2]; 2],
     /// Sense in which it is driven: 1 along or counter-clockwise about the axis, −1 the other way, 0 for both and for neither.
     pub sense: f64,
-    /// Of a slide how far the body that slides reaches to the lower side of the way, or to the right of an upright one, m.
+    /// Of a slide how far the body that slides reaches to the side of its guide, m.
     pub clear: f64,
+    /// Of a slide: its guide is on the upper side of the way, or on the left of an upright one, not on the lower side.
+    pub upper: bool,
     /// Of a slide the places where stops are, of a hinge in the plane the directions in which they are.
     pub stops: [Option<[f64; 2]>; 2],
     /// Of a slide with stops how far the outlines of the body that slides reach from its point back and ahead along the way, m; else 0.
@@ -160,6 +178,8 @@ pub struct Link {
     pub turned: Vec<[f64; 2]>,
     /// Of an actuator: length of its cylinder as part of what is between its ends, for each position.
     pub cylinder: Vec<f64>,
+    /// Of an actuator how many tubes slide in each other.
+    pub stages: usize,
 }
 
 /// What a massless element looks like.

@@ -1,7 +1,7 @@
 //! A drawing in pixels: its extent, its scale, and its parts as they lie on the sheet.
 
 use super::pose::{Drawing, Form, FormKind, Gear, Link, Placement};
-use super::scene::{Color, pale};
+use super::scene::{Color, GREY, pale};
 use super::symbols::shaded;
 use super::thin::Point;
 
@@ -41,6 +41,7 @@ impl Sheet {
             across: placement.across.map(turned),
             sense: placement.sense,
             clear: placement.clear * self.scale,
+            upper: placement.upper,
             stops: placement.stops.map(|stop| stop.filter(is_usable)),
             beyond: placement.beyond.map(along),
             back: along(placement.back),
@@ -95,8 +96,9 @@ impl Sheet {
 
 /// Fill of a body; 0 is the ground. Of many bodies those of a further round are darker, then lighter.
 pub(super) fn body_color(index: usize) -> Color {
-    let color = BODIES[(index + BODIES.len() - 1) % BODIES.len()];
-    match (index.max(1) - 1) / BODIES.len() {
+    let Some(index) = index.checked_sub(1) else { return GREY };
+    let color = BODIES[index % BODIES.len()];
+    match index / BODIES.len() {
         0 => color,
         round if round % 2 == 1 => shaded(color, 1.0 - 0.1 * round.div_ceil(2).min(4) as f64),
         round => pale(color, 1.0 - 0.25 * (round / 2).min(3) as f64),

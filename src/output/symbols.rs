@@ -74,7 +74,13 @@ impl Signs {
                 circle(*center, *radius)
             }
             FormKind::Gear { center, radius, teeth, outline, spoke, rim: outer } => {
-                let fill = spoke.map(|_| pale(looks.fill, if looks.strong { 0.7 } else { 0.4 }));
+                let color = pale(looks.fill, if looks.strong { 0.7 } else { 0.4 });
+                if let Some(outer) = outer {
+                    // the ring between its rim and its teeth, in one line with a seam
+                    let inner = outline.iter().chain(outline.first()).rev().copied();
+                    scene.shape(around(*center, *outer, 96).into_iter().rev().chain(inner).collect(), Some(color), None);
+                }
+                let fill = spoke.map(|_| color);
                 let edge = Some(Stroke::solid(looks.edge, rim / 3.0));
                 if TAU * radius / *teeth as f64 > CLOSE {
                     scene.shape(outline.clone(), fill, edge);
@@ -158,17 +164,18 @@ impl Signs {
         self.hatched(scene, off(at, along, 0.0, half), off(at, along, 0.0, -half));
     }
 
-    /// A hatched line at `distance` on the lower side of `way`.
-    pub(super) fn hatched_below(self, scene: &mut Scene, way: [Point; 2], distance: f64) {
-        let [a, b] = lower_side(way, distance * self.size);
-        self.hatched(scene, a, b);
+    /// A hatched line at `distance` on the lower side of `way`, or on its upper one.
+    pub(super) fn hatched_below(self, scene: &mut Scene, way: [Point; 2], distance: f64, upper: bool) {
+        let side = if upper { -1.0 } else { 1.0 };
+        let [a, b] = lower_side(way, side * distance * self.size);
+        if upper { self.hatched(scene, b, a) } else { self.hatched(scene, a, b) }
     }
 
-    /// What a slide slides on: hatched ground, at least `clear` pixels below the way, or a guide on the body with `looks`, as wide as
-    /// the box.
-    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], body: Option<&Looks>, clear: f64) {
+    /// What a slide slides on: hatched ground, as far below the way, or above it, as what slides reaches, or a guide on the body with `looks`,
+    /// as wide as the box.
+    pub(super) fn slideway(self, scene: &mut Scene, way: [Point; 2], body: Option<&Looks>, placement: &Placement) {
         match body {
-            None => self.hatched_below(scene, way, (BOX[1] + 2.0).max(clear / self.size)),
+            None => self.hatched_below(scene, way, (BOX[1] + 2.0).max(placement.clear / self.size), placement.upper),
             Some(looks) => {
                 scene.line(way.to_vec(), Stroke::solid(looks.edge, self.guide_width() + 2.0 * self.pen(2.0)));
                 scene.line(way.to_vec(), Stroke::solid(pale(looks.fill, 0.25), self.guide_width()));

@@ -44,9 +44,10 @@ export class Followed {
   }
 }
 
-/** The body to follow at first: none, unless all travel so far together that they would be small in a picture of the whole motion. */
+/** The body to follow at first: none, unless all travel so far together that they would be small in a picture of the whole motion, and nothing reaches from them to the ground. */
 export function leading(motion: Motion): string | null {
-  const { bodies } = motion.scene;
+  const { bodies, links, gears } = motion.scene;
+  if ([...links.filter(({ kind }) => kind === 'actuator' || kind === 'rod'), ...gears].some(({ a, b }) => (a.body === 0) !== (b.body === 0))) return null;
   const moving = [...motion.places()].filter(({ body }) => body !== 0);
   const points = moving.filter((_, i) => i % Math.ceil(moving.length / POINTS) === 0);
   const places = motion.sampled(LOOKS);

@@ -183,6 +183,8 @@ export interface Joint {
   swing?: Num;
   /** Whether its bearing stands above it. */
   above?: boolean;
+  /** Of a slide: whether its guide is on the upper side of the way. */
+  upper?: boolean;
   /** Whether a slot is drawn with what it is cut into. */
   framed?: boolean;
   /** Of what is driven the sense in which it moves at first: 0 is none. */
@@ -195,7 +197,8 @@ export interface Joint {
 }
 
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'actuator' | 'torsion' | 'shaft' | 'clutch' | 'brake';
-export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num }
+/** `rest` is the shortest length of an actuator, of so many tubes. */
+export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num; stages?: number }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';
 export interface Gear { name: string; kind: GearKind; a: Wheel; b: Wheel }

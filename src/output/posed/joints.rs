@@ -22,6 +22,7 @@ impl Posed<'_> {
                 telescopes: joint.telescopes,
                 above: self.stands_above(joint),
                 framed: kind == SymbolKind::Slot && !self.scene.bodies[joint.a.body].shapes.iter().any(is_area),
+                boxed: !self.scene.bodies[joint.b.body].shapes.iter().any(is_area),
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })
         })
@@ -34,6 +35,7 @@ impl Posed<'_> {
         let a = self.scene.world(poses, &joint.a);
         let on_way = |s: f64| self.view.flat(std::array::from_fn(|i| a[i] + s * axis[i]));
         let about = if planar { [0.0, 0.0, 1.0] } else { axis };
+        let upper = kind == SymbolKind::Slide && planar && self.guided_above(joint, axis);
         let reach = if kind == SymbolKind::Slide { self.extent_along(poses, joint, axis) } else { [0.0; 2] };
         let beyond = std::array::from_fn(|end| if joint.stops[end].is_some() { reach[end] } else { 0.0 });
         let stops = joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) });
@@ -44,7 +46,8 @@ impl Posed<'_> {
             carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
             // the middle of the arrow of what drives
             across: self.view.facing(about, 0.75).map(|e| self.view.flat(e)),
-            clear: if slides && planar { self.clear(poses, joint, axis) } else { 0.0 },
+            clear: if slides && planar { self.clear(poses, joint, axis, upper) } else { 0.0 },
+            upper,
             sense: joint.sense,
             swing: joint.stops[0].zip(joint.stops[1]).map(|(a, b)| b - a).filter(|_| !slides && stops.iter().all(Option::is_some)),
             stops,
@@ -120,11 +123,23 @@ impl Posed<'_> {
         shapes.into_iter().find(|(ends, _)| ends[0] < high && ends[1] > low)
     }
 
-    /// How far the outlines of the body that slides reach from the way to its lower side, m.
-    fn clear(&self, poses: &[f64], joint: &Joint, axis: [f64; 3]) -> f64 {
-        let upright = axis[0].abs() <= 1e-6;
-        let sign = if if upright { axis[1] < 0.0 } else { axis[0] < 0.0 } { -1.0 } else { 1.0 };
-        let lower = [sign * axis[1], -sign * axis[0]];
+    /// Whether the guide of a slide is on the upper side of its way, as the teeth of the rack that slides are on the lower one.
+    fn guided_above(&self, joint: &Joint, axis: [f64; 3]) -> bool {
+        let Some(poses) = self.frames.first() else { return false };
+        self.scene.gears.iter().any(|gear| {
+            if gear.kind != GearKind::Rack || gear.b.body != joint.b.body {
+                return false;
+            }
+            let (_, mesh) = winding::pitch_line(self.scene, poses, gear);
+            let pinion = self.scene.world(poses, &Place { body: gear.a.body, at: gear.a.at.clone() });
+            let [x, y] = lower(axis);
+            x * (pinion[0] - mesh[0]) + y * (pinion[1] - mesh[1]) > 0.0
+        })
+    }
+
+    /// How far the outlines of the body that slides reach from the way to the side of its guide, m.
+    fn clear(&self, poses: &[f64], joint: &Joint, axis: [f64; 3], upper: bool) -> f64 {
+        let lower = if upper { lower(axis).map(|x| -x) } else { lower(axis) };
         let from = self.flat(poses, &joint.b);
         let reach = |at: &[f64]| {
             let [x, y] = self.flat(poses, &Place { body: joint.b.body, at: at.to_vec() });
@@ -154,20 +169,30 @@ impl Posed<'_> {
         })
     }
 
-    /// The direction in the plane that the second body has on a stop: from the hinge to its middle.
+    /// The direction in the plane that the second body has on a stop: from the hinge to its farthest place, or if that is one of several its x
+    /// axis.
     fn stop_of_hinge(&self, poses: &[f64], joint: &Joint, stop: f64) -> Option<[f64; 2]> {
         let at = &joint.b.at;
         let from = |p: &&Vec<f64>| (p[0] - at[0]).hypot(p[1] - at[1]);
         let joints = self.scene.joints.iter().flat_map(|j| [&j.a, &j.b]).filter(|p| p.body == joint.b.body).map(|p| &p.at);
-        let far =
-            joints.chain(self.scene.bodies[joint.b.body].shapes.iter().flat_map(points)).max_by(|p, q| from(p).total_cmp(&from(q)))?;
-        if self.scene.dimensions == 3 || from(&far) == 0.0 {
+        if self.scene.dimensions == 3 {
             return None;
         }
-        let own = (far[1] - at[1]).atan2(far[0] - at[0]);
+        let places: Vec<&Vec<f64>> = joints.chain(self.scene.bodies[joint.b.body].shapes.iter().flat_map(points)).collect();
+        let far = places.iter().copied().max_by(|p, q| from(p).total_cmp(&from(q)))?;
+        let (reach, apart) = (from(&far), |p: &&&Vec<f64>| (p[0] - far[0]).hypot(p[1] - far[1]));
+        let alone = !places.iter().any(|p| from(p) > 0.99 * reach && apart(&p) > 0.1 * reach);
+        let own = if alone && reach > 0.0 { (far[1] - at[1]).atan2(far[0] - at[0]) } else { 0.0 };
         let (s, c) = (self.angle(poses, joint.a.body) + stop + own).sin_cos();
         Some([c, s])
     }
+}
+
+/// The direction to the lower side of a way, or to the right of an upright one.
+fn lower(axis: [f64; 3]) -> [f64; 2] {
+    let upright = axis[0].abs() <= 1e-6;
+    let sign = if if upright { axis[1] < 0.0 } else { axis[0] < 0.0 } { -1.0 } else { 1.0 };
+    [sign * axis[1], -sign * axis[0]]
 }
 
 /// Whether a shape has room for a slot.

@@ -12,7 +12,7 @@ use crate::results::Scene;
 use crate::results::scene::{self, Place};
 
 /// Length of the cylinder of an actuator, as part of the shortest distance of its ends.
-const CYLINDER: f64 = 0.8;
+const CYLINDER: f64 = 0.85;
 
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
@@ -140,6 +140,7 @@ impl Posed<'_> {
                 poses: self.frames.iter().map(ends).collect(),
                 turned: self.frames.iter().map(turned).collect(),
                 cylinder: self.frames.iter().map(cylinder).collect(),
+                stages: link.stages,
             }
         })
     }

@@ -222,7 +222,7 @@ fn signs(value: &mut Value, scene: &Scene) {
         if placement.back > 0.0 {
             joint["back"] = json(&placement.back);
         }
-        for (key, holds) in [("above", symbol.above), ("framed", symbol.framed)] {
+        for (key, holds) in [("above", symbol.above), ("framed", symbol.framed), ("upper", placement.upper)] {
             if holds {
                 joint[key] = true.into();
             }

@@ -72,6 +72,9 @@ pub struct Link {
     pub b: Place,
     /// Free length of a spring, m, or rest angle of a torsion spring, rad, if it does not change; shortest length of an actuator, m.
     pub rest: Option<f64>,
+    /// Of an actuator how many tubes slide in each other, the rod with them: each is shorter than the shortest length. 0 for others.
+    #[serde(default)]
+    pub stages: usize,
 }
 
 /// What a massless element is.

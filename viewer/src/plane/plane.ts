@@ -361,16 +361,18 @@ export class Plane implements Renderer {
   }
 
   /** The ends of the way of a slide. */
-  private ends({ a, axis, stroke, beyond = [0, 0] }: Joint): [Point, Point] {
+  private ends({ kind, a, axis, stroke, beyond = [0, 0] }: Joint): [Point, Point] {
     const at = this.point(a);
     const along = this.along(a.body, axis);
     const [low, high] = stroke ?? [0, 0];
-    return [off(at, along, (low - beyond[0]) * this.scale - 24, 0), off(at, along, (high + beyond[1]) * this.scale + 24, 0)];
+    // a slot ends around its pin, a way with the box
+    const more = kind === 'pin-in-slot' ? 7 : 24;
+    return [off(at, along, (low - beyond[0]) * this.scale - more, 0), off(at, along, (high + beyond[1]) * this.scale + more, 0)];
   }
 
   private way(joint: Joint): void {
-    const { a, kind, telescopes } = joint;
-    if (!telescopes && signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks);
+    const { a, kind, telescopes, upper } = joint;
+    if (!telescopes && signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks, upper);
   }
 
   /** Those of hinges on the ground, and of rods without mass. */
@@ -380,10 +382,10 @@ export class Plane implements Renderer {
     for (const { a, b, above } of [...hinges, ...links.filter(({ kind }) => kind === 'rod').map((rod) => ({ ...rod, above: false }))]) for (const end of [a, b]) if (end.body === 0) signs.bearing(this.pen, this.point(end), this.inks, above);
   }
 
-  /** How far the outlines of the body that slides reach from the way to its lower side, pixels. */
-  private clear({ a, b, axis }: Joint): number {
+  /** How far the outlines of the body that slides reach from the way to the side of its guide, pixels. */
+  private clear({ a, b, axis, upper }: Joint): number {
     const [u, v] = this.along(a.body, axis);
-    const lower: Point = signs.isBackwards([u, v]) ? [v, -u] : [-v, u];
+    const lower: Point = signs.isBackwards([u, v]) !== (upper ?? false) ? [v, -u] : [-v, u];
     const from = this.point(b);
     const reach = (at: number[]) => {
       const [x, y] = this.point({ body: b.body, at });
@@ -409,7 +411,7 @@ export class Plane implements Renderer {
   }
 
   private dashpot(joint: Joint): void {
-    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), signs.slides(joint) ? this.along(joint.a.body, joint.axis) : null, (joint.back ?? 0) * this.scale, this.inks);
+    if (joint.damped) signs.dashpot(this.pen, this.point(joint.b), signs.slides(joint) ? this.along(joint.a.body, joint.axis) : null, (joint.back ?? 0) * this.scale, joint.a.body === 0, this.inks);
   }
 
   /** The stops of a joint, and what drives it. */

@@ -37,13 +37,13 @@ export function anchor(pen: Pen, at: Point, along: Point, inks: Inks): void {
   hatched(pen, off(at, along, 0, 9), off(at, along, 0, -9), inks);
 }
 
-/** What a slide slides on, from one end to the other: hatched ground on its lower side, at least `clear` pixels away, or a guide on a body of these colours, as wide as the box. */
-export function slideway(pen: Pen, a: Point, b: Point, body: { fill: string; edge: string } | null, clear: number, inks: Inks): void {
+/** What a slide slides on, from one end to the other: hatched ground on its lower side, or on its upper one, at least `clear` pixels away, or a guide on a body of these colours, as wide as the box. */
+export function slideway(pen: Pen, a: Point, b: Point, body: { fill: string; edge: string } | null, clear: number, inks: Inks, upper = false): void {
   if (body) {
     pen.path([a, b]).stroke(body.edge, 2 * BOX[1] + 7).stroke(mixed(inks.paper, body.fill, 0.25), 2 * BOX[1] + 4);
     return;
   }
-  const [from, to] = isBackwards([b[0] - a[0], b[1] - a[1]]) ? [b, a] : [a, b];
+  const [from, to] = isBackwards([b[0] - a[0], b[1] - a[1]]) !== upper ? [b, a] : [a, b];
   const { along } = toward(from, to);
   const below = Math.max(BOX[1] + 1, clear);
   hatched(pen, off(from, along, 0, below), off(to, along, 0, below), inks);
@@ -140,9 +140,12 @@ export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: P
 export function ends(pen: Pen, at: Point, angles: (number | null)[], swing: number | null, inks: Inks): void {
   const from = angles[0];
   if (from !== null && from !== undefined && swing !== null) {
-    const turn = Math.min(swing, 2 * Math.PI);
-    const on = (k: number): Point => [at[0] + 28 * Math.cos(from + (turn * k) / 48), at[1] - 28 * Math.sin(from + (turn * k) / 48)];
-    pen.path(Array.from({ length: 49 }, (_, k) => on(k))).stroke(stopInk(inks), 1.1);
+    // of more than a turn a spiral
+    const on = (turn: number): Point => {
+      const radius = 28 * (swing > 2 * Math.PI ? 1 + (0.2 * turn) / (2 * Math.PI) : 1);
+      return [at[0] + radius * Math.cos(from + turn), at[1] - radius * Math.sin(from + turn)];
+    };
+    pen.path(Array.from({ length: 97 }, (_, k) => on((swing * k) / 96))).stroke(stopInk(inks), 1.1);
   }
   angles.forEach((angle, k) => {
     if (angle === null) return;
@@ -156,7 +159,7 @@ export function ends(pen: Pen, at: Point, angles: (number | null)[], swing: numb
  * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, or what slides, so many pixels back, or bent
  * about a hinge, to its upper left, where its bearing is not.
  */
-export function dashpot(pen: Pen, center: Point, slide: Point | null, back: number, inks: Inks): void {
+export function dashpot(pen: Pen, center: Point, slide: Point | null, back: number, grounded: boolean, inks: Inks): void {
   const color = inks.rust;
   // s from what moves to what holds it, t across
   const at = ([s, t]: Point): Point => {
@@ -172,6 +175,8 @@ export function dashpot(pen: Pen, center: Point, slide: Point | null, back: numb
   line(run(0.8, 1, 0), 1.7);
   line([[1, -0.9], [1, 0.9]], 1.7);
   if (!slide) line([[0, 0], [0, -2.4]], 1.7);
+  // the hatch of the ground
+  else if (grounded) for (const t of [-0.9, -0.3, 0.3, 0.9]) line([[1, t], [1.2, t + 0.5]], 1);
 }
 
 /** The points of a coil between two points of the line from a along `along`. */
@@ -191,22 +196,25 @@ function damper(pen: Pen, a: Point, along: Point, from: number, to: number, acro
   pen.path([p((low + high) / 2, -4), p((low + high) / 2, 4)]).stroke(color, 2.6);
 }
 
-/** A cylinder from a, as long as a part of the whole, and its rod to b. */
-function actuator(pen: Pen, a: Point, b: Point, part: number, inks: Inks): void {
+/** Tubes that slide in each other, which end at parts of what is between a and b, the last one a rod. */
+function actuator(pen: Pen, a: Point, b: Point, mouths: number[], inks: Inks): void {
   const color = driveInk(inks);
   const { along, length } = toward(a, b);
-  const [half, mouth] = [Math.min(7, 0.2 * length), Math.min(part, 1) * length];
-  const foot = Math.min(0.08 * mouth, 7);
+  const [half, last] = [Math.min(7, 0.2 * length), mouths.length - 1];
+  const foot = Math.min(0.08 * mouths[0]! * length, 7);
   const at = (s: number, t: number) => off(a, along, s, t * half);
   pen.path([a, at(foot, 0)]).stroke(color, 3.2);
-  pen.path([at(mouth, 0), b]).stroke(color, 3.2);
-  pen.path([at(foot, -1), at(mouth, -1), at(mouth, 1), at(foot, 1)], true).fill(mixed(inks.paper, color, 0.15)).stroke(color, 1.6);
+  pen.path([at(mouths[last - 1]! * length, 0), b]).stroke(color, 3.2);
+  for (let k = last - 1; k >= 0; k--) {
+    const [from, to, wide] = [k === 0 ? foot : mouths[k - 1]! * length, mouths[k]! * length, 1 - (0.8 * k) / last];
+    pen.path([at(from, -wide), at(to, -wide), at(to, wide), at(from, wide)], true).fill(mixed(inks.paper, color, 0.15)).stroke(color, 1.6);
+  }
   [a, b].forEach((point) => pen.circle(point, 2.6).fill(color));
 }
 
-/** A spring, a damper or both between two points, or an actuator, of which the cylinder takes a part. Springs about a hinge are spirals. */
-export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, part: number, inks: Inks): void {
-  if (kind === 'actuator') return actuator(pen, a, b, part, inks);
+/** A spring, a damper or both between two points, or an actuator with the ends of its tubes. Springs about a hinge are spirals. */
+export function link(pen: Pen, kind: LinkKind, a: Point, b: Point, mouths: number[], inks: Inks): void {
+  if (kind === 'actuator') return actuator(pen, a, b, mouths, inks);
   const color = inks.rust;
   const { along, length } = toward(a, b);
   const end = Math.min(0.2 * length, 16);
@@ -284,6 +292,11 @@ function spiral(pen: Pen, at: Point, a: number, b: number, inks: Inks): void {
 
 /** A wheel: its teeth along an outline, if there are any, its pitch circle, and a line that shows how it turns; of a ring also its rim. */
 export function gear(pen: Pen, center: Point, radius: number, outline: Point[], turned: Point, rim: number | null, fill: string, color: string): void {
+  if (rim !== null && outline.length > 0) {
+    // the ring between its rim and its teeth, in one line with a seam
+    const round = Array.from({ length: 97 }, (_, k): Point => [center[0] + rim * Math.cos((k * Math.PI) / 48), center[1] - rim * Math.sin((k * Math.PI) / 48)]);
+    pen.path([...round, ...[...outline, outline[0]!].reverse()], true).fill(fill);
+  }
   const wheel = outline.length > 0 ? pen.path(outline, true) : pen.circle(center, radius);
   if (rim === null) wheel.fill(fill);
   if (outline.length > 0 || rim === null) wheel.stroke(color, 1.2);

@@ -199,7 +199,7 @@ class Space implements Renderer {
     const along = this.motion.direction(a.body, axis, this.place);
     const flat: Point = [dot(along, this.right), -dot(along, this.above)];
     const slide = ['slider', 'prismatic'].includes(kind) ? toward([0, 0], flat).along : null;
-    signs.dashpot(this.pen, this.pixel(at), slide, (back ?? 0) * Math.hypot(...flat) * this.scale, inks);
+    signs.dashpot(this.pen, this.pixel(at), slide, (back ?? 0) * Math.hypot(...flat) * this.scale, a.body === 0, inks);
   }
 
   /** Direction of the x axis of a body in the picture, rad. */

@@ -9,7 +9,7 @@ use crate::geometry::Space;
 use crate::mechanism::{Joint, Mechanism, Outline, RowKind, RowOwner};
 use crate::model::{CouplingKind, Model};
 use crate::results::Scene;
-use crate::results::scene::{Body, Gear, GearKind, Shape, Wheel};
+use crate::results::scene::{Body, Gear, GearKind, Place, Shape, Wheel};
 
 /// A disc up to this multiple of a pitch circle is that of the pitch circle.
 const PITCH: f64 = 1.02;
@@ -23,7 +23,7 @@ pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
     }
     let welded = Welded::of(mechanism);
     let rows = mechanism.rows.iter().filter(|row| row.owner == RowOwner::Coupling);
-    rows.filter_map(|row| {
+    let all = rows.filter_map(|row| {
         let RowKind::Ratio { first, second, ratio } = row.kind else { return None };
         let of_gauge = |gauge: usize| mechanism.joints.iter().find(|joint| joint.slots.first() == Some(&gauge));
         let (first, second) = (of_gauge(first)?, of_gauge(second)?);
@@ -33,8 +33,31 @@ pub(super) fn gears<G: Space<S = f64>>(model: &Model, mechanism: &Mechanism<G>, 
             ("revolute", "slider") => rack(&row.label, [first, second], ratio, (scene, &welded)),
             _ => None,
         }
-    })
-    .collect()
+    });
+    all.map(|gear| Gear { a: on_disc::<G>(scene, &welded, gear.a), b: on_disc::<G>(scene, &welded, gear.b), ..gear }).collect()
+}
+
+/// A wheel on that of the bodies welded to its own which has the disc of the pitch circle.
+fn on_disc<G: Space<S = f64>>(scene: &Scene, welded: &Welded, wheel: Wheel) -> Wheel {
+    let poses = scene.frame(0);
+    let world = |body: usize, at: &[f64]| scene.world(poses, &Place { body, at: at.to_vec() });
+    let (center, radius) = (world(wheel.body, &wheel.at), wheel.radius.abs());
+    let disc = |body: usize| {
+        scene.bodies[body].shapes.iter().find_map(|shape| match shape {
+            Shape::Disc { center: at, radius: r, .. } if (r / radius - 1.0).abs() <= PITCH - 1.0 => {
+                let gap = world(body, at).iter().zip(center).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
+                (gap <= (PITCH - 1.0) * radius).then(|| at.clone())
+            }
+            _ => None,
+        })
+    };
+    if wheel.radius == 0.0 || disc(wheel.body).is_some() {
+        return wheel;
+    }
+    let others = (0..scene.bodies.len()).filter(|body| *body != wheel.body && welded.0[*body] == welded.0[wheel.body]);
+    let Some((body, at)) = others.into_iter().find_map(|body| Some((body, disc(body)?))) else { return wheel };
+    let axis = if wheel.axis.is_empty() { Vec::new() } else { own::<G>(scene, body, scene.direction(poses, wheel.body, &wheel.axis)) };
+    Wheel { body, at, axis, ..wheel }
 }
 
 /// Gives wheels with outer teeth that have no outline of their own the disc of their pitch circle, and takes the disc of its pitch circle

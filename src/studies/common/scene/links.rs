@@ -13,6 +13,10 @@ use crate::studies::common::case::Case;
 /// Hinges that are nearer are one, as part of the size of the mechanism.
 const NEAR: f64 = 1e-9;
 
+/// Longest tube of an actuator, as part of its shortest length, and most tubes.
+const TUBE: f64 = 0.85;
+const STAGES: f64 = 6.0;
+
 /// Shortest spring along a slide, as part of the size of the mechanism.
 const SHORTEST: f64 = 0.1;
 
@@ -40,7 +44,7 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
             }
             _ => return None,
         };
-        Some(Link { name: spring.name.clone(), kind: turning.unwrap_or(kind(spring)), a, b, rest })
+        Some(Link { name: spring.name.clone(), kind: turning.unwrap_or(kind(spring)), a, b, rest, stages: 0 })
     });
     let rods = mechanism.joints.iter().filter(|joint| joint.kind == "distance").map(|joint| Link {
         name: joint.name.clone(),
@@ -48,6 +52,7 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         a: place::<G>(joint.a),
         b: place::<G>(joint.b),
         rest: None,
+        stages: 0,
     });
     let clutches = case.model.clutches.iter().map(|clutch| {
         let [first, second] = clutch.joints.map(|joint| &mechanism.joints[joint]);
@@ -56,7 +61,7 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         } else {
             (LinkKind::Clutch, [first, second].map(moved))
         };
-        Link { name: clutch.name.clone(), kind, a, b, rest: None }
+        Link { name: clutch.name.clone(), kind, a, b, rest: None, stages: 0 }
     });
     springs.chain(rods).chain(clutches).chain(actuators(case, mechanism, scene)).collect()
 }
@@ -84,9 +89,14 @@ fn actuators<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
             let [a, b] = [&a, &b].map(|end| scene.world(scene.frame(index), end));
             (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
         };
-        let shortest = (0..scene.frames.count()).map(length).filter(|x| x.is_finite()).reduce(f64::min)?;
-        let (kind, rest) = if moves { (LinkKind::Actuator, Some(shortest)) } else { (LinkKind::Rod, None) };
-        Some(Link { name: coupling.name.clone(), kind, a, b, rest })
+        let lengths = (0..scene.frames.count()).map(length).filter(|x| x.is_finite());
+        let [shortest, longest] = lengths.fold([f64::INFINITY, 0.0], |[low, high], x| [f64::min(low, x), f64::max(high, x)]);
+        let name = coupling.name.clone();
+        if !moves {
+            return Some(Link { name, kind: LinkKind::Rod, a, b, rest: None, stages: 0 });
+        }
+        let stages = (longest / (TUBE * shortest)).ceil().clamp(2.0, STAGES) as usize;
+        Some(Link { name, kind: LinkKind::Actuator, a, b, rest: Some(shortest), stages })
     };
     case.model.couplings.iter().filter_map(of).collect()
 }
