@@ -113,8 +113,28 @@ pub(crate) fn basic(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], f: &mut
     while let Some(exact) = forces(a, b, all, places) {
         *f = exact;
         let beyond = (0..all.len()).find_map(|i| Some((i, elsewhere(&all[i], places[i], f[i], 0.0)?)));
-        let Some((i, place)) = beyond else { return };
+        let Some((i, place)) = beyond else { break };
         places[i] = place;
+    }
+    return_to_bounds(a, b, all, f, places);
+}
+
+/// Moves forces back to the bound at which they began where that does as well: what [`SHARED`] misses may have taken one from there that has
+/// just been let go, and its force is nothing but round-off.
+fn return_to_bounds(a: &DMatrix<f64>, b: &DVector<f64>, all: &[Bounded], f: &mut DVector<f64>, places: &mut [Place]) {
+    for (i, x) in all.iter().enumerate() {
+        let bound = if x.place == Place::High { x.high } else { x.low };
+        if places[i] != Place::Between || !matches!(x.place, Place::Low | Place::High) || (f[i] - bound).abs() > x.force {
+            continue;
+        }
+        let mut back = places.to_vec();
+        back[i] = x.place;
+        let Some(forces) = forces(a, b, all, &back) else { continue };
+        let w = a * &forces + b;
+        if (0..all.len()).all(|k| elsewhere(&all[k], back[k], forces[k], w[k]).is_none()) {
+            *f = forces;
+            places.copy_from_slice(&back);
+        }
     }
 }
 
@@ -222,6 +242,23 @@ mod tests {
         assert_eq!((f.as_slice(), &places[..], shared(&a, &places)), (&[0.0, 1.0][..], &[Place::Idle, Place::Between][..], vec![0]));
         // one that slides on is not held by the other
         assert!(shared(&DMatrix::identity(2, 2), &places).is_empty());
+    }
+
+    #[test]
+    fn what_is_let_go_is_not_held_again_by_what_others_share() {
+        // a stop and friction on one hinge, and a stop on another one, coupled to it, that is in balance without a force
+        let a = DMatrix::from_row_slice(3, 3, &[2.0, 2.0, 1.0, 2.0, 2.0, 1.0, 1.0, 1.0, 3.0]);
+        let b = -(&a * DVector::from_vec(vec![0.0, 9.0, 0.0]));
+        let stop = |place| Bounded { place, ..bounded(0.0, f64::INFINITY) };
+        let all = [bounded(-1.0, 1.0), stop(Place::Between), stop(Place::Low)];
+        let (mut f, mut places) = solve(&a, &b, &all).unwrap();
+        basic(&a, &b, &all, &mut f, &mut places, &[1, 2, 0]);
+        assert_eq!(places[1..], [Place::Between, Place::Low], "{f}");
+        // one that presses stays
+        let b = -(&a * DVector::from_vec(vec![0.0, 9.0, 1e-6]));
+        let (mut f, mut places) = solve(&a, &b, &all).unwrap();
+        basic(&a, &b, &all, &mut f, &mut places, &[1, 2, 0]);
+        assert_eq!(places[1..], [Place::Between; 2], "{f}");
     }
 
     #[test]

@@ -288,7 +288,8 @@ where
                     // several solutions is kept
                     place: if round < PATIENCE { begin[i] } else { places[i] },
                     force: slack,
-                    acceleration: NO_ACCELERATION * size(i),
+                    // what is let go accelerates by round-off of forces at first
+                    acceleration: f64::max(NO_ACCELERATION * size(i), a[(i, i)] * slack),
                 })
                 .collect();
             let block = DMatrix::from_fn(movable.len(), movable.len(), |i, j| a[(movable[i], movable[j])]);
