@@ -37,6 +37,11 @@ pub fn write_dxf(drawing: &Drawing) -> String {
                     let points: Vec<Point> = points.into_iter().map(back).collect();
                     rounded(&mut out, Layer::Bodies, &points, BAR * signs.size * mm);
                 }
+                FormKind::Gear { center, outline, spoke, rim, .. } => {
+                    out.path(Layer::Bodies, &outline.into_iter().map(back).collect::<Vec<_>>(), true);
+                    rim.into_iter().for_each(|rim| out.circle(Layer::Bodies, back(center), rim * mm));
+                    spoke.into_iter().for_each(|spoke| out.path(Layer::Bodies, &[center, spoke].map(back), false));
+                }
                 other => signed(&mut out, Layer::Bodies, &back, mm, |scene| _ = signs.form(scene, &other, &LINES)),
             }
         }
@@ -142,6 +147,17 @@ fn rounded(out: &mut Entities, layer: Layer, points: &[Point], width: f64) {
 mod tests {
     use super::super::pose::{Form, Outline, Placement};
     use super::*;
+
+    #[test]
+    fn a_ring_is_its_teeth_and_a_circle() {
+        let outline = vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        let kind = FormKind::Gear { center: [0.0; 2], radius: 1.0, teeth: 300, outline, spoke: None, rim: Some(1.25) };
+        let ring = Outline { name: String::new(), poses: vec![vec![Form { kind, depth: 0.0 }]] };
+        let text = write_dxf(&Drawing { bodies: vec![Outline::default(), ring], ..Drawing::default() });
+        let count = |entity: &str| text.lines().filter(|line| line.trim() == entity).count();
+        assert_eq!((count("POLYLINE"), count("VERTEX"), count("CIRCLE")), (1, 4, 1), "{text}");
+        assert!(text.lines().any(|line| line.trim().parse() == Ok(1250.0)), "{text}");
+    }
 
     #[test]
     fn a_bar_is_drawn_in_its_true_length() {
