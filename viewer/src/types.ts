@@ -156,8 +156,8 @@ export type Shape =
   | { kind: 'hull'; points: number[][]; faces?: number[][] }
   | { kind: 'polygon'; points: number[][] }
   | { kind: 'disc'; center: number[]; radius: number; axis: number[] | null; thickness: Num }
-  /** In the plane: the radius of the pitch circle, less than 0 with inner teeth, and the direction of the first one. */
-  | { kind: 'gear'; center: number[]; radius: number; teeth: number; first: number }
+  /** In the plane: the radius of the pitch circle, less than 0 with inner teeth, their outline in the body, and of a ring the radius of its rim. */
+  | { kind: 'gear'; center: number[]; radius: number; teeth: number; first: number; outline: number[][]; rim?: number }
   | { kind: 'box'; center: number[]; size: number[] }
   | { kind: 'cylinder'; from: number[]; to: number[]; radius: number }
   | { kind: 'sphere'; center: number[]; radius: number }
@@ -197,8 +197,8 @@ export interface Joint {
 }
 
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'actuator' | 'torsion' | 'shaft' | 'clutch' | 'brake';
-/** `rest` is the shortest length of an actuator, of so many tubes. */
-export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num; stages?: number }
+/** An actuator has so many tubes, each as long as `tube`, m. */
+export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num; stages?: number; tube?: number }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';
 export interface Gear { name: string; kind: GearKind; a: Wheel; b: Wheel }

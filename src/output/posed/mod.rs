@@ -11,8 +11,8 @@ use super::view::View;
 use crate::results::Scene;
 use crate::results::scene::{self, Place};
 
-/// Length of the cylinder of an actuator, as part of the shortest distance of its ends.
-const CYLINDER: f64 = 0.85;
+/// Length of the tubes of an actuator, as part of the shortest distance of its ends.
+const TUBE: f64 = 0.85;
 
 /// The drawing of a scene of a study: its name is part of the title, but for that of the mechanism itself.
 #[must_use]
@@ -44,6 +44,11 @@ pub(super) fn at_all(scene: &Scene, places: &[f64]) -> Drawing {
     let forces = poses.iter().zip(places).flat_map(|(poses, x)| one(poses.as_slice()).forces(*x).collect::<Vec<_>>()).collect();
     let all = Posed { scene, view: view(scene), frames: poses.iter().map(Vec::as_slice).collect() };
     Drawing { forces, ..all.positions() }
+}
+
+/// Length of each tube of an actuator, m.
+pub(super) fn tube(link: &scene::Link) -> f64 {
+    TUBE * link.rest.unwrap_or(0.0)
 }
 
 /// Azimuth and elevation of the eye of a scene in space, rad.
@@ -130,7 +135,7 @@ impl Posed<'_> {
             let ends = |poses: &&[f64]| [self.flat(poses, &link.a), self.flat(poses, &link.b)];
             let cylinder = |poses: &&[f64]| {
                 let [a, b] = [&link.a, &link.b].map(|end| self.scene.world(poses, end));
-                CYLINDER * link.rest.unwrap_or(0.0) / (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
+                tube(link) / (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
             };
             let turned = |poses: &&[f64]| [link.a.body, link.b.body].map(|body| self.angle(poses, body));
             Link {

@@ -9,7 +9,7 @@ use crate::output::posed::{self, forms::faces_of};
 use crate::output::sheet::body_color;
 use crate::output::text::modes;
 use crate::output::view::level;
-use crate::results::scene::Shape;
+use crate::results::scene::{LinkKind, Shape, rim, wheel};
 use crate::results::{Extremes, Plot, Results, Scene};
 use serde_json::{Value, json};
 
@@ -182,14 +182,30 @@ fn drawing(scene: &Scene) -> Value {
     for (arrow, values) in value["arrows"].as_array_mut().into_iter().flatten().zip(arrows) {
         arrow["values"] = json(&values);
     }
-    // what figures make of a scene: the colours of bodies, the faces of hulls in space, and from where these are seen
+    // what figures make of a scene: the colours of bodies, the faces of hulls in space and from where these are seen, outlines of teeth, and
+    // tubes of actuators
     for (index, body) in value["bodies"].as_array_mut().into_iter().flatten().enumerate() {
         let [r, g, b] = body_color(index);
         body["color"] = format!("#{r:02x}{g:02x}{b:02x}").into();
         for (shape, of) in body["shapes"].as_array_mut().into_iter().flatten().zip(&scene.bodies[index].shapes) {
-            if let (3, Shape::Hull { points }) = (scene.dimensions, of) {
-                shape["faces"] = json(&faces_of(points));
+            match (scene.dimensions, of) {
+                (3, Shape::Hull { points }) => shape["faces"] = json(&faces_of(points)),
+                (2, Shape::Gear { center, radius, teeth, first }) => {
+                    // in seven digits
+                    let short = |p: [f64; 2]| p.map(|x| format!("{x:.6e}").parse().unwrap_or(x));
+                    shape["outline"] =
+                        wheel([center[0], center[1]], *radius, *teeth, *first).into_iter().map(|p| json(&short(p))).collect();
+                    if *radius < 0.0 {
+                        shape["rim"] = json(&rim(*radius, *teeth));
+                    }
+                }
+                _ => {}
             }
+        }
+    }
+    for (link, of) in value["links"].as_array_mut().into_iter().flatten().zip(&scene.links) {
+        if of.kind == LinkKind::Actuator {
+            link["tube"] = json(&posed::tube(of));
         }
     }
     signs(&mut value, scene);

@@ -3,14 +3,11 @@
 import type { Motion } from '../motion';
 import type { Link } from '../types';
 
-/** Length of the cylinder, as part of the shortest distance of its ends. */
-const CYLINDER = 0.85;
-
 /** Where the tubes of an actuator end at a place of the motion, parts of what is between its ends, the rod the last; none of any other link. */
-export function cylinder({ kind, a, b, rest, stages }: Link, motion: Motion, place: number): number[] {
-  if (kind !== 'actuator' || rest === null) return [];
+export function cylinder({ a, b, tube: length, stages }: Link, motion: Motion, place: number): number[] {
+  if (length === undefined) return [];
   const [p, q] = [motion.world(a, place), motion.world(b, place)];
-  const tube = Math.min((CYLINDER * rest) / Math.hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]), 1);
+  const tube = Math.min(length / Math.hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]), 1);
   const last = Math.max(stages ?? 2, 2) - 1;
   return Array.from({ length: last + 1 }, (_, k) => tube + ((1 - tube) * k) / last);
 }

@@ -12,7 +12,6 @@ import { cylinder } from './cylinder';
 import { type Bounds, type Fitted, type Tip, fitted } from './fit';
 import { LEVEL, Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
-import { type Gear as Toothed, outline, rim } from './teeth';
 
 /** Width of a bar whose true one the model does not give, in pixels. */
 const BAR = 15;
@@ -33,6 +32,8 @@ const FITS = 8;
 const CLOSE = 4;
 /** Dashes of the first five paths, the next five, and so on. */
 const DASHES = [[], [8, 4], [2, 4], [10, 3, 2, 3]];
+
+type Toothed = Extract<Shape, { kind: 'gear' }>;
 
 /** Large plates lie under small ones and under bars; a disc is as large as the square around it. */
 function depth(shape: Shape): number {
@@ -203,12 +204,12 @@ export class Plane implements Renderer {
     const { fill, edge } = this.colors(body);
     const radius = Math.abs(wheel.radius) * this.scale;
     const points = (2 * Math.PI * radius) / wheel.teeth > CLOSE ? this.outline(body, wheel) : [];
-    const around = wheel.radius < 0 ? rim(wheel) * this.scale : null;
+    const around = wheel.rim === undefined ? null : wheel.rim * this.scale;
     signs.gear(this.pen, this.point({ body, at: wheel.center }), radius, points, this.along(body, [1, 0]), around, this.paler(fill, 0.7), edge);
   }
 
-  private outline(body: number, wheel: Toothed): Point[] {
-    return outline(wheel).map((at) => this.point({ body, at }));
+  private outline(body: number, { outline }: Toothed): Point[] {
+    return outline.map((at) => this.point({ body, at }));
   }
 
   /** Belts around wheels, ropes that leave their drums, pitch circles and lines of what has no teeth. */
