@@ -1,7 +1,7 @@
 //! The model file: YAML, its places and diagnostics, the tables of its fields, variants, and the typed entities that the
 //! rest of the program is built from.
 //!
-//! The way of a file: `yaml` (guard and parse) → [`Document`]; `merge` (variants, by reference) → `shape` (form, along the
+//! The way of a file: `yaml` (text to value) → [`Document`]; `merge` (variants, by reference) → `shape` (form, along the
 //! keys that `decode` declares and `tables` joins) → `decode` (names, expressions, dimensions) → [`Model`]. Faults are collected as paths;
 //! `spans` finds their places only if there are any, so that reading a sound file costs one pass more than parsing it.
 

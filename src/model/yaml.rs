@@ -1,29 +1,27 @@
-//! Text → `serde_yaml::Value`, with a guard in front: what could blow up, or means something else to another reader of
-//! YAML, is refused with its place before anything is built.
+//! Text → `serde_yaml::Value` in one pass over the events of an exact YAML parser: what could blow up, or means something else
+//! to another reader of YAML, is refused with its place as soon as it is read.
 
 use super::fault::{Fault, Spot};
 use super::spans::{Spans, byte_of};
 use saphyr_parser::{Event, Parser, ScalarStyle};
-use serde_yaml::{Mapping, Value};
+use serde_yaml::{Mapping, Number, Value};
 
 /// Largest file, bytes.
 pub(crate) const MOST_BYTES: usize = 8 << 20;
-/// Most digits of an integer that serde_yaml reads.
+/// Most digits of an integer.
 const MOST_DIGITS: usize = 19;
 /// Deepest nesting of maps and lists.
 pub(crate) const MOST_DEPTH: usize = 64;
 
 /// The map of a file.
 pub(crate) fn read(text: &str) -> Result<Mapping, Vec<Fault>> {
-    guard(text).map_err(|fault| vec![*fault])?;
-    match serde_yaml::from_str::<Value>(text) {
-        Ok(Value::Mapping(map)) => Ok(map),
-        Ok(Value::Null) => Err(vec![empty()]),
-        Ok(_) => Err(vec![
+    match value(text)? {
+        Value::Mapping(map) => Ok(map),
+        Value::Null => Err(vec![empty()]),
+        _ => Err(vec![
             Fault::new("not-a-model", String::new(), "the file holds no map of keys and values", "a model, beginning with `grashof: 1`")
                 .at(Spot::Bytes(first_word(text))),
         ]),
-        Err(error) => Err(translate(text, &error)),
     }
 }
 
@@ -47,81 +45,131 @@ fn first_word(text: &str) -> std::ops::Range<usize> {
     0..0
 }
 
-/// One linear pass over the events of an exact YAML parser. serde_yaml needs 14 s for 50 000 nested braces and all memory
-/// for aliases [measured], so that neither may reach it.
-fn guard(text: &str) -> Result<(), Box<Fault>> {
-    let refuse = |code, character: usize, width: usize, message: String, expected: &str, help: &str| {
-        let start = byte_of(text, character);
-        let end = byte_of(text, character + width);
-        let mut fault = Fault::new(code, String::new(), message, expected).at(Spot::Bytes(start..end));
-        if !help.is_empty() {
-            fault = fault.help(help);
+/// The value of a text. One reading serves for the refusals and for the value: serde_yaml's own reader needs 14 s for 50 000
+/// nested braces and all memory for aliases [measured], and as much time again for a text that is in order.
+fn value(text: &str) -> Result<Value, Vec<Fault>> {
+    bounded(text).map_err(|fault| vec![fault])?;
+    let at = |character: usize, width: usize| Spot::Bytes(byte_of(text, character)..byte_of(text, character + width));
+    let mut documents = 0_usize;
+    let mut tree = Tree::default();
+    let mut parser = Parser::new_from_str(text);
+    while let Some(next) = parser.next_event() {
+        let (event, span) = next.map_err(|error| vec![syntax(text, error.info(), byte_of(text, error.marker().index()))])?;
+        let (start, width) = (span.start.index(), span.end.index().saturating_sub(span.start.index()));
+        if let Event::Scalar(_, _, anchor, tag) | Event::SequenceStart(anchor, tag) | Event::MappingStart(anchor, tag) = &event
+            && (*anchor > 0 || tag.is_some())
+        {
+            return Err(vec![marked(text, sign_of(text, start, width, if tag.is_some() { '!' } else { '&' }))]);
         }
-        Err(Box::new(fault))
-    };
+        match event {
+            Event::DocumentStart(_) => {
+                documents += 1;
+                if documents > 1 {
+                    let fault = Fault::new("two-documents", String::new(), "a second document begins here", "one model in a file");
+                    return Err(vec![fault.at(at(start, 3)).help("remove the line `---` and what follows, or write two files")]);
+                }
+            }
+            Event::Alias(_) => return Err(vec![marked(text, byte_of(text, start))]),
+            Event::Scalar(word, ScalarStyle::Plain, ..) => {
+                let value = plain(&word).map_err(|fault| vec![fault.at(at(start, width))])?;
+                tree.add(value);
+            }
+            Event::Scalar(word, ..) => tree.add(Value::String(word.into_owned())),
+            Event::SequenceStart(..) => tree.begin(Value::Sequence(Vec::new())),
+            Event::MappingStart(..) => tree.begin(Value::Mapping(Mapping::new())),
+            Event::SequenceEnd | Event::MappingEnd => tree.end(),
+            Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {}
+        }
+        if tree.open.len() > MOST_DEPTH {
+            let message = format!("maps and lists nested deeper than {MOST_DEPTH}");
+            let fault = Fault::new("too-deep", String::new(), message, "a model, which needs about six levels");
+            return Err(vec![fault.at(at(start, 1))]);
+        }
+        if tree.twice {
+            return Err(twice(text, at(start, width)));
+        }
+    }
+    if documents == 0 { Err(vec![empty()]) } else { Ok(tree.root) }
+}
+
+/// What is refused before a text is read.
+fn bounded(text: &str) -> Result<(), Fault> {
     if text.len() > MOST_BYTES {
         let message = format!("the file has more than {MOST_BYTES} bytes");
-        return refuse("file-too-large", 0, 0, message, "at most 8 MiB", "");
+        return Err(Fault::new("file-too-large", String::new(), message, "at most 8 MiB").at(Spot::Bytes(0..0)));
     }
     if let Some(at) = text.find('\0') {
-        let message = "the file holds a zero byte".to_owned();
-        return refuse("yaml-syntax", text[..at].chars().count(), 1, message, "a text file", "save it as UTF-8, without zero bytes");
+        let fault = Fault::new("yaml-syntax", String::new(), "the file holds a zero byte", "a text file");
+        return Err(fault.at(Spot::Bytes(at..at + 1)).help("save it as UTF-8, without zero bytes"));
     }
     let directive = first_word(text);
     if text[directive.clone()].starts_with('%') {
         let fault = Fault::new("yaml-directive", String::new(), "a YAML directive", "the first key, `grashof: 1`");
-        return Err(Box::new(fault.at(Spot::Bytes(directive)).help("remove the line")));
+        return Err(fault.at(Spot::Bytes(directive)).help("remove the line"));
     }
-    let (mut depth, mut documents) = (0_usize, 0_usize);
-    let mut parser = Parser::new_from_str(text);
-    loop {
-        let (event, span) = match parser.next_event() {
-            None => return Ok(()),
-            Some(Ok(next)) => next,
-            Some(Err(error)) => return Err(Box::new(syntax(text, error.info(), byte_of(text, error.marker().index())))),
-        };
-        let (start, width) = (span.start.index(), span.end.index().saturating_sub(span.start.index()));
-        let (anchor, tag) = match &event {
-            Event::StreamEnd => return if documents == 0 { Err(Box::new(empty())) } else { Ok(()) },
-            Event::DocumentStart(_) => {
-                documents += 1;
-                if documents > 1 {
-                    let help = "remove the line `---` and what follows, or write two files";
-                    return refuse("two-documents", start, 3, "a second document begins here".to_owned(), "one model in a file", help);
-                }
-                continue;
-            }
-            Event::Alias(_) => {
-                return Err(Box::new(marked(text, byte_of(text, start))));
-            }
-            Event::Scalar(word, ScalarStyle::Plain, ..) if vanishes(word) => {
-                let spot = Spot::Bytes(byte_of(text, start)..byte_of(text, start + width));
-                let fault = Fault::new("expression", String::new(), format!("found `{word}`"), "a number such as `0.5`, `12` or `1e-3`");
-                return Err(Box::new(fault.at(spot).help("the size of a number lies between 1e-308 and 1e308")));
-            }
-            Event::Scalar(_, _, anchor, tag) => (*anchor, tag.is_some()),
-            Event::SequenceStart(anchor, tag) | Event::MappingStart(anchor, tag) => {
-                depth += 1;
-                if depth > MOST_DEPTH {
-                    let message = format!("maps and lists nested deeper than {MOST_DEPTH}");
-                    return refuse("too-deep", start, 1, message, "a model, which needs about six levels", "");
-                }
-                (*anchor, tag.is_some())
-            }
-            Event::SequenceEnd | Event::MappingEnd => {
-                depth = depth.saturating_sub(1);
-                continue;
-            }
-            _ => continue,
-        };
-        if anchor > 0 || tag {
-            let begin = byte_of(text, start);
-            let sign = if tag { '!' } else { '&' };
-            // a collection's span begins behind its properties: look back for the sign
-            let reach = byte_of(text, start + width.max(1));
-            let at = text[begin..reach].find(sign).map(|i| begin + i).or_else(|| text[..begin].rfind(sign)).unwrap_or(begin);
-            return Err(Box::new(marked(text, at)));
+    Ok(())
+}
+
+/// The value that is being read: the collections that are open, each with the key that waits for its value.
+#[derive(Default)]
+struct Tree {
+    root: Value,
+    open: Vec<(Value, Option<Value>)>,
+    /// Whether a map has got a key that it had.
+    twice: bool,
+}
+
+impl Tree {
+    fn begin(&mut self, collection: Value) {
+        self.open.push((collection, None));
+    }
+
+    fn end(&mut self) {
+        if let Some((closed, _)) = self.open.pop() {
+            self.add(closed);
         }
+    }
+
+    fn add(&mut self, value: Value) {
+        match self.open.last_mut() {
+            None => self.root = value,
+            Some((Value::Sequence(items), _)) => items.push(value),
+            Some((Value::Mapping(map), key)) => match key.take() {
+                None => {
+                    self.twice |= map.contains_key(&value);
+                    *key = Some(value);
+                }
+                Some(key) => drop(map.insert(key, value)),
+            },
+            Some(_) => {}
+        }
+    }
+}
+
+/// The value of a scalar without quotes, by the core schema of YAML 1.2.
+fn plain(word: &str) -> Result<Value, Fault> {
+    let number =
+        |message: String, help: &str| Fault::new("bad-number", String::new(), message, "a number such as `0.5`, `12` or `1e-3`").help(help);
+    match word {
+        "" | "~" | "null" | "Null" | "NULL" => return Ok(Value::Null),
+        "true" | "True" | "TRUE" => return Ok(Value::Bool(true)),
+        "false" | "False" | "FALSE" => return Ok(Value::Bool(false)),
+        _ => {}
+    }
+    if !word.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
+        return Ok(Value::String(word.to_owned()));
+    }
+    if vanishes(word) {
+        let fault = Fault::new("expression", String::new(), format!("found `{word}`"), "a number such as `0.5`, `12` or `1e-3`");
+        return Err(fault.help("the size of a number lies between 1e-308 and 1e308"));
+    }
+    let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
+    match word.parse::<Number>() {
+        Ok(read) => Ok(Value::Number(read)),
+        Err(_) if digits.len() > MOST_DIGITS && !digits.starts_with('0') && digits.bytes().all(|c| c.is_ascii_digit()) => {
+            Err(number(format!("an integer of more than {MOST_DIGITS} digits"), "write it with an exponent"))
+        }
+        Err(_) => Ok(Value::String(word.to_owned())),
     }
 }
 
@@ -129,6 +177,13 @@ fn guard(text: &str) -> Result<(), Box<Fault>> {
 fn vanishes(word: &str) -> bool {
     let mantissa = word.split(['e', 'E']).next().unwrap_or(word);
     word.contains(['e', 'E']) && mantissa.bytes().any(|c| matches!(c, b'1'..=b'9')) && word.parse::<f64>() == Ok(0.0)
+}
+
+/// Byte of the sign `!` or `&` in front of a value that begins at a character: the span of a collection begins behind its properties.
+fn sign_of(text: &str, start: usize, width: usize, sign: char) -> usize {
+    let begin = byte_of(text, start);
+    let reach = byte_of(text, start + width.max(1));
+    text[begin..reach].find(sign).map(|i| begin + i).or_else(|| text[..begin].rfind(sign)).unwrap_or(begin)
 }
 
 /// A value that begins with a sign that YAML keeps for itself.
@@ -235,37 +290,23 @@ fn glued(text: &str, line_start: usize) -> Option<Fault> {
     })
 }
 
-/// What serde_yaml refuses although the guard let it pass.
-fn translate(text: &str, error: &serde_yaml::Error) -> Vec<Fault> {
-    let twice = Spans::new(text).twice;
-    if !twice.is_empty() {
-        // serde_yaml gives the place of the map, not of the key
-        return twice
-            .into_iter()
-            .map(|(first, second, key)| {
-                let mut fault = Fault::new("duplicate-key", String::new(), format!("`{key}` appears here twice"), "each key once")
-                    .at(Spot::Bytes(second))
-                    .help("rename or remove one of the two");
-                fault.other = Some((first, "first here".to_owned()));
-                fault
-            })
-            .collect();
+/// All keys that stand twice in their map; the first of them was found at `at`.
+fn twice(text: &str, at: Spot) -> Vec<Fault> {
+    let fault = |key: &str, at: Spot| {
+        let message = if key.is_empty() { "this key appears here twice".to_owned() } else { format!("`{key}` appears here twice") };
+        Fault::new("duplicate-key", String::new(), message, "each key once").at(at).help("rename or remove one of the two")
+    };
+    let found = Spans::new(text).twice;
+    if found.is_empty() {
+        // the same number, written in two ways
+        return vec![fault("", at)];
     }
-    let at = error.location().map_or(0, |place| {
-        let start = text.split_inclusive('\n').take(place.line().saturating_sub(1)).map(str::len).sum::<usize>().min(text.len());
-        start + byte_of(&text[start..], place.column().saturating_sub(1))
-    });
-    let digits = text[at..].chars().take_while(|c| c.is_ascii_digit() || *c == '-').count();
-    if digits > MOST_DIGITS {
-        return vec![
-            Fault::new("bad-number", String::new(), "an integer of more than 19 digits", "a number such as `0.5`, `12` or `1e-3`")
-                .at(Spot::Bytes(at..at + digits))
-                .help("write it with an exponent"),
-        ];
-    }
-    let message = error.to_string();
-    let info = message.split(" at line").next().unwrap_or(&message);
-    vec![syntax(text, info, at)]
+    let shown = |(first, second, key): (_, _, String)| {
+        let mut fault = fault(&key, Spot::Bytes(second));
+        fault.other = Some((first, "first here".to_owned()));
+        fault
+    };
+    found.into_iter().map(shown).collect()
 }
 
 #[cfg(test)]
@@ -290,6 +331,7 @@ mod tests {
             ("b: > 3\n", "yaml-syntax"),
             ("%YAML 1.2\n---\na: 1\n", "yaml-directive"),
             ("a: 1\nb: 2\na: 3\n", "duplicate-key"),
+            ("1: b\n0x1: c\n", "duplicate-key"),
             ("a: 99999999999999999999\n", "bad-number"),
             ("a: [1, 2\nb: 3\n", "yaml-syntax"),
             ("a: \0\n", "yaml-syntax"),
@@ -298,6 +340,41 @@ mod tests {
         ] {
             assert_eq!(code(text), expected, "{text:?}");
         }
+    }
+
+    #[test]
+    fn values_are_those_of_serde_yaml() {
+        let words = "0 -0 +0 00 07 0.5 .5 5. -.5 +.5 1e3 1E-3 1e+3 1e 12 -12 +12 +-1 -+1 --1 0x1F -0x1f +0x1f 0o17 0o8 0b101 0b2 1_000 \
+            1,5 1:30 2001-01-01 .inf -.inf +.inf .Inf .nan .NaN nan inf -inf infinity NaN 1e999 -1e999 18446744073709551615 \
+            9223372036854775808 -9223372036854775808 null Null NULL nUll ~ ~5 true True TRUE tRue false yes no on off y n - -a . .. ... \
+            1.5.2 1m 3 deg +a 0.1e-5 1e-300 00.5 -007 0x -0x 0xg e3 E3 - 1 é";
+        let single = words.split(' ').filter(|word| !word.is_empty() && !matches!(*word, "-" | "..."));
+        for text in single.map(|word| format!("k: {word}")).chain([
+            "k:".to_owned(),
+            "k: ''\nl: '12'\nm: \"1\\te\"\nn: [a, 1, ~, 'b''c', [], {}]\n".to_owned(),
+            "1: a\ntrue: b\n~: c\n2.5: d\n? [a, b]\n: e\n".to_owned(),
+            "k: |\n  12\n  b\nl: >-\n  a\n  b\n\n  c\n".to_owned(),
+            "k: a b\n  c # d\nl:\n- 1\n- - 2\n  - 3\n- m: 4\n  n:\n    o: 5\n".to_owned(),
+            "k: { a, b: 1, 'c':2, d: }\n".to_owned(),
+        ]) {
+            let oracle: Value = serde_yaml::from_str(&text).unwrap();
+            assert_eq!(value(&text).unwrap(), oracle, "{text}");
+        }
+    }
+
+    #[test]
+    fn models_are_read_as_by_serde_yaml() {
+        let models = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+        let mut count = 0;
+        for entry in std::fs::read_dir(models).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|end| end == "yaml") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                assert_eq!(read(&text).unwrap(), serde_yaml::from_str::<Mapping>(&text).unwrap(), "{}", path.display());
+                count += 1;
+            }
+        }
+        assert!(count > 20, "{count}");
     }
 
     #[test]
