@@ -11,7 +11,7 @@
 //! Where F depends on time, ∂U/∂t = ∫₀ˢ ∂F/∂t ds + Σ (F⁻ − F⁺) ∂σ/∂t over the places σ at which it jumps.
 
 use super::program::Program;
-use crate::scalar::Dual;
+use crate::scalar::{Dual, Interval};
 use std::f64::consts::PI;
 
 /// Degree of the polynomial through all places of a piece.
@@ -52,6 +52,8 @@ pub struct Integral {
     /// Inputs and registers with their derivatives by s and by time.
     slopes: Vec<Dual<2>>,
     moving: Vec<Dual<2>>,
+    /// Inputs and registers with their round-off.
+    around: [Vec<Interval>; 2],
 }
 
 /// What is seen of a piece.
@@ -127,6 +129,7 @@ impl Integral {
             there: modes,
             slopes: vec![Dual::default(); if none { 0 } else { inputs }],
             moving: vec![Dual::default(); most_registers],
+            around: [if none { 0 } else { inputs }, most_registers].map(|n| vec![Interval::default(); n]),
         }
     }
 
@@ -198,7 +201,8 @@ impl Integral {
                 Piece::Smooth([mean, magnitude, off, varies])
                     if narrow
                         || off * reach.abs() <= (EXACT * (size + magnitude * reach.abs())).max(varies * narrowest)
-                        || halvings >= HALVED && off <= NOISE * magnitude =>
+                        || halvings >= HALVED && off <= NOISE * magnitude
+                        || off <= self.round_off(f, 0.5 * (from + to)) =>
                 {
                     [mean, magnitude]
                 }
@@ -259,6 +263,17 @@ impl Integral {
             }
         }
         Piece::Open
+    }
+
+    /// How far apart the bounds of F are that hold its value at `x` and its rounding, in the modes inside of the piece; 0 where there are none.
+    fn round_off(&mut self, f: &mut Integrand<'_>, x: f64) -> f64 {
+        f.go_to(x);
+        let [inputs, registers] = &mut self.around;
+        inputs.iter_mut().zip(f.inputs.iter()).for_each(|(around, input)| *around = Interval::between(*input, *input));
+        let mut outputs = [Interval::default(); 2];
+        f.program.eval(inputs, &self.inside, registers, &mut outputs[..f.outputs.len()]);
+        let Interval { low, high } = outputs[f.output];
+        Some(high - low).filter(|width| width.is_finite()).unwrap_or(0.0)
     }
 
     /// Evaluates at `x`, the place number `j` of a piece, in the modes that belong to it; whether they are those of the place 0.
