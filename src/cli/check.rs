@@ -102,7 +102,7 @@ fn remarks(survey: &Survey, drivers: usize) -> Vec<String> {
         };
         out.push(format!("{them}: give it a joint, or say in `start` where it begins"));
     }
-    if m.freedom == 0 && !m.moved {
+    if m.freedom == 0 {
         out.push("the mechanism has no freedom: it is a structure at its start".into());
     }
     out
@@ -172,7 +172,8 @@ fn print(model: &Model, survey: &Survey, findings: &[String], document: &Documen
         print_out(&format!("  loop: {path}"));
     }
     print_out("\nfreedom");
-    print_out(&format!("  degrees of freedom        {} (without drivers; Grübler's count: {})", m.freedom, m.grubler));
+    let without = if m.undriven < m.freedom { "drivers and couplings that time moves" } else { "drivers" };
+    print_out(&format!("  degrees of freedom        {} (without {without}; Grübler's count: {})", m.freedom, m.grubler));
     print_out(&format!("  left by the drivers       {}", m.left));
     print_out(&format!("  coordinates, velocities   {nq}, {nv}"));
     print_out(&format!("  constraint rows, rank     {rows}, {}", m.rank));

@@ -2,21 +2,34 @@
 
 use crate::dynamics::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Mechanism, RowOwner};
+use crate::mechanism::{Mechanism, Row, RowOwner};
 use grashof_solvers::Block;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
 
-/// Degrees of freedom without drivers at a position.
+/// Degrees of freedom at a position without drivers.
 pub(crate) fn freedom<G: Space<S = f64>>(mechanism: &Mechanism<G>, q: &[f64], modes: &[i32], metric: &[f64]) -> usize {
     undriven(mechanism, &rows(mechanism, q, modes, metric), metric).mobility
 }
 
 /// Rank of all rows but those of drivers.
-pub(super) fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, (g, scale): &(Block, Vec<f64>), metric: &[f64]) -> Rank {
-    let owners = mechanism.rows.iter().map(|row| row.owner).enumerate();
-    let undriven: Vec<usize> = owners.filter(|(_, owner)| !matches!(owner, RowOwner::Driver(_))).map(|(i, _)| i).collect();
-    let scale: Vec<f64> = undriven.iter().map(|&i| scale[i]).collect();
-    Rank::new(&g.select_rows(&undriven), metric, &scale, RANK_TOLERANCE)
+pub(super) fn undriven<G: Space<S = f64>>(mechanism: &Mechanism<G>, of: &(Block, Vec<f64>), metric: &[f64]) -> Rank {
+    rank_of(mechanism, of, metric, |row| !matches!(row.owner, RowOwner::Driver(_)))
+}
+
+/// Rank of all rows but those that time moves: of drivers, and of couplings with time in them.
+pub(super) fn unmoved<G: Space<S = f64>>(mechanism: &Mechanism<G>, of: &(Block, Vec<f64>), metric: &[f64]) -> Rank {
+    rank_of(mechanism, of, metric, |row| !mechanism.is_moved(row))
+}
+
+fn rank_of<G: Space<S = f64>>(
+    mechanism: &Mechanism<G>,
+    (g, scale): &(Block, Vec<f64>),
+    metric: &[f64],
+    counts: impl Fn(&Row<G>) -> bool,
+) -> Rank {
+    let rows: Vec<usize> = (0..mechanism.rows.len()).filter(|&i| counts(&mechanism.rows[i])).collect();
+    let scale: Vec<f64> = rows.iter().map(|&i| scale[i]).collect();
+    Rank::new(&g.select_rows(&rows), metric, &scale, RANK_TOLERANCE)
 }
 
 /// G at the start and the scales of its rows, by an evaluator of its own.

@@ -2,10 +2,10 @@
 
 use super::assemble::{Assembled, ChangePoint};
 use super::crossing::at_start;
-use super::freedom::{rows, undriven, with_fewer_drivers};
+use super::freedom::{rows, undriven, unmoved, with_fewer_drivers};
 use super::remaining::remaining;
 use crate::geometry::Space;
-use crate::mechanism::{Mechanism, RowOwner};
+use crate::mechanism::Mechanism;
 use crate::model::{Kind, Model, Study};
 use crate::results::Failure;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
@@ -14,16 +14,16 @@ use std::f64::consts::{PI, TAU};
 /// The mobility of a mechanism at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mobility {
-    /// Freedoms of the bodies minus what the joints and couplings take: Grübler's count, without drivers.
+    /// Freedoms of the bodies minus what the joints and couplings take: Grübler's count, without what time moves.
     pub grubler: i64,
-    /// Velocities minus the rank of joints and couplings: the real freedom, without drivers.
+    /// Velocities minus the rank of joints and couplings: the real freedom, without drivers and couplings that time moves.
     pub freedom: usize,
-    /// Freedom left with all drivers.
+    /// The same with the couplings that time moves, without drivers alone.
+    pub undriven: usize,
+    /// Freedom left with all of them.
     pub left: usize,
     /// Rank of all rows.
     pub rank: usize,
-    /// Whether time moves one of the couplings.
-    pub moved: bool,
     /// Rows that depend on others, in words.
     pub redundant: Vec<String>,
 }
@@ -34,15 +34,15 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     let crossing = at_start(mechanism, start);
     let q = crossing.as_ref().map_or_else(|| beside(start), |crossing| &crossing.q);
     let rows = rows(mechanism, q, &start.modes, &start.metric);
-    let free = undriven(mechanism, &rows, &start.metric);
+    let free = unmoved(mechanism, &rows, &start.metric);
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
-    let drivers = mechanism.rows.iter().filter(|row| matches!(row.owner, RowOwner::Driver(_))).count();
+    let movers = mechanism.rows.iter().filter(|row| mechanism.is_moved(row)).count();
     Mobility {
-        grubler: mechanism.nv as i64 - (mechanism.rows.len() - drivers) as i64,
+        grubler: mechanism.nv as i64 - (mechanism.rows.len() - movers) as i64,
         freedom: free.mobility,
+        undriven: undriven(mechanism, &rows, &start.metric).mobility,
         left: driven.mobility,
         rank: driven.rank,
-        moved: mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row)),
         redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),
     }
 }
@@ -61,19 +61,20 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
 ) -> Result<(), Failure> {
     let m = mobility(mechanism, start);
     let drivers = mechanism.drives.len();
-    if m.freedom < drivers {
+    if m.undriven < drivers {
         let names: Vec<String> = model.drivers.iter().map(|d| format!("`{}`", d.name)).collect();
         return Err(Failure::Study {
             code: "over-constrained",
             message: format!(
-                "{drivers} driver{} ({}) for a mechanism of {} degree{} of freedom",
+                "{drivers} driver{} ({}) for a mechanism of {} degree{} of freedom{}",
                 plural(drivers),
                 names.join(", "),
-                m.freedom,
-                plural(m.freedom)
+                m.undriven,
+                plural(m.undriven),
+                if m.undriven < m.freedom { " beside the couplings that time moves" } else { "" }
             ),
             place: "drivers".into(),
-            help: with_fewer_drivers(m.freedom, &[]),
+            help: with_fewer_drivers(m.undriven, &[]),
         });
     }
     if m.left > 0 {
@@ -92,9 +93,13 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
         return Err(Failure::Study {
             code: "under-constrained",
             message: format!(
-                "the mechanism has {} degree{} of freedom and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
+                "the mechanism has {} degree{} of freedom{} and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
                 m.freedom,
                 plural(m.freedom),
+                match m.freedom - m.undriven {
+                    0 => String::new(),
+                    moved => format!(", {moved} of which couplings move over time,"),
+                },
                 plural(drivers),
                 if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
                 remaining.as_ref().map_or_else(|| in_no_joint(&loose), |remaining| remaining.words.clone())

@@ -191,6 +191,16 @@ fn new_never_overwrites() {
     place.run(&["new", "five-bar"]).ends(2);
 }
 
+const LIFT: &str = "grashof: 1
+name: luffing
+space: planar
+gravity: none
+bodies: { arm: { bar: { length: 1 m, mass: 2 kg } } }
+joints: { O: { revolute: [ground, arm.start] } }
+couplings: { cylinder: { zero: \"sqrt((arm.end.x - 0.2 m)^2 + (arm.end.y + 1 m)^2) - (1.3 m + 0.3 m*sin(2 rad/s*t))\" } }
+start: { O.angle: ~20 deg }
+";
+
 #[test]
 fn check_tells_what_a_model_is() {
     let place = Place::with_model("check");
@@ -210,6 +220,11 @@ fn check_tells_what_a_model_is() {
     }
     assert!(done.stderr.is_empty() && place.files("").len() == 1, "check writes nothing");
     assert!(place.run(&["check", "model.yaml", "--set", "l3=10 cm"]).ends(0).stdout.contains("rocker-crank"));
+    // a coupling that time moves is what a driver is
+    place.put("lift.yaml", LIFT);
+    let lift = place.run(&["check", "lift.yaml"]).ends(0).stdout;
+    assert!(lift.contains("degrees of freedom        1 (without drivers and couplings that time moves; Grübler's count: 1)"), "{lift}");
+    assert!(lift.contains("left by the drivers       0"), "{lift}");
     // findings: nothing without --strict, 1 with it
     place.put("loose.yaml", &model().replace("O.angle: 90 deg", "O.angle: 90"));
     let loose = place.run(&["check", "loose.yaml"]).ends(0);

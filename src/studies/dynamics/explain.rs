@@ -188,7 +188,7 @@ pub(super) fn shared<G: Space<S = f64>>(phases: &Phases<G>) -> Vec<Finding> {
             path: "joints".into(),
         });
     }
-    if m.drives.len() > mobility.freedom - mobility.left.min(mobility.freedom) {
+    if m.drives.len() > mobility.undriven - mobility.left.min(mobility.undriven) {
         findings.push(Finding {
             code: "efforts-not-unique".into(),
             message: "drivers hold the same motion: only what their efforts do together is determined, single ones are those of least size"
