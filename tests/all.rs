@@ -36,6 +36,7 @@ mod library;
 mod linear;
 mod models;
 mod modes;
+mod nested;
 mod overconstrained;
 mod periodic;
 mod quantities;

@@ -24,6 +24,8 @@ mod bridge;
 mod events;
 mod foresee;
 mod foresight;
+mod land;
+mod nested;
 mod observed;
 mod repeat;
 mod resolve;
@@ -102,6 +104,9 @@ pub struct Integration {
     roots: Vec<f64>,
     /// Roots just before what happens at an event.
     instant: Vec<f64>,
+    /// Roots at the node before one was crossed, and those that have jumped below zero with the modes since.
+    near_side: Vec<f64>,
+    jumped: Vec<usize>,
     /// Whether the first step is not looked at yet.
     begins: bool,
     /// Roots at the nodes of a part of a step, and beside them.
@@ -194,6 +199,8 @@ impl Integration {
             rough: system.pattern().rough.clone(),
             roots: vec![0.0; dims.roots],
             instant: vec![0.0; dims.roots],
+            near_side: vec![0.0; dims.roots],
+            jumped: Vec::with_capacity(dims.roots),
             begins: true,
             samples: vec![vec![0.0; dims.roots]; NODES + 1],
             probe: vec![0.0; dims.roots],

@@ -124,6 +124,7 @@ impl<S: System> Minimal<S> {
         p.forceful = inner.forceful.clone();
         p.timed = inner.timed.clone();
         p.observing = inner.observing.clone();
+        p.nested = inner.nested.clone();
         p.rough = inner.rough.clone();
         let own = [self.inner.roots, self.inner.roots + 1];
         p.rough.extend(own);

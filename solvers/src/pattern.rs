@@ -74,6 +74,9 @@ pub struct Pattern {
     /// Roots that are only read, as the switches of columns: crossing them is an [`Effect::Record`](crate::Effect::Record), and where they
     /// cannot be located the run goes on without them.
     pub observing: Vec<usize>,
+    /// Roots that the crossing of others may let jump at one state, as those of `floor(mod(x, 1)/0.5)`; what they are made of stands before
+    /// them.
+    pub nested: Vec<usize>,
     /// Roots that need not be smooth functions of the state: they are looked at, not resolved.
     pub rough: Vec<usize>,
 }
@@ -107,6 +110,7 @@ impl Pattern {
             forceful: Vec::new(),
             timed: Vec::new(),
             observing: Vec::new(),
+            nested: Vec::new(),
             rough: Vec::new(),
         }
     }

@@ -1,6 +1,6 @@
 //! Loads that jump by time: what they overload for a part of a step gives way at once, and what a start holds wrongly is put right there.
 
-use super::{done, forms, tried};
+use super::{close, done, forms, tried};
 use crate::reference::Verdict;
 
 /// What lasts for less than a step of 0.1 s, from 1 s on.
@@ -190,4 +190,26 @@ studies:
         }
     }
     verdict.give("blows on what sticks");
+}
+
+/// Friction and a load that helps the motion turn round at the same instant: nothing is between, where one of them alone has turned.
+#[test]
+fn friction_turns_round_with_a_load_that_switches_with_its_rate() {
+    for kind in ["inverse: { over: 0.5 s, samples: 20 }", "dynamics: { until: 0.5 s }", "dynamics: { until: 0.5 s, integrator: radau5 }"] {
+        let text = format!(
+            "grashof: 1
+name: turning round
+space: planar
+gravity: none
+bodies: {{ a: {{ bar: {{ length: 1 m, mass: 3 kg }} }} }}
+joints: {{ A: {{ revolute: [ground, a.start], friction: {{ coulomb: 0.4 N m }} }} }}
+loads: {{ l: {{ joint: A, torque: \"0.3 N m*sign(A.omega)\" }} }}
+drivers: {{ d: {{ joint: A, angle: 1 rad*sin(6 rad/s*t) }} }}
+measures: {{ near: \"if(t > 0.25 s and t < 0.27 s, d.torque, -50 N m)\" }}
+studies: {{ it: {{ {kind}, columns: [time, d.torque], scalars: {{ most: max(near) }} }} }}
+"
+        );
+        let most = done(&text, "it").scalars[0];
+        close(kind, most, -36.0 * 1.5_f64.sin() + 0.1, 1e-6);
+    }
 }

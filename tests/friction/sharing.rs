@@ -77,3 +77,108 @@ studies: {{ rest: {{ statics: {{ from: start }}, columns: [F.position, F.frictio
         }
     }
 }
+
+/// Discs on one shaft: their inertias, kg m², the torques on them and their speeds at the start; clutches in words.
+fn discs(inertias: &[f64], torques: &[&str], speeds: &[f64], clutches: &str) -> String {
+    let names = &["A", "B", "C", "D"][..inertias.len()];
+    let each = |of: &dyn Fn(usize, &str) -> String| names.iter().enumerate().map(|(k, name)| of(k, name)).collect::<Vec<_>>().join(", ");
+    format!(
+        "grashof: 1
+name: discs
+space: planar
+gravity: none
+bodies: {{ {} }}
+joints: {{ {} }}
+clutches: {{ {clutches} }}
+loads: {{ {} }}
+start: {{ {} }}
+studies:
+  it:
+    dynamics: {{ until: 6 s, every: 0.1 s }}
+    columns: [{}]
+",
+        each(&|k, name| format!("{}: {{ mass: 1 kg, inertia: {} kg m^2 }}", name.to_lowercase(), inertias[k])),
+        each(&|_, name| format!("{name}: {{ revolute: [ground.origin, {}.origin] }}", name.to_lowercase())),
+        each(&|k, name| format!("on_{name}: {{ joint: {name}, torque: \"{}\" }}", torques[k])),
+        each(&|k, name| format!("{name}.angle: 0 rad, {name}.omega: {} rad/s", speeds[k])),
+        each(&|_, name| format!("{name}.omega")),
+    )
+}
+
+/// Where one-way clutches beside each other open at the same instant, what they share with friction clutches, or with each other, does not
+/// close those again that carry nothing: the motion is that without the clutches that are not needed.
+#[test]
+fn one_way_clutches_open_beside_what_shares_their_load() {
+    let (one, other, third) =
+        ("c0: { between: [A, B], one_way: true }", "c1: { between: [A, B], one_way: true }", ", c2: { between: [A, B], torque: 2 N m }");
+    let needed = "c1: { between: [A, C], one_way: true }, c2: { between: [B, D], one_way: true }, c3: { between: [A, B], one_way: true }";
+    let (fourth, none) = ("c0: { between: [A, D], one_way: true }", "0 N m");
+    let cases = [
+        (
+            [2.0, 2.0].to_vec(),
+            ["10 N m*cos(2 rad/s*t)", none].to_vec(),
+            [1.0, 1.0].to_vec(),
+            [format!("{one}, {other}{third}"), format!("{one}{third}")],
+        ),
+        (
+            [1.0, 2.0].to_vec(),
+            ["10 N m*sin(2 rad/s*t)", "3 N m*cos(2 rad/s*t)"].to_vec(),
+            [0.0, 1.0].to_vec(),
+            [format!("{one}, {other}{third}"), format!("{one}{third}")],
+        ),
+        (
+            [2.0, 2.0, 1.0, 2.0].to_vec(),
+            ["1 N m*sin(1 rad/s*t)", none, none, "1 N m*cos(2 rad/s*t)"].to_vec(),
+            [1.0; 4].to_vec(),
+            [format!("{fourth}, {needed}"), needed.to_owned()],
+        ),
+    ];
+    for (inertias, torques, speeds, clutches) in cases {
+        let [all, needed] = clutches.map(|clutches| done(&discs(&inertias, &torques, &speeds, &clutches), "it"));
+        let slips = all.rows.iter().map(|row| row[1] - row[0]).fold(0.0, f64::max);
+        assert!(slips > 0.1, "a clutch opens: {slips}");
+        for (name, (found, right)) in ["A", "B", "C", "D"].iter().zip(last(&all).iter().zip(last(&needed))) {
+            close(name, *found, *right, 1e-6);
+        }
+    }
+}
+
+/// Rates of a driven mechanism are known from its constraints, better than the continuous solution of an implicit scheme is: friction reverses
+/// once all the same.
+#[test]
+fn friction_of_a_driven_linkage_reverses_by_all_integrators() {
+    let linkage = |coordinates: &str, integrator: &str, tolerance: &str| {
+        format!(
+            "grashof: 1
+name: friction at a reversal
+space: planar
+gravity: [0, -9.81 m/s^2]
+ground: {{ O: [0, 0], C: [0.3229 m, 0.02 m] }}
+bodies:
+  crank: {{ bar: {{ length: 0.0742 m, mass: 0.87 kg }} }}
+  coupler: {{ bar: {{ length: 0.2699 m, mass: 0.742 kg }} }}
+  rocker: {{ bar: {{ length: 0.2984 m, mass: 0.769 kg }} }}
+joints:
+  O: {{ revolute: [ground.O, crank.start] }}
+  A: {{ revolute: [crank.end, coupler.start] }}
+  B: {{ revolute: [coupler.end, rocker.end], friction: {{ coulomb: 0.2 N m, static: 0.4 N m, stribeck_speed: 0.5 rad/s }} }}
+  C: {{ revolute: [ground.C, rocker.start] }}
+drivers: {{ d: {{ joint: O, angle: 4.208 rad/s*t + 0.144 rad*sin(4.104 rad/s*t) }} }}
+start: {{ coupler.angle: ~54.3 deg, rocker.angle: ~100 deg }}
+studies:
+  it:
+    dynamics: {{ until: 1.5 s, every: 50 ms, tolerance: {tolerance}, coordinates: {coordinates}, integrator: {integrator} }}
+    scalars: {{ w: integral(d.power) }}
+"
+        )
+    };
+    let right = done(&linkage("joint", "dop853", "1e-12"), "it").scalars[0];
+    for (coordinates, tolerance) in
+        [("joint", "1e-8"), ("joint", "1e-10"), ("cartesian", "1e-8"), ("cartesian", "1e-10"), ("minimal", "1e-9")]
+    {
+        for integrator in ["radau5", "bdf"] {
+            let found = done(&linkage(coordinates, integrator, tolerance), "it").scalars[0];
+            close(coordinates, found, right, 1e-5);
+        }
+    }
+}

@@ -261,14 +261,12 @@ impl Integration {
     /// Ends the last step at a root, crosses it, and starts the scheme afresh; if the motion goes on as if nothing had happened,
     /// the rest of the step is kept for the next advance.
     pub(super) fn event(&mut self, system: &mut dyn System, theta: f64, root: usize, ends: bool) -> Result<Progress, Why> {
-        let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
+        let h = self.node.state.t - self.last.state.t;
         let repeated = self.repeated.take();
         self.ahead.copy_from(&self.node);
         if theta < 1.0 {
             self.interpolate(system)?;
-            self.dense.evaluate(t + theta * h, &mut self.node.state);
-            self.node.state.modes.copy_from_slice(&self.last.state.modes);
-            self.engine.settle(system, &mut self.node)?;
+            self.land(system, theta, root)?;
         }
         self.balance(system, true)?;
         self.before.copy_from(&self.node);
@@ -278,10 +276,9 @@ impl Integration {
         self.engine.counts.events += 1;
         let mut stop = false;
         let (mut restart, mut bounces) = (false, false);
-        let mut next = Some(root);
+        let mut next = Some(self.innermost(system, root));
         while let Some(root) = next {
-            self.crossed.push(root);
-            let effect = system.cross(root, &mut self.node.state, &mut self.row);
+            let effect = self.cross(system, root);
             bounces |= matches!(effect, Effect::Bounce { .. });
             match effect {
                 Effect::Record => {}
@@ -368,13 +365,14 @@ impl Integration {
         Ok(Progress::Event)
     }
 
-    /// A root that belongs to the same instant: negative in the state reached, positive before what has happened or before that part of the
-    /// step, and not crossed yet.
-    fn also_crossed(&mut self, system: &mut dyn System) -> Option<usize> {
+    /// A root that belongs to the same instant: negative in the state reached, and positive before what has happened or before that part of the
+    /// step, and not crossed yet, or negative by a jump of what it is made of.
+    pub(super) fn also_crossed(&mut self, system: &mut dyn System) -> Option<usize> {
         let Node { state, a, lambda, .. } = &self.node;
         system.roots(state.at(), a, lambda, &mut self.probe);
         let was_positive = |root: usize| self.roots[root] > 0.0 || self.instant[root] > 0.0;
-        let near = |root: &usize| self.probe[*root] < 0.0 && was_positive(*root) && !self.crossed.contains(root);
+        let own = |root: usize| was_positive(root) && !self.crossed.contains(&root);
+        let near = |root: &usize| self.probe[*root] < 0.0 && (own(*root) || self.jumped.contains(root));
         self.looked.iter().copied().find(near)
     }
 

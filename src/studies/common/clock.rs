@@ -1,5 +1,6 @@
 //! The independent variable of a range: the driver's coordinate or time, and the time that belongs to it.
 
+use super::reach::{NeverThere, reached};
 use crate::dynamics::Dynamics;
 use crate::expression::Dimension;
 use crate::geometry::Space;
@@ -72,10 +73,6 @@ fn in_unit(value: f64, (size, unit): (f64, &str)) -> String {
     format!("{}{gap}{unit}", six_digits(value * size))
 }
 
-/// The driver never gets to the end of the range.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NeverThere(pub String);
-
 impl Clock {
     /// A range of time.
     #[must_use]
@@ -94,7 +91,7 @@ impl Clock {
     /// negative). `output` is that of the driver's law, `from` its coordinate at the start.
     ///
     /// # Errors
-    /// If the law stands still or turns back before the range is done.
+    /// If the law stands still at its start or turns back before the range is done.
     pub fn of_driver<G: Space<S = f64>>(
         dynamics: &mut Dynamics<'_, G>,
         modes: &mut [i32],
@@ -114,30 +111,13 @@ impl Clock {
             let direction = backwards * speed.signum();
             return Ok(Self { from, direction, length, driver: Some(output), speed: Some(backwards * speed.abs()), end });
         }
-        // grow the time until the law has gone so far
-        let mut end = 1e-3;
-        let gone = |t: f64, law: &mut dyn FnMut(f64) -> [f64; 3]| (law(t)[0] - f0).abs();
-        while gone(end, &mut law) < length * (1.0 - 1e-12) {
-            end *= 1.5;
-            if end > 1e7 {
-                return Err(NeverThere("the driver never gets so far".into()));
-            }
-        }
-        let (mut low, mut high) = (end / 1.5, end);
-        while high - low > 1e-15 * high {
-            let middle = 0.5 * (low + high);
-            if gone(middle, &mut law) < length * (1.0 - 1e-15) { low = middle } else { high = middle }
-        }
-        let end = high;
+        let turns = dynamics.mechanism.drives.iter().any(|drive| drive.output == output && drive.turns);
+        let mut law = |t: f64| {
+            dynamics.follow_time(t, modes);
+            [0, 1].map(|k| dynamics.work.motions[output + k])
+        };
+        let end = reached(&mut law, backwards, length, |x| told_coordinate(x, turns))?;
         let direction = (law(end)[0] - f0).signum();
-        let mut last = 0.0;
-        for i in 1..=2000 {
-            let x = gone(end * f64::from(i) / 2000.0, &mut law);
-            if x < last - 1e-9 * length {
-                return Err(NeverThere("the driver turns back within the range: give the range as a time".into()));
-            }
-            last = x;
-        }
         Ok(Self { from, direction, length, driver: Some(output), speed: None, end })
     }
 

@@ -15,6 +15,7 @@ pub mod outcome;
 mod passage;
 mod passing;
 pub(crate) mod pieces;
+pub mod reach;
 pub(crate) mod recorder;
 mod rows;
 pub(crate) mod scene;

@@ -212,22 +212,21 @@ impl<G: Space<S = f64>> Front<'_, '_, G> {
                     waiting.push(Stretch { from: at, to, enter: None, closed });
                     waiting.push(Stretch { from, to: at, enter: None, closed: Vec::new() });
                 }
-                Look::Ends { before, at, switches, next } => {
+                Look::Ends { before, at, mut switches, mut next } => {
                     let near = TOGETHER * self.range();
                     let at = if at - from <= near { from } else { at };
-                    // what stood at the end is looked at again in the new modes
+                    let together = to - at <= near;
+                    let entered = waiting.last_mut().and_then(|behind| behind.enter.take());
+                    // what stood at the end is looked at again in the new modes, but for what changes at the same place
+                    if together {
+                        entered.iter().for_each(|modes| closed.iter().for_each(|&switch| next[switch] = modes[switch]));
+                        switches.extend(closed);
+                    }
                     match waiting.last_mut() {
-                        Some(behind) => {
-                            behind.enter = None;
-                            if to - at > near {
-                                waiting.push(Stretch { from: at, to, enter: Some(next), closed: Vec::new() });
-                            } else {
-                                (behind.from, behind.enter) = (at, Some(next));
-                            }
-                        }
+                        Some(behind) if together => (behind.from, behind.enter) = (at, Some(next)),
                         // a switch at the end of the range changes nothing any more
                         None if high - at <= near => {}
-                        None => waiting.push(Stretch { from: at, to, enter: Some(next), closed: Vec::new() }),
+                        _ => waiting.push(Stretch { from: at, to, enter: Some(next), closed: Vec::new() }),
                     }
                     let end = if high - at <= near { before } else { at };
                     if end > from {

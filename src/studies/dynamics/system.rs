@@ -347,7 +347,8 @@ where
         match self.roots[root] {
             Root::Force { program, k } => {
                 let before = self.take_neighbour(program, k, state);
-                if self.is_of_position(program) { self.turn_corner(&before, state, true) } else { Effect::Restart }
+                let effect = if self.is_of_position(program) { self.turn_corner(&before, state, true) } else { Effect::Restart };
+                if effect == Effect::Restart && self.turns_back(state) { Effect::Stop } else { effect }
             }
             Root::Column { k } => {
                 let count = self.observer.program().switches().len();

@@ -16,6 +16,11 @@ impl Root {
         matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Slides(_) | Self::Holds { .. } | Self::Event(_))
     }
 
+    /// Whether it is of an expression of the model, which may hold other switches.
+    pub(super) fn is_formula(self) -> bool {
+        matches!(self, Self::Force { .. } | Self::Column { .. } | Self::Event(_))
+    }
+
     /// Whether forces follow other laws behind it.
     pub(super) fn is_forceful(self) -> bool {
         !matches!(self, Self::Column { .. } | Self::Winding { .. } | Self::Event(_))

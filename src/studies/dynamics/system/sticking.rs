@@ -105,6 +105,19 @@ where
         Effect::Stop
     }
 
+    /// Meets contacts that slide, and at the state looked at last have come to rest, to rounding: where a force switches with their rate, as
+    /// `sign` of it does, both change at one instant. Whether there are any.
+    pub(super) fn turns_back(&mut self, state: &State) -> bool {
+        let m = self.dynamics.mechanism;
+        let slides = |contact: &Contact| !contact.is_one_way() && state.modes[contact.mode] != 0;
+        let rests = |contact: &Contact| self.dynamics.extent_rate(contact.along).abs() <= self.rest(contact);
+        let before = self.met.len();
+        let turning = (0..m.contacts.len()).filter(|&c| slides(&m.contacts[c]) && rests(&m.contacts[c]));
+        let turning: Vec<Met> = turning.map(|contact| Met { contact, sense: 0 }).collect();
+        self.met.extend(turning);
+        self.met.len() > before
+    }
+
     /// Whether rows hold contacts, so that a blow must wait until they are let go: no friction of finite size withstands a blow.
     pub(super) fn lets_go(&mut self) -> bool {
         self.loosened = self.dynamics.mechanism.held().next().is_some();
@@ -158,6 +171,8 @@ where
                 Some(-1) => Place::High,
                 None if !held.contains(&c) && before[c] > 0 => Place::Low,
                 None if !held.contains(&c) && before[c] < 0 => Place::High,
+                // one that does not carry need not begin to, where others hold the same
+                None if !held.contains(&c) && m.contacts[c].is_one_way() => Place::Low,
                 _ => Place::Between,
             },
         };

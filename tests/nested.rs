@@ -1,0 +1,100 @@
+//! Switches of what other switches let jump: where one inside of another jumps onto its edge both change at one place, in whatever order they
+//! are met.
+
+use crate::common::study;
+use grashof::mechanism::Coordinates;
+use grashof::studies::common::outcome::Outcome;
+
+/// A value of the angle of the bar, and its formula in the model.
+type Value = (&'static str, fn(f64) -> f64);
+
+fn tooth(x: f64) -> f64 {
+    (6.0 * x).sin().rem_euclid(0.7)
+}
+
+/// From 0 up to 1 at 0.2, and down to 0 at 0.7.
+fn peak(x: f64) -> f64 {
+    if x < 0.2 { x / 0.2 } else { (0.7 - x) / 0.5 }
+}
+
+const VALUES: [Value; 10] = [
+    ("mod(sin(6*A.angle), 0.7)", tooth),
+    ("max(mod(sin(6*A.angle), 0.7), 0)", tooth),
+    ("abs(mod(sin(6*A.angle), 0.7))", tooth),
+    ("mod(mod(sin(6*A.angle), 0.7), 0.7)", tooth),
+    ("floor(mod(sin(6*A.angle), 0.7)/0.35)", |x| if tooth(x) < 0.35 { 0.0 } else { 1.0 }),
+    ("if(mod(sin(6*A.angle), 0.7) >= 0, 1, 2)", |_| 1.0),
+    ("max(abs(sin(6*A.angle)), 0)", |x| (6.0 * x).sin().abs()),
+    ("per(mod(sin(6*A.angle), 0.7))", |x| peak(tooth(x))),
+    ("saw(mod(sin(6*A.angle), 0.7))", tooth),
+    ("max(A.angle - floor(A.angle/0.1 rad)*0.1 rad, 0 rad)/1 rad", |x| x.rem_euclid(0.1)),
+];
+
+/// A bar that swings, or is driven, with all values as columns behind its angle; `kind` is that of the study.
+fn swinging(load: &str, kind: &str) -> String {
+    let driver = if kind.starts_with("dynamics") { "" } else { "drivers: { d: { joint: A, angle: 50 deg*cos(3 rad/s*t) } }\n" };
+    let measures: Vec<String> = VALUES.iter().enumerate().map(|(k, (text, _))| format!("z{k}: \"{text}\"")).collect();
+    let names: Vec<String> = (0..VALUES.len()).map(|k| format!("z{k}")).collect();
+    let (measures, names) = (measures.join(", "), names.join(", "));
+    format!(
+        "grashof: 1
+name: nested switches
+space: planar
+gravity: [9.81 m/s^2, 0]
+tables:
+  saw: {{ points: [[0, 0], [0.7, 0.7]], beyond: constant }}
+  per: {{ points: [[0, 0], [0.2, 1], [0.7, 0]], beyond: periodic }}
+bodies: {{ a: {{ bar: {{ length: 1 m, mass: 1 kg }} }} }}
+joints: {{ A: {{ revolute: [ground, a.start] }} }}
+start: {{ A.angle: 50 deg, A.omega: 0 rad/s }}
+loads: {{ l: {{ joint: A, torque: \"{load}\" }} }}
+{driver}measures: {{ {measures} }}
+studies: {{ it: {{ {kind}, columns: [A.angle, {names}], scalars: {{ ending: last(A.angle) }} }} }}
+"
+    )
+}
+
+/// Holds the columns to their formulas at every row, on either side of a jump.
+fn hold(outcome: &Outcome, what: &str) {
+    assert!(outcome.findings.is_empty(), "{what}: {:?}", outcome.findings);
+    assert!(outcome.rows.len() > 300, "{what}: {} rows", outcome.rows.len());
+    for row in &outcome.rows {
+        for (k, (text, value)) in VALUES.iter().enumerate() {
+            let found = row[1 + k];
+            let fits = [0.0, 1e-7, -1e-7].iter().any(|by| (value(row[0] + by) - found).abs() < 1e-5);
+            assert!(fits, "{what}: {text} at {} is {found}, not {}", row[0], value(row[0]));
+        }
+    }
+}
+
+#[test]
+fn columns_are_their_formulas_in_every_kind_of_study() {
+    for kind in [
+        "dynamics: { until: 4 s, every: 10 ms }",
+        "dynamics: { until: 4 s, every: 10 ms, tolerance: 1e-5 }",
+        "dynamics: { until: 4 s, every: 10 ms, integrator: radau5 }",
+        "dynamics: { until: 4 s, every: 10 ms, integrator: bdf }",
+        "kinematics: { over: 4 s, samples: 400 }",
+        "kinematics: { over: 2.9 s, samples: 400 }",
+        "inverse: { over: 4 s, samples: 400 }",
+    ] {
+        hold(&study(&swinging("0 N m", kind), "it", Coordinates::Joint), kind);
+    }
+}
+
+#[test]
+fn forces_are_those_of_formulas_without_nested_switches() {
+    for (nested, plain) in [
+        ("-3 N m*floor(mod(sin(6*A.angle), 0.7)/0.35)", "-3 N m*if(mod(sin(6*A.angle), 0.7) < 0.35, 0, 1)"),
+        ("-10 N m/rad*max(A.angle - floor(A.angle/0.1 rad)*0.1 rad, 0 rad)", "-10 N m/rad*(A.angle - floor(A.angle/0.1 rad)*0.1 rad)"),
+        ("-2 N m*max(abs(sin(6*A.angle)), 0)", "-2 N m*abs(sin(6*A.angle))"),
+    ] {
+        for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+            let [nested_one, plain_one] =
+                [nested, plain].map(|load| study(&swinging(load, "dynamics: { until: 4 s, every: 10 ms }"), "it", coordinates));
+            hold(&nested_one, nested);
+            let off = nested_one.scalars[0] - plain_one.scalars[0];
+            assert!(off.abs() < 1e-5, "{nested}: {:?} for {:?}", nested_one.scalars, plain_one.scalars);
+        }
+    }
+}
