@@ -115,4 +115,6 @@ pub enum ForceOn {
     Reaction(usize),
     /// `model.joints[i]`: its moment on the second body, in world axes.
     Moment(usize),
+    /// `model.couplings[i]`: its force along the line between the two points whose distance it prescribes.
+    Coupling(usize),
 }

@@ -14,6 +14,8 @@ use super::{font, forces, thin};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
+/// Positions up to which springs and dampers are drawn in all of them.
+const FEW: usize = 3;
 /// Part of the sheet that names may cover: beyond it none can be read.
 const NAMED: f64 = 0.25;
 /// Of massless rods.
@@ -167,7 +169,7 @@ impl Pen<'_> {
         }
         self.forms(pose, strength, &joints);
         if !strong {
-            self.actuators(pose, strength);
+            self.lines(pose, strength);
         }
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.kind == SymbolKind::Slot) {
             let more = 11.0 * self.signs.size;
@@ -302,13 +304,18 @@ impl Pen<'_> {
         }
     }
 
-    /// The lines of actuators in a pale position.
-    fn actuators(&mut self, pose: usize, strength: f64) {
-        for link in self.drawing.links.iter().filter(|link| link.kind == LinkKind::Actuator) {
+    /// The lines of actuators in a pale position, and of springs and dampers where there are few of those.
+    fn lines(&mut self, pose: usize, strength: f64) {
+        for link in &self.drawing.links {
+            let (color, width) = match link.kind {
+                LinkKind::Actuator => (marks::DRIVE, 3.0),
+                LinkKind::Spring | LinkKind::Damper | LinkKind::SpringDamper if link.poses.len() <= FEW => (marks::RUST, 1.4),
+                _ => continue,
+            };
             if let Some(ends) = link.poses.get(pose).filter(|ends| ends.iter().all(is_usable)) {
                 let line = ends.map(|end| self.sheet.point(end)).to_vec();
                 self.letters.avoid_line(&line, Obstacle::Shade);
-                self.scene.line(line, Stroke::solid(pale(marks::DRIVE, strength), self.signs.pen(3.0)));
+                self.scene.line(line, Stroke::solid(pale(color, strength), self.signs.pen(width)));
             }
         }
     }

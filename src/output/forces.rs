@@ -20,6 +20,8 @@ const SAMPLE: f64 = 110.0;
 const LARGEST: f64 = 48.0;
 /// Radius of the arrow that tells how large that is, pixels.
 const TURNED: f64 = 19.0;
+/// Times by which the largest force of one kind is beyond that of the other so that they have scales of their own.
+const SPECKS: f64 = 10.0;
 /// Shorter arrows are not seen, pixels.
 const SEEN: f64 = 3.0;
 /// Room for the axes of space at the right, pixels.
@@ -50,12 +52,17 @@ pub(super) struct Scales {
     torque: [f64; 2],
 }
 
-/// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m, one for
-/// each kind: loads may be specks beside reactions.
+/// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m: one for both
+/// kinds, unless the arrows of one would be specks.
 pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
-    let suits = |kind| {
+    let most = KINDS.map(|(kind, ..)| {
         let own = drawing.forces.iter().filter(|force| force.kind == kind && force.turning.is_none());
-        let most = own.map(|force| force.size).filter(|x| x.is_finite()).fold(0.0, f64::max);
+        own.map(|force| force.size).filter(|x| x.is_finite()).fold(0.0, f64::max)
+    });
+    let both = most[0].max(most[1]);
+    let suits = |kind| {
+        let own = most[kind as usize];
+        let most = if own * SPECKS >= both { both } else { own };
         if most > 0.0 { round_above(most / (LONGEST * size)) } else { 1.0 }
     };
     let asked = |kind| drawing.forces.iter().find(|force| force.kind == kind).and_then(|force| force.scale);

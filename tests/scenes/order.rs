@@ -125,6 +125,14 @@ fn a_spring_over_a_point_ends_where_its_stretch_is_measured_from() {
     let links = of("b.y - 0.3 m - bump(b.x)", "0.3 m/s");
     assert!((links[0].a.at[0] - 0.2).abs() < 1e-9 && links[0].a.at[1] < 0.1, "{:?}", links[0].a.at);
     assert!(of("b.y - 0.3 m - bump(b.x)", "30 m/s").is_empty());
+    // a plane, along which the end goes with the point
+    let (_, scene) = scenes_of(&sprung("b.y - 0.3 m", "30 m/s"), "run").remove(0);
+    assert_eq!(scene.links[0].along, [0.0, 1.0]);
+    for index in 0..scene.frames.count() {
+        let poses = scene.frame(index);
+        let [a, b] = scene.ends(poses, &scene.links[0]);
+        assert!((a[0] - poses[0]).abs() < 1e-12 && (a[1] - scene.links[0].a.at[1]).abs() < 1e-12 && b[..2] == poses[..2], "{a:?} {b:?}");
+    }
     // a wall aslant
     let links = of("0.6*b.x + 0.8*b.y", "0.3 m/s");
     let way: Vec<f64> = links[0].a.at.iter().zip([0.2, 0.4]).map(|(a, p)| a - p).collect();

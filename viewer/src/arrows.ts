@@ -27,6 +27,8 @@ export const ROUND = 18;
 /** Part of the forces times the size of the mechanism below which a moment is round-off. */
 const ROUND_OFF = 1e-9;
 
+/** Times by which the largest force of one kind is beyond that of the other so that they have scales of their own. */
+const SPECKS = 10;
 /** Places at which the largest arrow is looked for. */
 const LOOKS = 90;
 
@@ -104,7 +106,10 @@ export class Arrows {
   pixels(kind: Kind, part: number, room: number, metre: number): number {
     const scale = this.scale(kind);
     if (scale !== null) return ((part / FIRST) * metre) / scale;
-    const most = this.most(kind);
+    const own = this.most(kind);
+    // one scale for loads and reactions, unless the arrows of one would be specks
+    const both = kind === 'loads' || kind === 'reactions' ? Math.max(this.most('loads'), this.most('reactions')) : own;
+    const most = own * SPECKS >= both ? both : own;
     return most > 0 ? (part * room) / most : 0;
   }
 

@@ -1,7 +1,7 @@
 // The motion of a scene: poses of all bodies at any place, and where their points are.
 
 import { above, weights } from './lagrange';
-import type { Place, Scene } from './types';
+import type { Link, Place, Scene } from './types';
 
 export type Vector = [number, number, number];
 
@@ -81,6 +81,15 @@ export class Motion {
       return [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], 0];
     }
     return rotated(pose[base + 3]!, [pose[base + 4]!, pose[base + 5]!, pose[base + 6]!], v);
+  }
+
+  /** Where the ends of a link are, m; of one that acts along a direction alone the first goes beside the second. */
+  ends({ a, b, along }: Link, place: number): [Vector, Vector] {
+    const [p, q] = [this.world(a, place), this.world(b, place)];
+    if (!along?.length) return [p, q];
+    const n: Vector = [along[0]!, along[1]!, along[2] ?? 0];
+    const way = n.reduce((sum, x, i) => sum + x * (q[i]! - p[i]!), 0);
+    return [[q[0] - way * n[0], q[1] - way * n[1], q[2] - way * n[2]], q];
   }
 
   /** Angle of a body in the plane, rad. */

@@ -198,7 +198,7 @@ export interface Joint {
 
 export type LinkKind = 'spring' | 'damper' | 'spring-damper' | 'rod' | 'actuator' | 'torsion' | 'shaft' | 'clutch' | 'brake';
 /** An actuator has so many tubes, each as long as `tube`, m. */
-export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num; stages?: number; tube?: number }
+export interface Link { name: string; kind: LinkKind; a: Place; b: Place; rest: Num; stages?: number; tube?: number; along?: number[] }
 export interface Wheel { body: number; at: number[]; radius: number; axis?: number[] }
 export type GearKind = 'teeth' | 'rack' | 'belt' | 'rope';
 export interface Gear { name: string; kind: GearKind; a: Wheel; b: Wheel }

@@ -375,9 +375,17 @@ impl<'n> Decoder<'n> {
                         (Some(owner), None) => Some(format!("did you mean `{}.{text}`?", owner.name)),
                         _ => None,
                     };
+                    // a joint for its point
+                    let of_joint = match other {
+                        Some(Entity::Joint(joint)) => self.name_space.model.joints.get(*joint).map(|joint| joint.b),
+                        _ => None,
+                    };
+                    let moved = of_joint.and_then(|at| Some((at, self.name_space.model.bodies.get(at.body)?)));
+                    let moved =
+                        moved.and_then(|(at, body)| Some(format!("write `{}.{}`, its point", body.name, body.points.get(at.point)?.name)));
                     let message = is.unwrap_or_else(|| format!("unknown body `{}`", clip(body)));
                     self.fault("unknown-body", at, message, format!("one of the bodies {list}")).help =
-                        Some(owner.or(near).unwrap_or_else(|| suggest::take_or_add(body, "bodies")));
+                        Some(owner.or(moved).or(near).unwrap_or_else(|| suggest::take_or_add(body, "bodies")));
                     return None;
                 }
             }

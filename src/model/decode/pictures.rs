@@ -3,7 +3,7 @@
 use super::decoder::Decoder;
 use super::frame::Frame;
 use crate::expression::{Dimension, Id};
-use crate::model::entities::LoadOn;
+use crate::model::entities::{CouplingKind, LoadOn};
 use crate::model::fault::{At, Spot};
 use crate::model::fields::{ANGLE, POINT, Shape, Size, Want};
 use crate::model::figure::{ForceKind, ForceOn, Shown, ShownForce, ShownWhat};
@@ -131,7 +131,28 @@ impl<'n> Decoder<'n> {
                 shown.extend(components.map(|components| ShownForce { name: name.clone(), on, components, scale }));
             }
         }
+        shown.extend(self.shown_distances(scale));
         shown
+    }
+
+    /// Forces of couplings of the positions of points, in the direction of a length: of those that prescribe a distance.
+    fn shown_distances(&mut self, scale: Option<Id>) -> Vec<ShownForce> {
+        let model = &self.name_space.model;
+        let of_points = |id: Id| {
+            let inputs = self.pool.inputs_of(&[id]);
+            inputs.iter().all(|input| matches!(model.inputs[*input as usize], Quantity::Point { order: 0, .. } | Quantity::Time))
+        };
+        let distances = model.couplings.iter().enumerate().filter(|(_, coupling)| match coupling.kind {
+            CouplingKind::Zero(id) => coupling.along == Dimension::LENGTH && of_points(id),
+            _ => false,
+        });
+        let distances: Vec<(usize, String)> = distances.map(|(index, coupling)| (index, coupling.name.clone())).collect();
+        let shown = distances.into_iter().filter_map(|(index, name)| {
+            let column = self.quiet(&format!("{name}.force"))?;
+            let components = vec![Shown { name: column.name, what: ShownWhat::Column(column.value), dimension: column.dimension }];
+            Some(ShownForce { name, on: ForceOn::Coupling(index), components, scale })
+        });
+        shown.collect()
     }
 
     /// Points whose paths are drawn, if the study names them.

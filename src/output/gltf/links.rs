@@ -26,7 +26,7 @@ pub(super) struct Moving {
 pub(super) fn moving(scene: &Scene, frames: &[Vec<f64>]) -> Vec<Moving> {
     let about_hinges = |kind| matches!(kind, LinkKind::Torsion | LinkKind::Clutch | LinkKind::Brake);
     let links = scene.links.iter().filter(|link| !about_hinges(link.kind)).map(|link| {
-        let ends = frames.iter().map(|poses| [scene.world(poses, &link.a), scene.world(poses, &link.b)]).collect();
+        let ends = frames.iter().map(|poses| scene.ends(poses, link)).collect();
         (link.name.clone(), matches!(link.kind, LinkKind::Spring | LinkKind::SpringDamper), ends)
     });
     let gears = scene.gears.iter().flat_map(|gear| {

@@ -132,9 +132,9 @@ impl Posed<'_> {
                 scene::LinkKind::Clutch => LinkKind::Clutch,
                 scene::LinkKind::Brake => LinkKind::Brake,
             };
-            let ends = |poses: &&[f64]| [self.flat(poses, &link.a), self.flat(poses, &link.b)];
+            let ends = |poses: &&[f64]| self.scene.ends(poses, link).map(|end| self.view.flat(end));
             let cylinder = |poses: &&[f64]| {
-                let [a, b] = [&link.a, &link.b].map(|end| self.scene.world(poses, end));
+                let [a, b] = self.scene.ends(poses, link);
                 tube(link) / (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
             };
             let turned = |poses: &&[f64]| [link.a.body, link.b.body].map(|body| self.angle(poses, body));

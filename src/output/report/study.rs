@@ -181,6 +181,7 @@ fn drawing(scene: &Scene) -> Value {
     value["frames"]["poses"] = json(&poses);
     for (arrow, values) in value["arrows"].as_array_mut().into_iter().flatten().zip(arrows) {
         arrow["values"] = json(&values);
+        arrow.as_object_mut().and_then(|arrow| arrow.remove("from"));
     }
     // what figures make of a scene: the colours of bodies, the faces of hulls in space and from where these are seen, outlines of teeth, and
     // tubes of actuators
@@ -206,6 +207,9 @@ fn drawing(scene: &Scene) -> Value {
     for (link, of) in value["links"].as_array_mut().into_iter().flatten().zip(&scene.links) {
         if of.kind == LinkKind::Actuator {
             link["tube"] = json(&posed::tube(of));
+        }
+        if let Some(link) = link.as_object_mut().filter(|_| of.along.is_empty()) {
+            link.remove("along");
         }
     }
     signs(&mut value, scene);

@@ -36,8 +36,8 @@ pub struct Scene {
     pub torque: Option<ShownIn>,
     /// Azimuth and elevation of the eye, rad, if the study asks for them.
     pub view: Option<[f64; 2]>,
-    /// Value of the independent variable at which a still picture shows it strongly, if the study asks for one; else that is the first of
-    /// the frames that are shown.
+    /// Value of the independent variable at which a still picture shows it strongly, if the study asks for one, or the start of a motion that
+    /// is followed both ways; else that is the first of the frames that are shown.
     pub at: Option<f64>,
     /// Bodies; the first is the ground.
     pub bodies: Vec<Body>,
@@ -85,6 +85,15 @@ impl Scene {
         let from = (place.body - 1) * self.stride();
         let origin = |i: usize| if i < self.dimensions { poses.get(from + i).copied().unwrap_or(f64::NAN) } else { 0.0 };
         std::array::from_fn(|i| turned[i] + origin(i))
+    }
+
+    /// Where the ends of a link are in the world, m, with the bodies as in `poses`.
+    #[must_use]
+    pub fn ends(&self, poses: &[f64], link: &Link) -> [[f64; 3]; 2] {
+        let [a, b] = [&link.a, &link.b].map(|end| self.world(poses, end));
+        let along: [f64; 3] = std::array::from_fn(|i| link.along.get(i).copied().unwrap_or(0.0));
+        let way: f64 = (0..3).map(|i| along[i] * (b[i] - a[i])).sum();
+        [if link.along.is_empty() { a } else { std::array::from_fn(|i| b[i] - way * along[i]) }, b]
     }
 
     /// A direction fixed in a body in the axes of the world, with the bodies as in `poses`.

@@ -75,6 +75,10 @@ pub struct Link {
     /// Of an actuator how many tubes slide in each other, the rod with them: each is shorter than the shortest length. 0 for others.
     #[serde(default)]
     pub stages: usize,
+    /// Unit direction in the axes of the world along which alone it acts: its first end, on the ground, goes along beside the second one.
+    /// Empty for a link between two places.
+    #[serde(default)]
+    pub along: Vec<f64>,
 }
 
 /// What a massless element is.
@@ -164,6 +168,9 @@ pub struct Arrow {
     pub frame: usize,
     /// Unit directions in that body of the components that are given.
     pub axes: Vec<Vec<f64>>,
+    /// Of a force along a line the place from which it points away where it is positive; it has one component then, and no axes.
+    #[serde(default)]
+    pub from: Option<Place>,
     /// Force per length with which it is drawn, N/m, if the study says so.
     pub scale: Option<f64>,
 }

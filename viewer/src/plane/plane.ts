@@ -236,7 +236,7 @@ export class Plane implements Renderer {
   /** A spring or damper, with the ground at its ends where no joint has its bearing. */
   private link(link: Link): void {
     const { kind, a, b } = link;
-    const [from, to] = [this.point(a), this.point(b)];
+    const [from, to] = this.motion.ends(link, this.place).map(([x, y]) => this.pixel(x, y)) as [Point, Point];
     if (signs.turns(kind)) {
       signs.turning(this.pen, kind, [from, to], [a, b].map(({ body }) => this.motion.angle(body, this.place)) as Point, this.inks);
       return;

@@ -151,7 +151,7 @@ class Space implements Renderer {
     motion.scene.joints.forEach((joint, k) => pins[k]!.forEach((face) => this.face(items, face, joint.a.body)));
     for (const link of motion.scene.links) {
       const { kind, a, b } = link;
-      const [p, q] = [motion.world(a, place), motion.world(b, place)];
+      const [p, q] = motion.ends(link, place);
       if (kind === 'rod') {
         this.rod(items, p, q, inks);
         continue;

@@ -20,6 +20,8 @@ const STEP: f64 = 1e-4;
 const FARTHEST: f64 = 20.0;
 /// How well the stretch of an anchor agrees with that of the expression, as part of 1.
 const AGREES: f64 = 1e-4;
+/// Most frames at which the direction of a stretch is looked at.
+const LOOKS: usize = 500;
 /// How far a point may go along the ground, in sizes of the mechanism.
 const AWAY: f64 = 1.5;
 
@@ -94,14 +96,15 @@ impl<G: Space<S = f64>> Stretch<'_, G> {
 }
 
 /// From the ground to a point by the coordinates of which a spring is stretched: from the place that the stretch is the distance to, else from
-/// where it is measured, as far below its least as the body reaches; none if the point goes far along the ground from there.
+/// where it is measured, as far below its least as the body reaches, and along the ground with the point, if its direction (which is given,
+/// too) is the same everywhere; none if it is not and the point goes far along the ground.
 pub(super) fn to_ground<G: Space<S = f64>>(
     case: Case<'_>,
     mechanism: &Mechanism<G>,
     scene: &Scene,
     id: Id,
     point: PointRef,
-) -> Option<[Place; 2]> {
+) -> Option<([Place; 2], Vec<f64>)> {
     let (body, at) = (point.body, mechanism.bodies[point.body].points[point.point].1);
     let (end, size) = (place::<G>((body, at)), mechanism.size());
     let places = || (0..scene.frames.count()).map(|i| scene.world(scene.frame(i), &end)).filter(|p| p.iter().all(|x| x.is_finite()));
@@ -114,6 +117,7 @@ pub(super) fn to_ground<G: Space<S = f64>>(
     }
     let n = gradient.map(|x| x / length);
     let unit = (length - 1.0).abs() <= 1e-6;
+    let mut direction = Vec::new();
     let foot = if let Some(anchor) = unit.then(|| stretch.anchor(first, n, size)).flatten() {
         anchor
     } else {
@@ -124,23 +128,27 @@ pub(super) fn to_ground<G: Space<S = f64>>(
             let way: [f64; 3] = std::array::from_fn(|i| p[i] - first[i]);
             (dot(way, way) - dot(way, n).powi(2)).max(0.0).sqrt()
         };
-        if places().map(aside).fold(0.0, f64::max) > AWAY * size {
+        let turned = |g: [f64; 3]| (dot(g, n) - dot(g, g).sqrt()).abs() > AGREES * dot(g, g).sqrt();
+        let some = places().step_by(1 + scene.frames.count() / LOOKS);
+        if !some.into_iter().any(|p| turned(stretch.gradient(p, STEP * size))) {
+            direction = n[..G::VECTOR].to_vec();
+        } else if places().map(aside).fold(0.0, f64::max) > AWAY * size {
             return None;
         }
         foot
     };
-    Some([Place { body: 0, at: foot[..G::VECTOR].to_vec() }, Place { body, at: numbers::<G>(at) }])
+    Some(([Place { body: 0, at: foot[..G::VECTOR].to_vec() }, Place { body, at: numbers::<G>(at) }], direction))
 }
 
 /// The ends of an expression that is the distance of a point from another one, or from a place on the ground, but for what it takes off
-/// from that over time; none for any other.
+/// from that over time, or minus that, with its sign; none for any other.
 pub(super) fn distance<G: Space<S = f64>>(
     case: Case<'_>,
     mechanism: &Mechanism<G>,
     scene: &Scene,
     id: Id,
     points: &[PointRef],
-) -> Option<[Place; 2]> {
+) -> Option<([Place; 2], f64)> {
     let ends: Vec<Place> = points.iter().map(|p| place::<G>((p.body, mechanism.bodies[p.body].points[p.point].1))).collect();
     let places: Vec<[f64; 3]> = ends.iter().map(|end| scene.world(scene.frame(0), end)).collect();
     let (size, last) = (mechanism.size(), *places.last()?);
@@ -154,10 +162,10 @@ pub(super) fn distance<G: Space<S = f64>>(
         }
         let found = stretch.anchor(last, gradient.map(|x| x / length), size)?;
         match &ends[..] {
-            [end] => Some([Place { body: 0, at: found[..G::VECTOR].to_vec() }, end.clone()]),
+            [end] => Some(([Place { body: 0, at: found[..G::VECTOR].to_vec() }, end.clone()], sign)),
             [from, to] => {
                 let apart: [f64; 3] = std::array::from_fn(|i| found[i] - places[0][i]);
-                (dot(apart, apart).sqrt() <= AGREES * size).then(|| [from.clone(), to.clone()])
+                (dot(apart, apart).sqrt() <= AGREES * size).then(|| ([from.clone(), to.clone()], sign))
             }
             _ => None,
         }

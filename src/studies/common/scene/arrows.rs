@@ -1,6 +1,7 @@
 //! Forces that a drawing shows: where they act and in which axes they are given; and their values along the motion.
 
 use super::joints::on_ground;
+use super::links::Held;
 use super::places::numbers;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, PointLoad};
@@ -10,9 +11,13 @@ use crate::results::scene::{Arrow, ArrowKind, Place};
 use crate::studies::common::case::Case;
 
 /// The forces that a study shows, in its order, without values: of a joint those on its second body, or on the first where the second is the
-/// ground. Moments of joints are about the point on that body.
-pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>) -> Vec<Arrow> {
+/// ground. Moments of joints are about the point on that body. Of a coupling it is that on the second end of its distance, without a direction
+/// where it is none.
+pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, held: &[Held]) -> Vec<Arrow> {
     let arrow = |force: &ShownForce| {
+        if let ForceOn::Coupling(coupling) = force.on {
+            return along_line(case, force, held.iter().find(|held| held.coupling == coupling));
+        }
         let scale = force.scale.map(|id| case.value(id));
         let (kind, joint, (body, at), frame, axes) = match force.on {
             ForceOn::Reaction(joint) => (ArrowKind::Reaction, Some(joint), mechanism.joints[joint].b, 0, world(G::VECTOR)),
@@ -22,6 +27,7 @@ pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 let (place, frame, axes) = load_of(case, mechanism, load);
                 (if matches!(force.on, ForceOn::Load(_)) { ArrowKind::Load } else { ArrowKind::Torque }, joint, place, frame, axes)
             }
+            ForceOn::Coupling(_) => unreachable!("has no axes"),
         };
         let other = joint.filter(|joint| on_ground(mechanism, *joint));
         let (body, at) = other.map_or((body, at), |joint| mechanism.joints[joint].a);
@@ -37,9 +43,41 @@ pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
             ArrowKind::Load | ArrowKind::Torque => false,
         };
         let columns = force.components.iter().take(if are_columns { axes.len() } else { 0 }).map(|c| c.name.clone()).collect();
-        Arrow { name: force.name.clone(), kind, body, at: numbers::<G>(at), columns, minus, values: Vec::new(), frame, axes, scale }
+        Arrow {
+            name: force.name.clone(),
+            kind,
+            body,
+            at: numbers::<G>(at),
+            columns,
+            minus,
+            values: Vec::new(),
+            frame,
+            axes,
+            from: None,
+            scale,
+        }
     };
     case.study.forces.iter().map(arrow).collect()
+}
+
+/// The force of a coupling along the line between its ends.
+fn along_line(case: Case<'_>, force: &ShownForce, held: Option<&Held>) -> Arrow {
+    let scale = force.scale.map(|id| case.value(id));
+    let ends = held.map(|held| (held.link.b.clone(), held.link.a.clone(), held.sense < 0.0));
+    let (b, from, minus) = ends.map_or((Place { body: 0, at: Vec::new() }, None, false), |(b, a, minus)| (b, Some(a), minus));
+    Arrow {
+        name: force.name.clone(),
+        kind: ArrowKind::Reaction,
+        body: b.body,
+        at: b.at,
+        columns: Vec::new(),
+        minus,
+        values: Vec::new(),
+        frame: 0,
+        axes: Vec::new(),
+        from,
+        scale,
+    }
 }
 
 /// Where a load acts, the body of its axes, and these in it.
@@ -72,6 +110,11 @@ pub(crate) fn fill_arrows<'c>(study: &Study, scene: &mut Scene, places: &[f64], 
         let Some(columns) = columns.filter(|columns| !places.is_empty() && columns.iter().all(|c| c.len() == places.len())) else {
             continue;
         };
+        if matches!(force.on, ForceOn::Coupling(_)) {
+            let Some(from) = &arrow.from else { continue };
+            arrow.values = along(scene, arrow, from, places, columns[0]);
+            continue;
+        }
         if arrow.kind == ArrowKind::Moment {
             arrow.values = moments(scene, arrow, places, &columns);
             continue;
@@ -91,6 +134,20 @@ pub(crate) fn fill_arrows<'c>(study: &Study, scene: &mut Scene, places: &[f64], 
             .collect();
     }
     scene.arrows = arrows;
+}
+
+/// Forces along the line from one place to that of an arrow at the frames of a scene.
+fn along(scene: &Scene, arrow: &Arrow, from: &Place, places: &[f64], column: &[f64]) -> Vec<f64> {
+    let to = Place { body: arrow.body, at: arrow.at.clone() };
+    let at = |index: usize| {
+        let poses = scene.frame(index);
+        let (a, b) = (scene.world(poses, from), scene.world(poses, &to));
+        let way: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let force = between(places, column, scene.frames.at[index]) * if arrow.minus { -1.0 } else { 1.0 };
+        way.map(|x| force * x / length)[..scene.dimensions].to_vec()
+    };
+    (0..scene.frames.count()).flat_map(at).collect()
 }
 
 /// The moments of a joint at the frames of a scene, about the point of their arrow: columns are those of its moment about the point on its

@@ -24,9 +24,10 @@ const SHORTEST: f64 = 0.1;
 ///
 /// A spring over an expression has a place where that is of the coordinates of one point or two, of one joint, or of the angles of one
 /// body or two about one hinge, or of two hinges.
-pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
+pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene, held: &[Held]) -> Vec<Link> {
     let springs = mechanism.stretches.iter().zip(&case.model.springs).filter_map(|(stretch, spring)| {
         let rest = (stretch.moving.is_none() && spring.rest.is_some()).then_some(stretch.rest);
+        let mut along = Vec::new();
         let (turning, [a, b], rest) = match (&spring.on, stretch.of) {
             (&SpringOn::Joint(joint), _) => {
                 let joint = &mechanism.joints[joint];
@@ -39,12 +40,13 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
                 (None, [place::<G>((gauge.a, pa)), place::<G>((gauge.b, pb))], rest)
             }
             (&SpringOn::Stretch(id), _) => {
-                let (turning, ends) = stretched(case, mechanism, scene, id)?;
+                let (turning, ends, direction) = stretched(case, mechanism, scene, id)?;
+                along = direction;
                 (turning, ends, None)
             }
             _ => return None,
         };
-        Some(Link { name: spring.name.clone(), kind: turning.unwrap_or(kind(spring)), a, b, rest, stages: 0 })
+        Some(Link { name: spring.name.clone(), kind: turning.unwrap_or(kind(spring)), a, b, rest, stages: 0, along })
     });
     let rods = mechanism.joints.iter().filter(|joint| joint.kind == "distance").map(|joint| Link {
         name: joint.name.clone(),
@@ -53,6 +55,7 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         b: place::<G>(joint.b),
         rest: None,
         stages: 0,
+        along: Vec::new(),
     });
     let clutches = case.model.clutches.iter().map(|clutch| {
         let [first, second] = clutch.joints.map(|joint| &mechanism.joints[joint]);
@@ -61,17 +64,26 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         } else {
             (LinkKind::Clutch, [first, second].map(moved))
         };
-        Link { name: clutch.name.clone(), kind, a, b, rest: None, stages: 0 }
+        Link { name: clutch.name.clone(), kind, a, b, rest: None, stages: 0, along: Vec::new() }
     });
-    springs.chain(rods).chain(clutches).chain(actuators(case, mechanism, scene)).collect()
+    springs.chain(rods).chain(clutches).chain(held.iter().map(|held| held.link.clone())).collect()
 }
 
-/// The couplings that hold two points at a distance, or prescribe it over time.
-fn actuators<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Link> {
+/// A coupling that holds two points at a distance, or prescribes it over time.
+pub(super) struct Held {
+    /// Its index in the model.
+    pub(super) coupling: usize,
+    pub(super) link: Link,
+    /// 1 where its force pushes the ends apart while it is positive, else −1.
+    pub(super) sense: f64,
+}
+
+/// The couplings that hold two points at a distance, or prescribe it over time. The frames of the scene are there.
+pub(super) fn held<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene) -> Vec<Held> {
     if scene.frames.count() == 0 {
         return Vec::new();
     }
-    let of = |coupling: &model::Coupling| {
+    let of = |(index, coupling): (usize, &model::Coupling)| {
         let CouplingKind::Zero(id) = coupling.kind else { return None };
         let (mut points, mut moves): (Vec<PointRef>, bool) = (Vec::new(), false);
         for input in case.model.pool.inputs_of(&[id]) {
@@ -84,7 +96,7 @@ fn actuators<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
         }
         // what moves last
         points.sort_by_key(|point| point.body != 0);
-        let [a, b] = distance(case, mechanism, scene, id, &points)?;
+        let ([a, b], sense) = distance(case, mechanism, scene, id, &points)?;
         let length = |index: usize| {
             let [a, b] = [&a, &b].map(|end| scene.world(scene.frame(index), end));
             (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt()
@@ -92,13 +104,11 @@ fn actuators<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
         let lengths = (0..scene.frames.count()).map(length).filter(|x| x.is_finite());
         let [shortest, longest] = lengths.fold([f64::INFINITY, 0.0], |[low, high], x| [f64::min(low, x), f64::max(high, x)]);
         let name = coupling.name.clone();
-        if !moves {
-            return Some(Link { name, kind: LinkKind::Rod, a, b, rest: None, stages: 0 });
-        }
         let stages = (longest / (TUBE * shortest)).ceil().clamp(2.0, STAGES) as usize;
-        Some(Link { name, kind: LinkKind::Actuator, a, b, rest: Some(shortest), stages })
+        let (kind, rest, stages) = if moves { (LinkKind::Actuator, Some(shortest), stages) } else { (LinkKind::Rod, None, 0) };
+        Some(Held { coupling: index, link: Link { name, kind, a, b, rest, stages, along: Vec::new() }, sense })
     };
-    case.model.couplings.iter().filter_map(of).collect()
+    case.model.couplings.iter().enumerate().filter_map(of).collect()
 }
 
 /// What a spring about hinges is, none for one along its ends, and the places of its ends.
@@ -132,8 +142,13 @@ fn at_joint<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene, joint: &
     (None, [place::<G>((joint.a.0, beyond)), b])
 }
 
-/// The spring of an expression of positions, if it has a place.
-fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene: &Scene, id: Id) -> Option<Ends> {
+/// The spring of an expression of positions, if it has a place, and the direction along which alone it acts, if there is one.
+fn stretched<G: Space<S = f64>>(
+    case: Case<'_>,
+    mechanism: &Mechanism<G>,
+    scene: &Scene,
+    id: Id,
+) -> Option<(Option<LinkKind>, [Place; 2], Vec<f64>)> {
     let (model, mut points) = (case.model, Vec::<PointRef>::new());
     let (mut turned, mut joints): (Vec<usize>, Vec<(usize, usize)>) = (Vec::new(), Vec::new());
     for input in model.pool.inputs_of(&[id]) {
@@ -150,11 +165,14 @@ fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
         }
     }
     let on = |p: PointRef| (p.body, mechanism.bodies[p.body].points[p.point].1);
-    match (&points[..], &turned[..], &joints[..]) {
-        (&[a, b], [], []) => Some((None, [a, b].map(|p| place::<G>(on(p))))),
-        (&[a], [], []) => to_ground(case, mechanism, scene, id, a).map(|ends| (None, ends)),
-        ([], &[a, b], []) => hinge(mechanism, a, b).map(|ends| (Some(LinkKind::Torsion), ends)),
-        ([], &[a], []) => hinge(mechanism, 0, a).map(|ends| (Some(LinkKind::Torsion), ends)),
+    let (kind, ends): Ends = match (&points[..], &turned[..], &joints[..]) {
+        (&[a, b], [], []) => (None, [a, b].map(|p| place::<G>(on(p)))),
+        (&[a], [], []) => {
+            let (ends, along) = to_ground(case, mechanism, scene, id, a)?;
+            return Some((None, ends, along));
+        }
+        ([], &[a, b], []) => (Some(LinkKind::Torsion), hinge(mechanism, a, b)?),
+        ([], &[a], []) => (Some(LinkKind::Torsion), hinge(mechanism, 0, a)?),
         ([], [], &[(joint, slot)]) => {
             let joint = &mechanism.joints[joint];
             let turns = match (joint.kind, slot) {
@@ -162,7 +180,7 @@ fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
                 ("slider", _) | ("cylindrical", _) => false,
                 _ => return None,
             };
-            Some(at_joint(mechanism, scene, joint, turns))
+            at_joint(mechanism, scene, joint, turns)
         }
         ([], [], &[(first, 0), (second, 0)]) => {
             let joints = [first, second].map(|joint| &mechanism.joints[joint]);
@@ -172,10 +190,11 @@ fn stretched<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, scene:
             let ends = joints.map(moved);
             let [a, b] = [&ends[0], &ends[1]].map(|end| scene.world(scene.frame(0), end));
             let apart = (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt() > NEAR * mechanism.size();
-            Some((Some(if apart { LinkKind::Shaft } else { LinkKind::Torsion }), ends))
+            (Some(if apart { LinkKind::Shaft } else { LinkKind::Torsion }), ends)
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    Some((kind, ends, Vec::new()))
 }
 
 /// Where two bodies turn about one point: a hinge between them, or one of each on a third body.

@@ -56,7 +56,9 @@ impl<G: Space<S = f64>> Subject<'_, G> {
     /// The scene of a motion, which tells at any progress the independent variable and the poses of the bodies there.
     #[must_use]
     pub(crate) fn over(&self, span: Span, at: &mut frames::At<'_, G>) -> Scene {
-        self.with(frames::over(self.mechanism, Span { at: self.shown_at(), ..span }, at), span.times)
+        let shown = self.shown_at().or(span.at);
+        let scene = self.with(frames::over(self.mechanism, Span { at: shown, ..span }, at), span.times);
+        Scene { at: shown, ..scene }
     }
 
     /// The scene of given poses, the first one drawn strongly. What passes through them is no path.
@@ -85,10 +87,11 @@ impl<G: Space<S = f64>> Subject<'_, G> {
             frames,
             ..Scene::default()
         };
-        scene.links = links::links(case, mechanism, &scene);
+        let held = links::held(case, mechanism, &scene);
+        scene.links = links::links(case, mechanism, &scene, &held);
         scene.joints = joints::joints(case, mechanism, &scene);
         senses::tell(case, mechanism, times, &mut scene);
-        scene.arrows = arrows::arrows(case, mechanism);
+        scene.arrows = arrows::arrows(case, mechanism, &held);
         scene.gears = gears::gears(case.model, mechanism, &scene);
         gears::outline_wheels(mechanism, &scene.gears, &mut scene.bodies);
         teeth::cut(&mut scene);
@@ -111,7 +114,9 @@ pub(crate) fn of_motion<G: Space<S = f64>>(case: Case<'_>, motion: &mut Motion<'
     let turns = (length / TAU).round();
     let whole = (1.0..=MOST_TURNS).contains(&turns) && (length - turns * TAU).abs() < 1e-9;
     let first = if whole { frames::CELLS * turns as usize } else { frames::CELLS };
-    let span = Span { ends, times, turns: whole && turns == 1.0, first, ..Span::default() };
+    // of a motion that is followed both ways the start is shown
+    let at = (ends[0] < 0.0 && ends[1] > 0.0).then(|| motion.clock.value(0.0));
+    let span = Span { ends, times, turns: whole && turns == 1.0, first, at, ..Span::default() };
     subject.over(span, &mut |s| Some((motion.clock.value(s), motion.poses(s)?)))
 }
 
