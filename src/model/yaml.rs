@@ -48,7 +48,7 @@ fn first_word(text: &str) -> std::ops::Range<usize> {
 /// The value of a text. One reading serves for the refusals and for the value: serde_yaml's own reader needs 14 s for 50 000
 /// nested braces and all memory for aliases [measured], and as much time again for a text that is in order.
 fn value(text: &str) -> Result<Value, Vec<Fault>> {
-    bounded(text).map_err(|fault| vec![fault])?;
+    bounded(text)?;
     let at = |character: usize, width: usize| Spot::Bytes(byte_of(text, character)..byte_of(text, character + width));
     let mut documents = 0_usize;
     let mut tree = Tree::default();
@@ -93,19 +93,19 @@ fn value(text: &str) -> Result<Value, Vec<Fault>> {
 }
 
 /// What is refused before a text is read.
-fn bounded(text: &str) -> Result<(), Fault> {
+fn bounded(text: &str) -> Result<(), Vec<Fault>> {
     if text.len() > MOST_BYTES {
         let message = format!("the file has more than {MOST_BYTES} bytes");
-        return Err(Fault::new("file-too-large", String::new(), message, "at most 8 MiB").at(Spot::Bytes(0..0)));
+        return Err(vec![Fault::new("file-too-large", String::new(), message, "at most 8 MiB").at(Spot::Bytes(0..0))]);
     }
     if let Some(at) = text.find('\0') {
         let fault = Fault::new("yaml-syntax", String::new(), "the file holds a zero byte", "a text file");
-        return Err(fault.at(Spot::Bytes(at..at + 1)).help("save it as UTF-8, without zero bytes"));
+        return Err(vec![fault.at(Spot::Bytes(at..at + 1)).help("save it as UTF-8, without zero bytes")]);
     }
     let directive = first_word(text);
     if text[directive.clone()].starts_with('%') {
         let fault = Fault::new("yaml-directive", String::new(), "a YAML directive", "the first key, `grashof: 1`");
-        return Err(fault.at(Spot::Bytes(directive)).help("remove the line"));
+        return Err(vec![fault.at(Spot::Bytes(directive)).help("remove the line")]);
     }
     Ok(())
 }
@@ -147,9 +147,10 @@ impl Tree {
 }
 
 /// The value of a scalar without quotes, by the core schema of YAML 1.2.
-fn plain(word: &str) -> Result<Value, Fault> {
-    let number =
-        |message: String, help: &str| Fault::new("bad-number", String::new(), message, "a number such as `0.5`, `12` or `1e-3`").help(help);
+fn plain(word: &str) -> Result<Value, Box<Fault>> {
+    let refused = |code, message: String, help: &str| {
+        Err(Box::new(Fault::new(code, String::new(), message, "a number such as `0.5`, `12` or `1e-3`").help(help)))
+    };
     match word {
         "" | "~" | "null" | "Null" | "NULL" => return Ok(Value::Null),
         "true" | "True" | "TRUE" => return Ok(Value::Bool(true)),
@@ -160,14 +161,13 @@ fn plain(word: &str) -> Result<Value, Fault> {
         return Ok(Value::String(word.to_owned()));
     }
     if vanishes(word) {
-        let fault = Fault::new("expression", String::new(), format!("found `{word}`"), "a number such as `0.5`, `12` or `1e-3`");
-        return Err(fault.help("the size of a number lies between 1e-308 and 1e308"));
+        return refused("expression", format!("found `{word}`"), "the size of a number lies between 1e-308 and 1e308");
     }
     let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
     match word.parse::<Number>() {
         Ok(read) => Ok(Value::Number(read)),
         Err(_) if digits.len() > MOST_DIGITS && !digits.starts_with('0') && digits.bytes().all(|c| c.is_ascii_digit()) => {
-            Err(number(format!("an integer of more than {MOST_DIGITS} digits"), "write it with an exponent"))
+            refused("bad-number", format!("an integer of more than {MOST_DIGITS} digits"), "write it with an exponent")
         }
         Err(_) => Ok(Value::String(word.to_owned())),
     }
