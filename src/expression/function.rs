@@ -101,7 +101,7 @@ pub(super) fn functional(name: &str, arguments: usize) -> Option<Functional> {
 
 /// What to write instead of a function that does not exist.
 pub(super) fn remedy(name: &str) -> String {
-    const OTHERS: [(&str, &str); 16] = [
+    const OTHERS: [(&str, &str); 20] = [
         ("ln", "the natural logarithm is `log(x)`"),
         ("log1p", "write `log(1 + x)`"),
         ("trunc", "write `sign(x)*floor(abs(x))`"),
@@ -117,6 +117,10 @@ pub(super) fn remedy(name: &str) -> String {
         ("der", "write `rate(x)`"),
         ("diff", "write `rate(x)`"),
         ("average", "write `mean(x)`"),
+        ("end", "the value at the end is `last(x)`"),
+        ("final", "the value at the end is `last(x)`"),
+        ("initial", "the value at a place is `value(x, at)`, as `value(x, 0 s)`"),
+        ("peak", "write `max(x)`, or `max(abs(x))`"),
         ("where", "write `if(condition, then, else)`"),
     ];
     if let Some((_, text)) = OTHERS.into_iter().find(|(other, _)| *other == name) {
