@@ -98,3 +98,28 @@ fn forces_are_those_of_formulas_without_nested_switches() {
         }
     }
 }
+
+/// A function of nested switches crosses zero as often, and when, as the same one without them; one that only touches zero does not.
+#[test]
+fn events_are_those_of_formulas_without_nested_switches() {
+    let events = "events:
+  n1: { when: floor(z0/0.35) - 0.5 }
+  p1: { when: \"if(z0 < 0.35, 0, 1) - 0.5\" }
+  n2: { when: \"max(z0, 0) - 0.1\", crossing: rising }
+  p2: { when: z0 - 0.1, crossing: rising }
+  n3: { when: floor(z0/0.35) - 0.5, crossing: falling }
+  p3: { when: \"if(z0 < 0.35, 0, 1) - 0.5\", crossing: falling }
+  touches: { when: z0 }
+studies:";
+    for integrator in ["dop853", "radau5"] {
+        let kind = format!("dynamics: {{ until: 4 s, every: 10 ms, integrator: {integrator} }}");
+        let outcome = study(&swinging("0 N m", &kind).replace("studies:", events), "it", Coordinates::Joint);
+        let times = |name: &str| outcome.events.iter().filter(|event| event.name == name).map(|event| event.at).collect::<Vec<_>>();
+        for (nested, plain, least) in [("n1", "p1", 60), ("n2", "p2", 30), ("n3", "p3", 30)] {
+            let (found, right) = (times(nested), times(plain));
+            assert!(right.len() >= least && found.len() == right.len(), "{integrator}, {nested}: {} for {}", found.len(), right.len());
+            assert!(found.iter().zip(&right).all(|(a, b)| (a - b).abs() < 1e-6), "{integrator}, {nested}");
+        }
+        assert!(times("touches").is_empty(), "{integrator}: {:?}", times("touches"));
+    }
+}

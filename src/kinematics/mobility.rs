@@ -5,7 +5,7 @@ use super::crossing::at_start;
 use super::freedom::{rows, undriven, unmoved, with_fewer_drivers};
 use super::remaining::remaining;
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, RowOwner};
 use crate::model::{Kind, Model, Study};
 use crate::results::Failure;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
@@ -34,13 +34,15 @@ pub fn mobility<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Assembled) 
     let crossing = at_start(mechanism, start);
     let q = crossing.as_ref().map_or_else(|| beside(start), |crossing| &crossing.q);
     let rows = rows(mechanism, q, &start.modes, &start.metric);
-    let free = unmoved(mechanism, &rows, &start.metric);
+    let undriven = undriven(mechanism, &rows, &start.metric);
+    let moves = mechanism.rows.iter().any(|row| row.owner == RowOwner::Coupling && mechanism.is_moved(row));
+    let freedom = if moves { unmoved(mechanism, &rows, &start.metric).mobility } else { undriven.mobility };
     let driven = Rank::new(&rows.0, &start.metric, &rows.1, RANK_TOLERANCE);
     let movers = mechanism.rows.iter().filter(|row| mechanism.is_moved(row)).count();
     Mobility {
         grubler: mechanism.nv as i64 - (mechanism.rows.len() - movers) as i64,
-        freedom: free.mobility,
-        undriven: undriven(mechanism, &rows, &start.metric).mobility,
+        freedom,
+        undriven: undriven.mobility,
         left: driven.mobility,
         rank: driven.rank,
         redundant: driven.dependent.iter().map(|&r| mechanism.name_of_row(r)).collect(),

@@ -25,11 +25,11 @@ impl Integration {
         self.crossed.push(root);
         self.jumped.retain(|jumped| *jumped != root);
         let Node { state, a, lambda, .. } = &mut self.node;
+        if !system.pattern().nested.contains(&root) || self.crossed.len() > MOST * self.looked.len() {
+            return system.cross(root, state, &mut self.row);
+        }
         system.roots(state.at(), a, lambda, &mut self.near_side);
         let effect = system.cross(root, state, &mut self.row);
-        if !system.pattern().nested.contains(&root) || self.crossed.len() > MOST * self.looked.len() {
-            return effect;
-        }
         system.roots(state.at(), a, lambda, &mut self.probe);
         let jumps = |other: &usize| self.probe[*other] < self.near_side[*other].min(0.0) && self.looked.contains(other);
         for &other in system.pattern().nested.iter().filter(|other| **other != root && jumps(other)) {

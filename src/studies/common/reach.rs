@@ -29,7 +29,6 @@ pub(super) fn reached(
     length: f64,
     told: impl Fn(f64) -> String,
 ) -> Result<f64, NeverThere> {
-    let never = |why: String| Err(NeverThere(why));
     let [from, _] = law(0.0);
     let mut at = |t: f64| {
         let [x, speed] = law(sense * t);
@@ -38,7 +37,7 @@ pub(super) fn reached(
     let way = match at(FIRST) {
         [0.0, 0.0] => {
             let driver = if sense < 0.0 { "before its start, where a negative range leads, the driver" } else { "the driver" };
-            return never(format!("{driver} stands still at first"));
+            return Err(NeverThere(format!("{driver} stands still at first")));
         }
         [gone, 0.0] => gone.signum(),
         [_, speed] => speed.signum(),
@@ -56,11 +55,11 @@ pub(super) fn reached(
                 high = turn;
                 break;
             }
-            return never(format!("the driver turns back after {}", told(most)));
+            return Err(NeverThere(format!("the driver turns back after {}", told(most))));
         }
         (low, high) = (high, high * GROWTH);
         if high > FARTHEST {
-            return never("the driver never gets so far".into());
+            return Err(NeverThere("the driver never gets so far".into()));
         }
     }
     // where it comes to rest at the length it has gone so far when it rests
@@ -72,7 +71,7 @@ pub(super) fn reached(
     for i in 1..=LOOKS {
         let gone = way * at(end * f64::from(i) / f64::from(LOOKS))[0];
         if gone < last - BACK * length {
-            return never(format!("the driver turns back after {}", told(last)));
+            return Err(NeverThere(format!("the driver turns back after {}", told(last))));
         }
         last = gone;
     }

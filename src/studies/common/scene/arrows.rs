@@ -15,9 +15,6 @@ use crate::studies::common::case::Case;
 /// where it is none.
 pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, held: &[Held]) -> Vec<Arrow> {
     let arrow = |force: &ShownForce| {
-        if let ForceOn::Coupling(coupling) = force.on {
-            return along_line(case, force, held.iter().find(|held| held.coupling == coupling));
-        }
         let scale = force.scale.map(|id| case.value(id));
         let (kind, joint, (body, at), frame, axes) = match force.on {
             ForceOn::Reaction(joint) => (ArrowKind::Reaction, Some(joint), mechanism.joints[joint].b, 0, world(G::VECTOR)),
@@ -27,7 +24,7 @@ pub(super) fn arrows<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 let (place, frame, axes) = load_of(case, mechanism, load);
                 (if matches!(force.on, ForceOn::Load(_)) { ArrowKind::Load } else { ArrowKind::Torque }, joint, place, frame, axes)
             }
-            ForceOn::Coupling(_) => unreachable!("has no axes"),
+            ForceOn::Coupling(coupling) => return along_line(case, force, held.iter().find(|held| held.coupling == coupling)),
         };
         let other = joint.filter(|joint| on_ground(mechanism, *joint));
         let (body, at) = other.map_or((body, at), |joint| mechanism.joints[joint].a);

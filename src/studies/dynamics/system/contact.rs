@@ -1,7 +1,7 @@
 //! Where bodies of a joint touch: sides on which friction by reactions presses, rigid stops, and accelerations with them.
 
 use super::Mechanical;
-use super::root::Root;
+use super::root::{Root, Watched};
 use crate::dynamics::slack;
 use crate::geometry::Space;
 use crate::mechanism::{Mechanism, Stop, StretchOf};
@@ -16,9 +16,13 @@ impl Root {
         matches!(self, Self::Stop(_) | Self::Clear(_) | Self::Rest { .. } | Self::Slides(_) | Self::Holds { .. } | Self::Event(_))
     }
 
-    /// Whether it is of an expression of the model, which may hold other switches.
-    pub(super) fn is_formula(self) -> bool {
-        matches!(self, Self::Force { .. } | Self::Column { .. } | Self::Event(_))
+    /// Whether it is of an expression of the model, which may hold other switches; the zero of an impact is a stop.
+    pub(super) fn is_formula(self, events: &[Watched]) -> bool {
+        match self {
+            Self::Force { .. } | Self::Column { .. } => true,
+            Self::Event(event) => events[event].impact.is_none(),
+            _ => false,
+        }
     }
 
     /// Whether forces follow other laws behind it.

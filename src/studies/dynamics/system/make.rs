@@ -118,7 +118,7 @@ where
             forceful: (0..roots.len()).filter(|&i| roots[i].is_forceful()).collect(),
             timed: timed.iter().map(Timed::root).collect(),
             observing: Self::observing(&observer, &roots, &events),
-            nested: (0..roots.len()).filter(|&i| roots[i].is_formula()).collect(),
+            nested: (0..roots.len()).filter(|&i| roots[i].is_formula(&events)).collect(),
             rough: Vec::new(),
             weakest: 1.0,
         };
