@@ -61,7 +61,8 @@ export class Arrows {
 
   /** Kinds that there are. */
   kinds(): Kind[] {
-    const has = (kind: Kind) => this.at(kind, this.motion.from).length > 0;
+    // none where a motion ends at a dead point
+    const has = (kind: Kind) => this.motion.sampled(LOOKS).some((place) => this.at(kind, place).length > 0);
     const moves = this.motion.scene.frames.at.length > 3;
     return KINDS.filter((kind) => (kind === 'loads' || kind === 'reactions' ? has(kind) : moves && this.pace.real));
   }
