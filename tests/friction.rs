@@ -8,6 +8,7 @@ mod equivalence;
 mod jumps;
 mod on_stops;
 mod one_sided;
+mod redundant;
 mod sharing;
 mod sticking;
 mod stops;

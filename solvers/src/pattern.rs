@@ -43,6 +43,9 @@ pub struct Pattern {
     /// diag(G D⁻¹ Gᵀ) (m), see [`kkt::natural_row_scale`](crate::kkt::natural_row_scale), and
     /// [`kkt::row_scale`](crate::kkt::row_scale) where nothing is known of rows but their entries; E = 1e-8 of it.
     pub g_scale: Vec<f64>,
+    /// The same where forces depend on the reactions, with one for rows that are components of one vector: 1e-6 of it is E there, see
+    /// [`friction`](crate::friction).
+    pub vector_scale: Vec<f64>,
     /// The smallest singular value of diag(G D⁻¹ Gᵀ)^−½ G D^−½ at the start that is not of redundant rows, see
     /// [`weakest`](crate::weakest::weakest).
     pub weakest: f64,
@@ -97,6 +100,7 @@ impl Pattern {
             z_z: Sparsity::dense(z, z),
             metric: vec![1.0; v],
             g_scale: vec![1.0; m],
+            vector_scale: vec![1.0; m],
             weakest: 1.0,
             size_q: vec![1.0; dims.q],
             size_v: vec![1.0; v],

@@ -12,7 +12,7 @@
 
 use super::Dynamics;
 use crate::geometry::Space;
-use crate::mechanism::{Gauge, Measured, RowKind, Step};
+use crate::mechanism::{Gauge, Measured, Row, RowKind, RowOwner, Step};
 use grashof_solvers::Block;
 use grashof_solvers::kkt::natural_row_scale;
 use grashof_solvers::rank::{RANK_TOLERANCE, Rank};
@@ -34,6 +34,21 @@ struct Sizes {
 }
 
 impl<G: Space<S = f64>> Dynamics<'_, G> {
+    /// The `row_scale` (rows) with its mean for the rows that are components of one vector, the force or the couple of a joint.
+    #[must_use]
+    pub fn vector_scale(&self, row_scale: &[f64]) -> Vec<f64> {
+        let of_one = |a: &Row<G>, b: &Row<G>| matches!(a.owner, RowOwner::Joint(_)) && (a.owner, a.angular) == (b.owner, b.angular);
+        let mut scale = row_scale.to_vec();
+        let mut first = 0;
+        for components in self.mechanism.rows.chunk_by(of_one).map(<[_]>::len) {
+            let of_vector = &mut scale[first..first + components];
+            let mean = of_vector.iter().sum::<f64>() / components as f64;
+            of_vector.fill(mean);
+            first += components;
+        }
+        scale
+    }
+
     /// diag(G D⁻¹ Gᵀ) (rows) at the coordinates `q` (nq) evaluated last, with D (nv) the `metric`: by the natural sizes of the rows,
     /// and for rows that vanish here by their entries in positions around. Allocates.
     #[must_use]

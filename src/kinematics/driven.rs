@@ -325,6 +325,7 @@ impl ByReactions {
             r_lambda: friction_pattern(m),
             metric: metric.to_vec(),
             g_scale: g_scale.to_vec(),
+            vector_scale: dynamics.vector_scale(g_scale),
             ..Pattern::dense(dims)
         };
         let friction = Friction::of_pattern(dims, &pattern)?;

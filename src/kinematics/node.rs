@@ -3,6 +3,7 @@
 use super::driven::Driven;
 use crate::geometry::Space;
 use crate::mechanism::Measured;
+use std::f64::consts::{PI, TAU};
 
 /// A solution on the path.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +48,8 @@ impl<G: Space<S = f64>> Driven<'_, G> {
         PathPoint { t, q: self.q.clone(), v: self.v.clone(), a: self.a.clone(), turns, regularity, side, narrow: false, crosses: false }
     }
 
-    /// Counts turns of cut hinges at `self.q` so that their angles come nearest to `expected`.
+    /// Counts half turns of cut hinges at `self.q` so that their angles come nearest to `expected`, and are smooth there: those of the half
+    /// turns counted jump half a turn beside them.
     pub fn wind(&mut self, modes: &mut [i32], expected: &[f64]) {
         if expected.is_empty() {
             return;
@@ -57,8 +59,8 @@ impl<G: Space<S = f64>> Driven<'_, G> {
         self.dynamics.watch(&self.q, &self.v, modes);
         for (gauge, reading) in m.gauges.iter().zip(&self.dynamics.work.readings) {
             if let Measured::Turn { winding, .. } = gauge.measured {
-                let off = (expected[winding] - reading.x) / std::f64::consts::TAU;
-                modes[m.switches + winding] += 2 * off.round() as i32;
+                let off = (expected[winding] - reading.x) / TAU;
+                modes[m.switches + winding] = ((reading.x + TAU * off.round() - gauge.shift) / PI).round() as i32;
             }
         }
     }

@@ -43,7 +43,7 @@ pub(crate) fn open<G: Space<S = f64>>(case: Case<'_>, watched: &Watched, m: &Mec
     Some(Finding {
         code: "reactions-not-unique".into(),
         message: format!(
-            "rigid bodies do not determine {shown}{}: redundant constraints leave open how joints share forces, and what is given is one way of many that are in balance, another one in other `coordinates`; give the loop a joint that leaves it free (`pin-in-slot`, `spherical`, `universal`), or a stiff spring in the place of a joint",
+            "rigid bodies do not determine {shown}{}: redundant constraints, which `grashof check` names, leave open how joints share forces, and what is given is one way of many that are in balance, another one in other `coordinates`; give the loop a joint that leaves it free (`pin-in-slot`, `spherical`, `universal`), or a stiff spring in the place of a joint, or remove a coupling that is one too many",
             if more == 0 { String::new() } else { format!(" and {more} more") },
         ),
         path: "joints".into(),

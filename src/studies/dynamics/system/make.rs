@@ -100,6 +100,7 @@ where
             z_q: Sparsity::dense(nz, nv),
             z_v: Sparsity::dense(nz, nv),
             z_z: Sparsity::dense(nz, nz),
+            vector_scale: dynamics.vector_scale(&g_scale),
             g_scale,
             metric: start.metric.clone(),
             size_q,
