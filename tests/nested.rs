@@ -17,7 +17,7 @@ fn peak(x: f64) -> f64 {
     if x < 0.2 { x / 0.2 } else { (0.7 - x) / 0.5 }
 }
 
-const VALUES: [Value; 10] = [
+const VALUES: [Value; 13] = [
     ("mod(sin(6*A.angle), 0.7)", tooth),
     ("max(mod(sin(6*A.angle), 0.7), 0)", tooth),
     ("abs(mod(sin(6*A.angle), 0.7))", tooth),
@@ -28,6 +28,13 @@ const VALUES: [Value; 10] = [
     ("per(mod(sin(6*A.angle), 0.7))", |x| peak(tooth(x))),
     ("saw(mod(sin(6*A.angle), 0.7))", tooth),
     ("max(A.angle - floor(A.angle/0.1 rad)*0.1 rad, 0 rad)/1 rad", |x| x.rem_euclid(0.1)),
+    // a jump puts exactly onto its value what is compared with it
+    ("abs(if(sign(sin(6*A.angle)) == 1, -0.3, 1))", |x| if (6.0 * x).sin() > 0.0 { 0.3 } else { 1.0 }),
+    ("max(if(floor(sin(6*A.angle)/0.6) == 1, sin(6*A.angle), 1), 0.7)", |x| {
+        let s = (6.0 * x).sin();
+        if s < 0.6 { 1.0 } else { s.max(0.7) }
+    }),
+    ("floor(if((sin(6*A.angle) > 0.4) == 1, sin(6*A.angle), 0.2)/0.5)", |x| if (6.0 * x).sin() < 0.5 { 0.0 } else { 1.0 }),
 ];
 
 /// A bar that swings, or is driven, with all values as columns behind its angle; `kind` is that of the study.
@@ -87,6 +94,7 @@ fn forces_are_those_of_formulas_without_nested_switches() {
     for (nested, plain) in [
         ("-3 N m*floor(mod(sin(6*A.angle), 0.7)/0.35)", "-3 N m*if(mod(sin(6*A.angle), 0.7) < 0.35, 0, 1)"),
         ("-10 N m/rad*max(A.angle - floor(A.angle/0.1 rad)*0.1 rad, 0 rad)", "-10 N m/rad*(A.angle - floor(A.angle/0.1 rad)*0.1 rad)"),
+        ("-2 N m*abs(if(sign(sin(6*A.angle)) == 1, -0.3, 1))", "-2 N m*if(sin(6*A.angle) > 0, 0.3, 1)"),
         ("-2 N m*max(abs(sin(6*A.angle)), 0)", "-2 N m*abs(sin(6*A.angle))"),
     ] {
         for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
@@ -121,5 +129,49 @@ studies:";
             assert!(found.iter().zip(&right).all(|(a, b)| (a - b).abs() < 1e-6), "{integrator}, {nested}");
         }
         assert!(times("touches").is_empty(), "{integrator}: {:?}", times("touches"));
+    }
+}
+
+/// The integral from 0 to 3 of a function that is constant between `edges`, which rise from 0.
+fn of_steps(f: impl Fn(f64) -> f64, edges: impl Iterator<Item = f64>) -> f64 {
+    let edges: Vec<f64> = edges.take_while(|edge| *edge < 3.0).chain([3.0]).collect();
+    edges.windows(2).map(|pair| f(0.5 * (pair[0] + pair[1])) * (pair[1] - pair[0])).sum()
+}
+
+/// Forces that jump with time alone, some of whose switches jump exactly onto zero, and the velocity of 1 kg after 3 s.
+#[test]
+fn what_jumps_onto_zero_with_time_alone_is_met() {
+    let pi = std::f64::consts::PI;
+    // cos(2 t + 0.7) is positive before `down`, and behind `up`
+    let (down, up) = ((pi / 2.0 - 0.7) / 2.0, (3.0 * pi / 2.0 - 0.7) / 2.0);
+    // 3 t² is at the angles where 2 cos is 1, 0 or −1 at these times
+    let of_cosine = of_steps(|t| 1.0 + (2.0 * (3.0 * t * t).cos()).floor(), (0..).map(|k| (f64::from(k) * pi / 18.0).sqrt()));
+    for (force, right) in [
+        ("if(mod(floor(t/1 s), 2) > 0.5, 1 N, 0 N)", 1.0),
+        ("if(hypot(if(t < 2 s, 3, 0), if(t < 2 s, 4, 0)) > 2, 1 N, 0 N)", 2.0),
+        ("if(hypot(if(t < 1 s, 0, 3), if(t < 1 s, 0, 4)) > 2, 1 N, 0 N)", 2.0),
+        ("if(sqrt(2 - min(floor(t/1 s), 2)) > 0.5, 1 N, 0 N)", 2.0),
+        ("if((2 - min(floor(t/1 s), 2))^0.5 > 0.5, 1 N, 0 N)", 2.0),
+        ("if(log(4 - floor(t/1 s)) > 0.8, 1 N, 0 N)", 2.0),
+        // just below 2 from the start on, which shows much later
+        ("(1 + floor(2*cos(3*(t/1 s)^2)))*1 N", of_cosine),
+        ("abs(if(sign(cos(2 rad/s*t + 0.7)) == 1, -0.3, 1))*1 N", 0.3 * (3.0 - up + down) + (up - down)),
+    ] {
+        for integrator in ["dop853", "radau5", "bdf"] {
+            let text = format!(
+                "grashof: 1
+name: force that jumps
+space: planar
+gravity: none
+bodies: {{ b: {{ mass: 1 kg }} }}
+joints: {{ X: {{ slider: [ground, b.origin], axis: [1, 0] }} }}
+loads: {{ push: {{ joint: X, force: \"{force}\" }} }}
+start: {{ X.position: 0 m, X.velocity: 0 m/s }}
+studies: {{ it: {{ dynamics: {{ until: 3 s, integrator: {integrator} }}, scalars: {{ v: last(X.velocity) }} }} }}
+"
+            );
+            let found = study(&text, "it", Coordinates::Joint).scalars[0];
+            assert!((found - right).abs() < 1e-8, "{integrator}: {force}: {found} for {right}");
+        }
     }
 }

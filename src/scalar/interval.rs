@@ -2,7 +2,7 @@
 //! Kearfott & Cloud, *Introduction to Interval Analysis*, 2009, chapters 2 and 5).
 //!
 //! Every result is rounded outwards by a unit in the last place, and by four where the function is one of the library's. A function
-//! that is undefined on all of the interval is not a number; on a part of it, it may be anything.
+//! that is undefined on all of the interval is not a number; on a part of it, it has the values of the rest.
 
 use super::Scalar;
 use num_traits::{Num, One, Zero};
@@ -70,12 +70,13 @@ impl Interval {
         Self::widened(a.min(b), a.max(b), 4)
     }
 
-    /// A monotone function that is defined on `domain` alone.
+    /// A monotone function that is defined on `domain` alone, of the part that lies in it: an argument that is rounded outwards reaches
+    /// beyond it where it touches the end.
     fn within(self, domain: Self, f: impl Fn(f64) -> f64) -> Self {
         if self.is_none() || self.high < domain.low || self.low > domain.high {
             return Self::NONE;
         }
-        if self.low < domain.low || self.high > domain.high { Self::ALL } else { self.monotone(f) }
+        Self { low: self.low.max(domain.low), high: self.high.min(domain.high) }.monotone(f)
     }
 
     /// The hull of four values; what is no number among them leaves nothing known.
@@ -369,9 +370,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nowhere_defined_is_no_number_and_what_is_partly_so_may_be_anything() {
+    fn what_is_nowhere_defined_is_no_number_and_what_is_partly_so_has_the_values_of_that_part() {
         assert!(Interval::between(-2.0, -1.0).sqrt().is_none());
-        assert_eq!(Interval::between(-2.0, 1.0).sqrt(), Interval::ALL);
+        let root = Interval::between(-2.0, 1.0).sqrt();
+        assert!(root.low <= 0.0 && root.low > -1e-300 && root.holds(1.0) && root.high < 1.0 + 1e-15, "{root:?}");
+        let of_nothing = (Interval::zero() * Interval::one() + Interval::zero()).sqrt();
+        assert!(of_nothing.holds(0.0) && of_nothing.high < 1e-150, "{of_nothing:?}");
+        assert_eq!(Interval::between(-2.0, 0.0).ln().low, f64::NEG_INFINITY);
         assert!((Interval::between(-2.0, -1.0).ln() + Interval::one()).is_none());
         assert!((Interval::one() / Interval::zero()).is_none());
         assert!(Interval::between(-2.0, -1.0).pow(Interval::between(0.2, 0.8)).is_none());

@@ -276,8 +276,21 @@ impl Integration {
         self.engine.counts.events += 1;
         let mut stop = false;
         let (mut restart, mut bounces) = (false, false);
+        let mut at_rest = 0;
         let mut next = Some(self.innermost(system, root));
-        while let Some(root) = next {
+        loop {
+            let Some(root) = next else {
+                // what is zero now and stays so may let others jump
+                let rested = if at_rest < MOST_AT_REST { self.come_to_rest(system) } else { Ok(None) };
+                match rested {
+                    Ok(Some(changed)) => restart |= changed,
+                    Ok(None) => break,
+                    Err(why) => return self.ends_before(why),
+                }
+                at_rest += 1;
+                next = self.also_crossed(system).or_else(|| self.also_timed(system));
+                continue;
+            };
             let effect = self.cross(system, root);
             bounces |= matches!(effect, Effect::Bounce { .. });
             match effect {
@@ -307,10 +320,6 @@ impl Integration {
                 return self.ends_before(why);
             }
             next = self.also_crossed(system).or_else(|| self.also_timed(system));
-        }
-        match self.come_to_rest(system) {
-            Ok(changed) => restart |= changed,
-            Err(why) => return self.ends_before(why),
         }
         let only_read = !restart && !stop && self.crossed.iter().all(|root| self.observes(*root));
         if only_read {
@@ -394,34 +403,31 @@ impl Integration {
         system.pattern().striking.iter().map(|(root, _)| *root).filter(|root| self.looked.contains(root)).find(hit)
     }
 
-    /// Gives switches whose roots have become zero at the event and stay so the modes of equal operands, as where a clamp or a segment of a
-    /// table rests on what it is compared with; whether a force has changed.
-    fn come_to_rest(&mut self, system: &mut dyn System) -> Result<bool, Why> {
-        let mut restart = false;
-        for _ in 0..MOST_AT_REST {
-            // those of the node were looked at last
-            if self.probe.iter().all(|g| *g != 0.0) {
-                break;
-            }
-            // what was crossed just now may leave zero slowly, unless a law of time has ended at the same instant
-            let law_ended = self.crossed.iter().any(|root| self.foresight.roots.contains(root));
-            self.look_later(system, MOMENT, 0)?;
-            if law_ended {
-                self.look_later(system, LATER, 1)?;
-            }
-            let Self { looked, foresight, crossed, probe, samples, node, .. } = self;
-            let rests = |root: usize| !crossed.contains(&root) || law_ended && samples[1][root] == 0.0;
-            let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && rests(**root);
-            let mut at_rest = looked.iter().chain(&foresight.roots).filter(stays);
-            let Some(effect) = at_rest.find_map(|root| system.equal(*root, &mut node.state)) else { break };
-            if effect == Effect::Restart {
-                restart = true;
-                self.engine.settle(system, &mut self.node)?;
-            }
-            let Node { state, a, lambda, .. } = &self.node;
-            system.roots(state.at(), a, lambda, &mut self.probe);
+    /// Gives a switch whose root has become zero at the event and stays so the mode of equal operands, as where a clamp or a segment of a
+    /// table rests on what it is compared with; whether a force has changed, none if there is no such switch.
+    fn come_to_rest(&mut self, system: &mut dyn System) -> Result<Option<bool>, Why> {
+        // those of the node were looked at last
+        if self.probe.iter().all(|g| *g != 0.0) {
+            return Ok(None);
         }
-        Ok(restart)
+        // what was crossed just now may leave zero slowly, unless a law of time has ended at the same instant
+        let law_ended = self.crossed.iter().any(|root| self.foresight.roots.contains(root));
+        self.look_later(system, MOMENT, 0)?;
+        if law_ended {
+            self.look_later(system, LATER, 1)?;
+        }
+        self.near_side.copy_from_slice(&self.probe);
+        let Self { looked, foresight, crossed, probe, samples, node, .. } = self;
+        let rests = |root: usize| !crossed.contains(&root) || law_ended && samples[1][root] == 0.0;
+        let stays = |root: &&usize| probe[**root] == 0.0 && samples[0][**root] == 0.0 && rests(**root);
+        let mut at_rest = looked.iter().chain(&foresight.roots).filter(stays);
+        let Some((root, effect)) = at_rest.find_map(|root| Some((*root, system.equal(*root, &mut node.state)?))) else { return Ok(None) };
+        self.note_jumped(system, root);
+        let changed = effect == Effect::Restart;
+        if changed {
+            self.engine.settle(system, &mut self.node)?;
+        }
+        Ok(Some(changed))
     }
 
     /// Roots a `part` of the moment behind the node along its velocities and accelerations, into a sample.

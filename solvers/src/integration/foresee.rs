@@ -65,15 +65,19 @@ impl Integration {
             _ => None,
         }
     }
-    /// Crosses roots of time alone at a start, whose modes are those of a moment later, until they are those of its instant.
+
+    /// Crosses roots of time alone at a start, whose modes are those of a moment later, until they are those of its instant. Whether one that
+    /// is zero there leaves its positive side may show much later, as that of a cosine does.
     pub(super) fn cross_timed_at_start(&mut self, system: &mut dyn System) -> Result<(), Why> {
         if self.foresight.roots.is_empty() {
             return Ok(());
         }
         for _ in 0..MOST * self.foresight.roots.len() {
+            let moment = self.moment();
             let state = &mut self.node.state;
             let instant = state.t + shortest(state.t, self.goal);
-            let Ahead::Crossing(t, root) = system.ahead(At { t: instant, ..state.at() }, instant, &self.foresight.roots) else { break };
+            let to = instant.max(state.t + moment);
+            let Ahead::Crossing(t, root) = system.ahead(At { t: instant, ..state.at() }, to, &self.foresight.roots) else { break };
             if t > instant {
                 break;
             }

@@ -30,6 +30,16 @@ impl Integration {
         }
         system.roots(state.at(), a, lambda, &mut self.near_side);
         let effect = system.cross(root, state, &mut self.row);
+        self.note_jumped(system, root);
+        effect
+    }
+
+    /// Notes which nested roots the new mode of a nested one lets jump to their negative side, from `near_side`: those of the node before.
+    pub(super) fn note_jumped(&mut self, system: &mut dyn System, root: usize) {
+        if !system.pattern().nested.contains(&root) {
+            return;
+        }
+        let Node { state, a, lambda, .. } = &self.node;
         system.roots(state.at(), a, lambda, &mut self.probe);
         let jumps = |other: &usize| self.probe[*other] < self.near_side[*other].min(0.0) && self.looked.contains(other);
         for &other in system.pattern().nested.iter().filter(|other| **other != root && jumps(other)) {
@@ -37,6 +47,5 @@ impl Integration {
                 self.jumped.push(other);
             }
         }
-        effect
     }
 }

@@ -75,6 +75,8 @@ impl Timed {
         let mut moment = 4.0 * unit;
         loop {
             let (_, size) = self.bounds(zero, zero + moment, modes);
+            // of what has a pole there, its sign counts
+            let size = if size.is_finite() { size } else { 0.0 };
             let value = self.value(zero + moment, modes);
             if value < -TOUCH * size {
                 return None;
