@@ -87,6 +87,18 @@ fn a_force_that_jumps_at_a_place() {
 }
 
 #[test]
+fn a_force_behind_switches_that_let_each_other_jump() {
+    for load in [
+        "joint: S, force: \"if(if(x > 0.1 m, x, 1 m) > 0.2 m, 3 N, 0)\"",
+        "joint: S, force: \"if(if((x > 0.1 m) == 1, x, 1 m) > 0.2 m, 3 N, 0)\"",
+    ] {
+        let jumps = Driven { load, joint: "    damping: 0.5 N s/m", events: "" };
+        let found = jumps.check(1e-7);
+        assert!(found.switches.len() >= 3, "{load}");
+    }
+}
+
+#[test]
 fn dry_friction_that_is_steep_at_rest() {
     let dry = Driven { load: NONE, joint: "    friction: { coulomb: 3 N, stick_speed: 2 cm/s }", events: "" };
     let found = dry.check(1e-7);

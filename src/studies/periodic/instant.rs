@@ -19,7 +19,7 @@ const SAME_TIME: f64 = 1e-8;
 /// Part of a neighbour, and of a velocity, by which those behind all surfaces may differ from one order to another.
 const SAME: f64 = 1e-6;
 
-/// Switches that a blow takes to their other side.
+/// Switches that a blow or a jump takes to their other side.
 const MOST_FOLLOWED: usize = 8;
 
 /// Neighbours behind what is met at the end of a piece of a lap.
@@ -90,10 +90,12 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
     }
 
     /// Roots that were met between two nodes at one time: as the modes tell, and the stops that were struck, since a rebound leaves its mode.
-    /// What a blow takes to its other side was not met by the motion itself.
+    /// What a blow or the jump of another switch takes to its other side was not met by the motion itself.
     fn met(&mut self, [before, after]: [&Node; 2], within: f64) -> Vec<usize> {
         let mut met = self.changed([before, after]);
         if !self.jumps([before, after], STRUCK) {
+            let taken: Vec<usize> = met.iter().copied().filter(|root| self.is_taken(*root, [before, after], within)).collect();
+            met.retain(|root| !taken.contains(root));
             return met;
         }
         met.retain(|root| self.is_near(*root, before, within));
@@ -106,6 +108,21 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         }
         met.extend(struck);
         met
+    }
+
+    /// Whether a nested root is negative in the modes of what was met with it, and was not about to become so by itself.
+    fn is_taken(&mut self, root: usize, [before, after]: [&Node; 2], within: f64) -> bool {
+        if !self.system.pattern().nested.contains(&root) || self.is_near(root, before, within) {
+            return false;
+        }
+        let mut others = before.clone();
+        for mode in self.changed([before, after]).into_iter().filter(|other| *other != root).filter_map(|other| self.mode(other)) {
+            others.state.modes[mode] = after.state.modes[mode];
+        }
+        let value = |node: &mut Node, side: &mut Self| side.root(root, node).map_or(f64::NAN, |g| g[0]);
+        let (own, taken) = (value(&mut before.clone(), self), value(&mut others, self));
+        // that of equal operands is zero as long as they are equal
+        own >= 0.0 && taken <= 0.0 && taken < own
     }
 
     /// Neighbours behind roots that were met together.
@@ -194,10 +211,12 @@ impl<G: Space<S = f64>> Side<'_, '_, G> {
         roots.iter().for_each(|root| {
             take(self.mode(*root), &mut behind);
         });
-        // a blow takes other switches to their other side
+        // a blow, or a jump, takes other switches to their other side, or onto it
         for _ in 0..MOST_FOLLOWED {
             let others = self.changed([&behind, after]);
-            let is_beyond = |root: &usize| self.root(*root, &mut behind.clone()).is_some_and(|g| g[0] < 0.0);
+            let nested = self.system.pattern().nested.clone();
+            let is_beyond =
+                |root: &usize| self.root(*root, &mut behind.clone()).is_some_and(|g| g[0] < 0.0 || g[0] == 0.0 && nested.contains(root));
             let Some(root) = others.into_iter().filter(|root| !met.contains(root)).find(is_beyond) else { break };
             take(self.mode(root), &mut behind);
         }
