@@ -41,6 +41,11 @@ pub(super) fn check(arguments: &Arguments, common: &Common) -> u8 {
     };
     let mut findings: Vec<String> = report.diagnostics.iter().map(|d| d.message.clone()).collect();
     findings.extend(remarks(&survey, model.drivers.len()));
+    if let names @ [_, ..] = &document.unused_parameters()[..] {
+        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        let (word, it) = if names.len() == 1 { ("parameter", "it") } else { ("parameters", "them") };
+        findings.push(format!("nothing uses the {word} {}: no result changes with {it}", names.join(", ")));
+    }
     findings.extend(document.study_names().iter().filter_map(|study| hindered(&document, study, common)));
     if arguments.json {
         let mut all = as_json(&model, &survey, &findings);

@@ -5,6 +5,7 @@ use super::data::DataFiles;
 use super::diagnostics::{Diagnostic, Report};
 use super::fault::Fault;
 use super::files::Files;
+use super::idle;
 use super::include;
 use super::included::{Included, find};
 use super::merge::Node;
@@ -89,6 +90,12 @@ impl Document {
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.included.iter().flat_map(|included| included.notes(&self.root)).collect()
+    }
+
+    /// Parameters that no expression of the file names, in file order.
+    #[must_use]
+    pub fn unused_parameters(&self) -> Vec<String> {
+        self.root.as_mapping().map(idle::without_effect).unwrap_or_default()
     }
 
     /// The file's name as given.

@@ -1,4 +1,4 @@
-//! What changes of a file name that is not there: a `null` that removes nothing, a parameter that nothing uses.
+//! What a file has to no effect: a `null` that removes nothing, a parameter that nothing uses.
 
 use super::fault::{Fault, Spot};
 use super::suggest;
@@ -26,6 +26,27 @@ pub(super) fn idle<'a>(file: &'a Mapping, below: &[&'a Mapping]) -> Vec<Fault> {
         faults.extend(unused(patch, head, file, below));
     }
     faults
+}
+
+/// Parameters of the file that no expression names: whoever varies one would see nothing change.
+pub(super) fn without_effect(file: &Mapping) -> Vec<String> {
+    let own = file.get("parameters").and_then(Value::as_mapping).map(keys).unwrap_or_default();
+    let mut unnamed: HashSet<&str> = own.iter().map(String::as_str).collect();
+    file.iter().filter(|(key, _)| !["name", "about"].iter().any(|text| *key == text)).for_each(|(_, value)| strike(value, &mut unnamed));
+    own.iter().filter(|name| unnamed.contains(name.as_str())).cloned().collect()
+}
+
+/// Takes the words in the texts of a value out of a set.
+fn strike(value: &Value, words: &mut HashSet<&str>) {
+    match value {
+        Value::String(text) if !words.is_empty() => text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').for_each(|word| {
+            words.remove(word);
+        }),
+        Value::Sequence(items) => items.iter().for_each(|item| strike(item, words)),
+        Value::Mapping(map) => map.iter().for_each(|(_, value)| strike(value, words)),
+        Value::Tagged(tagged) => strike(&tagged.value, words),
+        _ => {}
+    }
 }
 
 /// What stands at a path.
@@ -122,6 +143,14 @@ mod tests {
     fn a_file_removes_what_it_includes() {
         let found = places("{joints: {elbow: null, elbo: null}}", "{joints: {elbow: {}}}");
         assert_eq!(found, [("joints.elbo".to_owned(), Some("did you mean `elbow`?".to_owned()))]);
+    }
+
+    #[test]
+    fn parameters_of_the_file_without_effect_are_told() {
+        let file =
+            "{about: of lost, parameters: {k: 1, c: k/2, lost: 3}, springs: {s: {stiffness: 2*c}}, studies: {s: {sweep: {lost: [1]}}}}";
+        let file: Mapping = serde_yaml::from_str(file).unwrap();
+        assert_eq!(without_effect(&file), ["lost"]);
     }
 
     #[test]

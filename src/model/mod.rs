@@ -29,6 +29,7 @@ mod integrator;
 mod keys;
 mod literal;
 mod merge;
+mod misplaced;
 mod names;
 mod needs;
 mod newmark;

@@ -5,6 +5,7 @@ use super::commas::{comma, decimal, open_parenthesis, rejoin};
 use super::fault::{At, Fault, Spot};
 use super::fields::{Field, Keys, Record, Shape, Size, Want};
 use super::merge::{Layers, Node};
+use super::misplaced;
 use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
 use crate::expression::Dimension;
@@ -259,12 +260,16 @@ impl Shapes<'_> {
                 None => {
                     let near = suggest::nearest(key, table.fields.iter().map(|f| f.key));
                     unknown.push(near.and_then(|near| table.field(near)).map(|f| f.key));
-                    let help = suggest::help(key, table.fields.iter().map(|f| f.key).filter(|k| near.is_none() || Some(*k) == near));
+                    let here_is = |field: &Field| node.get(field.key).is_some();
+                    let elsewhere = near.is_none().then(|| misplaced::help(key, table, &here_is)).flatten();
+                    let placed = elsewhere.is_some();
+                    let own = || suggest::help(key, table.fields.iter().map(|f| f.key).filter(|k| near.is_none() || Some(*k) == near));
+                    let help = elsewhere.or_else(own);
                     let expected = format!("a key of {}", table.what);
                     let fault = shapes.fault("unknown-key", &here, format!("unknown key `{}`", clip(key)), expected);
                     fault.spot = Spot::Key;
                     fault.help = help;
-                    if near.is_none() {
+                    if near.is_none() && !placed {
                         strange.get_or_insert(shapes.faults.len() - 1);
                     }
                 }

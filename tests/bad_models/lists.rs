@@ -20,6 +20,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "misspelt-joint-option",
             "misspelt-in-study",
             "misspelt-study-key",
+            "keys-elsewhere",
             "unknown-body",
             "unknown-point",
             "unknown-joint",
